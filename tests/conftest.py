@@ -23,6 +23,7 @@ Report = pytest.CollectReport
 OPTIONAL = (
     "duckdb",
     "jsonschema",
+    "lsprotocol",
     "matplotlib",
     "mpmath",
     "numba",
@@ -30,6 +31,8 @@ OPTIONAL = (
     "pandas",
     "polars",
     "pyarrow",
+    "pygls",
+    "pytest_lsp",
     "scipy",
     "xarray",
     "xlsxwriter",

@@ -1,15 +1,15 @@
-"""Files: whole contents written by atomic replacement, and which files were looked at."""
+"""Files: whole contents written by atomic replacement, which files were looked at, and which are open elsewhere."""
 
 from __future__ import annotations
 
 import errno
 import os
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from pathlib import Path, PurePath
-from typing import BinaryIO
+from typing import BinaryIO, NamedTuple
 
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0) | getattr(os, "O_NOFOLLOW", 0)
 _NEW = 0o666
@@ -44,6 +44,32 @@ def look(path: Path) -> Path:
     if paths is not None:
         paths[os.path.abspath(path)] = None  # noqa: PTH100 - links stay what they are called
     return path
+
+
+class Unsaved(NamedTuple):
+    """A file that is open in an editor: the number of its text, which changes with it, and the text as a file."""
+
+    revision: int
+    content: Callable[[], bytes]
+
+
+_UNSAVED: ContextVar[Mapping[str, Unsaved] | None] = ContextVar("unsaved", default=None)
+
+
+@contextmanager
+def with_unsaved(files: Mapping[str, Unsaved]) -> Iterator[None]:
+    """Let `unsaved` know files that are open in an editor, by their absolute paths, until the block ends."""
+    token = _UNSAVED.set(files)
+    try:
+        yield
+    finally:
+        _UNSAVED.reset(token)
+
+
+def unsaved(path: Path) -> Unsaved | None:
+    """Return the text that an editor has of a file, which holds before that on the disk; None where it has none."""
+    files = _UNSAVED.get()
+    return files.get(os.path.abspath(path)) if files else None  # noqa: PTH100 - as in `look`
 
 
 def suffix_of(path: str | os.PathLike[str]) -> str:

@@ -15,7 +15,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from tests.benchmarks import commands, decks, evaluation, reading, start
+from tests.benchmarks import commands, decks, editor, evaluation, reading, start
 from tests.benchmarks.bench import Bench, Results
 from tests.benchmarks.page import QUICK, write
 from tests.benchmarks.peers import FOLDER, PEERS, Environment, installed
@@ -29,6 +29,7 @@ SUBJECTS: dict[str, Callable[[Bench], None]] = {
     "decks": decks.run,
     "commands": commands.run,
     "evaluation": evaluation.run,
+    "editor": editor.run,
 }
 
 _COMPILE = """

@@ -21,7 +21,7 @@ SIZES = (1, 10, 100, 1000, 10_000)
 Writer = Callable[[int], str]
 """What writes the deck of a number."""
 _LETTERS = "abcdefghijklmnopqrstuvwxyz"
-_ALIKE = """\
+ALIKE = """\
 *ELEMENT SETS
  SET=TDZ
  1, 2, 3
@@ -50,7 +50,7 @@ def alike(number: int) -> str:
     nodes = "".join(f" {i}, -0.05, {5 * (i - 1)}.0\n" for i in range(1, 9))
     elements = "".join(f" {i}, {i}, {i + 1}\n" for i in range(1, 8))
     head = f"C deck {number}\n$MODEL\n*OCEAN\n {500 + number}.0, 1025.0, 9.81\n*NODE\n"
-    return f"{head}{nodes}*ELEMENT\n{elements}{_ALIKE}"
+    return f"{head}{nodes}*ELEMENT\n{elements}{ALIKE}"
 
 
 def apart(number: int) -> str:

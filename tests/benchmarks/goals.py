@@ -53,6 +53,7 @@ _READING = "Reading a table of 10^6 rows"
 _SPELLING = "Spellings of numbers, 10^5 rows of 2 columns: np.loadtxt / text to array"
 _START = "One deck"
 _DECKS = "Many decks"
+_EDITOR = "The language server"
 _COMMANDS = "Commands on a table of 10^6 rows"
 
 GOALS = (
@@ -94,4 +95,6 @@ GOALS = (
         for step in ("write", "read")
         for table, what in (("curve", "2 columns"), ("nodes", "4 columns"))
     ),
+    Goal("typing 200", _EDITOR, "a deck of 200 lines: changed line to findings", "at most", 50.0, "ms"),
+    Goal("typing 20000", _EDITOR, "a deck of 20,000 lines: changed line to findings", "at most", 500.0, "ms"),
 )

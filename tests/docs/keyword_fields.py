@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Sequence
 
+from mudline.keywords.format import TAKES, range_text, unit_text
 from mudline.keywords.model import Block, FieldInfo, FieldSpec, ListRow, Part, Row, Rows, record_schema
-from tests.docs.keyword_format import TAKES
 from tests.docs.marking import marked
-
-_METRIC = {"F": "N", "L": "m", "M": "kg", "T": "s"}
-_IMPERIAL = {"F": "lbf", "L": "ft", "M": "slug", "T": "s"}
 
 
 def tables(block: type[Block]) -> Iterator[tuple[str, list[str]]]:
@@ -67,7 +63,7 @@ def _fields(slots: Iterable[FieldSpec], *, named: bool = True) -> Iterator[str]:
     for slot in slots:
         names = (f"`{slot.label}`", f"`{slot.json}`") if named else (f"`{slot.label}`",)
         default = "mandatory" if slot.required else slot.about.default
-        cells = (*names, _takes(slot), _unit(slot.about.unit), default, _range(slot.about), _meaning(slot.about))
+        cells = (*names, _takes(slot), _unit(slot.about.unit), default, range_text(slot.about), _meaning(slot.about))
         yield f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
 
 
@@ -82,21 +78,7 @@ def _meaning(about: FieldInfo) -> str:
     return marked(about.meaning) + (" ([inferred](#certain-and-inferred))" if about.inferred else "")
 
 
-def _range(about: FieldInfo) -> str:
-    if about.above is not None:
-        return f"> {about.above:g}"
-    if about.at_most is not None:
-        return f"{about.at_least:g} to {about.at_most:g}"
-    return f">= {about.at_least:g}" if about.at_least is not None else ""
-
-
 def _unit(unit: str) -> str:
     """F/L2 as `N/m2 / lbf/ft2`; what is no dimension as it is."""
-    if not re.fullmatch(r"(?:[FLMT]\d?|/)+", unit):
-        return unit
-    return f"{_spelt(unit, _METRIC)} / {_spelt(unit, _IMPERIAL)}"
-
-
-def _spelt(unit: str, names: dict[str, str]) -> str:
-    sides = [re.findall(r"([FLMT])(\d?)", side) for side in unit.split("/")]
-    return "/".join(" ".join(names[letter] + power for letter, power in side) for side in sides)
+    found = [unit_text(unit, system) for system in ("metric", "imperial")]
+    return unit if found[0] == unit else " / ".join(found)

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from mudline.keywords import catalogue
+from mudline.keywords.format import format_lines
 from mudline.keywords.values import OpaqueKeyword
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules
@@ -15,7 +16,6 @@ from tests.docs import make
 from tests.docs.blocks import Page
 from tests.docs.form_table import pages_with_tables
 from tests.docs.keyword_fields import inferences
-from tests.docs.keyword_format import format_lines
 from tests.docs.keyword_index import keyword_index
 from tests.docs.keyword_page import declarations, keyword_page, keyword_pages, page_name, title
 from tests.docs.keyword_rules import Declared, keyword_of, rules_of

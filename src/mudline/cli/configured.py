@@ -1,7 +1,4 @@
-"""The configuration of each deck: the file that `--config` names, or the nearest one; and what the command line says.
-
-The command line overrides the configuration file, which overrides the defaults.
-"""
+"""The configuration of each deck: the file that `--config` names, or the nearest one."""
 
 from __future__ import annotations
 
@@ -9,26 +6,17 @@ import os
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
 import click
 
 from mudline.cli.inputs import is_deck
 from mudline.cli.streams import reason
 from mudline.linting.configuration import CodeFault, Configuration, ConfigurationError, Search, read_configuration
+from mudline.linting.settings import place
 from mudline.patterns import matches
 
 T = TypeVar("T")
-
-
-class Given(NamedTuple):
-    """The settings of the command line that findings depend on; None or empty where it has none."""
-
-    chosen: tuple[str, ...] = ()
-    ignored: tuple[str, ...] = ()
-    also: tuple[str, ...] = ()
-    dialect: str | None = None
-    units: str | None = None
 
 
 @dataclass
@@ -73,15 +61,6 @@ class Configured:
             return is_deck(path)
         relative = place(found, path)
         return (is_deck(path) or matches(relative, include)) and not matches(relative, exclude)
-
-
-def place(found: Configuration, path: str) -> str:
-    """A path as seen from the folder of a configuration, with `/`."""
-    folder = Path() if found.path is None else found.path.parent
-    try:
-        return os.path.relpath(path, folder).replace(os.sep, "/")
-    except ValueError:  # another drive
-        return path.replace(os.sep, "/")
 
 
 def _read(read: Callable[[], T]) -> T:

@@ -7,13 +7,14 @@ from functools import partial
 import click
 
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.configured import Configured, Given
+from mudline.cli.configured import Configured
 from mudline.cli.inputs import collect
 from mudline.cli.lint_known import known_decks
 from mudline.cli.lint_report import Report, complete, outputs
 from mudline.cli.view import View
 from mudline.diagnostics import Severity
 from mudline.linting.output import TEXT, form_names
+from mudline.linting.settings import Given
 
 _rules = partial(click.option, multiple=True, metavar="CODE[,CODE...]", shell_complete=options.complete_rules)
 

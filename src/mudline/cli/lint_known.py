@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mudline.cli.configured import Configured, Given
+from mudline.cli.configured import Configured
 from mudline.cli.inputs import Input, Inputs
 from mudline.linting.cache import Cache, opened
+from mudline.linting.settings import Given
 
 
 @dataclass

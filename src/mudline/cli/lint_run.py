@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
-from mudline.cli.configured import Configured, Given, place
+from mudline.cli.configured import Configured
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.lint_known import KnownDecks
 from mudline.cli.lint_report import Report
@@ -26,14 +26,14 @@ from mudline.cli.processes import Effort, pays, pool, submitted
 from mudline.cli.streams import counted, emit_deck, notify, reason, write_text
 from mudline.cli.view import View
 from mudline.deck.forms import form_of
-from mudline.diagnostics import Diagnostic, Severity
+from mudline.diagnostics import Diagnostic
 from mudline.linting.configuration import Configuration
 from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.fixing import FileReport, lint_one
-from mudline.linting.registry import UnknownRule, code_fault, plugin_files, rules, select
+from mudline.linting.registry import UnknownRule, code_fault, plugin_files, rules
 from mudline.linting.rule import Rule
+from mudline.linting.settings import Given, hidden_codes, merged_settings
 from mudline.linting.suppression import Baseline, BaselineError, read_baseline
-from mudline.patterns import matches
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
@@ -56,54 +56,20 @@ class Settings:
         if folder in self._of_folder:
             return self._of_folder[folder]
         found = self.configured.of(file.path)
-        relative = place(found, file.path or file.name)
-        ignores = found.table("per-file-ignores")
-        hidden = tuple(code for glob, codes in ignores.items() if matches(relative, [glob]) for code in codes)
+        hidden = hidden_codes(found, file.path or file.name)
         key = (found.path, hidden)
         if key not in self._made:
             self._made[key] = self.merged(found, hidden)
-        if not ignores:
+        if not found.table("per-file-ignores"):
             self._of_folder[folder] = self._made[key]
         return self._made[key]
 
     def merged(self, found: Configuration, hidden: tuple[str, ...] = ()) -> LintSettings:
         """A configuration under a command line; `hidden` are codes that it ignores in a file."""
-        severity = found.table("severity")
-        off = [code for code, word in severity.items() if word == "off"]
-        chosen = list(self.given.chosen) or found.words("select")
-        ignored, also = [*self.given.ignored, *hidden], [*self.given.also]
-        if not self.given.chosen:
-            ignored += [*found.words("ignore"), *off]
-            also += found.words("extend-select")
         try:
-            running = select(chosen, ignored, also)
+            return merged_settings(found, self.given, hidden, fail_on=self.fail_on, fixing=self.fixing)
         except UnknownRule as error:
             raise click.UsageError(str(error)) from error
-        severities = {
-            rule.code.code: Severity(word)
-            for code, word in sorted(severity.items(), key=lambda item: len(item[0]))
-            if word != "off"
-            for rule in select([code])
-        }
-        return LintSettings(
-            running,
-            self.given.units,
-            self.given.dialect or found.values.get("dialect", "mudline"),
-            severities,
-            Severity(self.fail_on or found.values.get("fail-on", "warning")),
-            self.fixing,
-            _unfixable(found),
-        )
-
-
-def _unfixable(found: Configuration) -> frozenset[str]:
-    unfixable = _codes(found.words("unfixable"))
-    fixable = found.words("fixable")
-    return unfixable | ({rule.code.code for rule in rules()} - _codes(fixable)) if fixable else unfixable
-
-
-def _codes(words: list[str]) -> frozenset[str]:
-    return frozenset(rule.code.code for rule in select(words)) if words else frozenset()
 
 
 def _baseline(given: str | None, *, recording: bool) -> Baseline | None:

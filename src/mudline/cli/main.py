@@ -39,6 +39,7 @@ COMMANDS = {
     "rules": "List the rules, or explain one.",
     "schema": "Print the JSON Schema of decks, or of the configuration.",
     "config": "Show the configuration of a deck.",
+    "lsp": "Serve an editor: findings, fixes, help and names as you type.",
     "help": "Show the help of a command.",
 }
 

@@ -44,6 +44,28 @@ class Places:
         """Whether exactly this value was written in the deck."""
         return path in self.spans or path in self.runs
 
+    def at(self, offset: int) -> tuple[Path, Span] | None:
+        """The innermost value that stands at an offset, or that ends there, and its span."""
+        around = [(path, span) for path, span in self.spans.items() if path and span.start <= offset <= span.end]
+        for path, runs in self.runs.items():
+            for first, run in runs:
+                if run.start <= offset <= run.end and (cell := self._cell_at(run, offset)):
+                    row, column, span = cell
+                    around.append(((*path, first + row, column), span))
+        return min(around, key=lambda found: found[1].end - found[1].start, default=None)
+
+    def _cell_at(self, run: Span, offset: int) -> tuple[int, int, Span] | None:
+        """Row and column of a run at an offset, and the span of the field."""
+        starts = self._starts(run)
+        row = bisect_right(starts, offset) - 1
+        if row < 0:
+            return None
+        stop = self.text.find("\n", starts[row], run.end)
+        fields = row_fields(self.text, Span(starts[row], run.end if stop < 0 else stop), _MOST_COLUMNS)
+        at = (column for column, given in enumerate(fields) if given.span.start <= offset <= given.span.end)
+        column = next(at, None)
+        return None if column is None else (row, column, fields[column].span)
+
     def moved(self, text: str, by: int) -> Places:
         """The same in a text in which all of it stands further behind."""
         spans = {path: span.moved(by) for path, span in self.spans.items()}

@@ -37,7 +37,9 @@ class NodeCurve(Record):
     """The curve of a node."""
 
     rule = "node_curve"
-    node: Annotated[Ident, setting("NODE", "node that the curve belongs to", inferred="in place of DEPTH=")]
+    node: Annotated[
+        Ident, setting("NODE", "node that the curve belongs to", inferred="in place of DEPTH=", names=Names.NODE)
+    ]
     points: Annotated[Table, rows(SoilPoint, _SOIL_POINTS, unordered=True)]
 
 

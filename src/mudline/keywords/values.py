@@ -152,13 +152,20 @@ class Facts:
 
 
 class Names(Enum):
-    """What the value of a `KEY=` names; the words are for a reader."""
+    """What a value names; the words are for a reader.
+
+    Sets, curves and files are checked wherever they are named; what else is missing is reported by who resolves it.
+    """
 
     SET = "an element set"
     SETS = "one or more element sets"
+    SUBSET = "another element set"
     CURVE = "a force-embedment curve"
     FILE = "a file"
     DECK = "the deck before"
+    NODE = "a node"
+    ELEMENT = "an element"
+    PARAMETER = "a parameter"
 
 
 LINE_SETS: Mapping[str, Names] = {

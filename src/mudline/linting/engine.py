@@ -69,7 +69,7 @@ def grouped_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: 
     def check(data: bytes) -> tuple[LintContext, list[Problem]]:
         deck = context.deck
         units = None if units_of(deck) == deck.units else deck.units
-        read = load_bytes(data, deck.file, units=units, folder=deck.folder, read=_MEMORY.read)
+        read = read_deck(data, deck.file, units=units, folder=deck.folder)
         corrected = LintContext(read, dialect=context.dialect)
         return corrected, found_in(corrected)
 
@@ -181,6 +181,14 @@ _MEMORY = BlockCache()
 """Rules look at decks and do not change them."""
 
 
+def read_deck(data: bytes, name: str, *, units: str | None = None, folder: Path | None = None) -> Deck:
+    """The deck of a file's content, whose models are shared with decks that were read before: it is not to be changed.
+
+    Raises DeckError for a JSON or YAML file that holds no deck.
+    """
+    return load_bytes(data, name, units=units, folder=folder, read=_MEMORY.read)
+
+
 def lint_bytes(
     data: bytes,
     name: str,
@@ -199,7 +207,7 @@ def lint_bytes(
     are chosen, as nothing else can be checked.
     """
     try:
-        deck = load_bytes(data, name, units=units, folder=folder, read=_MEMORY.read)
+        deck = read_deck(data, name, units=units, folder=folder)
     except DeckError as error:
         return list(error.diagnostics)
     return lint_context(LintContext(deck, dialect=dialect), chosen)

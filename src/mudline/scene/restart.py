@@ -11,11 +11,11 @@ from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 from mudline.codes.references import REF015
-from mudline.deck.loading import load_path
+from mudline.deck.loading import load_bytes, load_path
 from mudline.deck.model import Base, BaseProblem, Deck
 from mudline.deck.parameters import Parameters, evaluated
 from mudline.diagnostics import DeckError, Problem, Where
-from mudline.files import look
+from mudline.files import Unsaved, look, unsaved
 from mudline.keywords.text import shown
 from mudline.scene.deck_values import LARGEST_FILE, file_name, find_file
 
@@ -35,7 +35,7 @@ _LARGEST_KEPT = 100_000_000
 """Bytes of all the files that are kept."""
 
 _Version = tuple[int, int]
-"""When a file was changed last, and how long it is."""
+"""When a file was changed last, and how long it is; of one that is open in an editor, its negative revision."""
 
 _ADVICE = "correct the name, or put the deck there"
 
@@ -158,14 +158,15 @@ def read_base(path: Path) -> Base:
     """The deck of a file in any form, its model evaluated; kept until the file changes. Raises BaseError."""
     try:
         stat = path.stat()
-        version = (stat.st_mtime_ns, stat.st_size)
+        edited = unsaved(path)
+        version = (-edited.revision if edited else stat.st_mtime_ns, stat.st_size)
         key = str(path.absolute())
         if stat.st_size > LARGEST_FILE:
             raise BaseError(f"{path.as_posix()} has more than {LARGEST_FILE // 10**6} million bytes")
         found = _CACHE.get(key)
         if found and found[0] == version:
             return found[1]
-        base = _read_base(path)
+        base = _read_base(path, edited)
     except OSError as error:
         raise BaseError(f"{path.as_posix()}: {error.strerror or error}") from error
     _CACHE.pop(key, None)
@@ -179,9 +180,10 @@ def _kept_bytes() -> int:
     return sum(size for (_, size), _ in _CACHE.values())
 
 
-def _read_base(path: Path) -> Base:
+def _read_base(path: Path, edited: Unsaved | None) -> Base:
     try:
-        deck = load_path(path)
+        content = edited and edited.content()
+        deck = load_path(path) if content is None else load_bytes(content, path.as_posix(), folder=path.parent)
     except DeckError as error:
         raise BaseError(f"{error.diagnostics[0]}") from error
     if not deck.sections:

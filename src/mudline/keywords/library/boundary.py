@@ -12,7 +12,7 @@ from mudline.codes.lines import SYN005
 from mudline.diagnostics import Code
 from mudline.keywords.model import Block, ListRow, Record, about, setting
 from mudline.keywords.table import LARGEST_WHOLE
-from mudline.keywords.values import Count, Equation, Finite, Ident, Kind, Real, Whole
+from mudline.keywords.values import Count, Equation, Finite, Ident, Kind, Names, Real, Whole
 
 _DOF = "degree of freedom: 1 vertical, 2 and 3 horizontal, 4 to 6 rotations"
 _VALUE = "displacement that is imposed: a length, of a rotation degrees"
@@ -39,7 +39,7 @@ class FixedNode(Record):
     """A node that is held in a degree of freedom."""
 
     rule = "fixed_node"
-    node: Annotated[Ident, about("node number, or its label")]
+    node: Annotated[Ident, about("node number, or its label", names=Names.NODE)]
     dof: Annotated[Whole, about(_DOF)]
     value: Annotated[Real | None, about(_VALUE, default="0")] = None
     fixation: Fixation = None
@@ -48,8 +48,8 @@ class FixedNode(Record):
 class FixedValues(ListRow):
     """First and last node, then the step between them if it is given, the degree of freedom, the displacement."""
 
-    start: Annotated[Whole, about("first node")]
-    end: Annotated[Whole, about("last node")]
+    start: Annotated[Whole, about("first node", names=Names.NODE)]
+    end: Annotated[Whole, about("last node", names=Names.NODE)]
     third: Annotated[
         Whole | None, about("of three values the degree of freedom, of five the increment", inferred=_FOUR)
     ] = None

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, ListRow, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Facts, Ident, Real, Whole
+from mudline.keywords.values import Facts, Ident, Names, Real, Whole
 
 _AXIS = "component {} of the vector that orients the local {} axis of the undeformed element"
 
@@ -14,9 +14,9 @@ _AXIS = "component {} of the vector that orients the local {} axis of the undefo
 class ElementRow(Row):
     """Columns of the table of elements."""
 
-    element: Annotated[Whole, about("element number")]
-    node1: Annotated[Ident, about("first node")]
-    node2: Annotated[Ident, about("second node")]
+    element: Annotated[Whole, about("element number", defines=Names.ELEMENT)]
+    node1: Annotated[Ident, about("first node", names=Names.NODE)]
+    node2: Annotated[Ident, about("second node", names=Names.NODE)]
     v1: Annotated[Real | None, about(_AXIS.format(1, "y"), unit="-")] = None
     v2: Annotated[Real | None, about(_AXIS.format(2, "y"), unit="-")] = None
     v3: Annotated[Real | None, about(_AXIS.format(3, "y"), unit="-")] = None
@@ -28,7 +28,7 @@ class ElementRow(Row):
 class ElementPattern(ListRow):
     """Master, number of elements with it, and the step of element and node numbers."""
 
-    master: Annotated[Whole, about("existing element whose pattern is repeated")]
+    master: Annotated[Whole, about("existing element whose pattern is repeated", names=Names.ELEMENT)]
     count: Annotated[Whole, about("number of elements, the master included", at_least=1)]
     increment: Annotated[Whole | None, about("step of element and node numbers", default="1")] = None
 

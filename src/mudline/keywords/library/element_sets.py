@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, ListRow, Record, about, setting
-from mudline.keywords.values import Facts, Ident, Name, Whole
+from mudline.keywords.values import Facts, Ident, Name, Names, Whole
 
 
 class ElementRange(ListRow):
     """First and last element, and the step between them."""
 
-    start: Annotated[Whole, about("first element")]
-    end: Annotated[Whole, about("last element")]
+    start: Annotated[Whole, about("first element", names=Names.ELEMENT)]
+    end: Annotated[Whole, about("last element", names=Names.ELEMENT)]
     increment: Annotated[Whole | None, about("step", default="1")] = None
 
 
@@ -20,7 +20,7 @@ class SetList(Record):
     """Elements by number or label; the language allows 20 on a line."""
 
     rule = "set_list"
-    elements: Annotated[list[Ident], about("element numbers or {labels}")]
+    elements: Annotated[list[Ident], about("element numbers or {labels}", names=Names.ELEMENT)]
 
 
 class SetGenerate(Record):
@@ -34,14 +34,18 @@ class SetSubset(Record):
     """All elements of another set."""
 
     rule = "set_subset"
-    subset: Annotated[Name, setting("SUBSET", "another set, all of whose elements belong to this one too")]
+    subset: Annotated[
+        Name, setting("SUBSET", "another set, all of whose elements belong to this one too", names=Names.SUBSET)
+    ]
 
 
 class ElementSet(Record):
     """A set."""
 
     rule = "element_set"
-    name: Annotated[Name, setting("SET", "set name: up to 256 characters, case does not count, spaces do")]
+    name: Annotated[
+        Name, setting("SET", "set name: up to 256 characters, case does not count, spaces do", defines=Names.SET)
+    ]
     members: list[SetList | SetGenerate | SetSubset] = []
 
 

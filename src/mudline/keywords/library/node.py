@@ -6,13 +6,13 @@ from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, ListRow, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Facts, Real, Whole
+from mudline.keywords.values import Facts, Names, Real, Whole
 
 
 class NodeRow(Row):
     """Columns of the table of nodes."""
 
-    node: Annotated[Whole, about("node number")]
+    node: Annotated[Whole, about("node number", defines=Names.NODE)]
     x: Annotated[Real, about("vertical coordinate, positive upwards; the mudline of a flat seabed is at 0", unit="L")]
     y: Annotated[Real, about("horizontal coordinate", unit="L")]
     z: Annotated[Real | None, about("horizontal coordinate", unit="L", default="0")] = None
@@ -21,8 +21,8 @@ class NodeRow(Row):
 class NodeRange(ListRow):
     """First and last node, and the step of the numbers between them."""
 
-    start: Annotated[Whole, about("existing node that the line of nodes starts from")]
-    end: Annotated[Whole, about("existing node that it ends at")]
+    start: Annotated[Whole, about("existing node that the line of nodes starts from", names=Names.NODE)]
+    end: Annotated[Whole, about("existing node that it ends at", names=Names.NODE)]
     increment: Annotated[Whole | None, about("step between the node numbers", default="1")] = None
 
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, Record, about
-from mudline.keywords.values import Facts, Name, RealOrName
+from mudline.keywords.values import Facts, Name, Names, RealOrName
 
 
 class Parameter(Record):
     """One line: a name with its value, or a prefix with a list between slashes."""
 
     rule = "parameter"
-    name: Annotated[Name, about("parameter name, or the prefix of a list of parameters")]
+    name: Annotated[Name, about("parameter name, or the prefix of a list of parameters", defines=Names.PARAMETER)]
     value: Annotated[
         RealOrName,
         about(

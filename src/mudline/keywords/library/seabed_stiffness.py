@@ -7,14 +7,14 @@ from typing import Annotated, Literal
 from mudline.keywords.common import POINTS, CurvePoint
 from mudline.keywords.model import Block, Record, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Facts, Name
+from mudline.keywords.values import Facts, Name, Names
 
 
 class StiffnessCurve(Record):
     """A curve."""
 
     rule = "stiffness_curve"
-    name: Annotated[Name, setting("CURVE", "curve name, used by STIFFNESS= of *SEABED PROPERTIES")]
+    name: Annotated[Name, setting("CURVE", "curve name, used by STIFFNESS= of *SEABED PROPERTIES", defines=Names.CURVE)]
     points: Annotated[Table, rows(CurvePoint, POINTS, unordered=True)]
 
 

@@ -28,6 +28,7 @@ class VariedParameter(Record):
             "PARA",
             "parameter of *PARAMETERS",
             inferred="the parameters of one variation change together, and need equally many values",
+            names=Names.PARAMETER,
         ),
     ]
     values: Annotated[

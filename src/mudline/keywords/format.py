@@ -1,8 +1,20 @@
-"""The lines of a keyword as a user writes them, from its declaration."""
+"""The lines of a keyword as a user writes them, and units and ranges of its fields, from its declaration."""
 
 from __future__ import annotations
 
-from mudline.keywords.model import Block, FieldSpec, Part, RecordSchema, Rows, Setting, record_schema, row_format
+import re
+
+from mudline.keywords.model import (
+    Block,
+    FieldInfo,
+    FieldSpec,
+    Part,
+    RecordSchema,
+    Rows,
+    Setting,
+    record_schema,
+    row_format,
+)
 from mudline.keywords.values import Kind
 
 TAKES = {
@@ -66,3 +78,30 @@ def _setting(slot: FieldSpec) -> str:
     ]
     value = "|".join(taken)
     return f"{slot.key}={value}" + (" [, ...]" if slot.many else "")
+
+
+# --------------------------------------------------------------------------------------------------- units and ranges
+
+_UNITS = {
+    "metric": {"F": "N", "L": "m", "M": "kg", "T": "s"},
+    "imperial": {"F": "lbf", "L": "ft", "M": "slug", "T": "s"},
+    "user": {"F": "force", "L": "length", "M": "mass", "T": "time"},
+}
+
+
+def unit_text(unit: str, system: str) -> str:
+    """The unit of a field in a unit system, F/L2 as N/m2; what is no dimension as it is."""
+    if not re.fullmatch(r"(?:[FLMT]\d?|/)+", unit):
+        return unit
+    names = _UNITS[system]
+    sides = [re.findall(r"([FLMT])(\d?)", side) for side in unit.split("/")]
+    return "/".join(" ".join(names[letter] + power for letter, power in side) for side in sides)
+
+
+def range_text(about: FieldInfo) -> str:
+    """The range of a field's values, or ""."""
+    if about.above is not None:
+        return f"> {about.above:g}"
+    if about.at_most is not None:
+        return f"{about.at_least:g} to {about.at_most:g}"
+    return f">= {about.at_least:g}" if about.at_least is not None else ""

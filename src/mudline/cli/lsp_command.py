@@ -1,0 +1,28 @@
+"""`mudline lsp`."""
+
+from __future__ import annotations
+
+import sys
+from importlib.util import find_spec
+
+import click
+
+from mudline.cli import WRONG_USAGE, options
+from mudline.cli.streams import notify, notify_missing
+
+
+@click.command("lsp")
+@options.common
+def command() -> int:
+    """Serve an editor: findings, fixes, help, names and formatting of open decks, over the language server protocol.
+
+    An editor starts this command and talks to it on standard input and output; docs/editors.md says how to set it up.
+    """
+    if find_spec("pygls") is None:
+        notify_missing("lsp", "pygls", "lsp")
+        return WRONG_USAGE
+    if sys.stdin.isatty():
+        notify("lsp is started by an editor, which talks to it; Ctrl-C ends it")
+    from mudline.lsp.process import serve  # noqa: PLC0415 - needs the extra `lsp`
+
+    return serve()

@@ -1,0 +1,200 @@
+"""The shape of a deck: its outline by section and keyword, what folds, and its canonical layout."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import islice, pairwise
+from typing import cast
+
+from lsprotocol import types
+
+from mudline.deck.forms import KEYWORD, form_of
+from mudline.deck.model import Opaque
+from mudline.deck.reading import TextOrigin
+from mudline.diagnostics import DeckError, Span
+from mudline.formatting.document import FormatError, formatted, same_meaning
+from mudline.keywords.model import Block, FieldSpec, Part, record_schema
+from mudline.keywords.reader import ReadBlock
+from mudline.keywords.values import Kind as FieldKind
+from mudline.keywords.values import Names
+from mudline.linting.engine import read_deck
+from mudline.lsp.decks import Analysis
+from mudline.lsp.documents import differences
+from mudline.syntax.edits import TextEdit, apply_edits
+from mudline.syntax.fields import trimmed
+from mudline.syntax.tree import Kind, Leaf, RawBlock
+
+_MOST_RECORDS = 1000
+"""Records of a block that the outline shows."""
+
+
+class LayoutError(ValueError):
+    """A deck that cannot be formatted; the message says why."""
+
+
+# ----------------------------------------------------------------------------------------------------------- outline
+
+
+def outline(analysis: Analysis) -> list[types.DocumentSymbol]:
+    """Sections, the blocks in them, and in these what has a name: sets, curves, parameters."""
+    origin = analysis.origin
+    if origin is None:
+        return []
+    found: list[types.DocumentSymbol] = []
+    end = len(origin.source.unified)
+    for index, (section, following) in enumerate(pairwise([*origin.tree.sections, None])):
+        if section is None or section.head is None:
+            continue
+        stop = following.head.span.start if following is not None and following.head else end
+        blocks = [
+            _block(analysis, origin, (index, number), raw, behind.head.span.start if behind else stop)
+            for number, (raw, behind) in enumerate(pairwise([*section.blocks, None]))
+            if raw is not None
+        ]
+        kind = types.SymbolKind.Module
+        found.append(_symbol(analysis, f"${section.name}", kind, section.head.span, stop, blocks))
+    return found
+
+
+def _symbol(
+    analysis: Analysis,
+    name: str,
+    kind: types.SymbolKind,
+    head: Span,
+    stop: int,
+    children: list[types.DocumentSymbol] | None = None,
+) -> types.DocumentSymbol:
+    text = analysis.document.text
+    line = trimmed(text, *head)
+    whole = Span(line.start, max(trimmed(text, head.start, stop).end, line.end))
+    place = analysis.document.range
+    return types.DocumentSymbol(name.strip() or "?", kind, place(whole), place(line), children=children)
+
+
+def _block(
+    analysis: Analysis, origin: TextOrigin, at: tuple[int, int], raw: RawBlock, stop: int
+) -> types.DocumentSymbol:
+    children: list[types.DocumentSymbol] = []
+    read = origin.read.get(at)
+    block = analysis.deck.sections[at[0]].blocks[at[1]] if analysis.deck and read else None
+    if read is not None and block is not None and type(block) is not Opaque and not analysis.document.is_long:
+        children = list(_records(analysis, cast("Block", block), read, stop))
+    return _symbol(analysis, f"*{raw.name}", types.SymbolKind.Class, raw.head.span, stop, children)
+
+
+def _records(analysis: Analysis, block: Block, read: ReadBlock, stop: int) -> Iterator[types.DocumentSymbol]:
+    """What has a name in a block."""
+    for slot in record_schema(type(block)).slots:
+        records = getattr(block, slot.name, None) if slot.record else None
+        named = [(index, _name(record)) for index, record in enumerate(records or ())]
+        shown = [(index, name) for index, name in islice(named, _MOST_RECORDS) if name]
+        if not shown:
+            continue
+        spans = [read.places.find((slot.json, index)) for index, _ in shown]
+        ends = [*(span.start for span in spans[1:]), stop]
+        kind = types.SymbolKind.Variable if block.facts.defines == "parameters" else types.SymbolKind.Object
+        for (_, name), span, end in zip(shown, spans, ends, strict=True):
+            yield _symbol(analysis, name, kind, span, end)
+
+
+def _name(record: Part) -> str:
+    """The name that a record gives or is found by."""
+    slots = [slot for slot in record_schema(type(record)).slots if _is_name(slot)]
+    values = (getattr(record, slot.name, None) for slot in slots)
+    return next((value for value in values if isinstance(value, str) and value), "")
+
+
+def _is_name(slot: FieldSpec) -> bool:
+    about = slot.about
+    named = about.defines is not None or about.names is Names.SET or slot.key == "NAME"
+    return named and slot.kind is FieldKind.NAME and not slot.many
+
+
+def flat(uri: str, symbols: list[types.DocumentSymbol], container: str = "") -> Iterator[types.SymbolInformation]:
+    """An outline for editors that show no tree."""
+    for one in symbols:
+        yield types.SymbolInformation(types.Location(uri, one.range), one.name, one.kind, container_name=container)
+        yield from flat(uri, list(one.children or ()), one.name)
+
+
+# ----------------------------------------------------------------------------------------------------------- folding
+
+
+def folding(analysis: Analysis) -> list[types.FoldingRange]:
+    """Sections, blocks, and comments of more than one line."""
+    origin = analysis.origin
+    if origin is None:
+        return []
+    regions = [(span, types.FoldingRangeKind.Region) for span in _regions(origin)]
+    comments = [(span, types.FoldingRangeKind.Comment) for span in _comments(origin)]
+    return list(_folded(analysis, [*regions, *comments]))
+
+
+def _regions(origin: TextOrigin) -> Iterator[Span]:
+    """The lines of every section and block."""
+    end = len(origin.source.unified)
+    sections = origin.tree.sections
+    for section, following in pairwise([*sections, None]):
+        if section is None or section.head is None:
+            continue
+        stop = following.head.span.start if following is not None and following.head else end
+        yield Span(section.head.span.start, stop)
+        for raw, behind in pairwise([*section.blocks, None]):
+            if raw is not None:
+                yield Span(raw.head.span.start, behind.head.span.start if behind else stop)
+
+
+def _comments(origin: TextOrigin) -> Iterator[Span]:
+    first: Leaf | None = None
+    last: Leaf | None = None
+    for leaf in (*origin.tree.leaves(), None):
+        if leaf is not None and leaf.kind is Kind.COMMENT:
+            first, last = first or leaf, leaf
+        elif first is not None and last is not None:
+            yield Span(first.span.start, last.span.end)
+            first = None
+
+
+def _folded(analysis: Analysis, spans: list[tuple[Span, types.FoldingRangeKind]]) -> Iterator[types.FoldingRange]:
+    document = analysis.document
+    for span, kind in spans:
+        body = trimmed(document.text, *span)
+        first, last = document.line_at(body.start), document.line_at(max(body.end - 1, body.start))
+        if last > first:
+            yield types.FoldingRange(first, last, kind=kind)
+
+
+# -------------------------------------------------------------------------------------------------------- formatting
+
+
+def formatting(analysis: Analysis, range_: types.Range | None = None) -> list[types.TextEdit]:
+    """The changes that bring a deck, or the lines of a range, into canonical layout; raises LayoutError."""
+    document = analysis.document
+    if analysis.deck is None:
+        return []
+    data = document.as_file()
+    try:
+        after = formatted(data, document.name)
+    except DeckError as error:
+        first = error.diagnostics[0]
+        raise LayoutError(f"not formatted: correct the error in line {first.line} first ({first.code})") from error
+    except FormatError as error:
+        raise LayoutError(f"not formatted: {error}") from error
+    edits = list(differences(document.text, after.decode("utf-8-sig")))
+    if range_ is not None:
+        edits = _within(analysis, edits, range_)
+    return document.edits(edits)
+
+
+def _within(analysis: Analysis, edits: list[TextEdit], range_: types.Range) -> list[TextEdit]:
+    """The changes of the lines of a range; none where these alone would change what the deck means."""
+    document = analysis.document
+    first, last = (document.line_at(document.offset(place)) for place in (range_.start, range_.end))
+    start = int(document.starts[first])
+    stop = int(document.starts[last + 1]) if last + 1 < len(document.starts) else len(document.text)
+    chosen = [edit for edit in edits if start <= edit.span.start and edit.span.end <= stop]
+    if chosen and form_of(document.name) == KEYWORD and analysis.deck is not None:
+        text = apply_edits(document.text, chosen)
+        if not same_meaning(analysis.deck, read_deck(text.encode(), document.name)):
+            return []
+    return chosen

@@ -1,0 +1,161 @@
+"""Outline, folding, layout, colours, hints and curves, over the protocol."""
+
+from __future__ import annotations
+
+import pytest
+from lsprotocol import types
+from pygls.exceptions import JsonRpcException
+
+from mudline.formatting.document import formatted
+from mudline.lsp.tokens import TYPES
+from tests.builders.decks import BAD_NUMBER, CLEAN
+from tests.lsp.editor import Editor, applied, document, position
+
+pytestmark = pytest.mark.asyncio(loop_scope="session")
+
+PARAMETERS = "$PREPROCESSOR\n*PARAMETERS\n depth, 100.0\n wide, =[depth/2]\n"
+CURVE = CLEAN.replace("STIFFNESS=Clay", "STIFFNESS=Clay\n LATERAL==[wide*2]")
+WHOLE = types.Range(types.Position(0, 0), types.Position(10**6, 0))
+
+
+async def test_the_outline_has_sections_keywords_and_names(editor: Editor) -> None:
+    text = PARAMETERS + CLEAN
+    uri = await editor.open(text)
+    symbols = await editor.client.text_document_document_symbol_async(types.DocumentSymbolParams(document(uri)))
+    tree = [symbol for symbol in symbols or () if isinstance(symbol, types.DocumentSymbol)]
+    assert [symbol.name for symbol in tree] == ["$PREPROCESSOR", "$MODEL"]
+    blocks = {block.name: block for symbol in tree for block in symbol.children or ()}
+    assert list(blocks)[:4] == ["*PARAMETERS", "*OCEAN", "*NODE", "*ELEMENT"]
+    assert [one.name for one in blocks["*PARAMETERS"].children or ()] == ["depth", "wide"]
+    assert [one.name for one in blocks["*SEABED STIFFNESS"].children or ()] == ["Clay"]
+    assert [one.name for one in blocks["*SEABED PROPERTIES"].children or ()] == ["Pipe"]
+    node = blocks["*NODE"]
+    assert (node.range.start.line, node.range.end.line) == (7, 10)
+    assert node.selection_range == types.Range(types.Position(7, 0), types.Position(7, 5))
+
+
+async def test_sections_blocks_and_comments_fold(editor: Editor) -> None:
+    text = CLEAN.replace("*NODE\n", "*NODE\nC one\nC two\n")
+    uri = await editor.open(text)
+    ranges = await editor.client.text_document_folding_range_async(types.FoldingRangeParams(document(uri)))
+    found = {(one.start_line, one.end_line, one.kind) for one in ranges or ()}
+    assert (0, text.count("\n") - 1, "region") in found
+    assert (3, 8, "region") in found
+    assert (4, 5, "comment") in found
+
+
+UGLY = CLEAN.replace(" 1, -0.1, 0.0\n", "1,-0.1,0.0\n").replace(" 0.1, 1000.0\n", "0.1,1000.0\n")
+
+
+async def test_a_deck_is_formatted(editor: Editor) -> None:
+    uri = await editor.open(UGLY)
+    options = types.FormattingOptions(tab_size=4, insert_spaces=True)
+    edits = await editor.client.text_document_formatting_async(types.DocumentFormattingParams(document(uri), options))
+    assert applied(UGLY, list(edits or ())).encode() == formatted(UGLY.encode(), "deck.keyxm")
+
+
+async def test_a_range_is_formatted(editor: Editor) -> None:
+    uri = await editor.open(UGLY)
+    at = position(UGLY, "1,-0.1")
+    options = types.FormattingOptions(tab_size=4, insert_spaces=True)
+    params = types.DocumentRangeFormattingParams(document(uri), types.Range(at, at), options)
+    edits = await editor.client.text_document_range_formatting_async(params)
+    after = applied(UGLY, list(edits or ()))
+    assert "0.1,1000.0\n" in after
+    assert "\n1,-0.1,0.0\n" not in after
+
+
+async def test_a_deck_with_an_error_is_not_formatted(editor: Editor) -> None:
+    uri = await editor.open(BAD_NUMBER)
+    options = types.FormattingOptions(tab_size=4, insert_spaces=True)
+    with pytest.raises(JsonRpcException, match=r"correct the error in line 6 first \(SYN002\)"):
+        await editor.client.text_document_formatting_async(types.DocumentFormattingParams(document(uri), options))
+
+
+async def test_a_deck_in_json_is_formatted(editor: Editor) -> None:
+    text = '{"format": "mudline-deck/1", "sections": [{"name": "MODEL", "blocks": []}]}'
+    uri = editor.uri("deck.json")
+    await editor.shown(uri, lambda: editor.send_open(uri, text, language="json"))
+    options = types.FormattingOptions(tab_size=4, insert_spaces=True)
+    edits = await editor.client.text_document_formatting_async(types.DocumentFormattingParams(document(uri), options))
+    assert applied(text, list(edits or ())).encode() == formatted(text.encode(), "deck.json")
+
+
+def words(text: str, found: types.SemanticTokens | None) -> list[tuple[str, str]]:
+    assert found is not None
+    lines = text.split("\n")
+    line = column = 0
+    read: list[tuple[str, str]] = []
+    for at in range(0, len(found.data), 5):
+        down, right, length, kind, _ = found.data[at : at + 5]
+        line, column = line + down, right if down else column + right
+        read.append((lines[line][column : column + length], TYPES[kind]))
+    return read
+
+
+async def test_words_have_colours(editor: Editor) -> None:
+    text = (
+        PARAMETERS
+        + "C a comment\n"
+        + CURVE.replace("SET=Pipe\n S", 'SET="Pipe"\n S').replace("LATERAL==", "LATERAL = =")
+    )
+    uri = await editor.open(text)
+    found = words(
+        text, await editor.client.text_document_semantic_tokens_full_async(types.SemanticTokensParams(document(uri)))
+    )
+    expected = [
+        ("$PREPROCESSOR", "namespace"),
+        ("*PARAMETERS", "keyword"),
+        ("100.0", "number"),
+        ("C a comment", "comment"),
+        ("TYPE", "property"),
+        ("ELASTIC", "enumMember"),
+        ("=[", "operator"),
+        ("wide", "variable"),
+        ("Clay", "string"),
+        ("-0.1", "number"),
+    ]
+    assert [one for one in expected if one not in found] == []
+    at = position(text, " LATERAL")
+    params = types.SemanticTokensRangeParams(document(uri), types.Range(at, types.Position(at.line + 1, 0)))
+    part = await editor.client.text_document_semantic_tokens_range_async(params)
+    assert part is not None
+    assert part.data[0] == at.line
+    assert len(part.data) == 5 * 7
+
+
+async def test_equations_and_sets_have_hints(editor: Editor) -> None:
+    text = PARAMETERS + CURVE
+    uri = await editor.open(text)
+    hints = await editor.client.text_document_inlay_hint_async(types.InlayHintParams(document(uri), WHOLE))
+    found = [(one.position.line, one.label) for one in hints or ()]
+    lines = text.split("\n")
+    assert found == [
+        (lines.index(" wide, =[depth/2]"), "= 50"),
+        (text[: text.index(" SET=Pipe\n 207")].count("\n"), "2 elements, D = 0.5 m"),
+        (text[: text.index(" SET=Pipe\n STIFF")].count("\n"), "2 elements, D = 0.5 m"),
+        (lines.index(" LATERAL==[wide*2]"), "= 100"),
+    ]
+
+
+async def test_a_curve_is_shown(editor: Editor) -> None:
+    pytest.importorskip("matplotlib")
+    uri = await editor.open(CLEAN)
+    lenses = await editor.client.text_document_code_lens_async(types.CodeLensParams(document(uri)))
+    (lens,) = lenses or ()
+    assert lens.range.start == position(CLEAN, "CURVE=Clay", "CURVE=")
+    assert lens.command is not None
+    assert lens.command.title == "show curve: 3 points, followed by 2 elements"
+    params = types.ExecuteCommandParams(lens.command.command, lens.command.arguments)
+    shown = await editor.client.workspace_execute_command_async(params)
+    assert shown is not None
+    assert shown["text"].splitlines()[:4] == [
+        "curve Clay",
+        "ratio, force [N/m]",
+        "0, 0",
+        "    slope 10000 N/m, stiffness 20000 N/m2 (D = 0.5 m)",
+    ]
+    assert shown["picture"].endswith(".svg")
+    params = types.ExecuteCommandParams(lens.command.command, [uri, 99])
+    with pytest.raises(JsonRpcException, match="there is no such curve any more"):
+        await editor.client.workspace_execute_command_async(params)
