@@ -43,8 +43,8 @@ _MOST_KEYS = 100
 class FieldInfo:
     """What a field means. Units in F (force), L, M, T, deg; "-" is dimensionless. `inferred` names our deduction.
 
-    `names` says what the field is the name or number of, `defines` of what it gives a new thing its own. `also` is another
-    name by which `mudline set` finds it.
+    `names` says what the field is the name or number of, `defines` of what it gives a new thing its own. `also`
+    is another name by which `mudline set` finds it.
     """
 
     meaning: str
