@@ -60,11 +60,11 @@ def lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None
     content = data if result.changed is None else result.changed
     with recording_looks() as paths:
         found = lint_bytes(content, name, settings.rules, units=settings.units, folder=folder, dialect=settings.dialect)
-    fixed = _with_severities(result.fixed, settings)
-    return FileReport(name, _with_severities(found, settings), fixed, result.changed, result.note, tuple(paths))
+    fixed = with_severities(result.fixed, settings)
+    return FileReport(name, with_severities(found, settings), fixed, result.changed, result.note, tuple(paths))
 
 
-def _with_severities(found: Iterable[Diagnostic], settings: LintSettings) -> tuple[Diagnostic, ...]:
+def with_severities(found: Iterable[Diagnostic], settings: LintSettings) -> tuple[Diagnostic, ...]:
     """The findings with the severities that the settings give them."""
     return tuple(_with_severity(one, settings.severities) for one in found)
 
