@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from hashlib import blake2b
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 import pyarrow as pa
@@ -73,7 +73,9 @@ class Chunk:
 
 def _of_rows(table: Table, rows: list[tuple[object, ...]]) -> ArrowTable:
     columns = (DECK, *table.columns)
-    return _table(table, [_array(list(values), column) for column, values in zip(columns, zip(*rows, strict=True))])
+    return _table(
+        table, [_array(list(values), column) for column, values in zip(columns, zip(*rows, strict=True), strict=True)]
+    )
 
 
 def _of_blocks(table: Table, blocks: Sequence[tuple[int, int, Sequence[Values]]]) -> ArrowTable:
@@ -82,7 +84,11 @@ def _of_blocks(table: Table, blocks: Sequence[tuple[int, int, Sequence[Values]]]
     for at, column in enumerate(table.columns):
         pieces = [columns[at] for _, _, columns in blocks]
         if all(isinstance(piece, np.ndarray) for piece in pieces):
-            arrays.append(pa.array(np.concatenate(pieces), _TYPES[column.kind], from_pandas=True))
+            arrays.append(
+                pa.array(
+                    np.concatenate(cast("list[np.ndarray[Any, Any]]", pieces)), _TYPES[column.kind], from_pandas=True
+                )
+            )
         else:
             arrays.append(_array([value for piece in pieces for value in piece], column))
     return _table(table, arrays)

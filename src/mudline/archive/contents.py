@@ -154,7 +154,11 @@ class _Deck:
             return
         ends = scene.element_nodes
         known = (ends >= 0) & (len(scene.node_ids) > 0)
-        ids = np.where(known, scene.node_ids[np.where(known, ends, 0)], np.nan) if known.any() else np.full((count, 2), np.nan)
+        ids = (
+            np.where(known, scene.node_ids[np.where(known, ends, 0)], np.nan)
+            if known.any()
+            else np.full((count, 2), np.nan)
+        )
         nodes = ids if np.isnan(ids).any() else ids.astype(np.int64)
         middle = _middle(scene, ends, known)
         laws = scene.law

@@ -8,8 +8,9 @@ from __future__ import annotations
 import json
 import os
 import threading
+import warnings
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,7 +18,7 @@ from typing import Any
 import duckdb
 
 from mudline.archive.store import VIEWS, Archive
-from mudline.archive.tables import DECK, FILE, FILES, STORED, TABLES, Column, Table
+from mudline.archive.tables import DECK, FILES, STORED, TABLES, Column, Table
 
 BATCH = 100_000
 """Rows of an answer that are fetched at once."""
@@ -38,6 +39,10 @@ class QueryError(Exception):
     """A question that cannot be answered: the message says why, and where in the SQL."""
 
 
+class MissingFileError(QueryError):
+    """A file of the archive is no longer there: another run has replaced it."""
+
+
 @dataclass
 class Database:
     """An open archive that answers questions."""
@@ -56,7 +61,10 @@ class Database:
         given = dict(parameters) if parameters else None
 
         def answer() -> Any:
-            return self.connection.execute(statement, given).to_arrow_reader(BATCH)
+            with warnings.catch_warnings():
+                # A relation would spare a copy, and lack the place of an error in the SQL.
+                warnings.simplefilter("ignore", UserWarning)
+                return self.connection.execute(statement, given).to_arrow_reader(BATCH)
 
         return self._interruptible(answer, sql)
 
@@ -129,7 +137,7 @@ def opened(archive: Archive, memory: str, threads: int) -> Iterator[Database]:
             connection = duckdb.connect(":memory:", config=config)
         except duckdb.Error as error:
             raise _explained(error, "") from error
-        with connection:
+        try:
             connection.execute("SET allowed_directories = ['.']")
             try:
                 _create_views(connection, archive)
@@ -138,6 +146,9 @@ def opened(archive: Archive, memory: str, threads: int) -> Iterator[Database]:
             connection.execute("SET enable_external_access = false")
             connection.execute("SET lock_configuration = true")
             yield Database(connection)
+        finally:
+            with suppress(duckdb.Error):  # it may still be busy with a question that was interrupted
+                connection.close()
     finally:
         os.chdir(before)
 
@@ -172,7 +183,10 @@ def _create_views(connection: duckdb.DuckDBPyConnection, archive: Archive) -> No
         "WHERE n = 1 AND deck IS NOT NULL"
     )
     first, *others = TABLES
-    about = "h.bytes, CASE WHEN h.modified >= 0 THEN make_timestamp(h.modified // 1000) END AS modified, h.content AS digest"
+    about = (
+        "h.bytes, CASE WHEN h.modified >= 0 THEN make_timestamp(h.modified // 1000) END AS modified, "
+        "h.content AS digest"
+    )
     connection.execute(
         f"CREATE VIEW {first.name} AS SELECT h.file, {about}, d.* "  # noqa: S608 - as above
         f"FROM stored.held AS h JOIN stored.{first.name} AS d USING (deck)"
@@ -187,7 +201,7 @@ def _create_views(connection: duckdb.DuckDBPyConnection, archive: Archive) -> No
 def _nothing(table: Table) -> str:
     columns: list[Column] = [DECK, *table.columns]
     values = ", ".join(f"CAST(NULL AS {_TYPES[column.kind]}) AS {column.name}" for column in columns)
-    return f"SELECT {values} WHERE false"  # noqa: S608 - names of ours
+    return f"SELECT {values} WHERE false"
 
 
 def _explained(error: BaseException, sql: str) -> QueryError:
@@ -202,6 +216,8 @@ def _explained(error: BaseException, sql: str) -> QueryError:
     kind = found.get("exception_type", "")
     if kind == "Out of Memory" or isinstance(error, duckdb.OutOfMemoryException):
         return QueryError("the question needs more memory than it may use: ask for less, or raise --memory-limit")
+    if kind == "IO" and "No files found" in message:
+        return MissingFileError(f"{message}: ask again")
     if _DISABLED in message:
         what = message.partition(" - ")[0]
         message = f"{what}: a question reads the tables of the archive and nothing else"
@@ -211,6 +227,3 @@ def _explained(error: BaseException, sql: str) -> QueryError:
         line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
         message = f"line {line}, column {column} of the SQL: {message}"
     return QueryError(message)
-
-
-__all__ = ["BATCH", "FILE", "Database", "QueryError", "opened", "write_views"]

@@ -13,7 +13,6 @@ from hashlib import blake2b
 from pathlib import Path
 from typing import NamedTuple
 
-from mudline import __version__
 from mudline.archive.store import Archive, newest
 from mudline.archive.tables import FILES, TABLES
 from mudline.linting.cache import changed_since, state
@@ -72,7 +71,7 @@ def depends_on(looked_at: Iterable[str], path: str, began: float) -> str:
 @cache
 def program() -> str:
     """A digest of the program and its plug-ins, the same wherever they are installed."""
-    digest = blake2b(f"{__version__} {sys.version}".encode(), digest_size=_DIGEST)
+    digest = blake2b(sys.version.encode(), digest_size=_DIGEST)
     package = Path(__file__).parents[1]
     files = [*package.rglob("*.py"), *grammar_file("deck.lark").parent.glob("*.lark")]
     for path in sorted(files, key=lambda path: path.parts):

@@ -1,9 +1,9 @@
 """The folder of an archive: Parquet files named by the digest of their content, and a manifest for each batch of them.
 
 A batch exists once its manifest does, which names its files. Everything is written beside its place and renamed, so
-that a run may be killed at any moment; runs at the same time write different files. Nothing is ever changed: a newer row of `files`
-holds before an older one, and a batch that holds the live rows of others names them in its manifest, so that these
-are left out and removed.
+that a run may be killed at any moment; runs at the same time write different files. Nothing is ever changed: a newer
+row of `files` holds before an older one, and a batch that has the rows of others names them in its manifest, so that
+these are left out and removed.
 """
 
 from __future__ import annotations
@@ -236,7 +236,9 @@ def _batch(path: Path) -> Batch:
     content: Any = json.loads(data)
     if content["format"] != FORMAT:
         raise ArchiveError(f"{path.as_posix()} is of another version, {cut(str(content['format']), 40)!r}")
-    return Batch(path.stem, {name: Stored(*row) for name, row in content["files"].items()}, frozenset(content["replaces"]))
+    return Batch(
+        path.stem, {name: Stored(*row) for name, row in content["files"].items()}, frozenset(content["replaces"])
+    )
 
 
 def _file_name(table: str, data: bytes) -> str:

@@ -1,4 +1,4 @@
-"""Decks on their way into an archive: which of them are to be read, reading some of them, and batches of what was read."""
+"""Decks on their way into an archive: which of them are to be read, reading them, and batches of what was read."""
 
 from __future__ import annotations
 
@@ -195,7 +195,9 @@ class Update:
 def _rows(rows: list[tuple[object, ...]]) -> ArrowTable:
     schema = schema_of(FILES)
     columns = list(zip(*rows, strict=True)) if rows else [() for _ in schema]
-    return pa.Table.from_arrays([pa.array(list(column), kind.type) for column, kind in zip(columns, schema, strict=True)], schema=schema)
+    return pa.Table.from_arrays(
+        [pa.array(list(column), kind.type) for column, kind in zip(columns, schema, strict=True)], schema=schema
+    )
 
 
 def _written(files: ArrowTable, now: int) -> ArrowTable:

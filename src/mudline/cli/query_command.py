@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import datetime
+import datetime as dt
 import decimal
 import json
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, nullcontext
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO, TypeAlias
 
 import click
 
@@ -25,6 +26,8 @@ from mudline.quantities import csv_lines
 if TYPE_CHECKING:
     from mudline.archive.database import Database
 
+Arrow: TypeAlias = Any
+"""A reader, batch or type of pyarrow, which has no types; or a value that one holds."""
 MOST_ROWS = 40
 """Rows of a table on the terminal, unless more is asked for."""
 _FORMATS = ("text", "csv", "json", "parquet")
@@ -41,7 +44,9 @@ _WHOLE = re.compile(r"[+-]?[0-9]{1,18}")
 @click.option("--param", multiple=True, metavar="NAME=VALUE", help="The value of $NAME in the SQL. Repeatable.")
 @click.option("-o", "--output", metavar="OUT.csv|json|parquet", help="Write the answer to a file.")
 @options.output_format(*_FORMATS)
-@click.option("--memory-limit", default="2GB", show_default=True, metavar="SIZE", help="Memory that a question may use.")
+@click.option(
+    "--memory-limit", default="2GB", show_default=True, metavar="SIZE", help="Memory that a question may use."
+)
 @click.option(
     "--jobs", type=click.IntRange(min=0), default=0, metavar="N", help="Threads; 0 (default): one for each processor."
 )
@@ -72,30 +77,56 @@ def command(
         raise click.UsageError("no archive: give the folder that mudline index wrote")
     question, values = _question(sql, ask, param)
     form = _form(output, output_format)
-    from mudline.archive import database  # noqa: PLC0415 - an extra
-    from mudline.archive.store import Archive, ArchiveError  # noqa: PLC0415 - an extra
+    from mudline.archive.database import QueryError  # noqa: PLC0415 - an extra
+    from mudline.archive.store import ArchiveError  # noqa: PLC0415 - an extra
 
     target = None if output is None else Path(output).absolute()
+    limits = (memory_limit, jobs)
     try:
-        found = Archive.opened(Path(archive))
-        if found.damaged:
-            raise click.ClickException("\n".join(found.damaged.values()))
-        with database.opened(found, memory_limit, jobs) as opened:
-            reader = opened.ask(question, values)
-            if target is None and form == "text":
-                _print_table(opened, reader, view)
-            elif target is None:
-                for piece in _pieces(opened, reader, form):
-                    emit([piece])
-            else:
-                _write(opened, reader, form, target)
-    except ArchiveError as error:
-        raise click.ClickException(str(error)) from error
-    except database.QueryError as error:
+        _answer(Path(archive), question, values, limits, partial(_deliver, form=form, target=target, view=view))
+    except (ArchiveError, QueryError) as error:
         raise click.ClickException(str(error)) from error
     if target is not None and not view.quiet:
         notify(f"answer -> {output}")
     return DONE
+
+
+Deliver = Callable[["Database", Arrow], None]
+"""What is done with an answer while the archive is open."""
+
+
+def _answer(
+    folder: Path, question: str, values: dict[str, object], limits: tuple[str, int], deliver: Deliver, tries: int = 3
+) -> None:
+    """Ask and deliver the answer; raises ArchiveError, QueryError, click.ClickException.
+
+    Where another run has just replaced the files, it is asked again.
+    """
+    from mudline.archive.database import MissingFileError, opened  # noqa: PLC0415 - an extra
+    from mudline.archive.store import Archive  # noqa: PLC0415 - an extra
+
+    archive = Archive.opened(folder)
+    if archive.damaged:
+        raise click.ClickException("\n".join(archive.damaged.values()))
+    reader = None
+    try:
+        with opened(archive, *limits) as database:
+            reader = database.ask(question, values)
+            deliver(database, reader)
+    except MissingFileError:
+        if tries <= 1 or reader is not None:
+            raise
+        _answer(folder, question, values, limits, deliver, tries - 1)
+
+
+def _deliver(database: Database, reader: Arrow, form: str, target: Path | None, view: View) -> None:
+    if target is not None:
+        _write(database, reader, form, target)
+    elif form == "text":
+        _print_table(database, reader, view)
+    else:
+        for piece in _pieces(database, reader, form):
+            emit([piece])
 
 
 def _list_questions(view: View) -> None:
@@ -163,15 +194,15 @@ def _form(output: str | None, output_format: str) -> str:
 # ----------------------------------------------------------------------------------------------------------- answers
 
 
-def _batches(database: Database, reader: Any) -> Iterator[Any]:
+def _batches(database: Database, reader: Arrow) -> Iterator[Arrow]:
     while (batch := database.next_batch(reader)) is not None:
         yield batch
 
 
-def _print_table(database: Database, reader: Any, view: View) -> None:
+def _print_table(database: Database, reader: Arrow, view: View) -> None:
     """Print the first rows, all of them with -v."""
     columns = tuple(reader.schema.names)
-    rows: list[list[Any]] = []
+    rows: list[tuple[Arrow, ...]] = []
     count = 0
     for batch in _batches(database, reader):
         count += batch.num_rows
@@ -183,11 +214,11 @@ def _print_table(database: Database, reader: Any, view: View) -> None:
     view.printer().table("Answer", columns, cells, left=left, note=note)
 
 
-def _is_number(kind: Any) -> bool:
+def _is_number(kind: Arrow) -> bool:
     return str(kind).startswith(("int", "uint", "double", "float", "decimal"))
 
 
-def _cell(value: Any) -> str | int | float | None:
+def _cell(value: Arrow) -> str | int | float | None:
     """A value as a cell of a table or of CSV."""
     plain = _plain(value)
     if isinstance(plain, bool):
@@ -197,25 +228,28 @@ def _cell(value: Any) -> str | int | float | None:
     return json.dumps(plain, ensure_ascii=False)
 
 
-def _plain(value: Any) -> Any:
+def _plain(value: Arrow) -> Arrow:
     """A value as JSON has it; None for NaN and infinite numbers."""
     if isinstance(value, float):
         return value if math.isfinite(value) else None
-    if value is None or isinstance(value, str | int):
-        return value
+    if isinstance(value, Mapping):
+        return {str(name): _plain(item) for name, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    return value if value is None or isinstance(value, str | int) else _spelled(value)
+
+
+def _spelled(value: Arrow) -> str | int | float:
+    """A value of a type that JSON lacks."""
     if isinstance(value, decimal.Decimal):
         whole = value == value.to_integral_value()
         return int(value) if whole and abs(value) < _SAFE else float(value)
-    if isinstance(value, datetime.date | datetime.time):
+    if isinstance(value, dt.date | dt.time):
         return value.isoformat()
-    if isinstance(value, bytes):
-        return value.hex()
-    if isinstance(value, Mapping):
-        return {str(name): _plain(item) for name, item in value.items()}
-    return [_plain(item) for item in value] if isinstance(value, list | tuple) else str(value)
+    return value.hex() if isinstance(value, bytes) else str(value)
 
 
-def _pieces(database: Database, reader: Any, form: str) -> Iterator[str]:
+def _pieces(database: Database, reader: Arrow, form: str) -> Iterator[str]:
     """The answer as text in pieces."""
     columns = list(reader.schema.names)
     if form == "csv":
@@ -234,7 +268,7 @@ def _pieces(database: Database, reader: Any, form: str) -> Iterator[str]:
     yield "[]\n" if mark == "[" else "\n]\n"
 
 
-def _write(database: Database, reader: Any, form: str, target: Path) -> None:
+def _write(database: Database, reader: Arrow, form: str, target: Path) -> None:
     """Write the answer to a file, which is whole or not there."""
     with writing(target) as stream, _parquet(reader, stream, form) as writer:
         if writer is None:
@@ -244,7 +278,7 @@ def _write(database: Database, reader: Any, form: str, target: Path) -> None:
                 writer.write_batch(batch)
 
 
-def _parquet(reader: Any, stream: BinaryIO, form: str) -> AbstractContextManager[Any]:
+def _parquet(reader: Arrow, stream: BinaryIO, form: str) -> AbstractContextManager[Any]:
     if form != "parquet":
         return nullcontext()
     import pyarrow.parquet as pq  # noqa: PLC0415 - an extra
