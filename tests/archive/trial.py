@@ -82,6 +82,8 @@ def contents(archive: Path) -> dict[str, list[str]]:
 
     skipped = {"decks": "EXCLUDE (deck, modified)"}
     return {
-        table.name: sorted(map(str, ask(archive, f"SELECT * {skipped.get(table.name, 'EXCLUDE (deck)')} FROM {table.name}")))  # noqa: S608
+        table.name: sorted(
+            map(str, ask(archive, f"SELECT * {skipped.get(table.name, 'EXCLUDE (deck)')} FROM {table.name}"))
+        )  # noqa: S608
         for table in TABLES
     }

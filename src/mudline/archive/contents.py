@@ -34,7 +34,6 @@ from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene
 from mudline.scene.references import given_names
 from mudline.scene.sets import ALL
-from mudline.variations.names import may_vary
 
 _DIGEST = 63
 """Bits of digests of values, which are whole numbers in the tables."""
@@ -212,7 +211,7 @@ class _Deck:
         if "PARAMETERS" not in self.deck.keywords("PREPROCESSOR"):
             return
         parameters = Parameters(self.deck)
-        varied = may_vary(self.deck)
+        varied = "VARIATION" in self.deck.keywords("PREPROCESSOR")
         used = _names_in_equations(self.data)
         for key, found in parameters.definitions.items():
             value = parameters.values.get(key)
