@@ -51,7 +51,7 @@ def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
         ("EXPORT DATABASE 'out'", "EXPORT is not allowed"),
         ("SELECT * FROM archive", "archive does not exist"),
         ("SELECT 1; SELECT 2", "found 2"),
-        ("-- nothing", "found 0"),
+        ("/* nothing */", "found 0"),
     ],
 )
 def test_a_question_reads_the_archive_only(archive: Path, sql: str, why: str) -> None:
@@ -88,7 +88,7 @@ def test_the_locks_hold_without_the_look_at_the_statement(archive: Path, monkeyp
         ("SELECT nothing FROM decks", "line 1, column 8 of the SQL: "),
         ("SELECT *\nFROM nothing", "line 2, column 6 of the SQL: "),
         ("SELEC 1", "line 1, column 1 of the SQL: "),
-        ("SELECT file FROM decks\nWHERE 'x'::INTEGER = 1", "line 2, column 7 of the SQL: "),
+        ("SELECT file FROM decks\nWHERE 'x'::INTEGER = 1", "line 2, column 10 of the SQL: "),
         ("SELECT 'é', nothing FROM decks", "line 1, column 13 of the SQL: "),
     ],
 )

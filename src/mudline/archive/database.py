@@ -31,6 +31,8 @@ _CONFIG = {
     "errors_as_json": "true",
     "temp_directory": "",
 }
+_PATIENCE = 5.0
+"""Seconds for a question to end that is interrupted."""
 _READING = ("SELECT", "EXPLAIN")
 _DISABLED = "file system operations are disabled"
 
@@ -102,15 +104,16 @@ class Database:
                 made.append(work())
             except BaseException as error:  # noqa: BLE001 - raised again by the thread that waits
                 failed.append(error)
+            done.set()
 
-        thread = threading.Thread(target=run, daemon=True)
-        thread.start()
+        done = threading.Event()  # a thread whose `join` is interrupted is taken for ended
+        threading.Thread(target=run, daemon=True).start()
         try:
-            while thread.is_alive():
-                thread.join(0.1)
+            while not done.wait(0.1):
+                pass
         except KeyboardInterrupt:
             self.connection.interrupt()
-            thread.join(5.0)
+            done.wait(_PATIENCE)
             raise
         if failed:
             error = failed[0]
