@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 import signal
 import sys
@@ -11,8 +12,10 @@ from pathlib import Path
 
 import pytest
 
+from mudline.archive import compaction
 from mudline.archive.store import FORMAT, Archive
-from tests.archive.trial import contents, deck, index, run, summary, write
+from tests.archive.trial import contents, deck, index, summary, write
+from tests.cli.runner import run
 from tests.processes import TIMEOUT, started
 
 SLOW = """
@@ -67,8 +70,6 @@ def test_a_run_that_is_killed_between_files_and_manifest_is_tidied(archive: Path
     left.write_bytes(b"left")
     index(decks, archive=archive)
     assert left.exists()
-    import os
-
     os.utime(left, (1.0, 1.0))
     index(decks, archive=archive)
     assert not left.exists()
@@ -186,8 +187,6 @@ def test_batches_replaced_by_a_killed_run_are_left_out(archive: Path, decks: Pat
     before = contents(archive)
     saved = {path: path.read_bytes() for path in archive.rglob("*.json")}
     opened = Archive.opened(archive)
-    from mudline.archive import compaction
-
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(compaction, "MOST_SMALL", 1)
         compaction.compact(opened)

@@ -10,7 +10,13 @@ from pathlib import Path
 import pytest
 
 from mudline.archive import compaction, updating
-from tests.archive.trial import ask, contents, deck, index, run, summary, write
+from mudline.archive.known import looked
+from mudline.archive.store import Archive
+from mudline.archive.updating import Update, read_decks
+from mudline.linting.engine import LintSettings
+from mudline.linting.registry import select
+from tests.archive.trial import ask, contents, deck, index, summary, write
+from tests.cli.runner import run
 
 
 @pytest.fixture
@@ -254,12 +260,6 @@ def test_a_copy_whose_original_moves_to_another_batch_stays(
 
 
 def test_two_writers_at_the_same_time(decks: Path, archive: Path, tmp_path: Path) -> None:
-    from mudline.archive.store import Archive
-    from mudline.archive.updating import Update, read_decks
-    from mudline.archive.known import looked
-    from mudline.linting.engine import LintSettings
-    from mudline.linting.registry import select
-
     settings = LintSettings(select())
     writers = [Update(Archive.made(archive)) for _ in range(2)]
     for name in ("a", "b", "c"):

@@ -11,8 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.archive.trial import ask, deck, index, run, write
-from tests.cli.runner import assert_fits
+from mudline.archive import database
+from tests.archive.trial import ask, deck, index, write
+from tests.cli.runner import assert_fits, run
 from tests.processes import TIMEOUT, started
 
 OUTSIDE = "a question reads the tables of the archive and nothing else"
@@ -64,8 +65,6 @@ def test_a_question_reads_the_archive_only(archive: Path, sql: str, why: str) ->
 
 
 def test_the_locks_hold_without_the_look_at_the_statement(archive: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from mudline.archive import database
-
     monkeypatch.setattr(database, "_READING", ("SELECT", "EXPLAIN", "COPY", "ATTACH", "LOAD", "SET", "EXPORT"))
     for sql in (
         "COPY decks TO '/tmp/mudline-out.csv'",
@@ -128,7 +127,8 @@ def test_wrong_usage(archive: Path, words: list[str], why: str) -> None:
 
 
 def test_forms_of_an_answer(archive: Path, tmp_path: Path) -> None:
-    sql = "SELECT file, depth, 'nan'::DOUBLE AS lost, 1.5::DECIMAL(4, 2) AS part, [1, 2] AS list, TRUE AS yes FROM decks ORDER BY file"
+    values = "'nan'::DOUBLE AS lost, 1.5::DECIMAL(4, 2) AS part, [1, 2] AS list, TRUE AS yes"
+    sql = f"SELECT file, depth, {values} FROM decks ORDER BY file"  # noqa: S608 - names of ours
     text = run("query", archive, sql).out
     assert text.splitlines()[0] == "Answer"
     assert text.splitlines()[-2] == "2 rows"

@@ -8,8 +8,10 @@ from typing import Any
 import pytest
 
 from mudline.archive.questions import QUESTIONS
-from tests.archive.trial import deck, index, run, write
+from mudline.archive.store import Archive
+from tests.archive.trial import deck, index, write
 from tests.builders.decks import CLEAN
+from tests.cli.runner import run
 
 LEGACY = """\
 *EMBEDMENT
@@ -113,7 +115,5 @@ def test_ask_alone_lists_the_questions(archive: Path) -> None:
 
 @pytest.mark.parametrize("name", QUESTIONS)
 def test_a_question_about_an_empty_archive(name: str, tmp_path: Path) -> None:
-    from mudline.archive.store import Archive
-
     Archive.made(tmp_path / "empty")
     assert rows(tmp_path / "empty", name) == []

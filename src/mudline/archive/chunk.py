@@ -10,7 +10,7 @@ from typing import Any, TypeAlias, cast
 import numpy as np
 import pyarrow as pa
 
-from mudline.archive.tables import DECK, FILES, STORED, TABLES, Column, Table
+from mudline.archive.tables import DECK, STORED, TABLES, Column, Table
 
 ArrowTable: TypeAlias = Any
 """A pyarrow.Table; pyarrow has no types."""
@@ -54,10 +54,6 @@ class Chunk:
         """Add so many rows of it at once."""
         if count:
             self.blocks.setdefault(table, []).append((self.decks, count, columns))
-
-    def add_file(self, values: tuple[object, ...], *, gone: bool = False) -> None:
-        """Add a file, whose content is the deck of this number."""
-        self.rows[FILES.name].append((None if gone else self.decks, *values))
 
     def finished(self) -> dict[str, ArrowTable]:
         """The tables that have rows."""
