@@ -100,6 +100,8 @@ class Update:
     _read: list[Read] = field(default_factory=list)
     _links: list[tuple[object, ...]] = field(default_factory=list)
     _starts: dict[int, tuple[str, LintSettings, tuple[str, ...], LintSettings]] = field(default_factory=dict)
+    _decks: int = 0
+    _bytes: int = 0
     _due: float = 0.0
     _wrote: bool = False
 
@@ -151,8 +153,9 @@ class Update:
     def take(self, read: Read) -> None:
         """Take what was read; a batch is written when enough has come together."""
         self._read.append(read)
-        size = sum(table.nbytes for one in self._read for table in one.tables.values())
-        if sum(one.decks for one in self._read) >= DECKS or size >= BYTES or time.monotonic() > self._due:
+        self._decks += read.decks
+        self._bytes += sum(table.nbytes for table in read.tables.values())
+        if self._decks >= DECKS or self._bytes >= BYTES or time.monotonic() > self._due:
             self.flush()
 
     def flush(self) -> None:
@@ -160,6 +163,7 @@ class Update:
         if self._read or self._links:
             now = self.known.latest = max(time.time_ns(), self.known.latest + 2)
             read, self._read = self._read, []
+            self._decks = self._bytes = 0
             links, self._links = self._links, []
             tables = together([one.tables for one in read], [one.decks for one in read])
             if FILES.name in tables:

@@ -152,9 +152,12 @@ def _read(orders: Iterator[Order], inputs: Inputs, effort: Effort) -> Generator[
         read = read_decks(part)
         spent, done = spent + time.perf_counter() - start, done + len(part)
         yield read
-        if spent >= TRIED and pays(spent / done * (len(inputs.files) - done), effort):
+        if spent >= TRIED:
             break
     else:
+        return
+    if not pays(spent / done * (len(inputs.files) - done), effort):
+        yield from map(read_decks, _parts(orders, _DECKS))
         return
     with pool(effort.processes, "read decks", "mudline.archive.updating") as executor:
         yield from _ahead(_parts(orders, _DECKS), executor, _AHEAD * effort.processes)
