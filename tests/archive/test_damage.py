@@ -22,7 +22,8 @@ SLOW = """
 import sys, time
 from mudline.__main__ import main
 from mudline.archive import updating
-updating.DECKS = 4
+from mudline.cli import index_command
+updating.DECKS = index_command._DECKS = 4
 plain = updating.read_decks
 def slow(orders):
     time.sleep(0.03)
