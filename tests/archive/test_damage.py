@@ -68,12 +68,16 @@ def test_a_killed_run_loses_nothing(tmp_path: Path) -> None:
 
 def test_a_run_that_is_killed_between_files_and_manifest_is_tidied(archive: Path, decks: Path) -> None:
     left = archive / "data" / "decks-00112233445566778899aabbccddeeff.parquet"
+    views = archive / ".archive.duckdb.0011223344556677.mudline"
     left.write_bytes(b"left")
+    views.write_bytes(b"left")
     index(decks, archive=archive)
     assert left.exists()
+    os.utime(views, (1.0, 1.0))
     os.utime(left, (1.0, 1.0))
     index(decks, archive=archive)
     assert not left.exists()
+    assert not views.exists()
 
 
 def some_file(archive: Path, table: str) -> Path:

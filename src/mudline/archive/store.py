@@ -207,7 +207,8 @@ class Archive:
             with suppress(OSError):
                 (self.folder / BATCHES / f"{name}.json").unlink(missing_ok=True)
         named = {stored.file for batch in self._on_disk() for stored in batch.files.values()}
-        for path in (self.folder / DATA).glob("[!.]*.parquet"):
+        files = [*(self.folder / DATA).glob("[!.]*.parquet"), *self.folder.glob(f".{VIEWS}.*")]
+        for path in files:
             with suppress(OSError):
                 if path.name not in named and time.time() - path.stat().st_mtime > _LEFT:
                     path.unlink()
