@@ -32,7 +32,7 @@ $(VENV)/.user: $(INSTALLATION) | $(BIN)/pip
 # Dependency groups are new in pip 25.1; Python 3.11 comes with an older one.
 $(VENV)/.developer: $(INSTALLATION) | $(BIN)/pip
 	$(PIP) install "pip>=25.1"
-	$(PIP) install --group dev --editable ".[all]"
+	$(PIP) install --group dev --editable ".[all,archive]"
 	@touch $(VENV)/.user $@
 
 # ------------------------------------------------------------------------------------------------------------- a look

@@ -116,7 +116,7 @@ def _converted(deck: str, head: str, row: str, other: str) -> list[str]:
     return lines
 
 
-def _folder(bench: Bench, count: int, write: Writer = apart, suffix: str = "keyxm") -> Path:
+def folder_of(bench: Bench, count: int, write: Writer = apart, suffix: str = "keyxm") -> Path:
     """A folder with so many decks."""
     folder = bench.folder / f"{write.__name__}-{suffix}-{count}"
     convert: dict[str, Callable[[str], str]] = {"yaml": as_yaml, "py": as_python}
@@ -132,7 +132,7 @@ def _folder(bench: Bench, count: int, write: Writer = apart, suffix: str = "keyx
 def _linters(bench: Bench, write: Writer) -> dict[str, Maker]:
     """Mudline with as many processes as it likes and without its cache, and the peers that are there."""
     makers: dict[str, Maker] = {
-        "mudline": lambda count: bench.mudline("lint", "--no-cache", _folder(bench, count, write)),
+        "mudline": lambda count: bench.mudline("lint", "--no-cache", folder_of(bench, count, write)),
     }
     peers: dict[str, tuple[str, str, tuple[str, ...]]] = {
         "yamllint": ("yaml", "python", ("-I", "-m", "yamllint", "-d", "default")),
@@ -142,7 +142,7 @@ def _linters(bench: Bench, write: Writer) -> dict[str, Maker]:
     def maker(peer: str) -> Maker:
         suffix, program, words = peers[peer]
         start: list[str | Path] = [bench.environments[peer].program(program), *words]
-        return lambda count: Job([*start, _folder(bench, count, write, suffix)], codes=frozenset({0, 1}), peer=peer)
+        return lambda count: Job([*start, folder_of(bench, count, write, suffix)], codes=frozenset({0, 1}), peer=peer)
 
     return makers | {peer: maker(peer) for peer in peers if bench.has(peer)}
 
@@ -169,7 +169,7 @@ def run(bench: Bench) -> None:
 
 def _filled(bench: Bench, count: int) -> Job:
     """A second run of the same decks: the first has filled the cache."""
-    job = bench.mudline("lint", _folder(bench, count), cache=f"filled-{count}")
+    job = bench.mudline("lint", folder_of(bench, count), cache=f"filled-{count}")
     bench.costs({"": job}, 1, warm=False)
     return job
 
@@ -178,7 +178,7 @@ def _alone(bench: Bench) -> None:
     """What each further deck costs a single process."""
     count = bench.size(DECKS)
     few = count // 5
-    jobs = {size: bench.mudline("lint", "--no-cache", "--jobs", "1", _folder(bench, size)) for size in (few, count)}
+    jobs = {size: bench.mudline("lint", "--no-cache", "--jobs", "1", folder_of(bench, size)) for size in (few, count)}
     found = bench.costs({str(size): job for size, job in jobs.items()}, 5)
     more, less = cpu(found[str(count)]), cpu(found[str(few)])
     each = [(a - b) / (count - few) for a, b in zip(more, less, strict=True)]
@@ -190,7 +190,7 @@ def _cached(bench: Bench) -> None:
     """Growth with the count, the cache, and memory, in a single process; these take long and are run few times."""
 
     def first(count: int) -> Job:
-        job = bench.mudline("lint", "--jobs", "1", _folder(bench, count), cache=f"many-{count}")
+        job = bench.mudline("lint", "--jobs", "1", folder_of(bench, count), cache=f"many-{count}")
         cache = bench.folder / f"many-{count}"
         return replace(job, before=lambda: shutil.rmtree(cache, ignore_errors=True))
 
@@ -203,4 +203,4 @@ def _cached(bench: Bench) -> None:
     largest = bench.costs({"": first(most)}, 1, warm=False)[""][0].memory
     memory = max(cost.memory for cost in found["many"])
     figures["flat"] = ratio([largest], [memory])
-    shutil.rmtree(_folder(bench, most))
+    shutil.rmtree(folder_of(bench, most))

@@ -6,10 +6,13 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
+from mudline.archive.questions import QUESTIONS
+from mudline.archive.tables import TABLES, Table
 from mudline.linting.output import TEXT, TEXT_SUMMARY, form_module, form_names
 from mudline.quantities import CASES, ELEMENTS, LINES, NODES, Quantity
 from mudline.results.forms import form_module as result_module
 from mudline.results.forms import form_names as result_names
+from tests.docs.marking import marked
 
 _ROOT = Path(__file__).parents[2]
 _FINDINGS = "| form | what it is |\n| --- | --- |\n"
@@ -18,6 +21,7 @@ _ELEMENT = "An element:\n\n| key | holds | unit |\n| --- | --- | --- |\n"
 _NODE = "A node:\n\n| key | holds | unit |\n| --- | --- | --- |\n"
 _CASE = "A deck among many:\n\n| key | holds | unit |\n| --- | --- | --- |\n"
 _LINES = "the first and the last:\n\n| column | holds | unit |\n| --- | --- | --- |\n"
+_QUESTIONS = "| question | answers |\n| --- | --- |\n"
 _AGAINST = (
     "| `force_against`, `stiffness_against`, `ratio_against` "
     "| only with `--against`: the value in the file, or `null` | as ours |\n"
@@ -44,9 +48,28 @@ def _unit(quantity: Quantity) -> str:
     return f" {quantity.unit_name('metric')} / {quantity.unit_name('imperial')} " if quantity.unit else " "
 
 
+def question_table() -> str:
+    """A row a ready question to an archive."""
+    return _QUESTIONS + "".join(f"| `{name}` | {marked(one.answers)} |\n" for name, one in QUESTIONS.items())
+
+
+def archive_tables() -> dict[str, str]:
+    """The columns of each table of an archive."""
+    return {_head(table): _head(table) + "".join(_column_rows(table)) for table in TABLES}
+
+
+def _head(table: Table) -> str:
+    return f"| column of {table.name} | holds |\n| --- | --- |\n"
+
+
+def _column_rows(table: Table) -> Iterable[str]:
+    return (f"| `{column.name}` | {marked(column.meaning)} |\n" for column in table.columns)
+
+
 def pages_with_tables() -> dict[str, str]:
     """The pages written by hand that have such tables, with the tables written anew."""
     tables = {
+        "docs/archive.md": {_QUESTIONS: question_table(), **archive_tables()},
         "docs/outputs.md": {_FINDINGS: form_table()},
         "docs/evaluate.md": {_RESULTS: result_table()},
         "docs/json.md": {

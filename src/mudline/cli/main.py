@@ -35,6 +35,8 @@ COMMANDS = {
     "curves": "Show the force-embedment curves of a deck as they are evaluated.",
     "evaluate": "Evaluate the contact forces and stiffnesses of decks.",
     "plot": "Draw the results in a file that evaluate wrote.",
+    "index": "Bring decks into an archive.",
+    "query": "Answer a question about an archive in SQL.",
     "study": "Measure precision, stability and cost on a deck.",
     "rules": "List the rules, or explain one.",
     "schema": "Print the JSON Schema of decks, or of the configuration.",

@@ -1,0 +1,316 @@
+"""What a deck gives to each table of an archive: read, resolved, linted and evaluated once."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from hashlib import blake2b
+from pathlib import Path
+from typing import Any, cast
+
+import numpy as np
+
+from mudline.archive.chunk import Chunk
+from mudline.codes.lines import SYN001
+from mudline.contact.input import LawKind
+from mudline.deck.loading import load_bytes
+from mudline.deck.model import Deck, Opaque
+from mudline.deck.parameters import Parameters, folded
+from mudline.diagnostics import DeckError, Diagnostic, Problem, Severity, Where
+from mudline.keywords.catalogue import is_extension, is_superseded
+from mudline.keywords.table import AS_TABLES, Listing
+from mudline.keywords.values import Equation, Names
+from mudline.linting.engine import LintSettings, lint_context, problems_in
+from mudline.linting.fixing import with_severities
+from mudline.linting.registry import rules
+from mudline.linting.rule import LintContext, Noticed
+from mudline.results.cases import CaseWatch
+from mudline.results.evaluation import evaluate_scene
+from mudline.scene.deck_values import bare, number
+from mudline.scene.force_curves import SceneCurve
+from mudline.scene.model import Scene
+from mudline.scene.references import given_names
+from mudline.scene.sets import ALL
+
+_DIGEST = 63
+"""Bits of digests of values, which are whole numbers in the tables."""
+_EQUATION = re.compile(r"=\[((?:[^\[\]]|\[[^\[\]]*\])*)\]|%([^%\s]+)%")
+_WORD = re.compile(r"[^\W\d][\w.]*")
+_KINDS = [kind.name.lower() for kind in LawKind]
+
+
+def add_deck(chunk: Chunk, data: bytes, name: str, settings: LintSettings, folder: Path | None) -> None:
+    """Add the rows of a deck of this content and file name to a chunk; never raises for content."""
+    try:
+        deck = load_bytes(data, name, units=settings.units, folder=folder)
+    except DeckError as error:
+        _add_findings(chunk, error.diagnostics)
+        chunk.add("decks", settings.units or "user", "illegal", len(error.diagnostics), *[0] * 8, None, None, None)
+        chunk.add("results", "failed", error.diagnostics[0].message, *[None] * 11)
+    else:
+        _Deck(chunk, deck, LintContext(deck, dialect=settings.dialect), data).add(settings)
+    chunk.decks += 1
+
+
+def _add_findings(chunk: Chunk, found: tuple[Diagnostic, ...]) -> None:
+    for one in found:
+        place = (one.line, one.column, one.end_line, one.end_column)
+        fix = one.fix and one.fix.applicability
+        chunk.add("findings", one.code, one.slug, one.severity.value, one.message, *place, fix, one.blocks)
+
+
+@dataclass
+class _Deck:
+    chunk: Chunk
+    deck: Deck
+    context: LintContext
+    data: bytes
+
+    @property
+    def scene(self) -> Scene:
+        return self.context.scene
+
+    def add(self, settings: LintSettings) -> None:
+        found = with_severities(lint_context(self.context, settings.rules), settings)
+        _add_findings(self.chunk, found)
+        content, blocks = self._keywords()
+        sets = self._sets()
+        self._elements()
+        self._curves()
+        self._laws()
+        self._parameters()
+        self._results()
+        counts = Counter(one.severity for one in found)
+        illegal = counts[Severity.ERROR] or any(
+            one.weight is Severity.ERROR for one in problems_in(self.context, _checks())
+        )
+        oceans = [block for _, block in self.scene.deck.blocks("OCEAN")]
+        self.chunk.add(
+            "decks",
+            self.deck.units,
+            "illegal" if illegal else "legal" if self.deck.sections else "empty",
+            *(counts[severity] for severity in (Severity.ERROR, Severity.WARNING, Severity.INFO)),
+            len(self.deck.sections),
+            blocks,
+            len(self.scene.node_ids),
+            len(self.scene.element_ids),
+            sets,
+            len(self.scene.laws.curves),
+            float(np.nansum(self.scene.length)),
+            number(oceans[-1], "depth") if oceans else None,
+            content,
+        )
+
+    def _line(self, where: Where | None) -> int | None:
+        return None if where is None else self.deck.place(Problem(SYN001, "", where=where)).line
+
+    def _keywords(self) -> tuple[int, int]:
+        """Add the blocks; returns the digest of all of them, and how many there are."""
+        found = [
+            (section.name, block, Where(i, j), _digest(section.name, block))
+            for i, section in enumerate(self.deck.sections)
+            for j, block in enumerate(section.blocks)
+        ]
+        total = sum(digest for *_, digest in found)
+        for place, (section, block, where, digest) in enumerate(found, 1):
+            keyword = block.keyword
+            known = type(block) is not Opaque
+            facts = (known, is_superseded(keyword), is_extension(keyword))
+            row = (place, section, keyword, self._line(where), *facts, digest, (total - digest) % (1 << _DIGEST))
+            self.chunk.add("keywords", *row)
+        return total % (1 << _DIGEST), len(found)
+
+    def _sets(self) -> int:
+        named = {key: entry for key, entry in self.scene.set_table.named.items() if key != ALL}
+        used = self._names_of_sets() if named else set()
+        opaque = self._opaque_text() if named else ""
+        for key, entry in named.items():
+            ids = self.scene.element_ids[entry.elements]
+            ends = (int(ids.min()), int(ids.max())) if len(ids) else (None, None)
+            is_used = key in used or key in opaque
+            self.chunk.add("sets", entry.name, len(ids), *ends, not entry.open, is_used, self._line(entry.where))
+        return len(named)
+
+    def _names_of_sets(self) -> set[str]:
+        found = {folded(bare(name)) for _, _, name in given_names(self.scene.deck, Names.SET)}
+        for _, block in self.scene.deck.blocks("ELEMENT SETS"):
+            members = (member for entry in block.sets for member in entry.members if member.rule == "set_subset")
+            found.update(folded(bare(member.subset)) for member in members if member.subset)
+        return found
+
+    def _opaque_text(self) -> str:
+        """The lines that are not read: they may name sets."""
+        blocks = (block for section in self.deck.sections for block in section.blocks)
+        return "\n".join(line for block in blocks if type(block) is Opaque for line in block.lines).casefold()
+
+    def _elements(self) -> None:
+        scene = self.scene
+        count = len(scene.element_ids)
+        if not count:
+            return
+        ends = scene.element_nodes
+        known = (ends >= 0) & (len(scene.node_ids) > 0)
+        ids = (
+            np.where(known, scene.node_ids[np.where(known, ends, 0)], np.nan)
+            if known.any()
+            else np.full((count, 2), np.nan)
+        )
+        nodes = ids if np.isnan(ids).any() else ids.astype(np.int64)
+        middle = _middle(scene, ends, known)
+        laws = scene.law
+        arrays = scene.law_arrays()
+        of_law = np.array([*(law.curve + 1 for law in scene.laws.set_laws), 0])
+        curves = np.where(laws == LawKind.CURVE, of_law[scene.laws.of_element], 0).tolist()
+        friction = scene.resistance.column("friction")
+        columns: list[Any] = [
+            scene.element_ids,
+            *(_whole(column) for column in nodes.T),
+            *middle.T,
+            scene.length,
+            scene.diameter,
+            scene.submerged_weight,
+            [_KINDS[kind] for kind in laws.tolist()],
+            scene.law_sets,
+            [curve or None for curve in curves],
+            arrays.linear_stiffness,
+            friction[:, 0],
+            friction[:, 1],
+        ]
+        self.chunk.add_columns("elements", count, columns)
+
+    def _curves(self) -> None:
+        for place, entry in enumerate(self.scene.laws.curves, 1):
+            curve = entry.curve
+            ratios, forces, slopes = _sorted_points(entry)
+            count = len(ratios)
+            steepest = float(curve.slopes.max()) if curve is not None else None
+            ends = (float(ratios[0]), float(ratios[-1]), float(forces.max())) if count else (None, None, None)
+            followers = len(self.scene.laws.followers(place - 1)) if len(self.scene.element_ids) else 0
+            shape = _number(ratios.tobytes() + forces.tobytes())
+            line = self._line(entry.title)
+            row = (entry.name, entry.embedment, count, *ends, steepest, followers, shape, line)
+            self.chunk.add("curves", place, *row)
+            columns = [np.full(count, place), np.arange(1, count + 1), ratios, forces, slopes]
+            self.chunk.add_columns("points", count, columns)
+
+    def _laws(self) -> None:
+        scene = self.scene
+        followers = np.bincount(scene.laws.of_element + 1, minlength=len(scene.laws.set_laws) + 1)[1:].tolist()
+        for place, (law, elements) in enumerate(zip(scene.laws.set_laws, followers, strict=True), 1):
+            where = law.where
+            keyword = scene.deck.sections[where.section].blocks[where.block].keyword
+            kind, curve = _KINDS[law.kind], law.curve + 1 or None
+            held = len(law.set_.elements)
+            row = (keyword, law.family, kind, law.set_.name, curve, law.stiffness, held, elements, self._line(where))
+            self.chunk.add("laws", place, *row)
+
+    def _parameters(self) -> None:
+        if "PARAMETERS" not in self.deck.keywords("PREPROCESSOR"):
+            return
+        parameters = Parameters(self.deck)
+        varied = "VARIATION" in self.deck.keywords("PREPROCESSOR")
+        used = _names_in_equations(self.data)
+        for key, found in parameters.definitions.items():
+            value = parameters.values.get(key)
+            text = value if isinstance(value, str) else None
+            equation = str(found.value) if isinstance(found.value, Equation) else None
+            is_used = None if varied else key in used
+            amount = None if text is not None or value is None else float(value)
+            self.chunk.add("parameters", found.name, amount, text, equation, is_used, self._line(found.where))
+
+    def _results(self) -> None:
+        """What `evaluate` gives for the deck's own coordinates, without a second reading."""
+        try:
+            evaluation = evaluate_scene(self.scene)
+            watch = CaseWatch(evaluation)
+            for part in evaluation.parts():
+                watch.take(part)
+        except DeckError as error:
+            first = error.diagnostics[0]
+            self.chunk.add("results", "failed", f"line {first.line}: {first.code} {first.message}", *[None] * 11)
+            return
+        row = watch.summary("", (), None)
+        extent = (row.touchdown_from, row.touchdown_to, row.contact_length)
+        force = (row.largest_force, row.largest_force_element, row.largest_uplift, row.largest_uplift_element)
+        counts = (row.elements, row.in_contact)
+        self.chunk.add("results", row.verdict, row.reason, *counts, *extent, *force, row.reaction, row.ratio)
+
+
+def _checks() -> list[Any]:
+    """The rules whose findings say whether a deck is legal."""
+    return [one for one in rules() if isinstance(one.check, Noticed)]
+
+
+def _whole(ids: Any) -> Any:
+    """Numbers of nodes; None for those that are not known."""
+    return ids if ids.dtype == np.int64 else [None if math.isnan(one) else int(one) for one in ids.tolist()]
+
+
+def _middle(scene: Scene, ends: Any, known: Any) -> Any:
+    """The middle (m, 3) of the nodes of each element, NaN where one is not known."""
+    if not len(scene.node_ids):
+        return np.full((len(ends), 3), np.nan)
+    places = scene.coordinates[np.where(known, ends, 0)]
+    with np.errstate(all="ignore"):
+        found = (places[:, 0] + places[:, 1]) / 2.0
+    found[~known.all(axis=1)] = np.nan
+    return found
+
+
+def _sorted_points(entry: SceneCurve) -> tuple[Any, Any, Any]:
+    """Ratios, forces and slopes of a curve; the points as given and NaN for slopes where they make none."""
+    curve = entry.curve
+    if curve is not None:
+        return curve.ratios, curve.forces, np.append(curve.slopes, curve.slopes[-1])
+    ratios, forces = np.ascontiguousarray(entry.points.T)
+    return ratios, forces, np.full(len(ratios), np.nan)
+
+
+def _names_in_equations(data: bytes) -> set[str]:
+    """The words of the equations and the placeholders in a text."""
+    text = data.decode("utf-8", "replace")
+    found = (match[1] or match[2] for match in _EQUATION.finditer(text))
+    return {folded(word) for piece in found for word in (*_WORD.findall(piece), piece)}
+
+
+# ------------------------------------------------------------------------------------------------ digests of values
+
+
+def _number(data: bytes) -> int:
+    return int.from_bytes(blake2b(data, digest_size=8).digest()) >> 1
+
+
+def _digest(section: str, block: Any) -> int:
+    """A digest of what a block says: equal for equal values, whatever their layout and comments are."""
+    pieces = [section.encode(), block.keyword.encode()]
+    if type(block) is Opaque:
+        lines = (" ".join(line.split()) for line in block.lines if not re.match(r"C(\s|$)", line))
+        pieces += (line.encode("utf-8", "backslashreplace") for line in lines if line)
+    else:
+        pieces += _pieces(block.model_dump(exclude={"keyword"}, exclude_unset=True, context=AS_TABLES))
+    return _number(b"\0".join(pieces))
+
+
+def _pieces(value: object) -> Iterator[bytes]:
+    if isinstance(value, dict):
+        for key, item in value.items():
+            if key != "comments" and item is not None:
+                yield key.encode()
+                yield from _pieces(item)
+    elif isinstance(value, Listing):
+        yield value.table.values.tobytes()
+        yield repr(sorted(value.table.words.items())).casefold().encode("utf-8", "backslashreplace")
+    elif isinstance(value, list | tuple):
+        yield b"["
+        for item in cast("list[object]", value):
+            yield from _pieces(item)
+        yield b"]"
+    elif isinstance(value, str):
+        yield value.casefold().encode("utf-8", "backslashreplace")
+    elif isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
+        yield str(int(value)).encode()
+    else:
+        yield repr(value).encode()

@@ -1,0 +1,232 @@
+"""An archive in DuckDB: views over its Parquet files, locked so that a question reads nothing else.
+
+Deck text is never part of a statement: the statements here name tables, columns and files, whose names are digests.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import threading
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import duckdb
+
+from mudline.archive.store import VIEWS, Archive
+from mudline.archive.tables import DECK, FILES, STORED, TABLES, Column, Table
+
+BATCH = 100_000
+"""Rows of an answer that are fetched at once."""
+_TYPES = {"text": "VARCHAR", "whole": "BIGINT", "number": "DOUBLE", "flag": "BOOLEAN", "time": "TIMESTAMP"}
+_CONFIG = {
+    "autoinstall_known_extensions": "false",
+    "autoload_known_extensions": "false",
+    "allow_community_extensions": "false",
+    "python_enable_replacements": "false",
+    "errors_as_json": "true",
+    "temp_directory": "",
+}
+_PATIENCE = 5.0
+"""Seconds for a question to end that is interrupted."""
+_READING = ("SELECT", "EXPLAIN")
+_DISABLED = "file system operations are disabled"
+
+
+class QueryError(Exception):
+    """A question that cannot be answered: the message says why, and where in the SQL."""
+
+
+class MissingFileError(QueryError):
+    """A file of the archive is no longer there: another run has replaced it."""
+
+
+@dataclass
+class Database:
+    """An open archive that answers questions."""
+
+    connection: duckdb.DuckDBPyConnection
+
+    def ask(self, sql: str, parameters: Mapping[str, object] | None = None) -> Any:
+        """The answer as a pyarrow.RecordBatchReader; raises QueryError. Ctrl-C ends a long question."""
+        statement = self._checked(sql)
+        unknown = {name for name in parameters or {} if name not in statement.named_parameters}
+        if unknown:
+            raise QueryError(f"the SQL has no parameter ${min(unknown)}: remove it, or name it in the SQL")
+        missing = {name for name in statement.named_parameters if name not in (parameters or {})}
+        if missing:
+            raise QueryError(f"the parameter ${min(missing)} has no value: give --param {min(missing)}=VALUE")
+        given = dict(parameters) if parameters else None
+
+        def answer() -> Any:
+            with warnings.catch_warnings():
+                # A relation would spare a copy, and lack the place of an error in the SQL.
+                warnings.simplefilter("ignore", UserWarning)
+                return self.connection.execute(statement, given).to_arrow_reader(BATCH)
+
+        return self._interruptible(answer, sql)
+
+    def next_batch(self, reader: Any) -> Any:
+        """The next rows of an answer, None behind the last; raises QueryError."""
+
+        def read() -> Any:
+            try:
+                return reader.read_next_batch()
+            except StopIteration:
+                return None
+
+        return self._interruptible(read, "")
+
+    def _checked(self, sql: str) -> duckdb.Statement:
+        """The one statement of a text, which must only read; raises QueryError."""
+        try:
+            statements = self.connection.extract_statements(sql)
+        except duckdb.Error as error:
+            raise _explained(error, sql) from error
+        if len(statements) != 1:
+            raise QueryError(f"expected one SQL statement, found {len(statements)}: ask one question at a time")
+        kind = statements[0].type.name
+        if kind not in _READING or (kind == "EXPLAIN" and "analy" in sql.casefold()):
+            raise QueryError(f"a question only reads the archive: {kind} is not allowed; use SELECT")
+        return statements[0]
+
+    def _interruptible(self, work: Any, sql: str) -> Any:
+        """What a function returns in a thread, while this one waits for it or for Ctrl-C."""
+        made: list[Any] = []
+        failed: list[BaseException] = []
+
+        def run() -> None:
+            try:
+                made.append(work())
+            except BaseException as error:  # noqa: BLE001 - raised again by the thread that waits
+                failed.append(error)
+            done.set()
+
+        done = threading.Event()  # a thread whose `join` is interrupted is taken for ended
+        threading.Thread(target=run, daemon=True).start()
+        try:
+            while not done.wait(0.1):
+                pass
+        except KeyboardInterrupt:
+            self.connection.interrupt()
+            done.wait(_PATIENCE)
+            raise
+        if failed:
+            error = failed[0]
+            if isinstance(error, duckdb.Error | OSError):
+                raise _explained(error, sql) from error
+            raise error
+        return made[0]
+
+
+@contextmanager
+def opened(archive: Archive, memory: str, threads: int) -> Iterator[Database]:
+    """The archive's views in a database in memory that can read its files and nothing else, and write nothing.
+
+    The working folder is the archive's until the block ends: the views name files from there, so that it may be moved.
+    Raises QueryError for a size of memory that DuckDB does not know.
+    """
+    before = Path.cwd()
+    os.chdir(archive.folder)
+    try:
+        config: dict[str, Any] = {**_CONFIG, "memory_limit": memory}
+        if threads:
+            config["threads"] = threads
+        try:
+            connection = duckdb.connect(":memory:", config=config)
+        except duckdb.Error as error:
+            raise _explained(error, "") from error
+        try:
+            connection.execute("SET allowed_directories = ['.']")
+            try:
+                _create_views(connection, archive)
+            except duckdb.Error as error:
+                raise _explained(error, "") from error
+            connection.execute("SET enable_external_access = false")
+            connection.execute("SET lock_configuration = true")
+            yield Database(connection)
+        finally:
+            with suppress(duckdb.Error):  # it may still be busy with a question that was interrupted
+                connection.close()
+    finally:
+        os.chdir(before)
+
+
+def write_views(archive: Archive) -> None:
+    """Write the database of views anew, for a shell of DuckDB that is started in the folder. Raises OSError."""
+    target = (archive.folder / VIEWS).absolute()
+    temporary = target.with_name(f".{VIEWS}.{os.urandom(8).hex()}.mudline")
+    before = Path.cwd()
+    os.chdir(archive.folder)
+    try:
+        with duckdb.connect(str(temporary), config=dict(_CONFIG)) as connection:
+            _create_views(connection, archive)
+        temporary.replace(target)
+    except duckdb.Error as error:
+        raise OSError(f"the views cannot be written: {str(error).splitlines()[0]}") from error
+    finally:
+        os.chdir(before)
+        temporary.unlink(missing_ok=True)
+
+
+def _create_views(connection: duckdb.DuckDBPyConnection, archive: Archive) -> None:
+    """Create `stored.TABLE` over the files, and of each table the view of what holds, with the deck's file."""
+    connection.execute("CREATE SCHEMA stored")
+    for table in STORED:
+        names = ", ".join(f"'{path}'" for path in archive.paths(table.name))
+        rows = f"SELECT * FROM read_parquet([{names}])" if names else _nothing(table)  # noqa: S608 - names of ours
+        connection.execute(f"CREATE VIEW stored.{table.name} AS {rows}")
+    connection.execute(
+        f"CREATE VIEW stored.held AS SELECT * EXCLUDE (n) FROM (SELECT *, row_number() OVER "  # noqa: S608 - names of ours
+        f"(PARTITION BY file ORDER BY written DESC, deck DESC NULLS LAST) AS n FROM stored.{FILES.name}) "
+        "WHERE n = 1 AND deck IS NOT NULL"
+    )
+    first, *others = TABLES
+    about = (
+        "h.bytes, CASE WHEN h.modified >= 0 THEN make_timestamp(h.modified // 1000) END AS modified, "
+        "h.content AS digest"
+    )
+    connection.execute(
+        f"CREATE VIEW {first.name} AS SELECT h.file, {about}, d.* "  # noqa: S608 - as above
+        f"FROM stored.held AS h JOIN stored.{first.name} AS d USING (deck)"
+    )
+    for table in others:
+        connection.execute(
+            f"CREATE VIEW {table.name} AS SELECT h.file, t.* "  # noqa: S608 - as above
+            f"FROM stored.held AS h JOIN stored.{table.name} AS t USING (deck)"
+        )
+
+
+def _nothing(table: Table) -> str:
+    columns: list[Column] = [DECK, *table.columns]
+    values = ", ".join(f"CAST(NULL AS {_TYPES[column.kind]}) AS {column.name}" for column in columns)
+    return f"SELECT {values} WHERE false"
+
+
+def _explained(error: BaseException, sql: str) -> QueryError:
+    """An error of DuckDB in words of ours, with line and column of the SQL where it knows them."""
+    text = str(error)
+    start = text.find("{")
+    try:
+        found = json.loads(text[start:]) if start >= 0 else {}
+    except ValueError:
+        found = {}
+    message = " ".join(str(found.get("exception_message", text)).split())
+    kind = found.get("exception_type", "")
+    if kind == "Out of Memory" or isinstance(error, duckdb.OutOfMemoryException):
+        return QueryError("the question needs more memory than it may use: ask for less, or raise --memory-limit")
+    if kind == "IO" and "No files found" in message:
+        return MissingFileError(f"{message}: ask again")
+    if _DISABLED in message:
+        what = message.partition(" - ")[0]
+        message = f"{what}: a question reads the tables of the archive and nothing else"
+    position = str(found.get("position", ""))
+    if sql and position.isdigit():
+        before = sql.encode()[: int(position)].decode("utf-8", "replace")
+        line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
+        message = f"line {line}, column {column} of the SQL: {message}"
+    return QueryError(message)

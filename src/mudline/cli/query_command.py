@@ -1,0 +1,287 @@
+"""`mudline query`: questions to an archive, in SQL or by name; answers as a table, CSV, JSON or Parquet."""
+
+from __future__ import annotations
+
+import datetime as dt
+import decimal
+import json
+import math
+import re
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import AbstractContextManager, nullcontext
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, BinaryIO, TypeAlias
+
+import click
+
+from mudline.cli import DONE, WRONG_USAGE, options
+from mudline.cli.index_command import lacks_libraries
+from mudline.cli.streams import counted, emit, encoded, notify, writing
+from mudline.cli.view import View
+from mudline.files import suffix_of
+from mudline.keywords.text import suggestion
+from mudline.quantities import csv_lines
+
+if TYPE_CHECKING:
+    from mudline.archive.database import Database
+
+Arrow: TypeAlias = Any
+"""A reader, batch or type of pyarrow, which has no types; or a value that one holds."""
+MOST_ROWS = 40
+"""Rows of a table on the terminal, unless more is asked for."""
+_FORMATS = ("text", "csv", "json", "parquet")
+_SAFE = 2**53
+_WHOLE = re.compile(r"[+-]?[0-9]{1,18}")
+
+
+@click.command("query")
+@click.argument("archive", required=False, metavar="ARCHIVE", shell_complete=options.complete_files)
+@click.argument("sql", required=False, metavar="[SQL]")
+@click.option(
+    "--ask", is_flag=False, flag_value="", metavar="[NAME]", help="Ask a ready question; without a name, list them."
+)
+@click.option("--param", multiple=True, metavar="NAME=VALUE", help="The value of $NAME in the SQL. Repeatable.")
+@click.option("-o", "--output", metavar="OUT.csv|json|parquet", help="Write the answer to a file.")
+@options.output_format(*_FORMATS)
+@click.option(
+    "--memory-limit", default="2GB", show_default=True, metavar="SIZE", help="Memory that a question may use."
+)
+@click.option(
+    "--jobs", type=click.IntRange(min=0), default=0, metavar="N", help="Threads; 0 (default): one for each processor."
+)
+@options.common
+def command(
+    *,
+    archive: str | None,
+    sql: str | None,
+    ask: str | None,
+    param: tuple[str, ...],
+    output: str | None,
+    output_format: str,
+    memory_limit: str,
+    jobs: int,
+    view: View,
+) -> int:
+    """Answer a question about an archive of mudline index, in SQL.
+
+    The tables are decks, keywords, sets, elements, curves, points, laws, parameters, findings and results. A question
+    reads the archive and nothing else. Needs pip install 'mudline[archive]'.
+    """
+    if lacks_libraries("query"):
+        return WRONG_USAGE
+    if ask == "":
+        _list_questions(view)
+        return DONE
+    if archive is None:
+        raise click.UsageError("no archive: give the folder that mudline index wrote")
+    question, values = _question(sql, ask, param)
+    form = _form(output, output_format)
+    from mudline.archive.database import QueryError  # noqa: PLC0415 - an extra
+    from mudline.archive.store import ArchiveError  # noqa: PLC0415 - an extra
+
+    target = None if output is None else Path(output).absolute()
+    limits = (memory_limit, jobs)
+    try:
+        _answer(Path(archive), question, values, limits, partial(_deliver, form=form, target=target, view=view))
+    except (ArchiveError, QueryError) as error:
+        raise click.ClickException(str(error)) from error
+    if target is not None and not view.quiet:
+        notify(f"answer -> {output}")
+    return DONE
+
+
+Deliver = Callable[["Database", Arrow], None]
+"""What is done with an answer while the archive is open."""
+
+
+def _answer(
+    folder: Path, question: str, values: dict[str, object], limits: tuple[str, int], deliver: Deliver, tries: int = 3
+) -> None:
+    """Ask and deliver the answer; raises ArchiveError, QueryError, click.ClickException.
+
+    Where another run has just replaced the files, it is asked again.
+    """
+    from mudline.archive.database import MissingFileError, opened  # noqa: PLC0415 - an extra
+    from mudline.archive.store import Archive  # noqa: PLC0415 - an extra
+
+    archive = Archive.opened(folder)
+    if archive.damaged:
+        raise click.ClickException("\n".join(archive.damaged.values()))
+    reader = None
+    try:
+        with opened(archive, *limits) as database:
+            reader = database.ask(question, values)
+            deliver(database, reader)
+    except MissingFileError:
+        if tries <= 1 or reader is not None:
+            raise
+        _answer(folder, question, values, limits, deliver, tries - 1)
+
+
+def _deliver(database: Database, reader: Arrow, form: str, target: Path | None, view: View) -> None:
+    if target is not None:
+        _write(database, reader, form, target)
+    elif form == "text":
+        _print_table(database, reader, view)
+    else:
+        for piece in _pieces(database, reader, form):
+            emit([piece])
+
+
+def _list_questions(view: View) -> None:
+    from mudline.archive.questions import QUESTIONS  # noqa: PLC0415 - only here and where one is asked
+
+    rows = [
+        [one.name, one.answers, ", ".join(f"{name}={value:.6g}" for name, value in one.parameters.items())]
+        for one in QUESTIONS.values()
+    ]
+    columns = ("question", "answers", "parameters")
+    view.printer().table("Ready questions", columns, rows, left=columns, whole=("question",))
+
+
+def _question(sql: str | None, ask: str | None, param: tuple[str, ...]) -> tuple[str, dict[str, object]]:
+    """The SQL and its parameters; raises click.UsageError."""
+    given = {name: _value(text) for name, text in map(_split, param)}
+    if ask is None:
+        if sql is None or not sql.strip():
+            raise click.UsageError("no question: give SQL, or --ask NAME; --ask alone lists the ready questions")
+        return sql, given
+    if sql is not None:
+        raise click.UsageError("SQL and --ask exclude each other: give one of them")
+    from mudline.archive.questions import QUESTIONS  # noqa: PLC0415 - only here and where they are listed
+
+    question = QUESTIONS.get(ask)
+    if question is None:
+        near = suggestion(ask, QUESTIONS)
+        raise click.UsageError(f"no ready question is called {ask!r}{near}: --ask alone lists them")
+    if unknown := sorted(given.keys() - question.parameters.keys()):
+        known = ", ".join(question.parameters)
+        raise click.UsageError(f"--ask {ask} has no parameter {unknown[0]!r}: it has {known}")
+    return question.sql, {**question.parameters, **given}
+
+
+def _split(text: str) -> tuple[str, str]:
+    name, sign, value = text.partition("=")
+    if not (sign and name.strip()):
+        raise click.UsageError(f"--param {text!r}: expected NAME=VALUE")
+    return name.strip(), value
+
+
+def _value(text: str) -> object:
+    """A number where the text is one."""
+    if _WHOLE.fullmatch(text):
+        return int(text)
+    try:
+        number = float(text)
+    except ValueError:
+        return text
+    return number if math.isfinite(number) else text
+
+
+def _form(output: str | None, output_format: str) -> str:
+    """The format of the answer; raises click.UsageError."""
+    if output is None:
+        if output_format == "parquet":
+            raise click.UsageError("Parquet is no text: give -o OUT.parquet")
+        return output_format
+    found = suffix_of(output)
+    if found not in _FORMATS[1:]:
+        raise click.UsageError(f"{output}: unknown file format: give a name ending in .csv, .json or .parquet")
+    return found
+
+
+# ----------------------------------------------------------------------------------------------------------- answers
+
+
+def _batches(database: Database, reader: Arrow) -> Iterator[Arrow]:
+    while (batch := database.next_batch(reader)) is not None:
+        yield batch
+
+
+def _print_table(database: Database, reader: Arrow, view: View) -> None:
+    """Print the first rows, all of them with -v."""
+    columns = tuple(reader.schema.names)
+    rows: list[tuple[Arrow, ...]] = []
+    count = 0
+    for batch in _batches(database, reader):
+        count += batch.num_rows
+        part = batch if view.verbose else batch.slice(0, max(MOST_ROWS - len(rows), 0))
+        rows += zip(*(column.to_pylist() for column in part.columns), strict=True)
+    left = [name for name, kind in zip(columns, reader.schema.types, strict=True) if not _is_number(kind)]
+    note = f"{counted(count - len(rows), 'more row')}: -v shows all" if count > len(rows) else counted(count, "row")
+    cells = [[_cell(value) for value in row] for row in rows]
+    view.printer().table("Answer", columns, cells, left=left, note=note)
+
+
+def _is_number(kind: Arrow) -> bool:
+    return str(kind).startswith(("int", "uint", "double", "float", "decimal"))
+
+
+def _cell(value: Arrow) -> str | int | float | None:
+    """A value as a cell of a table or of CSV."""
+    plain = _plain(value)
+    if isinstance(plain, bool):
+        return "true" if plain else "false"
+    if plain is None or isinstance(plain, str | int | float):
+        return plain
+    return json.dumps(plain, ensure_ascii=False)
+
+
+def _plain(value: Arrow) -> Arrow:
+    """A value as JSON has it; None for NaN and infinite numbers."""
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, Mapping):
+        return {str(name): _plain(item) for name, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    return value if value is None or isinstance(value, str | int) else _spelled(value)
+
+
+def _spelled(value: Arrow) -> str | int | float:
+    """A value of a type that JSON lacks."""
+    if isinstance(value, decimal.Decimal):
+        whole = value == value.to_integral_value()
+        return int(value) if whole and abs(value) < _SAFE else float(value)
+    if isinstance(value, dt.date | dt.time):
+        return value.isoformat()
+    return value.hex() if isinstance(value, bytes) else str(value)
+
+
+def _pieces(database: Database, reader: Arrow, form: str) -> Iterator[str]:
+    """The answer as text in pieces."""
+    columns = list(reader.schema.names)
+    if form == "csv":
+        yield from csv_lines([columns])
+        for batch in _batches(database, reader):
+            values = [column.to_pylist() for column in batch.columns]
+            yield from csv_lines([_cell(value) for value in row] for row in zip(*values, strict=True))
+        return
+    mark = "["
+    for batch in _batches(database, reader):
+        values = [column.to_pylist() for column in batch.columns]
+        for row in zip(*values, strict=True):
+            content = dict(zip(columns, map(_plain, row), strict=True))
+            yield f"{mark}\n {json.dumps(content, ensure_ascii=False, allow_nan=False)}"
+            mark = ","
+    yield "[]\n" if mark == "[" else "\n]\n"
+
+
+def _write(database: Database, reader: Arrow, form: str, target: Path) -> None:
+    """Write the answer to a file, which is whole or not there."""
+    with writing(target) as stream, _parquet(reader, stream, form) as writer:
+        if writer is None:
+            stream.writelines(encoded(piece) for piece in _pieces(database, reader, form))
+        else:
+            for batch in _batches(database, reader):
+                writer.write_batch(batch)
+
+
+def _parquet(reader: Arrow, stream: BinaryIO, form: str) -> AbstractContextManager[Any]:
+    if form != "parquet":
+        return nullcontext()
+    import pyarrow.parquet as pq  # noqa: PLC0415 - an extra
+
+    writer: AbstractContextManager[Any] = pq.ParquetWriter(stream, reader.schema)
+    return writer

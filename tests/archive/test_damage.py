@@ -1,0 +1,203 @@
+"""What is killed, damaged, of another version, or no archive at all."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import signal
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from mudline.archive import compaction
+from mudline.archive.store import FORMAT, Archive
+from tests.archive.trial import contents, deck, index, summary, write
+from tests.cli.runner import run
+from tests.processes import TIMEOUT, started
+
+SLOW = """
+import sys, time
+from mudline.__main__ import main
+from mudline.archive import updating
+from mudline.cli import index_command
+updating.DECKS = index_command._DECKS = 4
+plain = updating.read_decks
+def slow(orders):
+    time.sleep(0.03)
+    return plain(orders)
+updating.read_decks = slow
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+@pytest.fixture
+def decks(tmp_path: Path) -> Path:
+    return write(tmp_path / "decks", a=deck("a"), b=deck("b", depth=600.0))
+
+
+@pytest.fixture
+def archive(decks: Path, tmp_path: Path) -> Path:
+    index(decks, archive=tmp_path / "archive")
+    return tmp_path / "archive"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
+def test_a_killed_run_loses_nothing(tmp_path: Path) -> None:
+    folder = write(tmp_path / "decks", **{f"d{i:03}": deck(f"d{i}", depth=100.0 + i) for i in range(40)})
+    killed, whole = tmp_path / "killed", tmp_path / "whole"
+    words = ["index", str(folder), "-o", str(killed), "--isolated", "--jobs", "1"]
+    with started("-c", SLOW, *words) as running:
+        end = time.monotonic() + TIMEOUT
+        while len(list(killed.glob("batches/*.json"))) < 3:
+            assert time.monotonic() < end
+            assert running.process.poll() is None
+            time.sleep(0.01)
+        running.process.send_signal(signal.SIGKILL)
+        running.process.wait(TIMEOUT)
+    counts = summary(index(folder, archive=killed))
+    again = int(counts.partition(": ")[2].split()[0])
+    assert counts == f"40 decks: {again} new, {40 - again} unchanged"
+    assert again <= 40 - 8
+    index(folder, archive=whole)
+    assert contents(killed) == contents(whole)
+    assert not list(killed.rglob("*.mudline"))
+
+
+def test_a_run_that_is_killed_between_files_and_manifest_is_tidied(archive: Path, decks: Path) -> None:
+    left = archive / "data" / "decks-00112233445566778899aabbccddeeff.parquet"
+    views = archive / ".archive.duckdb.0011223344556677.mudline"
+    left.write_bytes(b"left")
+    views.write_bytes(b"left")
+    index(decks, archive=archive)
+    assert left.exists()
+    os.utime(views, (1.0, 1.0))
+    os.utime(left, (1.0, 1.0))
+    index(decks, archive=archive)
+    assert not left.exists()
+    assert not views.exists()
+
+
+def some_file(archive: Path, table: str) -> Path:
+    (found,) = archive.glob(f"data/{table}-*.parquet")
+    return found
+
+
+@pytest.mark.parametrize("table", ["decks", "files", "points"])
+def test_a_file_cut_short_is_named_and_its_decks_are_read_again(archive: Path, decks: Path, table: str) -> None:
+    before = contents(archive)
+    path = some_file(archive, table)
+    path.write_bytes(path.read_bytes()[:-50])
+    outcome = run("query", archive, "SELECT 1")
+    assert outcome.code == 2
+    assert f"{path.as_posix()} has " in outcome.err
+    assert "mudline index reads its decks again" in outcome.err
+    outcome = index(decks, archive=archive)
+    assert path.name in outcome.err
+    assert summary(outcome) == "2 decks: 2 new"
+    assert contents(archive) == before
+
+
+def test_a_missing_file_is_named(archive: Path, decks: Path) -> None:
+    before = contents(archive)
+    path = some_file(archive, "laws")
+    path.unlink()
+    outcome = run("query", archive, "SELECT 1")
+    assert outcome.code == 2
+    assert f"{path.as_posix()} is missing" in outcome.err
+    index(decks, archive=archive)
+    assert contents(archive) == before
+
+
+def test_a_file_that_changed_without_its_size_is_found_by_check(archive: Path, decks: Path) -> None:
+    before = contents(archive)
+    path = some_file(archive, "elements")
+    data = bytearray(path.read_bytes())
+    data[40] ^= 255
+    path.write_bytes(data)
+    assert summary(index(decks, archive=archive)) == "2 decks: 2 unchanged"
+    outcome = index(decks, "--check", archive=archive)
+    assert f"{path.name} has changed since it was written" in outcome.err
+    assert summary(outcome) == "2 decks: 2 new"
+    assert contents(archive) == before
+
+
+def test_damage_that_a_question_meets_is_an_error(archive: Path) -> None:
+    path = some_file(archive, "curves")
+    path.write_bytes(b"x" * path.stat().st_size)
+    outcome = run("query", archive, "SELECT count(name) FROM curves")
+    assert outcome.code == 2
+    assert path.name in outcome.err
+    assert "Traceback" not in outcome.err
+
+
+def test_a_damaged_manifest_is_named(archive: Path, decks: Path) -> None:
+    before = contents(archive)
+    (path,) = archive.glob("batches/*.json")
+    path.write_bytes(path.read_bytes()[:-5])
+    outcome = run("query", archive, "SELECT 1")
+    assert outcome.code == 2
+    assert f"{path.as_posix()} is damaged" in outcome.err
+    assert summary(index(decks, archive=archive)) == "2 decks: 2 new"
+    assert not path.exists() or path.read_bytes()[-1:] == b"}"
+    assert contents(archive) == before
+
+
+def test_another_version_is_refused_and_stays(archive: Path, decks: Path) -> None:
+    (archive / "archive.json").write_text(json.dumps({"format": "mudline-archive/99"}), encoding="utf-8")
+    before = sorted(archive.rglob("*"))
+    for outcome in (run("query", archive, "SELECT 1"), index(decks, archive=archive)):
+        assert outcome.code == 2
+        assert f"has the format 'mudline-archive/99', this mudline reads {FORMAT!r}" in outcome.err
+    assert sorted(archive.rglob("*")) == before
+
+
+def test_what_is_no_archive(tmp_path: Path, decks: Path) -> None:
+    (tmp_path / "file").write_text("x", encoding="utf-8")
+    for name, words in (
+        ("nowhere", "nowhere does not exist"),
+        ("decks", "decks has no archive.json, so it is not an archive"),
+        ("file", "file is a file, not an archive"),
+    ):
+        outcome = run("query", tmp_path / name, "SELECT 1")
+        assert (outcome.code, words in outcome.err) == (2, True), outcome.err
+    outcome = index(decks, archive=decks)
+    assert outcome.code == 2
+    assert "has other files and is not an archive: give a new or empty folder" in outcome.err
+    assert index(decks, archive=tmp_path / "file").code == 2
+    (tmp_path / "empty").mkdir()
+    assert summary(index(decks, archive=tmp_path / "empty")) == "2 decks: 2 new"
+
+
+def test_the_views_can_be_made_again(archive: Path, decks: Path) -> None:
+    (archive / "archive.duckdb").unlink()
+    index(decks, archive=archive)
+    assert (archive / "archive.duckdb").exists()
+
+
+def test_the_views_work_in_the_folder_also_when_it_has_moved(
+    archive: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    duckdb = pytest.importorskip("duckdb")
+    moved = tmp_path / "it's [moved] here"
+    shutil.move(archive, moved)
+    monkeypatch.chdir(moved)
+    with duckdb.connect("archive.duckdb", read_only=True) as connection:
+        assert connection.execute("SELECT count(*), count(DISTINCT file) FROM curves").fetchall() == [(2, 2)]
+
+
+def test_batches_replaced_by_a_killed_run_are_left_out(archive: Path, decks: Path) -> None:
+    before = contents(archive)
+    saved = {path: path.read_bytes() for path in archive.rglob("*.json")}
+    opened = Archive.opened(archive)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(compaction, "MOST_SMALL", 1)
+        compaction.compact(opened)
+    assert all(path.exists() for path in saved)
+    assert len(list(archive.glob("batches/*.json"))) == 2
+    assert contents(archive) == before
+    index(decks, archive=archive)
+    assert len(list(archive.glob("batches/*.json"))) == 1
+    assert contents(archive) == before

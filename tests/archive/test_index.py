@@ -1,0 +1,277 @@
+"""Bringing decks into an archive: what is read, what is known, and what is dropped."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+from pathlib import Path
+
+import pytest
+
+from mudline.archive import compaction, updating
+from mudline.archive.known import looked
+from mudline.archive.store import Archive
+from mudline.archive.updating import Update, read_decks
+from mudline.linting.engine import LintSettings
+from mudline.linting.registry import select
+from tests.archive.trial import ask, contents, deck, index, summary, write
+from tests.cli.runner import run
+
+
+@pytest.fixture
+def decks(tmp_path: Path) -> Path:
+    return write(tmp_path / "decks", a=deck("a"), b=deck("b", depth=600.0), c=deck("c", curve="Sand", force=900.0))
+
+
+@pytest.fixture
+def archive(tmp_path: Path) -> Path:
+    return tmp_path / "archive"
+
+
+def files(archive: Path) -> list[str]:
+    return [row["file"] for row in ask(archive, "SELECT file FROM decks ORDER BY file")]
+
+
+def settled(folder: Path) -> None:
+    """The decks are old enough for their dates to be trusted."""
+    for path in folder.rglob("*.*"):
+        os.utime(path, ns=(10**18, 10**18))
+
+
+def test_values_of_a_deck(decks: Path, archive: Path) -> None:
+    assert summary(index(decks, archive=archive)) == "3 decks: 3 new"
+    row = ask(archive, "SELECT * FROM decks WHERE file = $file", "--param", "file=decks/a.keyxm")[0]
+    expected = {
+        "verdict": "legal",
+        "units": "metric",
+        "nodes": 3,
+        "elements": 2,
+        "sets": 1,
+        "curves": 1,
+        "depth": 500.0,
+    }
+    assert {name: row[name] for name in expected} == expected
+    assert (row["keywords"], row["sections"], row["length"]) == (7, 1, 10.0)
+    assert row["bytes"] == (decks / "a.keyxm").stat().st_size
+
+
+def test_curves_points_laws_and_elements(decks: Path, archive: Path) -> None:
+    index(decks, archive=archive)
+    where = "WHERE file = 'decks/a.keyxm'"
+    curve = ask(archive, f"SELECT name, points, steepest, elements, line FROM curves {where}")  # noqa: S608
+    assert curve == [{"name": "Clay", "points": 3, "steepest": 12000.0, "elements": 1, "line": 20}]
+    points = ask(archive, f"SELECT ratio, force, slope FROM points {where} ORDER BY point")  # noqa: S608
+    assert points[0] == {"ratio": 0.0, "force": 0.0, "slope": 12000.0}
+    assert points[2] == {"ratio": 0.5, "force": 3000.0, "slope": 4500.0}
+    laws = ask(archive, f'SELECT kind, family, "set", elements, stiffness, line FROM laws {where} ORDER BY law')  # noqa: S608
+    assert laws[0] == {"kind": "linear", "family": "new", "set": "ALL", "elements": 1, "stiffness": 50000.0, "line": 27}
+    assert (laws[1]["kind"], laws[1]["set"], laws[1]["elements"], laws[1]["stiffness"]) == ("curve", "TDZ", 1, None)
+    elements = ask(archive, f"SELECT element, node1, node2, z, law, diameter FROM elements {where} ORDER BY element")  # noqa: S608
+    assert elements[1] == {"element": 2, "node1": 2, "node2": 3, "z": 0.0, "law": "linear", "diameter": 0.5}
+
+
+def test_results_are_those_of_evaluate(decks: Path, archive: Path) -> None:
+    index(decks, archive=archive)
+    (row,) = ask(archive, "SELECT * FROM results WHERE file = 'decks/a.keyxm'")
+    (found,) = [
+        one for one in run("evaluate", decks, "--output-format", "json").json() if one["deck"].endswith("a.keyxm")
+    ]
+    names = (set(row) & set(found)) - {"deck"}
+    assert {name: row[name] for name in names} == {name: found[name] for name in names}
+    assert row["in_contact"] == 2
+    assert row["contact_length"] == 10.0
+
+
+def test_findings_are_those_of_lint(tmp_path: Path, archive: Path) -> None:
+    folder = write(tmp_path / "decks", bad=deck().replace("1025.0", "1O25.0"), warned=deck(force=-5.0))
+    index(folder, archive=archive)
+    order = "ORDER BY file, line, start_column, code"
+    found = ask(archive, f"SELECT file, code, severity, message, line, start_column FROM findings {order}")  # noqa: S608
+    linted = run("lint", folder, "--isolated", "--output-format", "json").json()
+    assert len(linted) > 1
+    assert [(Path(one["file"]).name, *list(one.values())[1:]) for one in found] == [
+        (Path(one["file"]).name, *(one[key] for key in ("code", "severity", "message", "line", "column")))
+        for one in linted
+    ]
+    verdicts = {row["file"]: row["verdict"] for row in ask(archive, "SELECT file, verdict FROM decks")}
+    assert verdicts == {"decks/bad.keyxm": "illegal", "decks/warned.keyxm": "legal"}
+
+
+def test_parameters_and_sets(tmp_path: Path, archive: Path) -> None:
+    head = "$PREPROCESSOR\n*PARAMETERS\n sea, 400.0\n idle, 3.0\n twice, =[2*sea]\n"
+    folder = write(tmp_path / "decks", a=head + deck().replace("500.0,", "=[twice],"))
+    index(folder, archive=archive)
+    rows = ask(archive, "SELECT name, value, equation, used FROM parameters ORDER BY line")
+    assert [tuple(row.values()) for row in rows] == [
+        ("sea", 400.0, None, True),
+        ("idle", 3.0, None, False),
+        ("twice", 800.0, "=[2*sea]", True),
+    ]
+    assert ask(archive, "SELECT depth FROM decks") == [{"depth": 800.0}]
+    (row,) = ask(archive, "SELECT * EXCLUDE (deck) FROM sets")
+    assert row == {
+        "file": "decks/a.keyxm",
+        "name": "TDZ",
+        "elements": 1,
+        "first": 1,
+        "last": 1,
+        "complete": True,
+        "used": True,
+        "line": 18,
+    }
+
+
+def test_unchanged_decks_are_not_read(decks: Path, archive: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    settled(decks)
+    index(decks, archive=archive)
+    before = sorted(path.name for path in archive.rglob("*"))
+    monkeypatch.setattr(updating, "read_decks", None)
+    monkeypatch.setattr("mudline.cli.inputs.Input.read", None)
+    assert summary(index(decks, archive=archive)) == "3 decks: 3 unchanged"
+    assert sorted(path.name for path in archive.rglob("*")) == before
+
+
+def test_a_new_date_costs_a_look_at_the_content(decks: Path, archive: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    index(decks, archive=archive)
+    settled(decks)
+    monkeypatch.setattr(updating, "read_decks", None)
+    assert summary(index(decks, archive=archive)) == "3 decks: 3 unchanged"
+
+
+def test_changed_moved_copied_and_gone_decks(decks: Path, archive: Path) -> None:
+    index(decks, archive=archive)
+    write(decks, a=deck("a", depth=700.0))
+    (decks / "b.keyxm").rename(decks / "moved.keyxm")
+    assert summary(index(decks, archive=archive)) == "3 decks: 1 changed, 1 moved, 1 unchanged"
+    assert files(archive) == ["decks/a.keyxm", "decks/c.keyxm", "decks/moved.keyxm"]
+    assert ask(archive, "SELECT depth FROM decks ORDER BY file") == [
+        {"depth": 700.0},
+        {"depth": 500.0},
+        {"depth": 600.0},
+    ]
+    shutil.copy(decks / "c.keyxm", decks / "copy.keyxm")
+    (decks / "a.keyxm").unlink()
+    assert summary(index(decks, archive=archive)) == "3 decks: 1 new, 2 unchanged, 1 gone"
+    assert files(archive) == ["decks/c.keyxm", "decks/copy.keyxm", "decks/moved.keyxm"]
+    assert len(ask(archive, "SELECT * FROM curves WHERE name = 'Sand'")) == 2
+
+
+def test_a_change_of_the_same_size_and_date_needs_check(decks: Path, archive: Path) -> None:
+    settled(decks)
+    index(decks, archive=archive)
+    write(decks, a=deck("a", depth=700.0))
+    settled(decks)
+    assert summary(index(decks, archive=archive)) == "3 decks: 3 unchanged"
+    assert summary(index(decks, "--check", archive=archive)) == "3 decks: 1 changed, 2 unchanged"
+
+
+def test_a_deck_that_is_continued_counts(tmp_path: Path, archive: Path) -> None:
+    folder = write(tmp_path / "decks", base=deck())
+    write(folder, next="$LOAD CASE\n*RESTART\n LAST=base\n*NO FRICTION\n")
+    index(folder, archive=archive)
+    settled(folder)
+    index(folder, archive=archive)
+    write(folder, base=deck(depth=900.0))
+    found = summary(index(folder, archive=archive))
+    assert found == "2 decks: 2 changed"
+
+
+def test_only_what_lies_below_the_paths_is_dropped(decks: Path, tmp_path: Path, archive: Path) -> None:
+    other = write(tmp_path / "other", x=deck("x"))
+    index(decks, other, archive=archive)
+    (decks / "a.keyxm").unlink()
+    (other / "x.keyxm").unlink()
+    write(other, y=deck("y", depth=1.0))
+    assert summary(index(decks, archive=archive)) == "2 decks: 2 unchanged, 1 gone"
+    assert "other/x.keyxm" in files(archive)
+    assert summary(index(decks, "--prune", archive=archive)) == "2 decks: 2 unchanged, 1 gone"
+    assert files(archive) == ["decks/b.keyxm", "decks/c.keyxm"]
+
+
+def test_a_deck_that_is_no_longer_found_is_dropped(decks: Path, archive: Path) -> None:
+    index(decks, archive=archive)
+    (decks / ".gitignore").write_text("a.keyxm\n", encoding="utf-8")
+    (decks.parent / ".git").mkdir()
+    assert summary(index(decks, archive=archive)) == "2 decks: 2 unchanged, 1 gone"
+
+
+def test_other_settings_read_the_decks_again(decks: Path, archive: Path) -> None:
+    index(decks, archive=archive)
+    assert summary(index(decks, "--units", "imperial", archive=archive)) == "3 decks: 3 changed"
+    assert ask(archive, "SELECT DISTINCT units FROM decks") == [{"units": "imperial"}]
+
+
+def test_decks_that_cannot_be_read_stay_and_set_the_exit_code(decks: Path, archive: Path) -> None:
+    index(decks, archive=archive)
+    outcome = index(decks, decks / "nothing.keyxm", archive=archive)
+    assert outcome.code == 2
+    assert "nothing.keyxm: no such file" in outcome.err
+    assert len(files(archive)) == 3
+
+
+def test_json_and_what_is_no_deck_at_all(decks: Path, archive: Path) -> None:
+    run("convert", decks / "a.keyxm", "-o", decks / "d.json")
+    (decks / "e.json").write_text('{"format": "mudline-deck/1", "sections": 3}', encoding="utf-8")
+    assert summary(index(decks, archive=archive)) == "5 decks: 5 new"
+    rows = ask(archive, "SELECT file, verdict, curves FROM decks WHERE file LIKE '%.json' ORDER BY file")
+    assert [tuple(row.values()) for row in rows] == [("decks/d.json", "legal", 1), ("decks/e.json", "illegal", 0)]
+    assert ask(archive, "SELECT code FROM findings WHERE file = 'decks/e.json'") == [{"code": "DOC002"}]
+    same = ask(
+        archive, "SELECT count(DISTINCT content) AS n FROM decks WHERE file IN ('decks/a.keyxm', 'decks/d.json')"
+    )
+    assert same == [{"n": 1}]
+
+
+def test_standard_input_has_no_place(archive: Path) -> None:
+    outcome = index("-", archive=archive)
+    assert outcome.code == 2
+    assert "standard input has no place in an archive" in outcome.err
+
+
+def test_many_small_batches_become_one(decks: Path, archive: Path, tmp_path: Path) -> None:
+    for number in range(compaction.MOST_SMALL + 2):
+        write(decks, a=deck("a", depth=100.0 + number))
+        if number == 3:
+            (decks / "c.keyxm").unlink()
+        index(decks, archive=archive)
+    assert len(list((archive / "batches").glob("*.json"))) < compaction.MOST_SMALL
+    fresh = tmp_path / "fresh"
+    index(decks, archive=fresh)
+    assert contents(archive) == contents(fresh)
+    assert summary(index(decks, archive=archive)) == "2 decks: 2 unchanged"
+
+
+def test_a_copy_whose_original_moves_to_another_batch_stays(
+    decks: Path, archive: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    index(decks, archive=archive)
+    shutil.copy(decks / "a.keyxm", decks / "copy.keyxm")
+    index(decks, archive=archive)
+    link = max((archive / "batches").glob("*.json"), key=lambda path: path.stat().st_mtime_ns)
+    sizes = {path.stem: json.loads(path.read_bytes())["files"] for path in (archive / "batches").glob("*.json")}
+    large = sum(row[2] for row in sizes[link.stem].values())
+    monkeypatch.setattr(compaction, "MOST_SMALL", 1)
+    monkeypatch.setattr(compaction, "SMALL", large + 1)
+    write(decks, b=deck("b", depth=601.0))
+    index(decks, archive=archive)
+    assert files(archive) == ["decks/a.keyxm", "decks/b.keyxm", "decks/c.keyxm", "decks/copy.keyxm"]
+    assert ask(archive, "SELECT count(*) AS n FROM curves WHERE name = 'Clay'") == [{"n": 3}]
+
+
+def test_two_writers_at_the_same_time(decks: Path, archive: Path, tmp_path: Path) -> None:
+    settings = LintSettings(select())
+    writers = [Update(Archive.made(archive)) for _ in range(2)]
+    for name in ("a", "b", "c"):
+        for writer in writers:
+            path = decks / f"{name}.keyxm"
+            order = writer.order(str(path), path.read_bytes(), looked(str(path)), settings)
+            assert order is not None
+            writer.take(read_decks([order]))
+            writer.flush()
+    for writer in writers:
+        writer.finish()
+    fresh = tmp_path / "fresh"
+    index(decks, archive=fresh)
+    assert contents(archive) == contents(fresh)
+    assert summary(index(decks, archive=archive)) == "3 decks: 3 unchanged"
