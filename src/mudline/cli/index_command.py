@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING
 import click
 
 from mudline.cli import DONE, WRONG_USAGE, options
-from mudline.cli.configured import Given
 from mudline.cli.inputs import Inputs, collect_any_form
 from mudline.cli.lint_run import SettingsOf, checked_settings
 from mudline.cli.processes import Effort, pays, pool, submitted
 from mudline.cli.streams import counted, notify, notify_missing, reason
 from mudline.cli.view import Progress, View, wants_bar
+from mudline.linting.settings import Given
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
