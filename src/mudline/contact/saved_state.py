@@ -34,7 +34,7 @@ def restored_state(arrays: Mapping[str, NDArray[Any]], initial: ContactState, no
     Raises ValueError where the arrays are not those of a model like this, of so many nodes.
     """
     expected = {name: array.shape for name, array in state_arrays(initial).items()}
-    expected |= {name: (nodes, 3) for name in ("positions", "laid")}
+    expected |= dict.fromkeys(("positions", "laid"), (nodes, 3))
     found = {name: array.shape for name, array in arrays.items()}
     if found != expected:
         raise ValueError(f"the state holds {found}, expected {expected}")
