@@ -37,7 +37,11 @@ _PAUSE = 0.05
 
 
 class Row(NamedTuple):
-    """What a run took; `peak_mb` is the memory of all its processes together, in 10^6 bytes, shared pages twice."""
+    """What a run took.
+
+    `peak_mb` is the memory of all its processes together, in 10^6 bytes, shared pages twice; `load` the mean number of
+    processes that were running or waiting in the minute before, on a machine with `processors`.
+    """
 
     scene: str
     processes: int
@@ -48,6 +52,8 @@ class Row(NamedTuple):
     seconds: float
     cpu_seconds: float
     peak_mb: float
+    load: float
+    processors: int
     kind: str
 
 
@@ -121,9 +127,12 @@ def rows_of(sizes: Sequence[int], folder: Path) -> list[Row]:
         for scene, processes in _CASES:
             deck = folder / f"{scene.replace(' ', '-')}.keyxm"
             deck.write_text(decks[scene], encoding="utf-8")
+            busy = os.getloadavg()[0], os.cpu_count() or 1
             taken = measured(deck, series, processes)
             file = series.stat().st_size / 1e6
-            found[scene, processes].append(Row(scene, processes, nodes * steps, nodes, steps, file, *taken, "measured"))
+            found[scene, processes].append(
+                Row(scene, processes, nodes * steps, nodes, steps, file, *taken, *busy, "measured")
+            )
         series.unlink()
     return [row for rows in found.values() for row in (*rows, extrapolated(rows[-1], PLANNED))]
 

@@ -187,7 +187,7 @@ def test_a_stopped_run_goes_on(
 
 
 KILLED = """
-import os, signal, sys
+import multiprocessing, os, signal, sys
 from mudline.__main__ import main
 from mudline.cli import evaluate_series, processes
 from mudline.results.checkpoint import Checkpoint
@@ -200,7 +200,7 @@ def counted(checkpoint, reached):
     write(checkpoint, reached)
     saved.append(reached.done)
     if reached.done > 350:
-        print(reached.done, flush=True)
+        print(reached.done, *(one.pid for one in multiprocessing.active_children()), flush=True)
         os.kill(os.getpid(), signal.SIGKILL)
 
 Checkpoint.write = counted
@@ -218,8 +218,10 @@ def test_a_killed_run_goes_on(place: Place, folder: Path, deck: str) -> None:
     whole = files(folder)
     (folder / "out.json").unlink()
     with started("-c", KILLED, *given) as running:
-        done = int(running.out.readline())
+        done, *workers = map(int, running.out.readline().split())
         assert running.process.wait(TIMEOUT) == -9
+        assert running.out.read() == b""  # the processes that it had started have ended too
+    assert len(workers) == (2 if deck == CLEAN else 0)
     assert list(files(folder)) == ["out.json.unfinished"]
     assert f"goes on at step {done} of 700" in run(*given).err
     assert files(folder) == whole
