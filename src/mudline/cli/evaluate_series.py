@@ -148,7 +148,7 @@ def _write(tables: Tables, options: SeriesOptions) -> dict[str, Path]:
     with ExitStack() as stack:
         streams = [stack.enter_context(writing(one)) for one in paths.values()]
         form.write_tables(tables, streams, path.parent)
-    return dict(reversed(paths.items()))
+    return {**{table: paths[table] for table in paths if table != first}, first: path}
 
 
 # ------------------------------------------------------------------------------------------- on what results depend
