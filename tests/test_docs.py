@@ -37,6 +37,7 @@ JSON = {
         "evaluate -q samples/full-cycle.keyxm --positions samples/full-cycle.csv",
         "evaluate -q samples/slope-friction.keyxm --positions samples/slope-friction.csv",
     ),
+    "series": ("evaluate -q samples/scr-touchdown.keyxm --positions samples/positions.csv --summary-only",),
     "cases": ("evaluate -q samples", "evaluate -q samples --positions samples/{name}.csv"),
     "diff": (
         "diff samples/parametric.keyxm samples/variations.keyxm",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import cast
 
 import click
@@ -57,9 +57,27 @@ from mudline.results.panels import ANIMATIONS, PICTURES
     help="Form of the files of several decks; without it Parquet, or NPZ where pyarrow is not installed.",
 )
 @click.option(
-    "--jobs", type=click.IntRange(min=0), default=0, help="Processes for several decks; 0: one for each processor."
+    "--jobs",
+    type=click.IntRange(min=0),
+    default=0,
+    help="Processes for several decks, or for --summary-only; 0: one for each processor.",
 )
-@click.option("--no-cache", is_flag=True, help="Evaluate every deck again, whatever -o DIR holds from before.")
+@click.option(
+    "--no-cache",
+    is_flag=True,
+    help="Evaluate every deck again, whatever -o DIR holds from before; with --summary-only begin anew.",
+)
+@click.option(
+    "--summary-only",
+    is_flag=True,
+    help="Of a long series only extremes with their times, counts and envelopes; a run that was stopped goes on.",
+)
+@click.option(
+    "--chunk",
+    type=click.IntRange(min=1),
+    metavar="STEPS",
+    help="Steps that a process of --summary-only evaluates at a time.",
+)
 @click.option(
     "--plot",
     "picture",
@@ -102,6 +120,8 @@ def command(
     form: str | None,
     jobs: int,
     no_cache: bool,
+    summary_only: bool,
+    chunk: int | None,
     positions: str | None,
     columns: tuple[str, ...],
     time_step: float | None,
@@ -129,10 +149,11 @@ def command(
     """
     inputs = EvaluateInputs(cast("Tension", tension), elements, time_step, read_headings(columns))
     inputs.check(positions)
+    _check_chunk(chunk, summary_only=summary_only)
     if _are_many(decks):
         from mudline.cli.evaluate_many import ManyOptions, evaluate_many  # noqa: PLC0415 - one deck starts quicker
 
-        _refuse_options_of_one()
+        _refuse_options(_OF_ONE, "is for one deck: give a single file")
         form = form or ("parquet" if is_installed("parquet") else "npz")
         if output is not None and not has_library(form):
             return FOUND
@@ -140,10 +161,13 @@ def command(
             raise click.UsageError(options.CSV_ONLY)
         many = ManyOptions(inputs, units, positions, output, form, output_format, fail_on, spreadsheet, jobs, no_cache)
         return evaluate_many(collect(decks, gitignore=not every_file), many, view)
-    if form is not None:
-        raise click.UsageError("--form is for several decks: the suffix of -o gives the form of the results of one")
-    if spreadsheet and "csv" not in (output_format, suffix_of(output or "")):
-        raise click.UsageError(options.CSV_ONLY)
+    _check_one(form, (output_format, suffix_of(output or "")), spreadsheet=spreadsheet)
+    if summary_only:
+        from mudline.cli.evaluate_series import SeriesOptions, evaluate_series  # noqa: PLC0415 - others start quicker
+
+        _refuse_options(_OF_STEPS, "is not for --summary-only: leave one of them out")
+        series = SeriesOptions(output, table, output_format, spreadsheet, fail_on, chunk, jobs, no_cache)
+        return evaluate_series(GivenDeck(decks[0], stdin_name, units), inputs, positions, series, view)
     wanted = Pictures.asked_for(picture, animate, panels, plot_elements, option="--plot")
     outputs = Outputs(output, wanted, against, table, output_format, spreadsheet, fail_on)
     if not outputs.have_libraries():
@@ -155,15 +179,29 @@ def command(
     return evaluate_one(deck, inputs, positions, outputs, view)
 
 
-_OF_ONE = {
+def _check_one(form: str | None, written: Sequence[str], *, spreadsheet: bool) -> None:
+    """Refuse options about forms that do not fit one deck; raises click.UsageError."""
+    if form is not None:
+        raise click.UsageError("--form is for several decks: the suffix of -o gives the form of the results of one")
+    if spreadsheet and "csv" not in written:
+        raise click.UsageError(options.CSV_ONLY)
+
+
+def _check_chunk(chunk: int | None, *, summary_only: bool) -> None:
+    if chunk is not None and not summary_only:
+        raise click.UsageError("--chunk is for --summary-only: add it")
+
+
+_OF_STEPS = {
     "against": "--against",
     "picture": "--plot",
     "panels": "--panels",
     "plot_elements": "--plot-elements",
     "animate": "--animate",
     "plan_only": "--plan",
-    "table": "--table",
 }
+"""Options of one deck that need the results of single steps, or none."""
+_OF_ONE = {**_OF_STEPS, "table": "--table", "summary_only": "--summary-only"}
 
 
 def _are_many(decks: Sequence[str]) -> bool:
@@ -173,9 +211,9 @@ def _are_many(decks: Sequence[str]) -> bool:
     return len(decks) > 1 or os.path.isdir(decks[0])  # noqa: PTH112 - Path raises for a name that is too long
 
 
-def _refuse_options_of_one() -> None:
-    """Raise click.UsageError for an option that was given and that several decks cannot have."""
+def _refuse_options(names: Mapping[str, str], why: str) -> None:
+    """Raise click.UsageError for one of these options that was given."""
     context = click.get_current_context()
-    for name, option in _OF_ONE.items():
+    for name, option in names.items():
         if context.get_parameter_source(name) is not ParameterSource.DEFAULT:
-            raise click.UsageError(f"{option} is for one deck: give a single file")
+            raise click.UsageError(f"{option} {why}")

@@ -8,8 +8,6 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-import numpy as np
-
 from mudline.cli import DONE, FOUND
 from mudline.cli.evaluate_inputs import EvaluateInputs, read_file
 from mudline.cli.evaluate_text import print_comparison, print_evaluation, print_plan
@@ -25,14 +23,13 @@ from mudline.cli.result_files import (
 from mudline.cli.streams import MOST_REPORTED, counted, emit, emit_json, notify
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.contact import LawKind
-from mudline.contact.result import Part
 from mudline.deck.model import Deck
 from mudline.quantities import csv_lines
 from mudline.results.against import Comparison, read_reference
 from mudline.results.evaluation import Evaluation, Prepared
 from mudline.results.forms import ResultConsumer, Sink, Together, plan_rows, text_form
 from mudline.results.plot_data import PlotData
-from mudline.results.totals import StepSummary
+from mudline.results.totals import SlowSuction, StepSummary
 from mudline.results.warnings import ContactWarning, ContactWatch, caption
 from mudline.short_repr import listed_numbers
 
@@ -66,12 +63,12 @@ def evaluate_one(deck: Deck, inputs: EvaluateInputs, positions: str | None, outp
     comparison = None if reference is None else Comparison(evaluation, reference)
     drawing = outputs.pictures.data(partial(PlotData.of_evaluation, evaluation))
     if not view.quiet:
-        _notify_before(evaluation, comparison)
+        notify_before(evaluation, comparison)
     shown = "" if output else output_format
     most = None if view.verbose else MOST_ROWS
     digest = StepSummary(evaluation, most, outputs.table == "nodes") if shown == "text" else None
     lines = line_watch(evaluation, shown or form_of_file(output), most)
-    slow, watch = _SlowSuction(), ContactWatch.of(evaluation)
+    slow, watch = SlowSuction(), ContactWatch.of(evaluation)
     given = (comparison, drawing, digest, lines, slow, watch)
     consumers: list[ResultConsumer] = [one for one in given if one is not None]
     with _sink(evaluation, comparison, outputs, view) as sink:
@@ -81,7 +78,7 @@ def evaluate_one(deck: Deck, inputs: EvaluateInputs, positions: str | None, outp
     if drawing is not None:
         outputs.pictures.draw(drawing, caption(warnings), view)
     if not view.quiet:
-        _notify_warnings(warnings)
+        notify_warnings(warnings)
         _notify_after(evaluation, slow, watch.note(), Path(output) if output else None)
     if digest is not None and lines is not None:
         print_evaluation(digest, lines, outputs.table, view)
@@ -129,7 +126,7 @@ def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer], view: View
 # ----------------------------------------------------------------------------------------------------------- notes
 
 
-def _notify_before(evaluation: Evaluation, comparison: Comparison | None) -> None:
+def notify_before(evaluation: Evaluation, comparison: Comparison | None) -> None:
     """Report what is left out, and what is guessed."""
     missing = len(evaluation.present) - len(evaluation.nodes)
     if missing:
@@ -144,24 +141,7 @@ def _notify_before(evaluation: Evaluation, comparison: Comparison | None) -> Non
         _notify_unmatched(comparison)
 
 
-class _SlowSuction:
-    """Counts the steps at which suction is pulled at velocities below REGULARISATION."""
-
-    def __init__(self) -> None:
-        self.steps = 0
-        self.element: int | None = None
-
-    def take(self, part: Part) -> None:
-        """Look at some steps."""
-        slow = part.result.regularised
-        if slow is None or not slow.any():
-            return
-        self.steps += int(slow.any(axis=1).sum())
-        if self.element is None:
-            self.element = int(np.argwhere(slow)[0, 1])
-
-
-def _notify_warnings(warnings: Sequence[ContactWarning]) -> None:
+def notify_warnings(warnings: Sequence[ContactWarning]) -> None:
     """Report what is doubtful in the results."""
     for one in warnings[:MOST_REPORTED]:
         notify(f"warning: {one}")
@@ -169,19 +149,24 @@ def _notify_warnings(warnings: Sequence[ContactWarning]) -> None:
         notify(f"{len(warnings) - MOST_REPORTED} more warnings: JSON has all")
 
 
-def _notify_after(evaluation: Evaluation, slow: _SlowSuction, note: str, written: Path | None) -> None:
+def _notify_after(evaluation: Evaluation, slow: SlowSuction, note: str, written: Path | None) -> None:
     """Report which positions these are, where suction is less than its power law gives, and the files written."""
     if note:
         notify(note)
-    if slow.element is not None:
-        number = int(evaluation.scene.element_ids[slow.element])
-        when = f"at {slow.steps} of {counted(evaluation.steps, 'step')}, element {number} first"
-        notify(f"suction is pulled slower than REGULARISATION {when}: the force there is less than alpha v^n")
+    notify_slow(evaluation, slow)
     if written is None:
         return
     for table, file in beside(written).items():
         notify(f"{table} -> {file.as_posix()}")
     notify(f"{evaluation.scene.deck.file} -> {written.as_posix()}")
+
+
+def notify_slow(evaluation: Evaluation, slow: SlowSuction) -> None:
+    """Report where suction is less than its power law gives."""
+    if slow.element is not None:
+        number = int(evaluation.scene.element_ids[slow.element])
+        when = f"at {slow.steps} of {counted(evaluation.steps, 'step')}, element {number} first"
+        notify(f"suction is pulled slower than REGULARISATION {when}: the force there is less than alpha v^n")
 
 
 def _notify_unmatched(comparison: Comparison) -> None:

@@ -71,6 +71,14 @@ def print_evaluation(digest: StepSummary, lines: LineWatch, which: str, view: Vi
     printer.table(f"{which.capitalize()} in contact", columns, shown_rows[: digest.most], left=_LEFT, note=note)
 
 
+def print_series(digest: StepSummary, lines: LineWatch, view: View) -> None:
+    """Print the largest of all steps, and between which values the figures of the lines were."""
+    printer = view.printer()
+    printer.line(f"{_title(digest.evaluation)}, {digest.evaluation.steps} steps")
+    _print_peaks(printer, digest)
+    _print_extents(printer, lines)
+
+
 def _no_law(evaluation: Evaluation) -> bool:
     """Whether nothing acts on any of the elements: none has a law, a nodal spring or suction."""
     scene = evaluation.scene

@@ -44,7 +44,7 @@ class KnownResults:
         start = blake2b(digest_size=KEY)
         for part in (program(), options):
             start.update(part.encode("utf-8", "surrogateescape"))
-        for path in _plugins():
+        for path in plugins_in_use():
             start.update(f"{path} {state(path)}".encode("utf-8", "surrogateescape"))
         self._start = start.digest()
 
@@ -111,7 +111,8 @@ class KnownResults:
         return os.path.abspath(self._folder / path)  # noqa: PTH100 - links stay what they are called
 
 
-def _plugins() -> tuple[str, ...]:
+def plugins_in_use() -> tuple[str, ...]:
+    """The files of plugins; none where they cannot be used."""
     try:
         return plugin_files()
     except PluginError:

@@ -69,9 +69,9 @@ class Progress:
     ) -> None:
         self.hide()
 
-    def advance(self) -> None:
-        """Count one more step."""
-        self._done += 1
+    def advance(self, steps: int = 1) -> None:
+        """Count one more step, or several."""
+        self._done += steps
         if monotonic() >= self._due:
             self._bar = self._bar or self._view.bar(self._total)
             self._bar.draw(self._done)

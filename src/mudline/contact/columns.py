@@ -87,6 +87,21 @@ class Table(ABC):
     def columns(self, part: Part) -> list[Column]:
         """Return the columns of the contract, then others."""
 
+    @abstractmethod
+    def facts(self) -> list[Column]:
+        """Return the columns that no step changes."""
+
+    def _facts(
+        self, quantities: Mapping[str, Quantity], values: Mapping[str, Values], names: Mapping[str, Names]
+    ) -> list[Column]:
+        return [
+            Column(
+                name, values[name], names.get(name, ()), over_steps=False, unit=quantities[name].unit_name(self.units)
+            )
+            for name in quantities
+            if name in values
+        ]
+
     def _columns(
         self,
         quantities: Mapping[str, Quantity],
@@ -149,6 +164,10 @@ class ElementTable(Table):
         others = () if self._others is None else self._others(part)
         return found + [Column(name, kept(values, self._chosen)) for name, values in others]
 
+    def facts(self) -> list[Column]:
+        """Return the columns that no step changes, and the law, also of elements whose curve is cut at some steps."""
+        return self._facts(ELEMENTS, {**self._fixed, "law": self._laws}, self._names)
+
     def _law(self, result: ContactResult) -> Values:
         if not self._may_cut:
             return self._laws
@@ -181,6 +200,10 @@ class NodeTable(Table):
             "lateral_state": codes_of(lateral_state, chosen),
         }
         return self._columns(NODES, values, result)
+
+    def facts(self) -> list[Column]:
+        """Return the columns that no step changes."""
+        return self._facts(NODES, self._fixed, {})
 
     def _normal(self, normal: Values) -> Values:
         """One row of nodes where all points of the seabed share a normal."""

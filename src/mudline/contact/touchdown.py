@@ -223,6 +223,10 @@ class LineTable(Table):
             for name, quantity in LINES.items()
         ]
 
+    def facts(self) -> list[Column]:
+        """Return the columns that no step changes."""
+        return self._facts(LINES, self._fixed, {})
+
     def _values(self, one: LineSeries, result: ContactResult) -> dict[str, Values]:
         given, lines = self.finder.given, self.finder.lines
         ids = np.append(given.element_ids, NO_ELEMENT)

@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.contact import ContactModel, ElementError, PositionError
+from mudline.contact import ContactModel, ContactState, ElementError, PositionError
 from mudline.contact.columns import ElementTable, NodeTable, Others
 from mudline.contact.result import Part
 from mudline.contact.touchdown import LineTable
@@ -101,12 +101,27 @@ class Evaluation:
 
         Raises DeckError: a position that is not finite, a value that overflows.
         """
-        clock = self.time if self.model.input.has("suction") else None
         with as_deck_errors(self.scene):
             for part in self.model.stream(
-                self.positions, present=self.present, velocities=self.velocities, times=clock
+                self.positions, present=self.present, velocities=self.velocities, times=self._clock
             ):
-                yield part if self.time is None else Part(part.start, replace(part.result, times=self.time[part.steps]))
+                yield self._timed(part)
+
+    def resumed(self, steps: range, state: ContactState | None = None) -> Iterator[tuple[Part, ContactState]]:
+        """Evaluate some steps behind a state, as `ContactModel.resume` does. Raises what `parts` does."""
+        with as_deck_errors(self.scene):
+            for part, behind in self.model.resume(
+                self.positions, steps, state, present=self.present, velocities=self.velocities, times=self._clock
+            ):
+                yield self._timed(part), behind
+
+    @property
+    def _clock(self) -> Floats | None:
+        """The times of the steps, where a law asks for velocities."""
+        return self.time if self.model.input.has("suction") else None
+
+    def _timed(self, part: Part) -> Part:
+        return part if self.time is None else Part(part.start, replace(part.result, times=self.time[part.steps]))
 
 
 def evaluate_scene(scene: Scene, positions: Positions | None = None, tension: Tension = "keep") -> Evaluation:

@@ -5,6 +5,7 @@ Memory does not grow with the number of steps, but for the figures of the steps 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -105,7 +106,7 @@ def _step(evaluation: Evaluation, time: float, result: ContactResult) -> StepTot
         last,
         _deepest(result.depth[chosen]),
         reaction(evaluation, result),
-        None if result.state is None else int(np.isin(result.state, _HELD).sum()),
+        None if result.state is None else int(np.isin(result.state, HELD).sum()),
         _slipping(result),
     )
 
@@ -141,7 +142,8 @@ def acted_on(evaluation: Evaluation, result: ContactResult) -> Indices:
 
 _AT_NODES = ("nodal", "rigid")
 """Laws without a force per unit length."""
-_HELD = (STATES.index("suction"), STATES.index("hold"))
+HELD = (STATES.index("suction"), STATES.index("hold"))
+"""States of an element above the seabed that suction may hold."""
 
 
 def counts(states: NDArray[np.int8], names: Names) -> list[tuple[str, int]]:
@@ -247,3 +249,32 @@ class StepSummary:
             if before is None or sizes[step] > (abs(before.value) if name == "force" else before.value):
                 element = None if elements is None else int(self.evaluation.scene.element_ids[elements[step]])
                 self.peaks[name] = Peak(float(values[step]), part.start + step, element)
+
+
+class SlowSuction:
+    """Counts the steps at which suction is pulled at velocities below REGULARISATION."""
+
+    def __init__(self) -> None:
+        self.steps = 0
+        self.element: int | None = None
+        """The index of the first element."""
+
+    def take(self, part: Part) -> None:
+        """Look at some steps."""
+        slow = part.result.regularised
+        if slow is None or not slow.any():
+            return
+        self.steps += int(slow.any(axis=1).sum())
+        if self.element is None:
+            self.element = int(np.argwhere(slow)[0, 1])
+
+    def kept(self) -> dict[str, NDArray[np.int64]]:
+        """What it knows, as arrays."""
+        return {"found": np.array([self.steps, -1 if self.element is None else self.element], np.int64)}
+
+    def add(self, kept: Mapping[str, NDArray[np.int64]]) -> None:
+        """Take what another one kept of later steps."""
+        steps, element = kept["found"].tolist()
+        self.steps += steps
+        if self.element is None and element >= 0:
+            self.element = element

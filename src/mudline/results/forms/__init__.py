@@ -2,8 +2,8 @@
 
 A module is a form by being here: `SUMMARY` says in the documentation what is in a file, `opened(output)` is a context
 with the `Sink` that writes it, `BESIDE` names the tables that go to files of their own, and `read(path)` is what a file
-holds, as `Stored`. Results come a few steps at
-a time and are written as they come: a long series is never in memory as text.
+holds, as `Stored`; `write_tables(tables, streams, folder)` writes tables without steps. Results come a few steps at a
+time and are written as they come: a long series is never in memory as text.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from pydantic_core import to_json
 from mudline.contact import Plan
 from mudline.contact.columns import Column, Table, Values
 from mudline.contact.result import Part
+from mudline.quantities import finite
 from mudline.results.evaluation import Evaluation
 from mudline.results.stored import StoredTable
 from mudline.scene.csv_file import data_error
@@ -97,6 +98,21 @@ class Output:
         }
 
 
+@dataclass(frozen=True, slots=True)
+class Tables:
+    """Tables that are whole, by their names: flat columns (rows,) without steps.
+
+    `format` is the name and the version of their form, `more` what JSON has besides them. `as_text`: no name in CSV is
+    a formula for a spreadsheet.
+    """
+
+    columns: Mapping[str, Sequence[Column]]
+    format: str
+    units: str
+    more: More
+    as_text: bool = False
+
+
 def form_names() -> list[str]:
     """Return the name of every form, found without importing one."""
     return sorted(found.name for found in iter_modules(__path__))
@@ -130,6 +146,16 @@ def form_module(name: str) -> ModuleType:
     return import_module(f"{__name__}.{name}")
 
 
+def plain_values(column: Column) -> list[Any]:
+    """The values of a flat column (rows,) as those of Python; None for no value."""
+    values: list[Any] = column.values.tolist()
+    if column.names:
+        return [column.names[code] for code in values]
+    if column.blank is not None:
+        return [None if value == column.blank else value for value in values]
+    return [finite(value) for value in values] if column.values.dtype.kind == "f" else values
+
+
 # ----------------------------------------------------------------------------------------------------- rows as text
 
 
@@ -140,6 +166,12 @@ def text_form(name: str, *, as_text: bool = False) -> Callable[[Evaluation, Tabl
     """
     made = cast("Callable[..., Sink]", form_module(name).Text)
     return partial(made, as_text=True) if as_text else made
+
+
+def tables_as_text(tables: Tables, name: str, table: str) -> Iterator[str]:
+    """The text of tables as "json", or of one of them as "csv"."""
+    found: Iterator[str] = form_module(name).tables_text(tables, table)
+    return found
 
 
 def text_into(stream: BinaryIO) -> Write:

@@ -6,8 +6,9 @@ import csv
 import re
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext, suppress
-from itertools import islice
+from itertools import chain, islice
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 
@@ -21,9 +22,11 @@ from mudline.results.forms import (
     Output,
     Sink,
     Spelling,
+    Tables,
     Together,
     Write,
     batched,
+    plain_values,
     step_rows,
     tables_of,
     text_into,
@@ -48,6 +51,21 @@ def opened(output: Output) -> AbstractContextManager[Sink]:
     pairs = zip(output.tables.values(), output.streams, strict=True)
     made = [Text(output.evaluation, table, text_into(stream), as_text=output.as_text) for table, stream in pairs]
     return nullcontext(Together(made))
+
+
+def write_tables(tables: Tables, streams: Sequence[BinaryIO], folder: Path) -> None:
+    """Write a file for each table."""
+    del folder
+    for table, stream in zip(tables.columns, streams, strict=True):
+        text_into(stream)(tables_text(tables, table))
+
+
+def tables_text(tables: Tables, table: str) -> Iterator[str]:
+    """The lines of a table, with a column `units` at the end."""
+    columns = tables.columns[table]
+    rows = zip(*map(plain_values, columns), strict=True)
+    head = [[*(column.name for column in columns), "units"]]
+    return csv_lines(chain(head, ((*row, tables.units) for row in rows)), as_text=tables.as_text)
 
 
 def read(path: Path) -> Stored:

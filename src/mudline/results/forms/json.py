@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from functools import partial
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, BinaryIO, NoReturn
 
 import numpy as np
 
@@ -17,7 +17,20 @@ from mudline.contact.result import Part
 from mudline.diagnostics import DeckError
 from mudline.quantities import QUANTITIES, RESULT_FORMAT
 from mudline.results.evaluation import Evaluation
-from mudline.results.forms import More, Output, Row, Sink, Spelling, Write, batched, plan_rows, step_rows, text_into
+from mudline.results.forms import (
+    More,
+    Output,
+    Row,
+    Sink,
+    Spelling,
+    Tables,
+    Write,
+    batched,
+    plain_values,
+    plan_rows,
+    step_rows,
+    text_into,
+)
 from mudline.results.stored import (
     TABLES,
     Stacked,
@@ -40,6 +53,25 @@ _SPELLING = Spelling(partial(json.dumps, ensure_ascii=False), "null")
 def opened(output: Output) -> AbstractContextManager[Sink]:
     """What takes the results."""
     return nullcontext(Text(output.evaluation, output.elements, text_into(output.streams[0])))
+
+
+def write_tables(tables: Tables, streams: Sequence[BinaryIO], folder: Path) -> None:
+    """Write one document, a row of a table on a line."""
+    del folder
+    text_into(streams[0])(tables_text(tables))
+
+
+def tables_text(tables: Tables, table: str = "") -> Iterator[str]:
+    """The document, with all tables."""
+    del table
+    yield f'{{"format": {_dumped(tables.format)},\n "units": {_dumped(tables.units)}'
+    yield from (f',\n "{name}": {_dumped(value)}' for name, value in tables.more.items())
+    for name, columns in tables.columns.items():
+        rows = zip(*map(plain_values, columns), strict=True)
+        names = [column.name for column in columns]
+        yield f',\n "{name}": '
+        yield from _list((_dumped(dict(zip(names, row, strict=True))) for row in rows), "  ")
+    yield "}\n"
 
 
 class Text:

@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 import zipfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryFile
-from typing import IO, Any
+from typing import IO, Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mudline.contact.columns import Column, Values
-from mudline.contact.frames import array_name
+from mudline.contact.frames import array_name, spelled
 from mudline.contact.result import Part
 from mudline.quantities import QUANTITIES, RESULT_FORMAT
-from mudline.results.forms import More, Output, Sink
+from mudline.results.forms import More, Output, Sink, Tables
 from mudline.results.stored import TABLES, Stacked, Stored, StoredTable, array_column, checked_format, checked_units
 from mudline.scene.csv_file import data_error
 from mudline.scene.npz_file import read_npz
@@ -72,6 +72,19 @@ class NpzArchive:
             for name, text in (("units", self._output.elements.units), ("format", RESULT_FORMAT)):
                 word = np.array(text)
                 _pack(archive, name, word.dtype, word.shape, [word])
+
+
+def write_tables(tables: Tables, streams: Sequence[BinaryIO], folder: Path) -> None:
+    """Write an archive with the name of the table before that of each column."""
+    del folder
+    words = {"units": tables.units, "format": tables.format}
+    arrays = {
+        f"{table}_{column.name}": spelled(column) for table, columns in tables.columns.items() for column in columns
+    }
+    arrays |= {name: np.array(text) for name, text in words.items()}
+    with zipfile.ZipFile(streams[0], "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
+        for name, array in arrays.items():
+            _pack(archive, name, array.dtype, array.shape, [array])
 
 
 def read(path: Path) -> Stored:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager
 from functools import partial
 from pathlib import Path
@@ -17,7 +17,7 @@ from mudline.contact.frames import FORMAT_KEY, UNITS_KEY, arrow_of
 from mudline.contact.result import Part
 from mudline.quantities import Kind
 from mudline.results.evaluation import Evaluation
-from mudline.results.forms import More, Output, Sink, Together, tables_of
+from mudline.results.forms import More, Output, Sink, Tables, Together, tables_of
 from mudline.results.stored import (
     Stacked,
     Stored,
@@ -83,6 +83,15 @@ class ParquetFile:
             self._writer = self._writer or pq.ParquetWriter(self._stream, group.schema, compression="zstd")
             self._writer.write_table(group, row_group_size=max(len(group), 1))
             self._waiting = []
+
+
+def write_tables(tables: Tables, streams: Sequence[BinaryIO], folder: Path) -> None:
+    """Write a file for each table."""
+    del folder
+    for columns, stream in zip(tables.columns.values(), streams, strict=True):
+        table = arrow_of(list(columns), 1, {}, tables.units)
+        named = table.replace_schema_metadata({**table.schema.metadata, FORMAT_KEY: tables.format})
+        pq.write_table(named, stream, compression="zstd")
 
 
 def read(path: Path) -> Stored:

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from datetime import UTC, datetime
 from functools import partial
 from itertools import chain, islice
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
 import xlsxwriter
@@ -21,7 +22,7 @@ from mudline.contact.result import Part
 from mudline.diagnostics import DeckError
 from mudline.quantities import RESULT_FORMAT, Kind, time_unit
 from mudline.results.evaluation import Evaluation
-from mudline.results.forms import More, Output, Sink
+from mudline.results.forms import More, Output, Sink, Tables
 from mudline.results.stored import (
     TABLES,
     Stored,
@@ -53,6 +54,8 @@ _NARROW, _WIDE = 10, 40
 _BLOCK = 4096
 """Rows written at a time."""
 
+_CREATED = datetime(2000, 1, 1, tzinfo=UTC)
+"""The date in a workbook of tables, which says nothing."""
 _FORMAT, _UNITS = "mudline.format", "mudline.units"
 """Properties of the workbook."""
 
@@ -76,8 +79,34 @@ def opened(output: Output) -> Iterator[Sink]:
 def _require_place(evaluation: Evaluation, name: str, table: Table) -> None:
     rows = evaluation.steps * table.rows
     if rows > MOST_ROWS - _HEADINGS:
-        what = f"{rows} rows of {name}: a sheet of a workbook holds {MOST_ROWS - _HEADINGS}; write .parquet instead"
-        raise evaluation.scene.refusal(what)
+        raise evaluation.scene.refusal(_too_many(rows, name))
+
+
+def _too_many(rows: int, name: str) -> str:
+    return f"{rows} rows of {name}: a sheet of a workbook holds {MOST_ROWS - _HEADINGS}; write .parquet instead"
+
+
+def write_tables(tables: Tables, streams: Sequence[BinaryIO], folder: Path) -> None:
+    """Write a sheet for each table; the same tables give the same bytes. Raises OSError, DeckError."""
+    with TemporaryDirectory(prefix=".mudline-", dir=folder, ignore_cleanup_errors=True) as temporary:
+        book = xlsxwriter.Workbook(streams[0], {"tmpdir": temporary})
+        book.set_properties({"created": _CREATED})
+        book.set_custom_property(_FORMAT, tables.format)
+        book.set_custom_property(_UNITS, tables.units)
+        formats = _formats(book)
+        for name, columns in tables.columns.items():
+            rows = len(columns[0].values)
+            if rows > MOST_ROWS - _HEADINGS:
+                raise data_error(name, _too_many(rows, name))
+            sheet = book.add_worksheet(name, worksheet_class=_Sheet)
+            _head(sheet, columns, formats, frozen=1)
+            cells = [_cells(column, 0, slice(None)) for column in columns]
+            for row, values in enumerate(zip(*cells, strict=True), _HEADINGS):
+                _write_row(sheet, row, values)
+        try:
+            book.close()
+        except XlsxWriterException as error:
+            raise OSError(str(error)) from error
 
 
 class Workbook:
@@ -92,7 +121,7 @@ class Workbook:
         book.use_zip64()
         book.set_custom_property(_FORMAT, RESULT_FORMAT)
         book.set_custom_property(_UNITS, output.elements.units)
-        self._bold, self._plain = book.add_format({"bold": True}), book.add_format({"italic": True})
+        self._formats = _formats(book)
         self._sheets = {name: book.add_worksheet(name, worksheet_class=_Sheet) for name in self._tables}
         self._rows = dict.fromkeys(self._tables, _HEADINGS)
 
@@ -104,7 +133,7 @@ class Workbook:
                 times = np.repeat(self._times[part.steps, np.newaxis], table.rows, axis=1)
                 flat.insert(0, Column("time", times, unit=time_unit(table.units)))
             if part.start == 0:
-                self._head(self._sheets[name], flat)
+                _head(self._sheets[name], flat, self._formats, frozen=1 + (self._times is not None))
             cells = chain.from_iterable(
                 zip(*(_cells(column, step, block) for column in flat), strict=True)
                 for step in range(part.count)
@@ -122,15 +151,22 @@ class Workbook:
         except XlsxWriterException as error:
             raise OSError(str(error)) from error
 
-    def _head(self, sheet: Any, columns: Sequence[Column]) -> None:  # noqa: ANN401 - as above
-        for place, column in enumerate(columns):
-            longest = max((len(name) for name in column.names if name), default=_NARROW)
-            sheet.set_column(place, place, min(max(_NARROW, len(column.name), longest) + 2, _WIDE))
-            sheet.write_string(0, place, column.name, self._bold)
-        for place, column in enumerate(columns):
-            if column.unit:
-                sheet.write_string(1, place, f"[{column.unit}]", self._plain)
-        sheet.freeze_panes(_HEADINGS, 1 + (self._times is not None))
+
+def _formats(book: Any) -> tuple[Any, Any]:  # noqa: ANN401 - as above
+    """The formats of names and of units."""
+    return book.add_format({"bold": True}), book.add_format({"italic": True})
+
+
+def _head(sheet: Any, columns: Sequence[Column], formats: tuple[Any, Any], *, frozen: int) -> None:  # noqa: ANN401
+    """Write names and units, which stay in sight as so many columns do."""
+    for place, column in enumerate(columns):
+        longest = max((len(name) for name in column.names if name), default=_NARROW)
+        sheet.set_column(place, place, min(max(_NARROW, len(column.name), longest) + 2, _WIDE))
+        sheet.write_string(0, place, column.name, formats[0])
+    for place, column in enumerate(columns):
+        if column.unit:
+            sheet.write_string(1, place, f"[{column.unit}]", formats[1])
+    sheet.freeze_panes(_HEADINGS, frozen)
 
 
 class _Sheet(Worksheet):  # type: ignore[misc] # xlsxwriter has no types

@@ -1,0 +1,224 @@
+"""What is kept of a long series: extremes of elements, nodes and lines with their steps, counts, the largest totals.
+
+Memory does not grow with the number of steps. What was kept of some steps and of those behind them adds up to what one
+run keeps of all, bit for bit: extremes and whole numbers do not depend on where the steps are cut.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mudline.contact.columns import kept
+from mudline.contact.result import ContactResult, Part
+from mudline.contact.touchdown import Touchdown
+from mudline.quantities import SLIDING, STEPS
+from mudline.results.evaluation import Evaluation
+from mudline.results.lines import FOLLOWED, Extent, LineWatch
+from mudline.results.totals import HELD, Peak, SlowSuction, StepSummary, traces
+from mudline.results.warnings import ContactWatch
+from mudline.scene.numbering import Floats, Indices
+
+Arrays = Mapping[str, NDArray[Any]]
+
+FIGURES = {
+    "elements": ("force", "depth", "stiffness"),
+    "nodes": ("gap", "normal_force", "axial_force", "lateral_force"),
+    "summary": FOLLOWED,
+}
+"""Figures whose extremes are kept, by table."""
+COUNTS = {
+    "elements": ("contact_steps", "suction_steps"),
+    "nodes": ("contact_steps", "slip_steps"),
+    "summary": ("contact_steps", "touchdown_steps"),
+}
+"""Numbers of steps that are counted, by table."""
+
+
+class Extremes:
+    """The least and the largest value of columns (k,) over steps, and the steps where they were first.
+
+    Infinite values and the step -1 stand for none.
+    """
+
+    def __init__(self, columns: int) -> None:
+        self.least, self.largest = np.full(columns, np.inf), np.full(columns, -np.inf)
+        self.least_step, self.largest_step = (np.full(columns, -1, np.int64) for _ in range(2))
+
+    def take(self, start: int, values: Floats) -> None:
+        """Look at the values (steps, k) of the steps `start` and on; NaN is none."""
+        low, high = np.fmin.reduce(values, axis=0), np.fmax.reduce(values, axis=0)
+        for found, better, value, step in (
+            (low, low < self.least, self.least, self.least_step),
+            (high, high > self.largest, self.largest, self.largest_step),
+        ):
+            column = np.flatnonzero(better)
+            if column.size:
+                row = (values[:, column] == found[column]).argmax(axis=0)
+                value[column], step[column] = values[row, column], start + row
+
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """Return all that is kept, by name."""
+        return dict(vars(self))
+
+    def add(self, later: Arrays) -> None:
+        """Take the arrays of later steps."""
+        for side, better in (("least", later["least"] < self.least), ("largest", later["largest"] > self.largest)):
+            for name in (side, f"{side}_step"):
+                getattr(self, name)[better] = later[name][better]
+
+
+class _Peaks:
+    """The largest of each figure of `STEPS` over steps: value, step and index of the element; -1 for none."""
+
+    def __init__(self) -> None:
+        self.rank, self.value = np.full(len(STEPS), -np.inf), np.full(len(STEPS), np.nan)
+        self.step, self.element = (np.full(len(STEPS), -1, np.int64) for _ in range(2))
+
+    def take(self, part: Part) -> None:
+        """Look at some steps."""
+        found = traces(part)
+        for place, name in enumerate(STEPS):
+            values, elements = found[name]
+            ranked = np.where(np.isnan(values), -np.inf, np.abs(values) if name == "force" else values)
+            row = int(ranked.argmax())
+            if ranked[row] > self.rank[place]:
+                self.rank[place], self.value[place], self.step[place] = ranked[row], values[row], part.start + row
+                self.element[place] = -1 if elements is None else elements[row]
+
+    def add(self, later: Arrays) -> None:
+        """Take the arrays of later steps."""
+        better = later["rank"] > self.rank
+        for name, values in vars(self).items():
+            values[better] = later[name][better]
+
+
+class SeriesSummary:
+    """Takes the steps of an evaluation a few at a time; `add` takes what another one kept of the steps behind them.
+
+    Attributes:
+        elements, nodes, lines: indices of what the rows of the tables are about.
+        extremes: by table and figure. counts: numbers of steps, by table and name.
+        watch: what the warnings need. slow: where suction is pulled slower than its law resolves.
+    """
+
+    def __init__(self, evaluation: Evaluation) -> None:
+        given = evaluation.model.input
+        self.evaluation = evaluation
+        self.elements, self.nodes = evaluation.elements, evaluation.nodes
+        self.lines: Indices = np.unique(given.lines.of_element[self.elements])
+        rows = {"elements": len(self.elements), "nodes": len(self.nodes), "summary": len(self.lines)}
+        self.extremes = {(table, each): Extremes(rows[table]) for table, names in FIGURES.items() for each in names}
+        self.counts = {
+            (table, each): np.zeros(rows[table], np.int64) for table, names in COUNTS.items() for each in names
+        }
+        self.peaks = _Peaks()
+        self.watch, self.slow = ContactWatch.of(evaluation), SlowSuction()
+        self._finder = Touchdown(given)
+
+    def take(self, part: Part) -> None:
+        """Look at some steps."""
+        result = part.result
+        for name in FIGURES["elements"]:
+            self.extremes["elements", name].take(part.start, kept(getattr(result, name), self.elements))
+        self._count("elements", "contact_steps", kept(result.contact, self.elements))
+        if result.state is not None:
+            self._count("elements", "suction_steps", np.isin(kept(result.state, self.elements), HELD))
+        self._take_nodes(part.start, result)
+        self._take_lines(part)
+        self.peaks.take(part)
+        self.watch.take(part)
+        self.slow.take(part)
+
+    def _take_nodes(self, start: int, result: ContactResult) -> None:
+        gap = kept(result.gap, self.nodes)
+        self.extremes["nodes", "gap"].take(start, gap)
+        self.extremes["nodes", "normal_force"].take(start, kept(result.normal_force, self.nodes))
+        touches = gap < 0.0
+        if result.restrained is not None:
+            touches |= kept(result.restrained, self.nodes)
+        self._count("nodes", "contact_steps", touches)
+        for side, name in enumerate(("axial_force", "lateral_force")):
+            found = np.zeros((1, len(self.nodes)))  # as in the results without friction
+            if result.friction is not None:
+                found = kept(result.friction[..., side], self.nodes)
+            self.extremes["nodes", name].take(start, found)
+        if result.friction_state is not None:
+            slips = (result.friction_state == SLIDING.index("slip")).any(axis=-1)
+            self._count("nodes", "slip_steps", kept(slips, self.nodes))
+
+    def _take_lines(self, part: Part) -> None:
+        found = self._finder.series(part)
+        if not found:
+            return
+        for name in FOLLOWED:
+            values = np.stack([getattr(line, name) for line in found], axis=1)
+            self.extremes["summary", name].take(part.start, values)
+        self._count("summary", "contact_steps", np.stack([line.contact_length > 0.0 for line in found], axis=1))
+        self._count("summary", "touchdown_steps", np.stack([line.points > 0 for line in found], axis=1))
+
+    def _count(self, table: str, name: str, holds: NDArray[np.bool_]) -> None:
+        self.counts[table, name] += np.count_nonzero(holds, axis=0)
+
+    # --------------------------------------------------------------------------------------------- what it has kept
+
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """Return all that is kept, by name: to be added to what was kept of the steps before."""
+        found: dict[str, NDArray[Any]] = {}
+        for (table, figure), extremes in self.extremes.items():
+            found |= {f"{table}.{figure}.{name}": array for name, array in extremes.arrays().items()}
+        found |= {f"{table}.{name}": array for (table, name), array in self.counts.items()}
+        parts = {"totals": vars(self.peaks), "watch": self.watch.kept(), "slow": self.slow.kept()}
+        return found | {f"{part}.{name}": array for part, arrays in parts.items() for name, array in arrays.items()}
+
+    def add(self, later: Arrays) -> None:
+        """Take the `arrays` of later steps of the same evaluation.
+
+        Raises ValueError for arrays of another one; nothing is taken then.
+        """
+        own = {name: array.shape for name, array in self.arrays().items()}
+        if {name: array.shape for name, array in later.items()} != own:
+            raise ValueError("what was kept is of another evaluation")
+        for (table, figure), extremes in self.extremes.items():
+            extremes.add(_below(later, f"{table}.{figure}."))
+        for table, name in self.counts:
+            self.counts[table, name] += later[f"{table}.{name}"]
+        self.peaks.add(_below(later, "totals."))
+        self.watch.add(_below(later, "watch."))
+        self.slow.add(_below(later, "slow."))
+
+    def step_summary(self) -> StepSummary:
+        """The largest of all steps, as the terminal shows them; no single step."""
+        ids, found = self.evaluation.scene.element_ids, self.peaks
+        peaks = {
+            name: Peak(
+                float(found.value[place]),
+                int(found.step[place]),
+                None if found.element[place] < 0 else int(ids[found.element[place]]),
+            )
+            for place, name in enumerate(STEPS)
+            if found.step[place] >= 0
+        }
+        return StepSummary(self.evaluation, 0, peaks=peaks)
+
+    def line_watch(self, most: int | None) -> LineWatch:
+        """The extents of the figures of lines, as the terminal shows them; at most so many rows."""
+        extents = {
+            (line, name): Extent(*(array[row].item() for array in _sides(self.extremes["summary", name])))
+            for name in FOLLOWED
+            for row, line in enumerate(self.lines.tolist())
+            if self.extremes["summary", name].least_step[row] >= 0
+        }
+        return LineWatch(self.evaluation, most, extents=extents)
+
+
+def _sides(extremes: Extremes) -> tuple[NDArray[Any], ...]:
+    return extremes.least, extremes.least_step, extremes.largest, extremes.largest_step
+
+
+def _below(arrays: Arrays, prefix: str) -> dict[str, NDArray[Any]]:
+    """The arrays whose names begin like that, by the rest of their names."""
+    return {name.removeprefix(prefix): array for name, array in arrays.items() if name.startswith(prefix)}
