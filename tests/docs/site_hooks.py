@@ -1,0 +1,138 @@
+"""Hooks of MkDocs for what the site needs beyond docs/: notebooks as pages, linked files of the repository, its parts.
+
+A page keeps the links that it has in the repository. On the site a notebook is a page, and what lies beside docs/ is
+under project/; links are rewritten to match.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import os
+import re
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+from mkdocs.config.defaults import MkDocsConfig
+from mkdocs.structure.files import File, Files
+from mkdocs.structure.pages import Page
+
+ROOT = Path(__file__).parents[2]
+DOCS = ROOT / "docs"
+OUTSIDE = "project/"
+"""Folder of the site for files that are not in docs/."""
+
+_FENCED = re.compile(r"(^```.*?^```$)", re.MULTILINE | re.DOTALL)
+_TARGET = re.compile(r"(?<=\]\()(?![a-z]+:|#)([^)\s#]+)")
+
+
+def on_config(config: MkDocsConfig) -> MkDocsConfig:
+    """Put the pages of a folder where the navigation has `*`."""
+    config.nav = _expanded(config.nav)
+    return config
+
+
+def on_files(files: Files, *, config: MkDocsConfig) -> Files:
+    """Add the notebooks as pages, and the files outside docs/ that a page links to."""
+    for notebook in sorted(DOCS.glob("tutorials/*.ipynb")):
+        text, pictures = notebook_page(notebook)
+        files.append(File.generated(config, _uri(notebook), content=text))
+        for name, picture in pictures.items():
+            files.append(File.generated(config, f"tutorials/{name}", content=picture))
+    for path in sorted(_linked_outside()):
+        files.append(File.generated(config, _uri(path), abs_src_path=str(path)))
+    return files
+
+
+def on_page_markdown(markdown: str, *, page: Page, config: MkDocsConfig, files: Files) -> str:
+    """Rewrite the links of a page to where their targets are on the site."""
+    del config, files
+    here = page.file.src_uri
+    source = _source(here)
+    return _with_targets(markdown, lambda target: _rewritten(target, source, here))
+
+
+def notebook_page(path: Path) -> tuple[str, dict[str, bytes]]:
+    """Return a notebook as Markdown, and its pictures by their file names."""
+    pictures: dict[str, bytes] = {}
+    parts = []
+    for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
+        source = "".join(cell["source"])
+        parts.append(source if cell["cell_type"] == "markdown" else f"```python\n{source}\n```")
+        for output in cell.get("outputs", ()):
+            parts.append(_output(output, path.stem, pictures))
+    title, _, rest = "\n\n".join(parts).partition("\n")
+    download = f'<a href="{path.name}" download>Download this page as a Jupyter notebook</a>'
+    return f"{title}\n\n{download}\n{rest}\n", pictures
+
+
+def _output(output: dict[str, Any], stem: str, pictures: dict[str, bytes]) -> str:
+    data = output.get("data", {})
+    if "image/png" in data:
+        name = f"{stem}-{len(pictures) + 1}.png"
+        pictures[name] = base64.b64decode(data["image/png"])
+        return f"![What the cell above draws]({name})"
+    text = "".join(output.get("text") or data["text/plain"])
+    return f"```text\n{text.rstrip()}\n```"
+
+
+def _expanded(nav: Any) -> Any:  # noqa: ANN401 - lists, mappings and texts of YAML
+    if isinstance(nav, dict):
+        return {title: _expanded(entry) for title, entry in nav.items()}
+    if not isinstance(nav, list):
+        return nav
+    return [each for entry in nav for each in (_pages(entry) if "*" in entry else [_expanded(entry)])]
+
+
+def _pages(pattern: str) -> list[str]:
+    found = [path.relative_to(DOCS).as_posix() for path in sorted(DOCS.glob(pattern)) if path.stem != "README"]
+    if not found:
+        raise ValueError(f"no page matches {pattern!r}: correct nav in mkdocs.yml")
+    return found
+
+
+def _linked_outside() -> set[Path]:
+    """Files of the repository outside docs/ that its pages link to, and those that these link to."""
+    found: set[Path] = set()
+    waiting = [*DOCS.rglob("*.md"), ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md", ROOT / "samples/README.md"]
+    while waiting:
+        page = waiting.pop()
+        if page in found:
+            continue
+        if not page.is_relative_to(DOCS):
+            found.add(page)
+        if page.suffix == ".md":
+            waiting += [path for path in _targets(page) if path.is_file() and not path.is_relative_to(DOCS)]
+    return found
+
+
+def _targets(page: Path) -> Iterator[Path]:
+    for target in _TARGET.findall(_FENCED.sub("", page.read_text(encoding="utf-8"))):
+        yield Path(os.path.normpath(page.parent / target))
+
+
+def _with_targets(markdown: str, change: Callable[[str], str]) -> str:
+    pieces = _FENCED.split(markdown)
+    pieces[::2] = [_TARGET.sub(lambda match: change(match[1]), piece) for piece in pieces[::2]]
+    return "".join(pieces)
+
+
+def _rewritten(target: str, source: Path, here: str) -> str:
+    path = Path(os.path.normpath(source.parent / target))
+    if not path.is_file() or not path.is_relative_to(ROOT):
+        return target  # MkDocs says that it is missing
+    return os.path.relpath(_uri(path), os.path.dirname(here) or ".").replace(os.sep, "/")
+
+
+def _uri(path: Path) -> str:
+    """The place of a file of the repository on the site."""
+    if not path.is_relative_to(DOCS):
+        return OUTSIDE + path.relative_to(ROOT).as_posix()
+    page = path.with_suffix(".md") if path.suffix == ".ipynb" else path
+    return page.relative_to(DOCS).as_posix()
+
+
+def _source(uri: str) -> Path:
+    """The file of the repository that a page of the site is made of; a notebook's folder is that of its page."""
+    return ROOT / uri.removeprefix(OUTSIDE) if uri.startswith(OUTSIDE) else DOCS / uri
