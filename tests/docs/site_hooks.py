@@ -10,7 +10,7 @@ import base64
 import json
 import os
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +24,13 @@ OUTSIDE = "project/"
 """Folder of the site for files that are not in docs/."""
 
 _FENCED = re.compile(r"(^```.*?^```$)", re.MULTILINE | re.DOTALL)
+_COMMENT = re.compile(r"\A<!--.*?-->\s*", re.DOTALL)
+"""What a page that is made from the program begins with; MkDocs would not take the heading behind it as its title."""
+_FILE_NAME = re.compile(r"(?<=\[)[\w/-]+\.(?:md|ipynb)(?=\]\(([^)\s#]+))")
+"""The text of a link that only repeats the file."""
+_TITLE = re.compile(r"^# (.+)$", re.MULTILINE)
+_CODE_IN_TABLE = re.compile(r"^\|.*`.*$", re.MULTILINE)
+"""Rows in which `\\|` is written for a bar in code: Python-Markdown needs no backslash there, and would show it."""
 _TARGET = re.compile(r"(?<=\]\()(?![a-z]+:|#)([^)\s#]+)")
 
 
@@ -46,11 +53,19 @@ def on_files(files: Files, *, config: MkDocsConfig) -> Files:
 
 
 def on_page_markdown(markdown: str, *, page: Page, config: MkDocsConfig, files: Files) -> str:
-    """Rewrite the links of a page to where their targets are on the site."""
+    """Rewrite the links of a page to where their targets are on the site, and let it begin with its title.
+
+    A link that has the name of a file for its text gets the title of that page.
+    """
     del config, files
     here = page.file.src_uri
     source = _source(here)
-    return _with_targets(markdown, lambda target: _rewritten(target, source, here))
+    pieces = _FENCED.split(_COMMENT.sub("", markdown))
+    for index in range(0, len(pieces), 2):
+        titled = _FILE_NAME.sub(lambda match: _title(source.parent / match[1], match[0]), pieces[index])
+        piped = _CODE_IN_TABLE.sub(lambda match: match[0].replace("\\|", "|"), titled)
+        pieces[index] = _TARGET.sub(lambda match: _rewritten(match[1], source, here), piped)
+    return "".join(pieces)
 
 
 def notebook_page(path: Path) -> tuple[str, dict[str, bytes]]:
@@ -112,10 +127,9 @@ def _targets(page: Path) -> Iterator[Path]:
         yield Path(os.path.normpath(page.parent / target))
 
 
-def _with_targets(markdown: str, change: Callable[[str], str]) -> str:
-    pieces = _FENCED.split(markdown)
-    pieces[::2] = [_TARGET.sub(lambda match: change(match[1]), piece) for piece in pieces[::2]]
-    return "".join(pieces)
+def _title(path: Path, name: str) -> str:
+    found = _TITLE.search(path.read_text(encoding="utf-8")) if path.suffix == ".md" and path.is_file() else None
+    return found[1] if found else name
 
 
 def _rewritten(target: str, source: Path, here: str) -> str:
