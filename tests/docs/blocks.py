@@ -26,7 +26,7 @@ class Command:
 
 @dataclass(frozen=True)
 class Block:
-    """A fenced block; `line` is that of its first line of text, `title` the name of the file that it shows, or empty."""
+    """A fenced block; `line` is that of its first line of text, `title` the file that it shows, if any."""
 
     language: str
     text: str

@@ -29,8 +29,8 @@ _COMMENT = re.compile(r"\A<!--.*?-->\s*", re.DOTALL)
 _FILE_NAME = re.compile(r"(?<=\[)[\w/-]+\.(?:md|ipynb)(?=\]\(([^)\s#]+))")
 """The text of a link that only repeats the file."""
 _TITLE = re.compile(r"^# (.+)$", re.MULTILINE)
-_CODE_IN_TABLE = re.compile(r"^\|.*`.*$", re.MULTILINE)
-"""Rows in which `\\|` is written for a bar in code: Python-Markdown needs no backslash there, and would show it."""
+_ROW = re.compile(r"^\|.*$", re.MULTILINE)
+_CODE = re.compile(r"`[^`]+`")
 _TARGET = re.compile(r"(?<=\]\()(?![a-z]+:|#)([^)\s#]+)")
 
 
@@ -63,8 +63,7 @@ def on_page_markdown(markdown: str, *, page: Page, config: MkDocsConfig, files: 
     pieces = _FENCED.split(_COMMENT.sub("", markdown))
     for index in range(0, len(pieces), 2):
         titled = _FILE_NAME.sub(lambda match: _title(source.parent / match[1], match[0]), pieces[index])
-        piped = _CODE_IN_TABLE.sub(lambda match: match[0].replace("\\|", "|"), titled)
-        pieces[index] = _TARGET.sub(lambda match: _rewritten(match[1], source, here), piped)
+        pieces[index] = _TARGET.sub(lambda match: _rewritten(match[1], source, here), _ROW.sub(_plain_bars, titled))
     return "".join(pieces)
 
 
@@ -75,8 +74,7 @@ def notebook_page(path: Path) -> tuple[str, dict[str, bytes]]:
     for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
         source = "".join(cell["source"])
         parts.append(source if cell["cell_type"] == "markdown" else f"```python\n{source}\n```")
-        for output in cell.get("outputs", ()):
-            parts.append(_output(output, path.stem, pictures))
+        parts += [_output(output, path.stem, pictures) for output in cell.get("outputs", ())]
     title, _, rest = "\n\n".join(parts).partition("\n")
     download = f'<a href="{path.name}" download>Download this page as a Jupyter notebook</a>'
     return f"{title}\n\n{download}\n{rest}\n", pictures
@@ -108,7 +106,7 @@ def _pages(pattern: str) -> list[str]:
 
 
 def _linked_outside() -> set[Path]:
-    """Files of the repository outside docs/ that its pages link to, and those that these link to."""
+    """Files outside docs/ that the navigation has or its pages link to, and those that these link to."""
     found: set[Path] = set()
     waiting = [*DOCS.rglob("*.md"), ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md", ROOT / "samples/README.md"]
     while waiting:
@@ -127,6 +125,11 @@ def _targets(page: Path) -> Iterator[Path]:
         yield Path(os.path.normpath(page.parent / target))
 
 
+def _plain_bars(row: re.Match[str]) -> str:
+    """A row of a table with `|` for `\\|` in code, where Python-Markdown would show the backslash."""
+    return _CODE.sub(lambda code: code[0].replace("\\|", "|"), row[0])
+
+
 def _title(path: Path, name: str) -> str:
     found = _TITLE.search(path.read_text(encoding="utf-8")) if path.suffix == ".md" and path.is_file() else None
     return found[1] if found else name
@@ -136,7 +139,7 @@ def _rewritten(target: str, source: Path, here: str) -> str:
     path = Path(os.path.normpath(source.parent / target))
     if not path.is_file() or not path.is_relative_to(ROOT):
         return target  # MkDocs says that it is missing
-    return os.path.relpath(_uri(path), os.path.dirname(here) or ".").replace(os.sep, "/")
+    return os.path.relpath(_uri(path), Path(here).parent).replace(os.sep, "/")
 
 
 def _uri(path: Path) -> str:

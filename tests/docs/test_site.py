@@ -1,4 +1,4 @@
-"""The site of docs/: built strictly, every link leads somewhere, and a browser shows it without a network or a fault."""
+"""The site of docs/: built strictly, every link leads somewhere, a browser shows it without network or fault."""
 
 from __future__ import annotations
 
@@ -63,9 +63,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     # Beside what is said of a page, MkDocs prints a note of its theme's makers on the future of both.
     environment = {**os.environ, "NO_MKDOCS_2_WARNING": "1"}
     build = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--site-dir", str(folder)]
-    ran = subprocess.run(
-        build, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=TIMEOUT, check=False
-    )
+    ran = subprocess.run(build, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=TIMEOUT, check=False)
     assert (ran.returncode, ran.stdout + ran.stderr) == (0, "")
     return folder
 
