@@ -45,7 +45,7 @@ def test_command_as_json_and_csv() -> None:
     assert (whole.code, whole.err) == (0, "")
     assert whole.json()["title"] == "Precision: " + (SAMPLES / "scr-touchdown.keyxm").as_posix()
     text = run("study", "precision", "--output-format", "csv", "-q").out
-    assert text.count("\n\n") == 6
+    assert text.count("\n\n") == 7
     assert text.startswith("curve,method,")
 
 

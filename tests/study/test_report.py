@@ -10,18 +10,19 @@ from pathlib import Path
 import pytest
 from matplotlib.figure import Figure
 
-from mudline.study.report import (
-    Column,
-    Omission,
+from mudline.study.pictures import (
     Picture,
-    StudyReport,
-    StudyTable,
+    draw_lines,
     drawn,
     label,
     legend_below,
     shortened,
     style,
+    zero_place,
+    zero_tick,
 )
+from mudline.study.report import Column, Omission, StudyReport, StudyTable
+from mudline.study.schemes import SCHEMES, STYLES
 from mudline.study.timing import _processor, machine, timed
 
 TABLE = StudyTable(
@@ -122,3 +123,30 @@ def test_timing() -> None:
 def test_styles_differ() -> None:
     styles = [tuple(style(index).items()) for index in range(20)]
     assert len(set(styles)) == 20
+
+
+def test_zero_has_its_own_tick() -> None:
+    figure = Figure()
+    axes = figure.add_subplot()
+    widths = [0.0, 1e-4, 3e-3, 0.5]
+    place = zero_place(widths)
+    assert place == pytest.approx(1e-5)
+    draw_lines(axes, {"a": [(width or place, 1.0 + width) for width in widths]}, "T", "h [m]", "y [-]")
+    zero_tick(axes, place, "h = 0")
+    figure.draw_without_rendering()
+    texts = {tick.get_position()[0]: tick.get_text() for tick in axes.get_xticklabels()}
+    assert texts[place] == "h = 0"
+    assert "10^{-4}" in texts[1e-4]
+    assert min(set(texts) - {place}) > 1e-5
+    assert axes.get_xlim()[0] < place
+    assert zero_place([0.0]) == 0.1
+
+
+def test_schemes_have_one_style_each() -> None:
+    looks = {(look["color"], look["marker"]) for look in STYLES.values()}
+    assert set(STYLES) == {scheme.title for scheme in SCHEMES.values()}
+    assert len(looks) == len(SCHEMES)
+    figure = Figure()
+    axes = figure.add_subplot()
+    draw_lines(axes, {"Newmark": [(1.0, 1.0)], "other": [(1.0, 1.0)]}, "T", "x", "y", STYLES)
+    assert [line.get_color() for line in axes.lines] == [STYLES["Newmark"]["color"], style(1)["color"]]

@@ -2,24 +2,27 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from types import ModuleType, TracebackType
+from typing import TYPE_CHECKING, Self, cast
 
 import click
 
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDeck, refuses_bad_decks
 from mudline.cli.streams import emit, notify, notify_missing, reason
-from mudline.cli.view import View
+from mudline.cli.view import View, wants_bar
 from mudline.quantities import headed, shown
 from mudline.scene.model import Scene, resolve
 from mudline.short_repr import counted
 from mudline.study import sample_scene
-from mudline.study.report import Cell, StudyError, StudyOptions, StudyReport, StudyTable, silent
+from mudline.study.report import Cell, StudyError, StudyOptions, StudyReport, StudyTable
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
+    from mudline.study.running import Study
 
 STUDIES = {"precision": ["scipy.integrate"], "stability": ["mpmath"], "pruning": ["scipy.interpolate"]}
 """The studies, and what each needs of the extra `mudline[study]`."""
@@ -31,7 +34,10 @@ _DIGITS = 4
 @click.command("study")
 @click.argument("study", type=click.Choice(list(STUDIES)))
 @click.argument("deck", required=False, metavar="[DECK]", shell_complete=click.Path().shell_complete)
-@click.option("-o", "--output", metavar="DIR", help="Write CSV, JSON and PNG files into this folder.")
+@click.option("-o", "--output", metavar="DIR", help="Write the page, CSV, JSON and PNG files into this folder.")
+@click.option(
+    "--only", metavar="PART[,PART]", help="Run these parts of the study alone; a name that it lacks lists them."
+)
 @click.option("--full", is_flag=True, help="Use finer steps and more repeats; takes longer than two minutes.")
 @options.output_format("text", "json", "csv")
 @options.stdin_name
@@ -43,6 +49,7 @@ def command(
     study: str,
     deck: str | None,
     output: str | None,
+    only: str | None,
     full: bool,
     output_format: str,
     stdin_name: str,
@@ -53,23 +60,16 @@ def command(
 
     precision: error against run time of curves, time integration and smoothing. stability: critical steps, energy at
     touchdown, extreme values. pruning: what each feature costs. Without DECK a built-in sample is studied.
+
+    With -o, what is finished is written at once, and an interrupted study goes on there when it is run again.
     """
     if not all(map(_is_installed, [*STUDIES[study], *([_PICTURES] if output else [])])):
         return FOUND
+    module = import_module(f"mudline.study.{study}")
+    parts = _parts(only, cast("Study", module.STUDY))
     scene = _scene(deck, units, stdin_name)
-    progress = silent if view.quiet else lambda message: notify(f"{study}: {message}")
-    try:
-        report = cast("StudyReport", import_module(f"mudline.study.{study}").run(scene, StudyOptions(full, progress)))
-        if output:
-            _write(report, Path(output), quiet=view.quiet)
-    except ModuleNotFoundError as error:
-        package = (error.name or "").partition(".")[0]
-        if package not in _EXTRAS:
-            raise
-        notify_missing("this study", package, "study")
-        return FOUND
-    except StudyError as error:
-        notify(f"{scene.deck.file}: {error}")
+    report = _report(module, scene, StudyOptions(full, only=parts, folder=Path(output) if output else None), view)
+    if report is None:
         return FOUND
     if output_format == "json":
         emit([report.json()])
@@ -98,18 +98,81 @@ def _scene(deck: str | None, units: str | None, stdin_name: str) -> Scene:
     return resolve(GivenDeck(deck, stdin_name, units).load()).require()
 
 
-def _write(report: StudyReport, folder: Path, *, quiet: bool) -> None:
+def _parts(only: str | None, study: Study) -> tuple[str, ...]:
+    """The parts that the user names; ends the command for a name that the study does not have."""
+    names = tuple(dict.fromkeys(name.strip() for name in only.split(","))) if only is not None else ()
+    if unknown := study.unknown(names):
+        known = ", ".join(part.name for part in study.parts)
+        raise click.UsageError(f"{study.name} has no part {unknown[0]!r}: its parts are {known}")
+    return names
+
+
+class _Shown:
+    """What a study is doing: a bar with the time that is left on a terminal, else a line for each thing."""
+
+    def __init__(self, study: str, view: View, folder: Path | None) -> None:
+        self._study, self._view, self._folder = study, view, folder
+        self._bar = view.bar(1.0) if wants_bar(view) else None
+        self._words, self._share = "", 0.0
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._bar:
+            self._bar.erase()
+        if self._folder and isinstance(error, KeyboardInterrupt):
+            notify(f"interrupted: the same command goes on with what is finished in {self._folder.as_posix()}")
+
+    def say(self, words: str) -> None:
+        """Show what comes next."""
+        self._words = words
+        if self._bar:
+            self._bar.draw(self._share, words)
+        elif not self._view.quiet:
+            notify(f"{self._study}: {words}")
+
+    def advance(self, share: float) -> None:
+        """Show how far the study is, 0 to 1."""
+        self._share = share
+        if self._bar:
+            self._bar.draw(share, self._words)
+
+
+def _report(module: ModuleType, scene: Scene, wanted: StudyOptions, view: View) -> StudyReport | None:
+    """Run the study and write its files; None where it cannot be made, which is reported."""
+    folder = wanted.folder
     try:
-        files = report.write(folder)
+        with _Shown(module.STUDY.name, view, folder) as shown_progress:
+            wanted = replace(wanted, progress=shown_progress.say, advance=shown_progress.advance)
+            report = cast("StudyReport", module.run(scene, wanted))
+        if folder:
+            files = report.write(folder)
+            if not view.quiet:
+                notify(f"{counted(len(files), 'file')} -> {folder.as_posix()}")
     except OSError as error:
+        if not folder:
+            raise
         raise click.ClickException(f"{folder}: cannot be written: {reason(error)}") from error
-    if not quiet:
-        notify(f"{counted(len(files), 'file')} -> {folder.as_posix()}")
+    except ModuleNotFoundError as error:
+        package = (error.name or "").partition(".")[0]
+        if package not in _EXTRAS:
+            raise
+        notify_missing("this study", package, "study")
+    except StudyError as error:
+        notify(f"{scene.deck.file}: {error}")
+    else:
+        return report
+    return None
 
 
 def _print_report(report: StudyReport, view: View) -> None:
     """Print short tables, with -v all of them; then failures, notes and the machine."""
     printer = view.printer()
+    if report.advice:
+        printer.line(printer.visible(report.advice))
     left_out = 0
     for table in report.tables:
         if table.brief or view.verbose:

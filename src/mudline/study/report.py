@@ -1,30 +1,40 @@
-"""How a study is run, and what it found: tables, pictures, words; and the files they become.
+"""What a study found: tables, pictures, words; and the files they become.
 
-A study is made of parts. A part declares the columns of its tables once (`Layout`), draws its pictures, and returns
-both with its notes and omissions as a `Section`; here they become one report, its CSV, JSON and PNG files. Pictures
-have one style: colours that colour-blind readers tell apart, a marker for each line besides.
+How to write a study, or a part of one:
+
+* A study is a package `mudline.study.NAME` with `STUDY = Study(NAME, title, parts, page, advice)` of
+  `mudline.study.running`, and `run = STUDY.run`. A `Part(name, run, weight)` has a function `(scene, options) ->
+  Section`; `mudline study NAME --only PART` runs it alone, and `-o DIR` writes its files as soon as it is finished.
+* A part declares the columns of its tables once (`Layout`), returns them with pictures, notes and omissions as a
+  `Section`, and says how far it is: `for case in options.each(cases, lambda case: case.title): ...`.
+* `page(tables) -> str` fills the template `page.md` beside it: `filled(Path(__file__).with_name("page.md"), fields)`.
+  All numbers come from `tables` (`mudline.study.pages.Tables`): `tables.rows("steps", scheme="newmark")`,
+  `row.number("step [s]")`, `row.text("case")`; they are written by `rounded`, `percent`, `time`, `span` and
+  `markdown_table` there. A template has no digit of its own but in code, names, links and years, which a test holds;
+  another one makes the pages of docs/studies again from their CSV files. The page is written for any deck: what a deck
+  may change is a field, or stands under an `if` of `page.py`.
+* `advice(tables) -> str` is the one sentence about the deck: the first line of the text, `advice` in JSON; a page has
+  it where its template says {advice}.
+* The table `machine` (`what`, `value`) is added to each study: deck, processor, versions, run time of all parts.
+* Pictures (`mudline.study.pictures`): `STYLES` of `mudline.study.schemes` has the style of each scheme by its title,
+  also for `draw_lines(..., styles=STYLES)`; `zero_place` and `zero_tick` give 0 a tick on a logarithmic axis; an error
+  that is divided by something is labelled "relative error of ... [-]".
 """
 
 from __future__ import annotations
 
-import io
 import json
 import math
-import warnings
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from operator import attrgetter
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Generic, Literal, NamedTuple, TypeAlias, TypeVar, get_type_hints
+from typing import Any, Generic, NamedTuple, TypeAlias, TypeVar, get_type_hints
 
 from mudline.files import write_atomically
 from mudline.quantities import csv_lines, labelled
-from mudline.short_repr import cut
+from mudline.study.pictures import Picture
 from mudline.study.timing import machine
-
-if TYPE_CHECKING:  # only who draws loads matplotlib
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 Row = TypeVar("Row")
 Key = TypeVar("Key", bound=Hashable)
@@ -42,6 +52,11 @@ def silent(message: str) -> None:
     del message
 
 
+def still(share: float) -> None:
+    """Show nothing."""
+    del share
+
+
 @dataclass(frozen=True, slots=True)
 class StudyOptions:
     """What the user chose.
@@ -49,10 +64,23 @@ class StudyOptions:
     Attributes:
         full: a longer run, with finer ladders and more repeats.
         progress: is called with a few words on what is done next.
+        advance: is called with the share that is done, 0 to 1; of the part, where a part calls it.
+        only: the parts that are run; empty for all.
+        folder: where the files of finished parts are written, and where an interrupted study goes on; None for nowhere.
     """
 
     full: bool = False
     progress: Callable[[str], None] = silent
+    advance: Callable[[float], None] = still
+    only: tuple[str, ...] = ()
+    folder: Path | None = None
+
+    def each(self, items: Sequence[Row], words: Callable[[Row], str]) -> Iterator[Row]:
+        """The items one after the other, with words on each and the share of them that is done."""
+        for done, item in enumerate(items):
+            self.progress(words(item))
+            self.advance(done / len(items))
+            yield item
 
 
 # -------------------------------------------------------------------------------------------------------------- tables
@@ -93,6 +121,7 @@ class StudyTable:
         return {
             "name": self.name,
             "title": self.title,
+            "brief": self.brief,
             "columns": [column._asdict() for column in self.columns],
             "rows": [[_finite(cell) for cell in row] for row in self.rows],
         }
@@ -142,104 +171,6 @@ def grouped(rows: Iterable[Row], key: Callable[[Row], Key]) -> dict[Key, list[Ro
     return found
 
 
-# ------------------------------------------------------------------------------------------------------------ pictures
-
-_COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9", "#8c6d31", "#7a7a7a", "#b2182b")
-_MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "*")
-_LINES = ("-", "--", "-.", ":")
-_LONGEST = 34
-
-Points = Sequence[tuple[float, float]]
-
-
-@dataclass(frozen=True, slots=True)
-class Picture:
-    """A picture that is drawn when it is wanted.
-
-    Attributes:
-        name: a word for its file.
-        caption: what it shows.
-        draw: draws it on an empty figure.
-        size: width and height in inches; 100 points to the inch.
-    """
-
-    name: str
-    caption: str
-    draw: Callable[[Figure], None]
-    size: tuple[float, float] = (9.0, 6.0)
-
-    def png(self) -> bytes:
-        """The picture as PNG; raises ImportError without matplotlib."""
-        from matplotlib.figure import Figure  # noqa: PLC0415 - a study without pictures does without it
-
-        figure = Figure(figsize=self.size, layout="constrained", dpi=100)
-        self.draw(figure)
-        stream = io.BytesIO()
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # a letter that the font lacks becomes a box
-            figure.savefig(stream, format="png", metadata={"Software": None})
-        return stream.getvalue()
-
-
-def style(index: int) -> dict[str, Any]:
-    """Colour, marker and dash of the line of this number, from 0; so many lines as these differ."""
-    return {
-        "color": _COLORS[index % len(_COLORS)],
-        "marker": _MARKERS[(index + index // len(_COLORS)) % len(_MARKERS)],
-        "linestyle": _LINES[index // len(_COLORS) % len(_LINES)],
-        "markersize": 5,
-        "linewidth": 1.4,
-    }
-
-
-def draw_lines(
-    axes: Axes,
-    lines: Mapping[str, Points],
-    title: str,
-    x: str,
-    y: str,
-    scale: Literal["loglog", "semilogx"] = "loglog",
-) -> None:
-    """A line through points for each name of the legend, in the styles from the first on; the rest as in `label`."""
-    draw = getattr(axes, scale)
-    for index, (name, points) in enumerate(lines.items()):
-        draw([point[0] for point in points], [point[1] for point in points], label=name, **style(index))
-    label(axes, title, x, y)
-
-
-def panels(figure: Figure, count: int, across: int, *, sharey: bool = False) -> list[Axes]:
-    """So many axes, `across` of them in a row."""
-    found: list[Axes] = list(figure.subplots(-(-count // across), across, squeeze=False, sharey=sharey).flat)
-    for axes in found[count:]:
-        axes.remove()
-    return found[:count]
-
-
-def drawn(name: str) -> str:
-    """A name of the deck as plain text of a picture, where $ would begin a formula, and _ hide it from a legend."""
-    text = "".join(char if char.isprintable() else "\ufffd" for char in name).replace("$", r"\$")
-    return f" {text}" if text.startswith("_") else text
-
-
-def shortened(name: str) -> str:
-    """A name of the deck that fits above a panel, as it is drawn."""
-    return drawn(cut(name, _LONGEST))
-
-
-def label(axes: Axes, title: str, x: str, y: str) -> None:
-    """Title, axes with their units, and a grid."""
-    axes.set_title(title, fontsize="medium")
-    axes.set_xlabel(x)
-    axes.set_ylabel(y)
-    axes.grid(visible=True, which="major", alpha=0.35)
-
-
-def legend_below(figure: Figure, axes: Axes, columns: int = 4) -> None:
-    """One legend for all axes, below them, where it covers nothing."""
-    handles, names = axes.get_legend_handles_labels()
-    figure.legend(handles, names, loc="outside lower center", ncols=columns, fontsize="small")
-
-
 # -------------------------------------------------------------------------------------------------------------- report
 
 
@@ -264,6 +195,14 @@ def paragraphs(text: str) -> list[str]:
     return [" ".join(paragraph.split()) for paragraph in text.strip().split("\n\n")]
 
 
+class Finished(NamedTuple):
+    """A part of a study that was run, and the seconds that it took."""
+
+    name: str
+    seconds: float
+    section: Section
+
+
 @dataclass(frozen=True, slots=True)
 class StudyReport:
     """All that a study found.
@@ -276,6 +215,10 @@ class StudyReport:
         notes: what a reader of the numbers must know.
         omissions: failures and what was left out, each with its reason.
         machine: what the study was run on.
+        advice: one sentence about the deck; "" for none.
+        page: the page in Markdown; "" for none.
+        key: a digest of what the numbers depend on.
+        parts: those that are finished.
     """
 
     name: str
@@ -285,6 +228,10 @@ class StudyReport:
     notes: tuple[str, ...] = ()
     omissions: tuple[Omission, ...] = ()
     machine: dict[str, str] = field(default_factory=machine)
+    advice: str = ""
+    page: str = ""
+    key: str = ""
+    parts: tuple[Finished, ...] = ()
 
     @classmethod
     def of(cls, name: str, title: str, sections: Iterable[Section]) -> StudyReport:
@@ -300,31 +247,69 @@ class StudyReport:
         )
 
     def json(self) -> str:
-        """Everything but the pictures as JSON; what is not finite is null."""
+        """Everything but the pictures and the page as JSON; what is not finite is null."""
         whole: dict[str, Any] = {
             "study": self.name,
             "title": self.title,
+            "advice": self.advice,
             "machine": self.machine,
             "tables": [table.as_json() for table in self.tables],
             "pictures": [{"name": picture.name, "caption": picture.caption} for picture in self.pictures],
             "notes": list(self.notes),
             "omissions": [omission._asdict() for omission in self.omissions],
+            "key": self.key,
+            "parts": [
+                {
+                    "name": part.name,
+                    "seconds": round(part.seconds, 3),
+                    "tables": [table.name for table in part.section.tables],
+                    "pictures": [picture.name for picture in part.section.pictures],
+                    "notes": list(part.section.notes),
+                    "omissions": [omission._asdict() for omission in part.section.omissions],
+                }
+                for part in self.parts
+            ],
         }
         return json.dumps(whole, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
-    def write(self, folder: Path) -> list[Path]:
-        """Write STUDY.json, STUDY-TABLE.csv and STUDY-PICTURE.png into `folder`, which is made if it is not there.
+    def json_file(self) -> File:
+        """STUDY.json."""
+        return f"{self.name}.json", _encoded(self.json())
 
-        Returns the files. Raises OSError, and ImportError for pictures without matplotlib.
+    def write(self, folder: Path) -> list[Path]:
+        """Write STUDY.md, STUDY.json, STUDY-TABLE.csv and STUDY-PICTURE.png into `folder`.
+
+        The folder is made if it is not there. Returns the files. Raises OSError, and ImportError for pictures without
+        matplotlib.
         """
-        pictures = [(folder / f"{self.name}-{picture.name}.png", picture.png()) for picture in self.pictures]
-        folder.mkdir(parents=True, exist_ok=True)
-        texts = [(folder / f"{self.name}-{table.name}.csv", "".join(table.csv())) for table in self.tables]
-        texts.append((folder / f"{self.name}.json", self.json()))
-        files = [*pictures, *((path, text.encode("utf-8", "backslashreplace")) for path, text in texts)]
-        for path, data in files:
-            write_atomically(path, data)
-        return [path for path, _ in files]
+        files = part_files(self.name, Section(self.tables, self.pictures))
+        if self.page:
+            files.append((f"{self.name}.md", _encoded(self.page)))
+        return write_files(folder, [*files, self.json_file()])
+
+
+File: TypeAlias = tuple[str, bytes]
+"""Name and content."""
+
+
+def part_files(study: str, section: Section) -> list[File]:
+    """The pictures and tables of a section as files; raises ImportError for pictures without matplotlib."""
+    pictures = [(f"{study}-{picture.name}.png", picture.png()) for picture in section.pictures]
+    return pictures + [(f"{study}-{table.name}.csv", _encoded("".join(table.csv()))) for table in section.tables]
+
+
+def write_files(folder: Path, files: Iterable[File]) -> list[Path]:
+    """Write files into a folder, which is made if it is not there; returns their paths. Raises OSError."""
+    folder.mkdir(parents=True, exist_ok=True)
+    written = []
+    for name, data in files:
+        write_atomically(folder / name, data)
+        written.append(folder / name)
+    return written
+
+
+def _encoded(text: str) -> bytes:
+    return text.encode("utf-8", "backslashreplace")
 
 
 def _finite(cell: Cell) -> Cell:

@@ -30,6 +30,7 @@ import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.study.motion import Forces, Motion, Scheme, Step, System
+from mudline.study.pictures import LineStyle, line_style
 
 Residual = Callable[[FloatArray], tuple[FloatArray, FloatArray, FloatArray]]
 """Residuals (k,) at unknowns (k,), their derivatives, and the size of the largest term in each residual."""
@@ -301,5 +302,23 @@ _ALL: tuple[Scheme, ...] = (
 SCHEMES: dict[str, Scheme] = {scheme.name: scheme for scheme in _ALL}
 """In the order in which studies show them; the last two are unstable on every undamped oscillator.
 
-To add a scheme: its row here and, if it is explicit, its critical step in `mudline.contact.stiffest`.
+To add a scheme: its row here, its style below and, if it is explicit, its critical step in `mudline.contact.stiffest`.
 """
+
+STYLES: dict[str, LineStyle] = {
+    SCHEMES[name].title: line_style(*look)
+    for name, look in {
+        "central-difference": ("#0072b2", "o", "-"),
+        "velocity-verlet": ("#56b4e9", "s", "--"),
+        "rk4": ("#009e73", "^", "-"),
+        "newmark": ("#d55e00", "D", "-"),
+        "hht-0.3": ("#cc79a7", "v", "-."),
+        "generalised-alpha-1": ("#e69f00", "P", "--"),
+        "generalised-alpha-0.5": ("#8c6d31", "X", "-."),
+        "generalised-alpha-0": ("#b2182b", "<", "-"),
+        "backward-euler": ("#000000", ">", "-"),
+        "rk2": ("#7a7a7a", "*", "--"),
+        "forward-euler": ("#a0a0a0", "d", ":"),
+    }.items()
+}
+"""Colour, marker and dash of each scheme in all pictures, by its title. Two that often coincide differ in the dash."""

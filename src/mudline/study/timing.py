@@ -5,18 +5,16 @@ from __future__ import annotations
 import os
 import platform
 import statistics
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from time import get_clock_info, perf_counter, process_time
 from typing import NamedTuple
 
-_RUNS = 5
-_AT_LEAST = 0.03
+REPEATS = 5
+"""Of calls that are paired, where nothing else is asked for."""
 _LEAST = 1e-3
 _TICKS = 20.0
-_SLOW = 1.0
-"""Seconds of one run from which on two runs are enough."""
 _PACKAGES = ("mudline", "numpy", "scipy", "mpmath", "matplotlib", "numba")
 _PROCESSORS = Path("/proc/cpuinfo")
 
@@ -51,15 +49,47 @@ def timed(
     return Timing(min(taken), statistics.median(taken), len(taken))
 
 
-def processor_time(call: Callable[[], object], *, few: bool = False) -> Timing:
-    """Processor seconds of a call, so that other programs do not count: once to warm up, then several times.
+class Spread(NamedTuple):
+    """Seconds of a call, or a ratio of two, over some repeats: the least, the quartiles and the median between them."""
 
-    `few`: not so often. Short calls are repeated within a run until the clock is fine enough.
+    least: float
+    lower: float
+    median: float
+    upper: float
+
+    @classmethod
+    def of(cls, values: Sequence[float]) -> Spread:
+        """The spread of one value or more; quartiles are interpolated."""
+        several = [*values, *values] if len(values) == 1 else values
+        lower, median, upper = statistics.quantiles(several, n=4, method="inclusive")
+        return cls(min(several), lower, median, upper)
+
+    def times(self, factor: float) -> Spread:
+        """All of them in another unit."""
+        return Spread(*[factor * value for value in self])
+
+
+def paired(calls: Sequence[Callable[[], object]], repeats: int | None = None) -> list[list[float]]:
+    """Processor seconds of each call in each repeat (default `REPEATS`), after one to warm up.
+
+    The calls are made turn by turn, every other time the other way round: a machine that gets busy slows all of them,
+    and the ratios of one repeat are of the same moment. Short calls are repeated within a turn until the clock is fine
+    enough; other programs do not count.
     """
-    once = timed(call, runs=1, clock=process_time).best
-    repeats = max(1, round(max(_LEAST, _TICKS * get_clock_info("process_time").resolution) / max(once, 1e-7)))
-    runs, at_least = (2, 0.0) if few or once > _SLOW else (_RUNS, _AT_LEAST)
-    return timed(call, runs=runs, at_least=at_least, repeats=repeats, clock=process_time)
+    once = [timed(call, runs=1, clock=process_time).best for call in calls]
+    fine = max(_LEAST, _TICKS * get_clock_info("process_time").resolution)
+    turns = [(index, call, max(1, round(fine / max(once[index], 1e-7)))) for index, call in enumerate(calls)]
+    taken: list[list[float]] = [[] for _ in calls]
+    for _ in range(repeats or REPEATS):
+        for index, call, inner in turns:
+            taken[index].append(timed(call, runs=1, repeats=inner, clock=process_time).best)
+        turns.reverse()
+    return taken
+
+
+def ratios(over: Sequence[float], under: Sequence[float]) -> Spread:
+    """The spread of the ratios of two calls that were paired."""
+    return Spread.of([one / other for one, other in zip(over, under, strict=True)])
 
 
 def machine() -> dict[str, str]:

@@ -28,6 +28,7 @@ def test_report_of_the_sample(sample_report: StudyReport, sample_progress: list[
         "steps",
         "smoothing",
         "impacts",
+        "machine",
     ]
     assert [row[0] for row in report.tables[2].rows] == ["drop-reference", "drop-curve", "drop-linear", "pull", "drag"]
     assert len(report.tables[4].rows) == 5 * 9 * 2

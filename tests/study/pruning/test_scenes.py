@@ -9,26 +9,28 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mudline.contact import ContactInput, ContactModel
+from mudline.contact import ContactModel
 from mudline.contact.seabed import Seabed
 from mudline.curves import ForceCurve
 from mudline.study import sample_scene
 from mudline.study.pruning import scenes
-from mudline.study.pruning.cost import bare_evaluation
+from mudline.study.pruning.plain import Plain
 from mudline.study.pruning.scenes import (
     AS_IT_IS,
     CURVE,
     EVERYTHING,
     Pipe,
     Variant,
+    copies_for,
     line,
     pipe_of,
     positions,
+    repeated,
     series,
-    tiled,
     variants,
+    with_curve,
 )
-from tests.builders.contact import CLAY, everything, only
+from tests.builders.contact import CLAY, everything
 
 PIPE = Pipe(CLAY, 6.0e4, 0.3, 2.0)
 STAGES = {
@@ -76,50 +78,39 @@ def test_every_element_of_an_embedded_scene_touches_and_every_step_is_finite(nam
     assert np.array_equal(moved[3], points)
 
 
-@settings(deadline=None, max_examples=30)
-@given(st.integers(2, 60), st.integers(1, 12), st.integers(0, 5))
-def test_tiled_elements_keep_their_laws(nodes: int, own: int, seed: int) -> None:
+@settings(deadline=None, max_examples=20)
+@given(st.integers(1, 4), st.integers(1, 12), st.integers(0, 5))
+def test_repeated_decks_are_evaluated_as_one(copies: int, own: int, seed: int) -> None:
     inputs = everything(own, seed)
-    made = tiled(inputs, nodes)
-    assert len(made.node_ids) == nodes
-    result, before = ContactModel(made).evaluate(), ContactModel(inputs).evaluate()
-    if nodes - 1 == own:
-        assert np.array_equal(result.reaction, before.reaction)
-    elif nodes - 1 > own:
-        # the last element of a copy ends at the beginning of the next one
-        inner = np.arange(nodes - 1) % own != own - 1
-        assert np.array_equal(result.force[inner], before.force[np.arange(nodes - 1) % own][inner])
-    assert set(made.length) <= set(inputs.length)
+    order = np.random.default_rng(seed).permutation(own + 1)  # nodes in any order, as GEN= leaves them
+    shuffled = replace(inputs, element_nodes=np.argsort(order)[inputs.element_nodes])
+    made, alone = ContactModel(repeated(shuffled, copies)), ContactModel(shuffled)
+    moved = shuffled.coordinates + np.array([0.0, 0.01, -0.02])
+    whole = made.evaluate(
+        np.stack([np.tile(at, (copies, 1)) for at in (shuffled.coordinates, moved)]), times=[0.0, 1.0]
+    )
+    single = alone.evaluate(np.stack([shuffled.coordinates, moved]), times=[0.0, 1.0])
+    assert np.array_equal(whole.reaction, np.tile(single.reaction, (1, copies, 1)))
+    assert np.array_equal(whole.force, np.tile(single.force, (1, copies)))
 
 
 def test_every_copy_has_the_parameters_of_its_origin() -> None:
     inputs, copies = everything(12, 3), 3
-    made = tiled(inputs, 12 * copies + 1)
+    made = repeated(inputs, copies)
     assert set(made.assigned) == set(inputs.assigned)
     for name, law in made.assigned.items():
-        last = 12 * copies if law.law.acts_on == "nodes" else -1
-        origin = np.where(law.rows == last, 12, law.rows % 12)
+        count = 13 if law.law.acts_on == "nodes" else 12
+        assert np.array_equal(law.rows % count, np.tile(inputs.assigned[name].rows, copies))
         for parameter, values in law.parameters.items():
-            own = inputs.assigned[name].spread(parameter, 13)
-            assert np.array_equal(values, own[origin], equal_nan=True)
+            assert np.array_equal(values, np.tile(inputs.assigned[name][parameter], copies), equal_nan=True)
     assert made.weight is not None
     assert inputs.weight is not None
     assert np.array_equal(made.weight, np.tile(inputs.weight, copies))
 
 
-def test_tiling_needs_a_line() -> None:
-    inputs = everything(3, 1)
-    with pytest.raises(ValueError, match="two nodes"):
-        tiled(inputs, 1)
-    none = line(PIPE, 1)
-    with pytest.raises(ValueError, match="an element"):
-        tiled(none, 10)
-
-
-def test_tiling_of_a_scene_without_history() -> None:
-    model = ContactModel(tiled(only(everything(5, 2), "curve", "linear", "smoothed"), 17))
-    assert not model.plan.history
-    assert model.evaluate().contact.any()
+def test_a_deck_is_repeated_to_about_so_many_nodes() -> None:
+    inputs = everything(9, 1)
+    assert [copies_for(inputs, nodes) for nodes in (2, 14, 16, 1000)] == [1, 1, 2, 100]
 
 
 def test_the_pipe_is_that_of_the_deck() -> None:
@@ -138,13 +129,18 @@ def test_a_flat_curve_still_has_a_stiffness() -> None:
     assert pipe_of(replace(line(PIPE, 3), curves=(flat,)), CLAY).stiffness == 1.0
 
 
-def test_bare_numpy_gives_what_the_evaluator_gives() -> None:
-    inputs: ContactInput = line(PIPE, 50)
-    points = positions(found()[CURVE], inputs, PIPE)
-    result = ContactModel(inputs).evaluate(points)
-    names = ("gap", "depth", "ratio", "contact", "force", "slope", "stiffness", "normal_force", "reaction")
-    for name, mine in zip(names, bare_evaluation(inputs, points), strict=True):
-        assert mine == pytest.approx(getattr(result, name), rel=1e-13)
+def test_plain_numpy_gives_the_same_bits() -> None:
+    deck = with_curve(repeated(sample_scene().contact_input(), 5), PIPE)
+    branched = replace(deck, element_nodes=np.column_stack([np.zeros(50, int), np.arange(1, 51)]))
+    for inputs in (line(PIPE, 50), deck, branched):
+        plain, model = Plain.of(inputs), ContactModel(inputs)
+        moved = series(positions(found()[CURVE], inputs, PIPE), PIPE, 4)
+        assert plain.evaluate(moved[0]).equals(model.evaluate(moved[0]))
+        result = model.evaluate(moved)
+        assert not result.contact.all()
+        assert plain.evaluate(moved).equals(result)
+    assert not plain.unbranched
+    assert not plain.evaluate(moved[:1]).equals(result.steps(1, 2))
 
 
 @pytest.mark.parametrize("seabed", [scenes.planes(5, 100.0), scenes.profile(20, 100.0), scenes.scattered(30, 100.0)])

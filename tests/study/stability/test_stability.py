@@ -22,7 +22,7 @@ from tests.builders.scenes import legal_scene
 
 pytestmark = pytest.mark.usefixtures("_shared")
 
-TABLES = ["contacts", "critical-steps", "landings", "newton-cycles", "release", "ladder", "ladder-cells"]
+TABLES = ["contacts", "critical-steps", "landings", "newton-cycles", "release", "ladder", "ladder-cells", "machine"]
 
 
 @pytest.fixture(scope="module")

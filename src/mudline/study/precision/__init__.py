@@ -24,7 +24,8 @@ from mudline.study.precision.drop import drop_case, drop_to, reference_drop
 from mudline.study.precision.integration import Case, study_motions
 from mudline.study.precision.pull import Drag, Pull, SuctionNumbers, drag_case, pull_case
 from mudline.study.precision.smoothing import study_smoothing
-from mudline.study.report import Omission, Section, StudyError, StudyOptions, StudyReport, paragraphs
+from mudline.study.report import Omission, Section, StudyError, StudyOptions, paragraphs
+from mudline.study.running import Part, Study
 
 _DIAMETER = 0.3
 _MASS = 150.0
@@ -193,21 +194,27 @@ of its largest term; a step has failed after 50 iterations.
 """
 
 
-@np.errstate(all="ignore")  # what overflows is not finite, and that is a failure with its reason
-def run(scene: Scene, options: StudyOptions) -> StudyReport:
-    """Study the curves and the stiffest laws of a scene.
-
-    Raises DeckError where the scene cannot be evaluated, and ImportError without scipy.
-    """
+def _motions(scene: Scene, options: StudyOptions) -> Section:
+    """What the deck has to fall on, pull off and drag along, and every scheme on it."""
     studied = contacts_of(scene)
-    curves, backbones = study_curves(scene, options), study_backbones(options)
     omissions: list[Omission] = []
-    cases = all_cases(studied, omissions)
-    sections = (
-        curves,
-        backbones,
-        Section(notes=[*paragraphs(_NOTES), *studied.notes], omissions=omissions),
-        study_motions(cases, options),
-        study_smoothing(scene, studied.contacts, options),
-    )
-    return StudyReport.of("precision", f"Precision: {scene.deck.file}", sections)
+    found = study_motions(all_cases(studied, omissions), options)
+    notes = [*paragraphs(_NOTES), *studied.notes]
+    return found._replace(notes=notes, omissions=[*omissions, *found.omissions])
+
+
+def _smoothing(scene: Scene, options: StudyOptions) -> Section:
+    return study_smoothing(scene, contacts_of(scene).contacts, options)
+
+
+STUDY = Study(
+    "precision",
+    "Precision: {deck}",
+    (
+        Part("curves", study_curves, 10.0),
+        Part("backbones", study_backbones, 5.0),
+        Part("motions", _motions, 60.0),
+        Part("smoothing", _smoothing, 5.0),
+    ),
+)
+run = STUDY.run

@@ -20,19 +20,8 @@ from mudline.contact.arrays import FloatArray
 from mudline.curves import ForceCurve
 from mudline.scene.model import Scene
 from mudline.study.exact import ExactCurve
-from mudline.study.report import (
-    Layout,
-    Omission,
-    Picture,
-    Section,
-    StudyOptions,
-    columns_of,
-    draw_lines,
-    grouped,
-    legend_below,
-    panels,
-    shortened,
-)
+from mudline.study.pictures import Picture, draw_lines, legend_below, panels, shortened
+from mudline.study.report import Layout, Omission, Section, StudyOptions, columns_of, grouped
 from mudline.study.timing import timed
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
@@ -253,7 +242,7 @@ class BackboneRow(NamedTuple):
 SAMPLES = Layout("backbones", "Closed forms sampled at points", columns_of(BackboneRow), brief=False)
 
 
-def study_backbones(options: StudyOptions) -> Section:
+def study_backbones(_: Scene, options: StudyOptions) -> Section:
     """The closed forms against their samples, error against the number of points."""
     options.progress("closed-form curves")
     rows = list(sampled_backbones())

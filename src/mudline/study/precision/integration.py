@@ -12,21 +12,9 @@ import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray
 from mudline.study.motion import Motion, Scheme, System, Trajectory, march
-from mudline.study.report import (
-    Layout,
-    Omission,
-    Picture,
-    Points,
-    Section,
-    StudyOptions,
-    columns_of,
-    draw_lines,
-    grouped,
-    legend_below,
-    panels,
-    shortened,
-)
-from mudline.study.schemes import SCHEMES
+from mudline.study.pictures import Picture, Points, draw_lines, legend_below, panels, shortened
+from mudline.study.report import Layout, Omission, Section, StudyOptions, columns_of, grouped
+from mudline.study.schemes import SCHEMES, STYLES
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
     from matplotlib.axes import Axes
@@ -154,8 +142,7 @@ REACHED = Layout[Sequence[StepRow]](
 def study_motions(cases: Sequence[Case], options: StudyOptions) -> Section:
     """Every scheme on every case over the ladder of steps."""
     rows: list[StepRow] = []
-    for case in cases:
-        options.progress(f"time integration: {case.title}")
+    for case in options.each(cases, lambda case: f"time integration: {case.title}"):
         ladder = FINE_LADDER if options.full else LADDER
         rows += [row(case, scheme, omega_dt) for scheme in TRIED.values() for omega_dt in ladder]
     ladders = grouped(rows, lambda row: (row.case, row.scheme))
@@ -235,7 +222,8 @@ def _draw_steps(ladders: Ladders, cases: Sequence[Case], figure: Figure) -> None
         for line, quantity in enumerate(case.quantities):
             axes = axes_of[line][column]
             title = shortened(case.title) if line == 0 else ""
-            draw_lines(axes, _lines(ladders, case, partial(_at_step, line)), title, "", f"error of {quantity} [-]")
+            y = f"relative error of {quantity} [-]"
+            draw_lines(axes, _lines(ladders, case, partial(_at_step, line)), title, "", y, STYLES)
             _guides(axes)
             axes.set_ylim(1e-9, 30.0)
         axes_of[2][column].set_xlabel("step, omega dt [-]")
@@ -256,8 +244,8 @@ def _guides(axes: Axes) -> None:
 def _draw_times(ladders: Ladders, cases: Sequence[Case], figure: Figure) -> None:
     found = panels(figure, len(cases), 3)
     for axes, case in zip(found, cases, strict=True):
-        x = f"error of {case.quantities[1]} [-]"
-        draw_lines(axes, _lines(ladders, case, _at_run_time), shortened(case.title), x, "run time [s per simulated s]")
+        x, y = f"relative error of {case.quantities[1]} [-]", "run time [s per simulated s]"
+        draw_lines(axes, _lines(ladders, case, _at_run_time), shortened(case.title), x, y, STYLES)
     legend_below(figure, found[0], 5)
 
 

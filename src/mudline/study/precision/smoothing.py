@@ -13,9 +13,10 @@ import numpy as np
 from mudline.contact.arrays import FloatArray
 from mudline.scene.model import Scene
 from mudline.study.laws import ElasticContact, LinearLaw, smoothed_spring
+from mudline.study.pictures import Picture, Points, draw_lines, drawn
 from mudline.study.precision.drop import Drop, drop_case, reference_drop
 from mudline.study.precision.integration import row
-from mudline.study.report import Layout, Picture, Points, Section, StudyOptions, columns_of, draw_lines, drawn, grouped
+from mudline.study.report import Layout, Section, StudyOptions, columns_of, grouped
 from mudline.study.schemes import SCHEMES, Newton
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
@@ -105,14 +106,16 @@ def _draw(rest: Sequence[RestRow], hits: Sequence[ImpactRow], figure: Figure) ->
         tries[f"{name}, from below"] = [(_share(row), row.from_below) for row in rows]
         wrong[name] = [(_share(row), row.error) for row in rows if row.error > 1e-15]
     x = "h / static penetration [-]; h = 0 far left"
-    draw_lines(iterations, tries, "at rest", x, "Newton iterations [-]", "semilogx")
-    draw_lines(error, wrong, "at rest", x, "error of the penetration [-]")
+    draw_lines(iterations, tries, "at rest", x, "Newton iterations [-]")
+    draw_lines(error, wrong, "at rest", x, "relative error of the penetration [-]")
     runs = grouped(hits, lambda row: f"{SCHEMES[row.scheme].title}, omega dt = {row.omega_dt:g}")
     speeds = {name: [(_share(r), r.rebound) for r in rows if r.rebound is not None] for name, rows in runs.items()}
     tries = {name: [(_share(row), row.iterations) for row in rows] for name, rows in runs.items()}
     x = "h / deepest penetration [-]; h = 0 far left"
-    draw_lines(rebound, speeds, "impact", x, "error of the rebound speed [-]")
-    draw_lines(effort, tries, "impact", x, "Newton iterations per step [-]", "semilogx")
+    draw_lines(rebound, speeds, "impact", x, "relative error of the rebound speed [-]")
+    draw_lines(effort, tries, "impact", x, "Newton iterations per step [-]")
+    for axes in (iterations, effort):
+        axes.set_yscale("linear")
     for axes in (iterations, error, rebound):
         axes.legend(fontsize="x-small", loc="best")
 

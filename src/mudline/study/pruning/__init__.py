@@ -1,147 +1,33 @@
-"""What each feature of a scene costs, and that a scene does not pay for those it has not.
-
-Here stands what a scene loads: modules and time, each in a fresh interpreter.
-"""
+"""What each feature of a scene costs, and that a scene does not pay for those it has not."""
 
 from __future__ import annotations
-
-import json
-import pickle
-import subprocess
-import sys
-from collections.abc import Iterator, Sequence
-from dataclasses import fields, replace
-from typing import NamedTuple
-
-import numpy as np
 
 from mudline.contact.input import ContactInput
 from mudline.scene.model import Scene
 from mudline.study import sample_scene
-from mudline.study.pruning import cost
+from mudline.study.pruning import calls, cost
+from mudline.study.pruning.features import advice, study_features
 from mudline.study.pruning.growth import study_growth
-from mudline.study.pruning.scenes import CURVE, Variant, pipe_of, variants
-from mudline.study.report import Layout, Omission, Section, StudyOptions, StudyReport, paragraphs
+from mudline.study.pruning.imports import study_imports
+from mudline.study.pruning.page import page
+from mudline.study.pruning.scenes import Pipe, pipe_of, variants
+from mudline.study.report import Omission, Section, StudyError, StudyOptions, paragraphs
+from mudline.study.running import Part, Study
 
-_NODES = 11
-_RUNS = 3
-_SLOW = 0.5
-"""Seconds of a run after which it is not made again."""
-_PATIENCE = 60.0
-_PROGRAM = """
-import json, pickle, sys, time
-import numpy
-data, before = sys.stdin.buffer.read(), set(sys.modules)
-start = time.process_time()
-from mudline.contact.input import ContactInput
-from mudline.contact.model import ContactModel
-model = ContactModel(ContactInput(**pickle.loads(data)))
-model.evaluate()
-seconds = time.process_time() - start
-loaded = sorted(name for name in set(sys.modules) - before if name.startswith("mudline"))
-others = sum(not name.startswith("mudline") for name in set(sys.modules) - before)
-print(json.dumps([seconds, loaded, others]))
-"""
-
-
-class ImportRow(NamedTuple):
-    """What the evaluator of a scene loads.
-
-    seconds: the best processor time to load, prepare and evaluate a few nodes; numpy is there before.
-    modules: number of modules of mudline.
-    others: number of modules that are not its own.
-    beyond: its own modules that the scene with a curve does not load, without the common beginning of their names.
-    """
-
-    scene: str
-    seconds: float
-    modules: int
-    others: int
-    beyond: tuple[str, ...]
-
-
-def _parts(row: ImportRow) -> str:
-    """The laws, else the packages, that the modules are of."""
-    return ", ".join(dict.fromkeys(module.removeprefix("laws.").partition(".")[0] for module in row.beyond))
-
-
-IMPORTS = Layout[ImportRow](
-    "imports",
-    "What a scene loads, in a fresh interpreter",
-    {
-        "scene": lambda row: row.scene,
-        "time [ms]": lambda row: 1e3 * row.seconds,
-        "modules of mudline": lambda row: row.modules,
-        "other modules": lambda row: row.others,
-        "beyond those of the curve": _parts,
-    },
-)
-MODULES = Layout[tuple[str, str]](
-    "modules",
-    "Modules that a scene loads beyond those of a curve",
-    {"scene": lambda pair: pair[0], "module beyond those of the curve": lambda pair: pair[1]},
-    brief=False,
-)
-
-
-def study_imports(variants: Sequence[Variant], options: StudyOptions) -> Section:
-    """What every scene loads, each in a fresh interpreter."""
-    omissions: list[Omission] = []
-    rows = list(import_rows(variants, CURVE, options, omissions))
-    modules = [(row.scene, module) for row in rows for module in row.beyond]
-    return Section((IMPORTS.table(rows), MODULES.table(modules)), omissions=omissions)
-
-
-def import_rows(
-    found: Sequence[Variant], plain: str, options: StudyOptions, omissions: list[Omission]
-) -> Iterator[ImportRow]:
-    """A row for each scene; `plain` names the one that the others are compared with."""
-    loads = {}
-    for variant in found:
-        options.progress(f"imports: {variant.name}")
-        try:
-            loads[variant.name] = _loaded(variant.make(_NODES))
-        except (OSError, subprocess.SubprocessError) as error:
-            omissions.append(Omission(f"imports of {variant.name}", str(error).splitlines()[0]))
-    common = set(loads[plain][1]) if plain in loads else set()
-    for name, (seconds, modules, others) in loads.items():
-        beyond = [
-            module.removeprefix("mudline.").removeprefix("contact.") for module in modules if module not in common
-        ]
-        yield ImportRow(name, seconds, len(modules), others, tuple(beyond))
-
-
-def _loaded(inputs: ContactInput) -> tuple[float, list[str], int]:
-    """Seconds, modules of mudline, number of others; the quickest of a few interpreters."""
-    data = pickle.dumps(
-        {field.name: getattr(inputs, field.name) for field in fields(inputs) if field.init and field.name != "names"}
-    )
-    rows = [_asked(data)]
-    while len(rows) < _RUNS and rows[0][0] < _SLOW:
-        rows.append(_asked(data))
-    return min(rows, key=lambda row: row[0])
-
-
-def _asked(data: bytes) -> tuple[float, list[str], int]:
-    command = [sys.executable, "-c", _PROGRAM]
-    run = subprocess.run(command, input=data, capture_output=True, check=True, timeout=_PATIENCE)  # noqa: S603 - ours
-    seconds, modules, others = json.loads(run.stdout)
-    return float(seconds), list(modules), int(others)
-
-
-_ORDER = ("curve", "stages", "imports", "growth", "nodes", "sizes", "modules")
-"""Of the tables: what is short first."""
 _NOTES = """
-Times are those of the processor, the best of repeated runs, so that other programs hardly count; per node and step of a
-series of three steps (laid, lifted in waves, dragged aside), whose results are thrown away. Apart from the scene as it
-is, which lies where the deck has it, all nodes are embedded in the seabed, so that every element touches it: the worst
-case.
+Times are those of the processor, so that other programs hardly count: medians and quartiles of five repeats, in which
+what is compared takes turns. Scenes: per node and step of a series of three steps (laid, lifted in waves, dragged
+aside), whose results are thrown away. Apart from the scene as it is, which lies where the deck has it, all nodes are
+embedded in the seabed, so that every element touches it at the first step.
 
-The scene as it is: the deck's elements, repeated up to the number of nodes, with its own seabed and laws. The others:
+The scene as it is: the deck, whole and as often as it takes, with its own order of nodes, seabed and laws. The others:
 a straight line with the curve that most of the deck's elements have, and the median of its diameters and lengths;
 stages are switched on with typical values, on every element or node.
 
-Memory: the most that one evaluation of one step had at a time, beyond the input, its result included.
+Memory: the most that one evaluation of one step had at a time, beyond the input, its result included; of calls, the
+most of the whole call.
+
+Plain numpy: a function by hand for elements on one curve and a flat seabed, with the same results bit by bit.
 
 Imports: each scene in a fresh interpreter that has loaded numpy; the time is for loading, preparing and evaluating
 eleven nodes.
@@ -151,22 +37,51 @@ constant number of elements. Points, curves, planes: one evaluation of one step,
 """
 
 
-@np.errstate(all="ignore")
-def run(scene: Scene, options: StudyOptions) -> StudyReport:
-    """Study what the stages cost on the line of a scene.
+def _given(scene: Scene) -> tuple[ContactInput, Pipe]:
+    """The deck's own input, and what the forced laws are made for.
 
-    Raises DeckError where the scene cannot be evaluated, and ImportError without scipy.
+    Raises DeckError where the scene cannot be evaluated, and StudyError where it has no elements.
     """
     inputs = scene.contact_input()
+    if not len(inputs.element_ids):
+        raise StudyError("the deck has no elements of its own, so there is nothing to time: give one with *ELEMENT")
+    return inputs, pipe_of(inputs, next(iter(sample_scene().curves.values())))
+
+
+def _calls(scene: Scene, options: StudyOptions) -> Section:
+    return calls.study_calls(*_given(scene), options)
+
+
+def _imports(scene: Scene, options: StudyOptions) -> Section:
+    return study_imports(variants(*_given(scene)), options)
+
+
+def _growth(scene: Scene, options: StudyOptions) -> Section:
+    return study_growth(_given(scene)[1], options)
+
+
+def _stages(scene: Scene, options: StudyOptions) -> Section:
+    inputs, pipe = _given(scene)
+    found = cost.study_cost(variants(inputs, pipe), pipe, cost.study_curve(pipe, options), options)
     notes = paragraphs(_NOTES)
-    pipe = pipe_of(inputs, next(iter(sample_scene().curves.values())))
     if not inputs.has("curve"):
         notes.append("The deck's elements have no curve: that of the built-in sample is used.")
-    found = variants(inputs, pipe)
-    alone = cost.study_curve(pipe, options)
-    imports, growth = study_imports(found, options), study_growth(pipe, options)
-    costs = cost.study_cost(found, pipe, alone, options)
     left = [] if options.full else [Omission(f"{cost.MOST} nodes with stages on", "only with --full")]
-    sections = (imports, costs, growth, Section(notes=notes, omissions=left))
-    report = StudyReport.of("pruning", f"Pruning: {scene.deck.file}", sections)
-    return replace(report, tables=tuple(sorted(report.tables, key=lambda table: _ORDER.index(table.name))))
+    features = study_features(scene)
+    return found._replace(tables=[*found.tables, *features.tables], notes=notes, omissions=left)
+
+
+STUDY = Study(
+    "pruning",
+    "Pruning: {deck}",
+    (
+        Part("stages", _stages, 25.0),
+        Part("calls", _calls, 20.0),
+        Part("imports", _imports, 25.0),
+        Part("growth", _growth, 10.0),
+    ),
+    page=page,
+    advice=advice,
+    order=("curve", "stages", "imports", "growth", "calls", "nodes", "sizes", "modules", "features"),
+)
+run = STUDY.run

@@ -3,30 +3,32 @@
 from __future__ import annotations
 
 import tracemalloc
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from mudline.contact.arrays import FloatArray
+from mudline.contact.arrays import BoolArray, FloatArray
 from mudline.contact.input import ContactInput
 from mudline.contact.model import ContactModel
-from mudline.study.pruning.scenes import CURVE, STEPS, Pipe, Variant, line, positions, series
-from mudline.study.report import (
-    Layout,
-    Picture,
-    Section,
-    StudyOptions,
-    columns_of,
-    draw_lines,
-    grouped,
-    label,
-    legend_below,
-    style,
+from mudline.study.pictures import Picture, label, line_style
+from mudline.study.pruning.plain import Plain
+from mudline.study.pruning.scenes import (
+    AS_IT_IS,
+    CURVE,
+    EVERYTHING,
+    PLAIN,
+    STEPS,
+    Pipe,
+    Variant,
+    line,
+    positions,
+    series,
 )
-from mudline.study.timing import Timing, processor_time
+from mudline.study.report import Layout, Section, StudyOptions, columns_of, grouped
+from mudline.study.timing import Spread, paired, ratios
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
     from matplotlib.axes import Axes
@@ -37,13 +39,13 @@ MOST = 1_000_000
 
 
 class CostRow(NamedTuple):
-    """A scene of so many nodes.
+    """A scene of so many nodes; times of a series, of the processor.
 
-    nanoseconds, median: best and middle time of the processor, of a series.
     touching: at the first step.
     peak: largest memory of one evaluation of one step beyond what was there before, bytes per node; its result counts.
-    prepare: nanoseconds per node to make the evaluator.
+    prepare: nanoseconds per node to check the input and make the evaluator.
     history: whether steps are taken one after the other.
+    ratio: how many times the time of the scene with nothing but a curve, in the same repeat.
     """
 
     scene: Annotated[str, "scene"]
@@ -54,197 +56,278 @@ class CostRow(NamedTuple):
     peak: Annotated[float, "memory [bytes/node]"]
     prepare: Annotated[float, "to prepare [ns/node]"]
     history: Annotated[bool, "history"]
+    lower: Annotated[float, "lower quartile [ns/node/step]"]
+    upper: Annotated[float, "upper quartile [ns/node/step]"]
+    ratio: Annotated[float, "times the curve's"]
+    ratio_lower: Annotated[float, "times the curve's, lower quartile"]
+    ratio_upper: Annotated[float, "times the curve's, upper quartile"]
 
 
 class CurveRow(NamedTuple):
-    """A scene with nothing but a curve, all elements touching, and what it is compared with; ns per node."""
+    """A scene with nothing but a curve, all elements touching, and what it is compared with: medians, ns per node.
+
+    The ratios are medians of those of each repeat.
+    """
 
     nodes: Annotated[int, "nodes"]
     curve: Annotated[float, "curve alone [ns/node]"]
     bare: Annotated[float, "plain numpy [ns/node]"]
     scene: Annotated[float, "scene [ns/node]"]
-
-    @property
-    def over_curve(self) -> float:
-        """How many times the time of the curve alone."""
-        return self.scene / self.curve
-
-    @property
-    def over_bare(self) -> float:
-        """How many times the time of plain numpy."""
-        return self.scene / self.bare
+    over_curve: Annotated[float, "scene / curve alone"]
+    over_bare: Annotated[float, "scene / plain numpy"]
+    lower: Annotated[float, "scene / plain numpy, lower quartile"]
+    upper: Annotated[float, "scene / plain numpy, upper quartile"]
+    bare_over_curve: Annotated[float, "plain numpy / curve alone"]
+    equal: Annotated[bool, "same results"]
 
 
-ALONE = Layout[CurveRow](
-    "curve",
-    "A scene with nothing but a curve, one step, every element in contact",
-    {
-        **columns_of(CurveRow),
-        "scene / curve alone": lambda row: row.over_curve,
-        "scene / plain numpy": lambda row: row.over_bare,
-    },
-)
-STAGES = Layout[tuple[CostRow, CostRow]](
+ALONE = Layout("curve", "A scene with nothing but a curve, one step, every element in contact", columns_of(CurveRow))
+STAGES = Layout[CostRow](
     "stages",
-    "Scenes of {nodes} nodes",
+    "Scenes of about {nodes} nodes",
     {
-        "scene": lambda both: both[0].scene,
-        "steps": lambda both: "one by one" if both[0].history else "together",
-        "in contact [%]": lambda both: 100.0 * both[0].touching,
-        "time [ns/node/step]": lambda both: both[0].nanoseconds,
-        "times the curve's": lambda both: both[0].nanoseconds / both[1].nanoseconds,
-        "memory [bytes/node]": lambda both: both[0].peak,
-        "to prepare [ns/node]": lambda both: both[0].prepare,
+        "scene": lambda row: row.scene,
+        "steps": lambda row: "one by one" if row.history else "together",
+        "in contact [%]": lambda row: 100.0 * row.touching,
+        "time [ns/node/step]": lambda row: row.median,
+        "times the curve's": lambda row: row.ratio,
+        "memory [bytes/node]": lambda row: row.peak,
+        "to prepare [ns/node]": lambda row: row.prepare,
+        "lower quartile [ns/node/step]": lambda row: row.lower,
+        "upper quartile [ns/node/step]": lambda row: row.upper,
+        "nodes": lambda row: row.nodes,
     },
 )
-"""A scene, and that with nothing but a curve."""
 NODES = Layout("nodes", "Time and memory against the number of nodes", columns_of(CostRow), brief=False)
 
 
 def study_curve(pipe: Pipe, options: StudyOptions) -> list[CurveRow]:
     """The curve alone at every number of nodes."""
-    rows = []
-    for nodes in (*LADDER, MOST):
-        options.progress(f"{nodes} nodes: the curve alone, and the scene that has nothing else")
-        rows.append(curve_alone(pipe, nodes))
-    return rows
+    return [curve_alone(pipe, nodes) for nodes in options.each((*LADDER, MOST), "{} nodes: the curve alone".format)]
 
 
 def study_cost(variants: Sequence[Variant], pipe: Pipe, alone: Sequence[CurveRow], options: StudyOptions) -> Section:
     """Every scene at every number of nodes, beside the rows of the curve alone."""
-    rows = []
-    for nodes in (*LADDER, MOST) if options.full else LADDER:
-        for variant in variants:
-            options.progress(f"{nodes} nodes: {variant.name}")
-            rows.append(cost(variant, pipe, nodes))
-    most = max(row.nodes for row in rows)
-    largest = [row for row in rows if row.nodes == most]
-    plain = next(row for row in largest if row.scene == CURVE)
-    tables = (
-        ALONE.table(alone),
-        STAGES.table([(row, plain) for row in largest], nodes=most),
-        NODES.table(rows),
-    )
-    caption = "Time per node and step, and memory per node, against the number of nodes: one line a scene."
-    stages = "Cost of each scene in times that of the curve alone."
+    sizes = (*LADDER, MOST) if options.full else LADDER
+    wanted = [(nodes, variant) for nodes in sizes for variant in variants]
+    found: dict[tuple[str, int], CostRow] = {}
+    for nodes, variant in options.each(wanted, lambda both: f"{both[0]} nodes: {both[1].name}"):
+        inputs = variant.make(nodes)  # a long deck has one copy at several sizes
+        if (variant.name, len(inputs.node_ids)) not in found:
+            found[variant.name, len(inputs.node_ids)] = cost(variant, inputs, pipe)
+        if variant.name == CURVE:
+            found[PLAIN, nodes] = plain_cost(inputs, pipe)
+    rows = list(found.values())
+    largest = [scene[-1] for scene in grouped(rows, lambda row: row.scene).values()]
+    tables = ALONE.table(alone), STAGES.table(largest, nodes=sizes[-1]), NODES.table(rows)
+    caption = "Time per node and step, and memory per node, against the number of nodes; bars are quartiles."
+    stages = "Time and memory of each scene in times those of the scene with a curve; bars are quartiles."
     pictures = (
-        Picture("nodes", caption, partial(_draw_nodes, rows, alone), (12.0, 8.0)),
-        Picture("stages", stages, partial(_draw_stages, largest, plain), (11, 6.5)),
+        Picture("nodes", caption, partial(_draw_nodes, rows), (12.0, 5.6)),
+        Picture("stages", stages, partial(_draw_stages, largest), (11, 6.5)),
     )
     return Section(tables, pictures)
 
 
-def _draw_nodes(rows: Sequence[CostRow], alone: Sequence[CurveRow], figure: Figure) -> None:
+# ------------------------------------------------------------------------------------------------------------- pictures
+
+_SHOWN = {
+    PLAIN: ("#6a6a6a", "P", ":"),
+    CURVE: ("#0072b2", "o"),
+    "curve, suction": ("#009e73", "^"),
+    "curve, friction": ("#cc79a7", "D"),
+    AS_IT_IS: ("#000000", "s"),
+    EVERYTHING: ("#d55e00", "v"),
+}
+"""Colours and markers of the scenes in the picture."""
+_APART = 0.045
+"""Of the height of a picture: between two names beside each other, at least."""
+
+
+def _draw_nodes(rows: Sequence[CostRow], figure: Figure) -> None:
     time, memory = figure.subplots(1, 2)
-    scenes = grouped(rows, lambda row: row.scene)
-    times = {scene: [(row.nodes, row.nanoseconds) for row in part] for scene, part in scenes.items()}
-    peaks = {scene: [(row.nodes, row.peak) for row in part] for scene, part in scenes.items()}
-    draw_lines(time, times, "Time of one step", "nodes [-]", "time per node and step [ns]")
-    draw_lines(memory, peaks, "Most memory during one step", "nodes [-]", "memory per node [bytes]")
-    nodes, curve = [row.nodes for row in alone], [row.curve for row in alone]
-    time.loglog(nodes, curve, "k:", linewidth=2.5, label="ForceCurve.evaluate alone")
-    memory.set_ylim(100.0, 2.0 * max(row.peak for row in rows))
-    memory.yaxis.set_minor_formatter("")
-    legend_below(figure, time, 4)
+    scenes = {name: [row for row in rows if row.scene == name] for name in _SHOWN}
+    scenes = {name: part for name, part in scenes.items() if part}
+    for scene, part in scenes.items():
+        nodes, median = [row.nodes for row in part], [row.median for row in part]
+        off = [[row.median - row.lower for row in part], [row.upper - row.median for row in part]]
+        time.errorbar(nodes, median, off, capsize=2, **line_style(*_SHOWN[scene]))
+        memory.plot(nodes, [row.peak for row in part], **line_style(*_SHOWN[scene]))
+    label(time, "Time", "nodes [-]", "time per node and step [ns]")
+    label(memory, "Most memory during one step, its result included", "nodes [-]", "memory per node [bytes]")
+    ends = {name: part[-1] for name, part in scenes.items()}
+    for axes, heights in (
+        (time, {name: row.median for name, row in ends.items()}),
+        (memory, {name: row.peak for name, row in ends.items()}),
+    ):
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_xlim(0.7 * min(row.nodes for row in rows), 12.0 * max(row.nodes for row in rows))
+        axes.set_ylim(0.7 * min(heights.values()), None)
+        _name(axes, heights, max(row.nodes for row in rows))
 
 
-def _draw_stages(largest: Sequence[CostRow], plain: CostRow, figure: Figure) -> None:
+def _name(axes: Axes, heights: Mapping[str, float], x: float) -> None:
+    """The names of lines at their ends, from below, as far from each other as it takes to read them."""
+    low, high = axes.get_ylim()
+    below, apart = 0.0, (high / low) ** _APART
+    for name, height in sorted(heights.items(), key=lambda pair: pair[1]):
+        below = max(height, apart * below)
+        color = _SHOWN[name][0]
+        axes.annotate(name, (x, below), (8, 0), textcoords="offset points", color=color, va="center", fontsize="small")
+
+
+def _draw_stages(largest: Sequence[CostRow], figure: Figure) -> None:
     time, memory = figure.subplots(1, 2, sharey=True)
-    names = [row.scene for row in largest]
-    _bars(time, names, [row.nanoseconds / plain.nanoseconds for row in largest])
-    _bars(memory, names, [row.peak / plain.peak for row in largest])
+    ordered = sorted(largest, key=lambda row: row.ratio)
+    plain = next(row for row in largest if row.scene == CURVE)
+    names = [row.scene for row in ordered]
+    quartiles = [[row.ratio - row.ratio_lower for row in ordered], [row.ratio_upper - row.ratio for row in ordered]]
+    colors = [_HISTORY[row.history][1] for row in ordered]
+    _bars(time, names, [row.ratio for row in ordered], colors, quartiles)
+    _bars(memory, names, [row.peak / plain.peak for row in ordered], colors)
+    for words, color in _HISTORY.values():
+        memory.barh(names[:1], [0.0], color=color, label=words)
+    memory.legend(loc="upper right")
     label(time, f"Time of one step, {plain.nodes} nodes", "times that of the scene with a curve [-]", "")
     label(memory, "Most memory during one step", "times that of the scene with a curve [-]", "")
     time.invert_yaxis()
 
 
-def _bars(axes: Axes, names: Sequence[str], values: Sequence[float]) -> None:
-    bars = axes.barh(names, values, color=style(0)["color"])
-    axes.bar_label(bars, fmt="%.2g", padding=3)
-    axes.set_xlim(0.0, 1.15 * max(values))
+_HISTORY = {False: ("all steps together", "#0072b2"), True: ("one step after the other", "#d55e00")}
+
+
+def _bars(
+    axes: Axes,
+    names: Sequence[str],
+    values: Sequence[float],
+    colors: Sequence[str],
+    off: Sequence[Sequence[float]] = (),
+) -> None:
+    bars = axes.barh(names, values, xerr=off or None, color=colors, ecolor="0.3", capsize=2)
+    axes.set_axisbelow(True)
+    axes.bar_label(bars, fmt="%.2g", padding=6)
+    axes.set_xlim(0.0, 1.2 * max(values))
     axes.axvline(1.0, color="0.4", linestyle=":")
 
 
-def cost(variant: Variant, pipe: Pipe, nodes: int) -> CostRow:
-    """One scene."""
-    inputs = variant.make(nodes)
-    model = ContactModel(inputs)
-    points = positions(variant, inputs, pipe)
-    taken = stepping(model, series(points, pipe))
-    prepared = processor_time(lambda: ContactModel(inputs), few=True)
-    per = 1e9 / (nodes * STEPS)
-    touching, peak = _evaluated(model, points)
-    return CostRow(
+# ------------------------------------------------------------------------------------------------------------ measuring
+
+
+def cost(variant: Variant, inputs: ContactInput, pipe: Pipe) -> CostRow:
+    """One scene, paired with that of a curve and nothing else that has as many nodes."""
+    nodes, model = len(inputs.node_ids), ContactModel(inputs)
+    plain = line(pipe, nodes)
+    points, along = positions(variant, inputs, pipe), positions(Variant("", lambda _: plain), plain, pipe)
+    return _row(
         variant.name,
+        paired([streamed(model, series(points, pipe)), streamed(ContactModel(plain), series(along, pipe))]),
+        lambda: ContactModel(replace(inputs)),
+        model.evaluate(points).contact,
+        peak_of(lambda: model.evaluate(points)),
         nodes,
-        taken.best * per,
-        taken.median * per,
-        touching,
-        peak / nodes,
-        prepared.best * 1e9 / nodes,
-        model.plan.history,
+        history=model.plan.history,
     )
 
 
-def stepping(model: ContactModel, moved: FloatArray) -> Timing:
-    """Time of a run through a series (steps, n, 3), results thrown away."""
+def plain_cost(inputs: ContactInput, pipe: Pipe) -> CostRow:
+    """Plain numpy on elements with one curve and nothing else, paired with the scene."""
+    model, plain = ContactModel(inputs), Plain.of(inputs)
+    points = positions(Variant("", lambda _: inputs), inputs, pipe)
+    moved = series(points, pipe)
+    parts = [slice(part.start, part.start + len(part.result.depth)) for part in model.stream(moved)]
+
+    def run() -> None:
+        for part in parts:
+            plain.evaluate(moved[part])
+
+    return _row(
+        PLAIN,
+        paired([run, streamed(model, moved)]),
+        lambda: Plain.of(inputs),
+        plain.evaluate(points).contact,
+        peak_of(lambda: plain.evaluate(points)),
+        len(inputs.node_ids),
+        history=False,
+    )
+
+
+def _row(  # noqa: PLR0913 - what the two ways to measure differ in
+    name: str,
+    seconds: list[list[float]],
+    prepare: Callable[[], object],
+    contact: BoolArray,
+    peak: int,
+    nodes: int,
+    *,
+    history: bool,
+) -> CostRow:
+    """The row of what was paired with the scene of a curve."""
+    taken, over = Spread.of(seconds[0]).times(1e9 / (nodes * STEPS)), ratios(*seconds)
+    (prepared,) = paired([prepare])
+    touching = float(contact.mean()) if contact.size else 0.0
+    prepared_in = Spread.of(prepared).median * 1e9 / nodes
+    return CostRow(
+        name,
+        nodes,
+        taken.least,
+        taken.median,
+        touching,
+        peak / nodes,
+        prepared_in,
+        history,
+        taken.lower,
+        taken.upper,
+        over.median,
+        over.lower,
+        over.upper,
+    )
+
+
+def streamed(model: ContactModel, moved: FloatArray) -> Callable[[], None]:
+    """A run through a series (steps, n, 3), results thrown away."""
     times = 0.1 * np.arange(float(len(moved)))
 
     def run() -> None:
         for _ in model.stream(moved, times=times):
             pass
 
-    return processor_time(run)
+    return run
 
 
 def curve_alone(pipe: Pipe, nodes: int) -> CurveRow:
     """The scene with a curve against the curve on the same ratios and against plain numpy; one step, turn by turn."""
     inputs = line(pipe, nodes)
-    model = ContactModel(inputs)
+    model, plain = ContactModel(inputs), Plain.of(inputs)
     points = positions(Variant("", lambda _: inputs), inputs, pipe)
-    ratios = model.evaluate(points).ratio.copy()
-    calls = (
-        lambda: pipe.curve.evaluate(ratios),
-        lambda: bare_evaluation(inputs, points),
-        lambda: model.evaluate(points),
+    result = model.evaluate(points)
+    ratio = result.ratio.copy()
+    calls = (lambda: pipe.curve.evaluate(ratio), lambda: plain.evaluate(points), lambda: model.evaluate(points))
+    curve, bare, scene = paired(calls)
+    over = ratios(scene, bare)
+    return CurveRow(
+        nodes,
+        1e9 * Spread.of(curve).median / nodes,
+        1e9 * Spread.of(bare).median / nodes,
+        1e9 * Spread.of(scene).median / nodes,
+        ratios(scene, curve).median,
+        over.median,
+        over.lower,
+        over.upper,
+        ratios(bare, curve).median,
+        plain.evaluate(points).equals(result),
     )
-    least = [np.inf] * len(calls)
-    for _ in range(3):  # turn by turn: a machine that gets busy slows all of them
-        for index, call in enumerate(calls):
-            least[index] = min(least[index], processor_time(call).best)
-    curve, bare, scene = (1e9 * seconds / nodes for seconds in least)
-    return CurveRow(nodes, curve, bare, scene)
 
 
-def _evaluated(model: ContactModel, points: FloatArray) -> tuple[float, int]:
-    """Share of elements that touch, and bytes at the peak of an evaluation."""
+def peak_of(call: Callable[[], object]) -> int:
+    """Bytes that a call has at most at a time, beyond what was there before; what it returns counts."""
     tracemalloc.start()
     try:
         before = tracemalloc.get_traced_memory()[0]
         tracemalloc.reset_peak()
-        result = model.evaluate(points)
+        kept = call()
         peak = tracemalloc.get_traced_memory()[1] - before
+        del kept
     finally:
         tracemalloc.stop()
-    return float(result.contact.mean()), peak
-
-
-def bare_evaluation(inputs: ContactInput, points: FloatArray) -> tuple[NDArray[np.float64 | np.bool_], ...]:
-    """Depth, ratio, contact, force, slope, stiffness, and reactions, of a chain of elements on one curve, flat seabed.
-
-    What nobody who wants the same results can do without, in plain numpy: a line of code for each. All elements are
-    taken to touch the seabed; nothing is checked, no history, no other law or seabed.
-    """
-    gap = points[:, 0] + 0.0
-    depth = -0.5 * (gap[:-1] + gap[1:])
-    ratio = depth / inputs.diameter
-    contact = depth > 0.0
-    force, slope = inputs.curves[0].evaluate(ratio)
-    stiffness = slope / inputs.diameter
-    share = 0.5 * inputs.length * force
-    normal_force = np.zeros(len(points))
-    normal_force[:-1] += share
-    normal_force[1:] += share
-    reaction = np.zeros(points.shape)
-    reaction[:, 0] = normal_force
-    return gap, depth, ratio, contact, force, slope, stiffness, normal_force, reaction
+    return peak

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise
-from typing import TYPE_CHECKING, Annotated, NamedTuple
+from typing import TYPE_CHECKING, Annotated, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -14,10 +14,11 @@ from mudline.contact.input import ContactInput, LawAssignment
 from mudline.contact.model import ContactModel
 from mudline.curves import ForceCurve
 from mudline.study import scene_of
-from mudline.study.pruning.cost import stepping
+from mudline.study.pictures import Picture, label, panels, style
+from mudline.study.pruning.cost import streamed
 from mudline.study.pruning.scenes import Pipe, Variant, everything, line, planes, positions, series
-from mudline.study.report import Layout, Picture, Section, StudyOptions, columns_of, grouped, label, panels, style
-from mudline.study.timing import processor_time
+from mudline.study.report import Layout, Section, StudyOptions, columns_of, grouped
+from mudline.study.timing import Spread, paired
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
     from matplotlib.axes import Axes
@@ -29,11 +30,14 @@ ELEMENTS = 2048
 _DEEPEST = 0.5
 
 
+Call: TypeAlias = Callable[[], object]
+
+
 class Ladder(NamedTuple):
-    """Sizes of one thing, and the seconds that a scene of a pipe takes with it."""
+    """Sizes of one thing, and what is timed of a scene of a pipe with so many."""
 
     sizes: Sequence[int]
-    measure: Callable[[Pipe, int], float]
+    prepared: Callable[[Pipe, int], Call]
 
 
 class GrowthRow(NamedTuple):
@@ -41,7 +45,10 @@ class GrowthRow(NamedTuple):
 
     what: Annotated[str, "number of"]
     size: Annotated[int, "size"]
-    seconds: Annotated[float, "best time [s]"]
+    best: Annotated[float, "best time [s]"]
+    lower: Annotated[float, "lower quartile [s]"]
+    seconds: Annotated[float, "median time [s]"]
+    upper: Annotated[float, "upper quartile [s]"]
 
 
 class Fit(NamedTuple):
@@ -59,6 +66,7 @@ class Fit(NamedTuple):
     upper: Annotated[float, "exponent, upper half"]
     factor: Annotated[float, "time, largest / smallest"]
     unit: float
+    largest_seconds: Annotated[float, "time of the largest [s]"]
 
 
 FITS = Layout[Fit]("growth", "How time grows", {**columns_of(Fit), "time of one more [us]": lambda fit: 1e6 * fit.unit})
@@ -107,11 +115,14 @@ def _slope(
 
 
 def growth(pipe: Pipe, options: StudyOptions) -> Iterator[GrowthRow]:
-    """All ladders; longer by a factor of four with `full`."""
-    for what, (sizes, measure) in LADDERS.items():
-        for size in [*sizes, *((4 * sizes[-1],) if options.full else ())]:
-            options.progress(f"{what}: {size}")
-            yield GrowthRow(what, size, measure(pipe, size))
+    """All ladders, the sizes of each turn by turn; longer by a factor of four with `full`."""
+    ladders = [
+        (what, [*sizes, *((4 * sizes[-1],) if options.full else ())], prepared)
+        for what, (sizes, prepared) in LADDERS.items()
+    ]
+    for what, sizes, prepared in options.each(ladders, lambda ladder: f"{ladder[0]}: up to {ladder[1][-1]}"):
+        for size, seconds in zip(sizes, paired([prepared(pipe, size) for size in sizes]), strict=True):
+            yield GrowthRow(what, size, *Spread.of(seconds))
 
 
 def fits(rows: Sequence[GrowthRow]) -> Iterator[Fit]:
@@ -120,7 +131,7 @@ def fits(rows: Sequence[GrowthRow]) -> Iterator[Fit]:
         sizes, seconds = [float(row.size) for row in ladder], [row.seconds for row in ladder]
         factor = seconds[-1] / seconds[0]
         numbers = (exponent(sizes, seconds), upper_half(sizes, seconds), factor, per_unit(sizes, seconds))
-        yield Fit(what, ladder[0].size, ladder[-1].size, *numbers)
+        yield Fit(what, ladder[0].size, ladder[-1].size, *numbers, seconds[-1])
 
 
 def exponent(sizes: Sequence[float], seconds: Sequence[float]) -> float:
@@ -151,11 +162,11 @@ def spread(points: int, scale: float) -> ForceCurve:
     return ForceCurve(np.column_stack([ratios, scale * np.sqrt(ratios)]))
 
 
-def _points(pipe: Pipe, size: int) -> float:
+def _points(pipe: Pipe, size: int) -> Call:
     return _pressed(pipe, replace(line(pipe, NODES), curves=(spread(size, 1000.0),)))
 
 
-def _curves(pipe: Pipe, size: int) -> float:
+def _curves(pipe: Pipe, size: int) -> Call:
     """Curves in stretches of the line, as sets have them."""
     elements = np.arange(NODES - 1)
     law = LawAssignment("curve", elements, {"curve": elements * size // (NODES - 1)})
@@ -163,30 +174,30 @@ def _curves(pipe: Pipe, size: int) -> float:
     return _pressed(pipe, replace(line(pipe, NODES), laws=(law,), curves=made))
 
 
-def _sets(pipe: Pipe, size: int) -> float:
+def _sets(pipe: Pipe, size: int) -> Call:
     """Reading the deck until its evaluator stands."""
     del pipe
     text = deck_with_sets(size, ELEMENTS)
-    return processor_time(lambda: scene_of(text, "sets.keyxm").contact(), few=True).best
+    return lambda: scene_of(text, "sets.keyxm").contact()
 
 
-def _planes(pipe: Pipe, size: int) -> float:
+def _planes(pipe: Pipe, size: int) -> Call:
     return _pressed(pipe, replace(line(pipe, NODES), seabed=planes(size, pipe.length * NODES)))
 
 
-def _pressed(pipe: Pipe, inputs: ContactInput) -> float:
+def _pressed(pipe: Pipe, inputs: ContactInput) -> Call:
     model = ContactModel(inputs)
     points = positions(Variant("", lambda _: inputs), inputs, pipe)
-    return processor_time(lambda: model.evaluate(points)).best
+    return lambda: model.evaluate(points)
 
 
-def _stepped(make: Callable[[Pipe, int], ContactInput]) -> Callable[[Pipe, int], float]:
-    def measured(pipe: Pipe, size: int) -> float:
+def _stepped(make: Callable[[Pipe, int], ContactInput]) -> Callable[[Pipe, int], Call]:
+    def prepared(pipe: Pipe, size: int) -> Call:
         inputs = make(pipe, FEW_NODES)
         points = positions(Variant("", lambda _: inputs), inputs, pipe)
-        return stepping(ContactModel(inputs), series(points, pipe, size)).best
+        return streamed(ContactModel(inputs), series(points, pipe, size))
 
-    return measured
+    return prepared
 
 
 LADDERS = {

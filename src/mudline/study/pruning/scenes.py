@@ -18,6 +18,8 @@ from mudline.contact.seabed.profile import ProfileSeabed
 from mudline.curves import ForceCurve
 
 AS_IT_IS, CURVE, EVERYTHING = "scene as it is", "curve", "everything"
+PLAIN = "plain numpy"
+"""What is compared with the scene of a curve: a function, and no scene."""
 COHESION = 5000.0
 STEPS = 3
 """Of a series: laid, then lifted in waves, then dragged."""
@@ -62,7 +64,7 @@ class Variant:
 
     Attributes:
         name: for tables.
-        make: gives the input with so many nodes.
+        make: gives the input with so many nodes; about so many, where whole copies of the deck are made.
         lies: whether the nodes stay where the deck has them, instead of being embedded in the seabed.
     """
 
@@ -98,7 +100,7 @@ def variants(inputs: ContactInput, pipe: Pipe) -> list[Variant]:
         return lambda nodes: replace(line(pipe, nodes), seabed=seabed(pipe.length * nodes))
 
     return [
-        Variant(AS_IT_IS, lambda nodes: tiled(inputs, nodes), lies=True),
+        Variant(AS_IT_IS, lambda nodes: repeated(inputs, copies_for(inputs, nodes)), lies=True),
         Variant(CURVE, having("curve")),
         Variant("linear law", having("linear")),
         Variant("linear law, smoothing", having("smoothed")),
@@ -162,30 +164,51 @@ def _numbers(pipe: Pipe) -> dict[str, Mapping[str, ArrayLike]]:
     }
 
 
-def tiled(inputs: ContactInput, nodes: int) -> ContactInput:
-    """An input with this many nodes, in one chain; each copy lies where the deck's own line lies.
-
-    With fewer nodes than the deck has, elements are picked evenly. Raises ValueError without elements or for less
-    than two nodes.
-    """
-    own = len(inputs.element_ids)
-    if not own or nodes < 2:
-        raise ValueError("a line needs an element and two nodes")
-    elements = nodes - 1
-    picked: IndexArray = np.arange(elements) % own if elements >= own else np.arange(elements) * own // elements
-    origin = np.append(inputs.element_nodes[picked, 0], inputs.element_nodes[picked[-1], 1])
+def repeated(inputs: ContactInput, copies: int) -> ContactInput:
+    """An input so many times side by side; each copy has the order of nodes and elements that the deck gives them."""
+    nodes, elements = len(inputs.node_ids), len(inputs.element_ids)
+    first = np.repeat(np.arange(copies), elements)[:, None] * nodes
     return replace(
         inputs,
-        node_ids=np.arange(1, nodes + 1),
-        coordinates=inputs.coordinates[origin],
-        element_ids=np.arange(1, nodes),
-        element_nodes=chain(nodes),
-        length=inputs.length[picked],
-        diameter=inputs.diameter[picked],
+        node_ids=np.arange(1, copies * nodes + 1),
+        coordinates=np.tile(inputs.coordinates, (copies, 1)),
+        element_ids=np.arange(1, copies * elements + 1),
+        element_nodes=np.tile(inputs.element_nodes, (copies, 1)) + first,
+        length=np.tile(inputs.length, copies),
+        diameter=np.tile(inputs.diameter, copies),
         laws=tuple(
-            _tiled(given, origin if given.law.acts_on == "nodes" else picked) for given in inputs.assigned.values()
+            _repeated(given, copies, nodes if given.law.acts_on == "nodes" else elements)
+            for given in inputs.assigned.values()
         ),
-        weight=None if inputs.weight is None else inputs.weight[picked],
+        weight=None if inputs.weight is None else np.tile(inputs.weight, copies),
+    )
+
+
+def copies_for(inputs: ContactInput, nodes: int) -> int:
+    """How many copies of an input have about so many nodes; at least one."""
+    return max(1, round(nodes / max(len(inputs.node_ids), 1)))
+
+
+def with_curve(inputs: ContactInput, pipe: Pipe) -> ContactInput:
+    """The elements of an input, in their order, with the curve and the diameter of the pipe and nothing else."""
+    elements = len(inputs.element_ids)
+    return ContactInput(
+        node_ids=inputs.node_ids,
+        coordinates=inputs.coordinates,
+        element_ids=inputs.element_ids,
+        element_nodes=inputs.element_nodes,
+        length=inputs.length,
+        diameter=np.full(elements, pipe.diameter),
+        laws=(LawAssignment("curve", np.arange(elements), {"curve": 0}),),
+        curves=(pipe.curve,),
+    )
+
+
+def _repeated(given: AssignedLaw, copies: int, count: int) -> LawAssignment:
+    """A law on the copies of so many elements or nodes."""
+    rows = np.tile(given.rows, copies) + np.repeat(np.arange(copies), len(given.rows)) * count
+    return LawAssignment(
+        given.law.name, rows, {name: np.tile(values, copies) for name, values in given.parameters.items()}
     )
 
 
@@ -193,14 +216,6 @@ def chain(nodes: int) -> IndexArray:
     """The nodes (m, 2) of elements that follow each other."""
     found: IndexArray = np.column_stack([np.arange(nodes - 1), np.arange(1, nodes)])
     return found
-
-
-def _tiled(given: AssignedLaw, origin: IndexArray) -> LawAssignment:
-    """A law on copies of elements or nodes, whose origins are given."""
-    place = np.minimum(np.searchsorted(given.rows, origin), len(given.rows) - 1)
-    held: IndexArray = np.flatnonzero(given.rows[place] == origin)
-    parameters = {name: values[place[held]] for name, values in given.parameters.items()}
-    return LawAssignment(given.law.name, held, parameters)
 
 
 # -------------------------------------------------------------------------------------------------------------- seabeds

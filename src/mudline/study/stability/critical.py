@@ -18,17 +18,8 @@ from mudline.contact.stiffest import ADVISED_OMEGA_DT, CRITICAL_OMEGA_DT, omega,
 from mudline.scene.assignments import given_stiffness
 from mudline.scene.model import Scene
 from mudline.study.motion import Forces, History, Motion, Scheme, march
-from mudline.study.report import (
-    Layout,
-    Omission,
-    Picture,
-    Section,
-    StudyOptions,
-    columns_of,
-    drawn,
-    label,
-    legend_below,
-)
+from mudline.study.pictures import Picture, drawn, label, legend_below
+from mudline.study.report import Layout, Omission, Section, StudyOptions, columns_of
 from mudline.study.schemes import SCHEMES, Newton, OneStep
 
 if TYPE_CHECKING:  # only who draws loads matplotlib

@@ -14,8 +14,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from mudline.scene.model import Scene
 from mudline.study.exact import ExactCurve, ExactLinear
-from mudline.study.report import Layout, Picture, Section, StudyOptions, columns_of, grouped
+from mudline.study.pictures import Picture
+from mudline.study.report import Layout, Section, StudyOptions, columns_of, grouped
 from mudline.study.stability.judging import (
     DIAMETER,
     Cell,
@@ -180,7 +182,7 @@ BY_FAMILY = Layout[Sequence[Judgement]](
 BY_CELL = Layout("ladder-cells", "Ladder of extremes, cell by cell", columns_of(Judgement), brief=False)
 
 
-def study_ladder(options: StudyOptions) -> Section:
+def study_ladder(_: Scene, options: StudyOptions) -> Section:
     """The verdict on every cell, and in a full run on random decks."""
     options.progress("ladder of extremes")
     judgements = [*map(judge, all_cells()), *map(judge_suction, suction_cells())]

@@ -14,10 +14,12 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
+from mudline.scene.model import Scene
 from mudline.study.laws import Falling, LinearLaw
 from mudline.study.motion import Motion, Scheme, march
-from mudline.study.report import Layout, Picture, Section, StudyOptions, columns_of, grouped, label, legend_below, style
-from mudline.study.schemes import SCHEMES
+from mudline.study.pictures import Picture, label, legend_below
+from mudline.study.report import Layout, Section, StudyOptions, columns_of, grouped
+from mudline.study.schemes import SCHEMES, STYLES
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
     from matplotlib.figure import Figure
@@ -94,7 +96,7 @@ LANDINGS = Layout[Landing](
 )
 
 
-def study_landings(options: StudyOptions) -> Section:
+def study_landings(_: Scene, options: StudyOptions) -> Section:
     """All schemes at all steps: in which of them the rebound is faster than the landing."""
     options.progress("landings")
     landed = landings()
@@ -113,9 +115,9 @@ def _draw(figure: Figure) -> None:
     """Restitution over the landing phase, a panel for each omega dt."""
     panels = figure.subplots(2, 2, sharex=True)
     for axes, (omega_dt, low, high) in zip(panels.flat, _SHOWN, strict=True):
-        for index, name in enumerate(_DRAWN):
-            speeds = speeds_over_phases(SCHEMES[name], omega_dt)
-            axes.plot(PHASES, speeds, label=SCHEMES[name].title, **style(index), markevery=(6 * index, 50))
+        for index, scheme in enumerate(SCHEMES[name] for name in _DRAWN):
+            speeds = speeds_over_phases(scheme, omega_dt)
+            axes.plot(PHASES, speeds, label=scheme.title, **STYLES[scheme.title], markevery=(6 * index, 50))
         axes.axhline(1.0, color="0.4", linewidth=0.8, zorder=0)
         axes.set_ylim(low, high)
         label(axes, f"ω dt = {omega_dt:g}{_off(omega_dt, low)}", "", "speed after / before landing [-]")

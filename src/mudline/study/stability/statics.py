@@ -221,8 +221,9 @@ class CycleCount(NamedTuple):
 CYCLES = Layout("newton-cycles", "Newton's method on friction that slips", columns_of(CycleCount))
 
 
-def study_cycles() -> Section:
+def study_cycles(_: Scene, options: StudyOptions) -> Section:
     """From how many starts each method fails, and the iterates of the example."""
+    options.progress("Newton's method on friction")
     plain, halved = (
         newton_path(EXAMPLE, 1.0, Newton(most=most, halving=halving)) for most, halving in ((6, False), (50, True))
     )
