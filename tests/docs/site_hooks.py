@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from latex2mathml.converter import convert
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
 from mkdocs.structure.pages import Page
@@ -31,6 +32,7 @@ _FILE_NAME = re.compile(r"(?<=\[)[\w/-]+\.(?:md|ipynb)(?=\]\(([^)\s#]+))")
 _TITLE = re.compile(r"^# (.+)$", re.MULTILINE)
 _ROW = re.compile(r"^\|.*$", re.MULTILINE)
 _CODE = re.compile(r"`[^`]+`")
+_FORMULA = re.compile(r"\$\$(.+?)\$\$|\$([^$\n]+)\$", re.DOTALL)
 _TARGET = re.compile(r"(?<=\]\()(?![a-z]+:|#)([^)\s#]+)")
 
 
@@ -73,11 +75,24 @@ def notebook_page(path: Path) -> tuple[str, dict[str, bytes]]:
     parts = []
     for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
         source = "".join(cell["source"])
-        parts.append(source if cell["cell_type"] == "markdown" else f"```python\n{source}\n```")
+        parts.append(_with_formulas(source) if cell["cell_type"] == "markdown" else f"```python\n{source}\n```")
         parts += [_output(output, path.stem, pictures) for output in cell.get("outputs", ())]
     title, _, rest = "\n\n".join(parts).partition("\n")
     download = f'<a href="{path.name}" download>Download this page as a Jupyter notebook</a>'
     return f"{title}\n\n{download}\n{rest}\n", pictures
+
+
+def _with_formulas(text: str) -> str:
+    """A text with MathML for its formulas, which are TeX between dollar signs; code may hold a dollar sign too."""
+    pieces = re.split(r"(`[^`]*`)", text)
+    pieces[::2] = [_FORMULA.sub(_formula, piece) for piece in pieces[::2]]
+    return "".join(pieces)
+
+
+def _formula(match: re.Match[str]) -> str:
+    if match[1]:
+        return f'<div class="formula">{convert(match[1], display="block")}</div>'
+    return f"<span>{convert(match[2])}</span>"  # at the beginning of a line <math> would be a paragraph of its own
 
 
 def _output(output: dict[str, Any], stem: str, pictures: dict[str, bytes]) -> str:

@@ -92,8 +92,28 @@ def browser() -> Iterator[Browser]:
         yield playwright.chromium.launch(executable_path=program)
 
 
+def links(site: Path) -> tuple[int, list[str]]:
+    """How many links within a site its pages have, and those that lead nowhere."""
+    texts = {site / name: (site / name).read_text(encoding="utf-8") for name in pages(site)}
+    anchors = {path: set(_ANCHOR.findall(text)) for path, text in texts.items()}
+    followed = 0
+    broken = []
+    for path, text in texts.items():
+        for link in sorted(set(_LINK.findall(text))):
+            if re.match(r"https?:|mailto:|data:", link):
+                continue
+            followed += 1
+            file, _, anchor = unquote(link).partition("#")
+            target = Path(os.path.normpath(path.parent / file)) if file else path
+            target = target / "index.html" if target.is_dir() else target
+            if not target.is_file() or (anchor and anchor not in anchors.get(target, ())):
+                broken.append(f"{path.relative_to(site)}: {link}")
+    return followed, broken
+
+
 def pages(site: Path) -> list[str]:
-    return sorted(path.relative_to(site).as_posix() for path in site.rglob("*.html"))
+    """The built pages but that of missing ones, whose links begin at the root of a server."""
+    return sorted(path.relative_to(site).as_posix() for path in site.rglob("*.html") if path.name != "404.html")
 
 
 def test_every_page_is_built(site: Path) -> None:
@@ -105,24 +125,16 @@ def test_every_page_is_built(site: Path) -> None:
 
 
 def test_links_of_built_pages_lead_somewhere(site: Path) -> None:
-    texts = {site / name: (site / name).read_text(encoding="utf-8") for name in pages(site)}
-    anchors = {path: set(_ANCHOR.findall(text)) for path, text in texts.items()}
-    broken = []
-    followed = 0
-    for path, text in texts.items():
-        if path.name == "404.html":
-            continue  # its links begin at the root of a server
-        for link in set(_LINK.findall(text)):
-            if re.match(r"https?:|mailto:|data:", link):
-                continue
-            followed += 1
-            file, _, anchor = unquote(link).partition("#")
-            target = Path(os.path.normpath(path.parent / file)) if file else path
-            target = target / "index.html" if target.is_dir() else target
-            if not target.is_file() or (anchor and anchor not in anchors.get(target, ())):
-                broken.append(f"{path.relative_to(site)}: {link}")
+    followed, broken = links(site)
     assert followed > 5000
     assert broken == []
+
+
+def test_broken_links_are_noticed(tmp_path: Path) -> None:
+    there = '<a href="b.html"></a><a href="#top"></a><a href="b.html#%41" id="top"></a>'
+    (tmp_path / "a.html").write_text(f'{there}<a href="c.html"></a><img src="c.png"><a href="b.html#no"></a>')
+    (tmp_path / "b.html").write_text('<h1 id="A"></h1><a href="https://example.org/none"></a><a href="./"></a>')
+    assert links(tmp_path) == (7, ["a.html: b.html#no", "a.html: c.html", "a.html: c.png", "b.html: ./"])
 
 
 def test_decks_are_coloured(site: Path) -> None:
@@ -159,6 +171,6 @@ def test_no_page_is_wider_than_a_phone(site: Path, address: str, browser: Browse
         context.route("**/*.{png,svg}", lambda route: route.abort())
         page = context.new_page()
         page.goto(address)
-        built = [f"{address}{name}" for name in pages(site) if name != "404.html"]
+        built = [f"{address}{name}" for name in pages(site)]
         planted = f"<article><p style='width: {PHONE + 50}px'>wide</p></article>"
         assert page.evaluate(TOO_WIDE, [[*built, planted], PHONE]) == [planted]
