@@ -27,11 +27,9 @@ VISITED = (
     "index.html",
     "tutorials/first-deck.html",
     "tutorials/touchdown-zone-in-waves.html",
-    "cli.html",
     "keywords/seabed-stiffness.html",
     "rules/CRV003.html",
     "python-api.html",
-    "certainty.html",
 )
 """A page of each kind."""
 
@@ -44,15 +42,18 @@ _ANCHOR = re.compile(r'\s(?:id|name)="([^"]+)"')
 
 TOO_WIDE = """async ([paths, width]) => {
     const shown = document.querySelector("article");
-    const wide = [];
-    for (const path of paths) {
-        const text = path.startsWith("<") ? path : await (await fetch(path)).text();
-        shown.innerHTML = new DOMParser().parseFromString(text, "text/html").querySelector("article").innerHTML;
-        if (document.documentElement.scrollWidth > width) wide.push(path);
-    }
-    return wide;
+    const texts = await Promise.all(paths.map(async path => path.startsWith("<") ? path : (await fetch(path)).text()));
+    return paths.filter((path, index) => {
+        const article = new DOMParser().parseFromString(texts[index], "text/html").querySelector("article");
+        article.querySelectorAll("img").forEach(picture => picture.removeAttribute("src"));
+        shown.innerHTML = article.innerHTML;
+        return document.documentElement.scrollWidth > width;
+    });
 }"""
-"""Shows the text of each page in the frame of the one that is open, and gives those that stick out."""
+"""Lays out the text of each page in the frame of the one that is open, and gives those that stick out.
+
+Nothing is drawn until all are done, which takes a fraction of the time of opening each page.
+"""
 
 
 @pytest.fixture(scope="module")
@@ -168,9 +169,12 @@ def test_a_browser_shows_pages_without_errors_and_without_other_hosts(address: s
 
 def test_no_page_is_wider_than_a_phone(site: Path, address: str, browser: Browser) -> None:
     with browser.new_context(viewport={"width": PHONE, "height": 844}) as context:
-        context.route("**/*.{png,svg}", lambda route: route.abort())
         page = context.new_page()
         page.goto(address)
-        built = [f"{address}{name}" for name in pages(site)]
+        every = pages(site)
+        rules = [name for name in every if name.startswith("rules/")]
+        some = {*rules} - {*rules[::10]}  # all are made by one template
+        built = [f"{address}{name}" for name in every if name not in some]
+        assert len(built) > 70
         planted = f"<article><p style='width: {PHONE + 50}px'>wide</p></article>"
         assert page.evaluate(TOO_WIDE, [[*built, planted], PHONE]) == [planted]
