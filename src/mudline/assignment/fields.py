@@ -133,7 +133,7 @@ def _unknown_keyword(keyword: str) -> str:
     if catalogue.sections_of(keyword) is not None:
         return f"the lines of *{keyword} are passed through unchanged: no value in them can be named"
     near = catalogue.suggest_keyword(keyword)
-    return f"*{keyword} is not a known keyword" + (f": did you mean {near}?" if near else ": mudline help set shows how")
+    return f"*{keyword} is not a known keyword" + (f": did you mean {near}?" if near else ": see docs/keywords.md")
 
 
 def _unknown_field(path: FieldPath, known: Sequence[DeclaredField]) -> str:
