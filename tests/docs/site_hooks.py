@@ -16,7 +16,7 @@ from typing import Any
 
 from latex2mathml.converter import convert
 from mkdocs.config.defaults import MkDocsConfig
-from mkdocs.structure.files import File, Files
+from mkdocs.structure.files import File, Files, InclusionLevel
 from mkdocs.structure.pages import Page
 
 ROOT = Path(__file__).parents[2]
@@ -43,7 +43,7 @@ def on_config(config: MkDocsConfig) -> MkDocsConfig:
 
 
 def on_files(files: Files, *, config: MkDocsConfig) -> Files:
-    """Add the notebooks as pages, and the files outside docs/ that a page links to."""
+    """Add notebooks as pages, files outside docs/ that a page links to, and lists of folders that a page links to."""
     for notebook in sorted(DOCS.glob("tutorials/*.ipynb")):
         text, pictures = notebook_page(notebook)
         files.append(File.generated(config, _uri(notebook), content=text))
@@ -51,6 +51,10 @@ def on_files(files: Files, *, config: MkDocsConfig) -> Files:
             files.append(File.generated(config, f"tutorials/{name}", content=picture))
     for path in sorted(_linked_outside()):
         files.append(File.generated(config, _uri(path), abs_src_path=str(path)))
+    for folder in sorted({path for page in DOCS.rglob("*.md") for path in _targets(page) if _is_listed(path)}):
+        names = sorted(path.name for path in folder.iterdir() if path.is_file())
+        text = f"# {folder.name}/\n\n" + "".join(f"* [{name}]({name})\n" for name in names)
+        files.append(File.generated(config, _uri(folder), content=text, inclusion=InclusionLevel.NOT_IN_NAV))
     return files
 
 
@@ -152,13 +156,20 @@ def _title(path: Path, name: str) -> str:
 
 def _rewritten(target: str, source: Path, here: str) -> str:
     path = Path(os.path.normpath(source.parent / target))
-    if not path.is_file() or not path.is_relative_to(ROOT):
+    if not (path.is_file() and path.is_relative_to(ROOT)) and not _is_listed(path):
         return target  # MkDocs says that it is missing
     return os.path.relpath(_uri(path), Path(here).parent).replace(os.sep, "/")
 
 
+def _is_listed(path: Path) -> bool:
+    """Whether a page lists the files of this folder; others have a README.md to link to."""
+    return path.is_relative_to(DOCS) and path.is_dir() and not (path / "README.md").exists()
+
+
 def _uri(path: Path) -> str:
     """The place of a file of the repository on the site."""
+    if _is_listed(path):
+        path /= "index.md"
     if not path.is_relative_to(DOCS):
         return OUTSIDE + path.relative_to(ROOT).as_posix()
     page = path.with_suffix(".md") if path.suffix == ".ipynb" else path
