@@ -13,7 +13,7 @@ CORE := $(addprefix tests/,syntax expression keywords curves contact scene compa
 ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help install demo test test-fast test-lowest lint format typecheck docs tutorials pictures studies dynamics bench extension build clean
+.PHONY: help install demo test test-fast test-lowest lint format typecheck docs tutorials pictures studies dynamics bench extension site serve build clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' Makefile
@@ -111,10 +111,16 @@ extension: ## the extension for VS Code, in editors/vscode (needs npm)
 	npm install --silent --prefix editors/vscode
 	npm run --silent --prefix editors/vscode package
 
+site: $(VENV)/.developer ## the pages of docs/ as a site, in site/
+	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict --quiet
+
+serve: $(VENV)/.developer ## the site at http://127.0.0.1:8000, built again when a page changes
+	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs serve
+
 build: $(VENV)/.developer ## the source archive and the wheel, in dist/
 	$(BIN)/python -m hatchling build
 
 clean: ## remove everything that can be made again
 	rm -rf editors/vscode/node_modules editors/vscode/dist editors/vscode/LICENSE.txt editors/vscode/*.vsix
-	rm -rf $(VENV) $(LOWEST) .bench $(OUT) dist build htmlcov .coverage .coverage.* .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
+	rm -rf $(VENV) $(LOWEST) .bench $(OUT) dist build site htmlcov .coverage .coverage.* .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 	find src tests -type d -name __pycache__ -prune -exec rm -rf {} +

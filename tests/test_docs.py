@@ -82,6 +82,8 @@ def no_diameter(checkout: Path) -> None:
 def test_commands_print_what_the_page_shows(path: Path) -> None:
     code = 0
     for block in Page.read(path).blocks:
+        if block.title:
+            Path(block.title).write_text(block.text, encoding="utf-8")
         commands = block.commands() if block.language == "console" else []
         if not any(command.words.startswith("mudline") for command in commands):
             continue
@@ -96,6 +98,9 @@ def test_commands_print_what_the_page_shows(path: Path) -> None:
 @pytest.mark.parametrize("path", with_blocks("python", "pycon"), ids=identity)
 def test_programs_run_and_sessions_answer_what_the_page_shows(path: Path, checkout: Path) -> None:
     for language, interpreter in (("python", [sys.executable]), ("pycon", [sys.executable, "-m", "doctest"])):
+        for block in Page.read(path).blocks:
+            if block.title:
+                (checkout / block.title).write_text(block.text, encoding="utf-8")
         program = checkout / f"{language}.txt"
         program.write_text("\n".join(block.text for block in Page.read(path).blocks if block.language == language))
         ran = subprocess.run(

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from tests.docs.marking import anchor
 
-_FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_FENCE = re.compile(r'^```(\w*)(?: title="([\w./-]+)")?\n(.*?)^```$', re.MULTILINE | re.DOTALL)
 _HEADING = re.compile(r"^#+ (.+)$", re.MULTILINE)
 _LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 _FILE = re.compile(r"`((?:docs|grammar|samples|src|tests|\.github)/[\w./-]+)`")
@@ -26,11 +26,12 @@ class Command:
 
 @dataclass(frozen=True)
 class Block:
-    """A fenced block; `line` is that of its first line of text."""
+    """A fenced block; `line` is that of its first line of text, `title` the file that it shows, if any."""
 
     language: str
     text: str
     line: int
+    title: str = ""
 
     def commands(self) -> list[Command]:
         """The commands of a console block."""
@@ -59,7 +60,7 @@ class Page:
     def blocks(self) -> list[Block]:
         """The fenced blocks."""
         return [
-            Block(match[1], match[2], self.text.count("\n", 0, match.start()) + 2)
+            Block(match[1], match[3], self.text.count("\n", 0, match.start()) + 2, match[2] or "")
             for match in _FENCE.finditer(self.text)
         ]
 

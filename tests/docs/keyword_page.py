@@ -38,7 +38,7 @@ and through every change; in JSON and YAML they are under `lines`.
 
 _EXAMPLE = """## Example
 
-```text
+```mudline
 {example}
 ```
 """

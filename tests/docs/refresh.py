@@ -9,7 +9,8 @@ from pathlib import Path
 from tests.docs.blocks import Block, Command, agree
 from tests.docs.commands import run
 
-_CONSOLE = re.compile(r"^```console\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_RUN = re.compile(r'^```(?:console|\w+ title="([\w./-]+)")\n(.*?)^```$', re.MULTILINE | re.DOTALL)
+"""Blocks of commands, and of files that a page has its reader write."""
 
 
 def copy_of_files(root: Path, folder: Path) -> None:
@@ -23,11 +24,14 @@ def refreshed(text: str, by_hand: list[str]) -> str:
 
     To `by_hand` go the commands whose output has changed and shows several `...`: that is to be cut by hand.
     """
-    return _CONSOLE.sub(lambda match: _block(match, by_hand), text)
+    return _RUN.sub(lambda match: _block(match, by_hand), text)
 
 
 def _block(match: re.Match[str], by_hand: list[str]) -> str:
-    commands = Block("console", match[1], 1).commands()
+    if match[1]:
+        Path(match[1]).write_text(match[2], encoding="utf-8")
+        return match[0]
+    commands = Block("console", match[2], 1).commands()
     if not any(command.words.startswith("mudline") for command in commands):
         return match[0]
     code = 0

@@ -53,7 +53,7 @@ Severity: {severity}{off}. [All rules](README.md).
 
 Bad{remark}:
 
-```text
+```mudline
 {bad}
 ```
 
@@ -65,7 +65,7 @@ What `mudline lint --output-format concise` says:
 
 Good:
 
-```text
+```mudline
 {good}
 ```
 """

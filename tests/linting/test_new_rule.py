@@ -129,8 +129,8 @@ def test_a_new_module_finds_and_has_a_page(shown: Shown, request: pytest.Fixture
     pages = shown.document
     assert "\n| [NEW001](NEW001.md) | `deck-with-model` | warning |  | A deck has a model. |\n" in pages
     assert "\n# NEW001 deck-with-model\n\nA deck has a model.\n\nSeverity: warning." in pages
-    assert "\nBad:\n\n```text\n$MODEL\n*OCEAN\n 500.0, 1025.0, 9.81\n```\n" in pages
-    assert f"```text\n{found or chr(10)}```\n\nGood:\n\n```text\n$PREPROCESSOR\n*OCEAN\n" in pages
+    assert "\nBad:\n\n```mudline\n$MODEL\n*OCEAN\n 500.0, 1025.0, 9.81\n```\n" in pages
+    assert f"```text\n{found or chr(10)}```\n\nGood:\n\n```mudline\n$PREPROCESSOR\n*OCEAN\n" in pages
 
 
 def test_every_file_is_imported() -> None:

@@ -1,0 +1,179 @@
+"""The site of docs/: built strictly, every link leads somewhere, a browser shows it without network or fault."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+from typing import TYPE_CHECKING
+from urllib.parse import unquote
+
+import pytest
+
+from tests.docs.make import ROOT
+from tests.processes import TIMEOUT
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+VISITED = (
+    "index.html",
+    "tutorials/first-deck.html",
+    "tutorials/touchdown-zone-in-waves.html",
+    "keywords/seabed-stiffness.html",
+    "python-api.html",
+    "rules/CRV003.html",
+)
+"""A page of each kind."""
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+NO_OTHER_HOST = "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1"
+PHONE = 390
+"""Pixels across."""
+
+_LINK = re.compile(r'<(?:a|img|link|script)\b[^>]*?\s(?:href|src)="([^"]*)"')
+_ANCHOR = re.compile(r'\s(?:id|name)="([^"]+)"')
+
+TOO_WIDE = """async ([paths, width]) => {
+    const shown = document.querySelector("article");
+    const texts = await Promise.all(paths.map(async path => path.startsWith("<") ? path : (await fetch(path)).text()));
+    return paths.filter((path, index) => {
+        const article = new DOMParser().parseFromString(texts[index], "text/html").querySelector("article");
+        article.querySelectorAll("img").forEach(picture => picture.removeAttribute("src"));
+        shown.innerHTML = article.innerHTML;
+        return document.documentElement.scrollWidth > width;
+    });
+}"""
+"""Lays out the text of each page in the frame of the one that is open, and gives those that stick out.
+
+Nothing is drawn until all are done, which takes a fraction of the time of opening each page.
+"""
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    for module in ("mkdocs", "material", "mkdocstrings"):
+        pytest.importorskip(module)
+    folder = tmp_path_factory.mktemp("site")
+    # Beside what is said of a page, MkDocs prints a note of its theme's makers on the future of both.
+    environment = {**os.environ, "NO_MKDOCS_2_WARNING": "1"}
+    build = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--site-dir", str(folder)]
+    ran = subprocess.run(build, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=TIMEOUT, check=False)
+    assert (ran.returncode, ran.stdout + ran.stderr) == (0, "")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def address(site: Path) -> Iterator[str]:
+    class Quiet(SimpleHTTPRequestHandler):
+        def log_message(self, format: str, *args: object) -> None:  # noqa: A002 - so named in the library
+            del format, args
+
+    with ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=str(site))) as server:
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+        yield f"http://127.0.0.1:{server.server_port}/"
+        server.shutdown()
+        thread.join()
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    api = pytest.importorskip("playwright.sync_api")
+    program = next((found for name in BROWSERS if (found := shutil.which(name))), None)
+    if program is None:
+        pytest.skip("Chromium is not installed")
+    with api.sync_playwright() as playwright:
+        yield playwright.chromium.launch(executable_path=program, args=[NO_OTHER_HOST])
+
+
+def links(site: Path) -> tuple[int, list[str]]:
+    """How many links within a site its pages have, and those that lead nowhere."""
+    texts = {site / name: (site / name).read_text(encoding="utf-8") for name in pages(site)}
+    anchors = {path: set(_ANCHOR.findall(text)) for path, text in texts.items()}
+    followed = 0
+    broken = []
+    for path, text in texts.items():
+        for link in sorted(set(_LINK.findall(text))):
+            if re.match(r"https?:|mailto:|data:", link):
+                continue
+            followed += 1
+            file, _, anchor = unquote(link).partition("#")
+            target = Path(os.path.normpath(path.parent / file)) if file else path
+            target = target / "index.html" if target.is_dir() else target
+            if not target.is_file() or (anchor and anchor not in anchors.get(target, ())):
+                broken.append(f"{path.relative_to(site)}: {link}")
+    return followed, broken
+
+
+def pages(site: Path) -> list[str]:
+    """The built pages but that of missing ones, whose links begin at the root of a server."""
+    return sorted(path.relative_to(site).as_posix() for path in site.rglob("*.html") if path.name != "404.html")
+
+
+def test_every_page_is_built(site: Path) -> None:
+    built = pages(site)
+    assert set(VISITED) <= set(built)
+    of_docs = {path.relative_to(ROOT / "docs").with_suffix(".html") for path in ROOT.glob("docs/**/*.md")}
+    wanted = {path.with_name("index.html") if path.stem == "README" else path for path in of_docs}
+    assert {path.as_posix() for path in wanted} <= set(built)
+
+
+def test_links_of_built_pages_lead_somewhere(site: Path) -> None:
+    followed, broken = links(site)
+    assert followed > 5000
+    assert broken == []
+
+
+def test_broken_links_are_noticed(tmp_path: Path) -> None:
+    there = '<a href="b.html"></a><a href="#top"></a><a href="b.html#%41" id="top"></a>'
+    (tmp_path / "a.html").write_text(f'{there}<a href="c.html"></a><img src="c.png"><a href="b.html#no"></a>')
+    (tmp_path / "b.html").write_text('<h1 id="A"></h1><a href="https://example.org/none"></a><a href="./"></a>')
+    assert links(tmp_path) == (7, ["a.html: b.html#no", "a.html: c.html", "a.html: c.png", "b.html: ./"])
+
+
+def test_decks_are_coloured(site: Path) -> None:
+    text = (site / "rules/CRV003.html").read_text(encoding="utf-8")
+    assert '<span class="k">*SEABED STIFFNESS</span>' in text, "install mudline again: its lexer is not registered"
+
+
+def test_a_browser_shows_pages_without_errors_and_without_other_hosts(address: str, browser: Browser) -> None:
+    requests: list[str] = []
+    faults: list[str] = []
+    with browser.new_context(viewport={"width": PHONE, "height": 844}, color_scheme="dark") as context:
+        context.on("request", lambda request: requests.append(request.url))
+        context.on("console", lambda message: faults.append(f"{message.type}: {message.text}"))
+        context.on("weberror", lambda error: faults.append(str(error.error)))
+        page = context.new_page()
+        for name in VISITED:
+            page.goto(address + name)
+            assert page.evaluate("document.documentElement.scrollWidth") == PHONE, name
+            assert page.locator("article h1").count() == 1, name
+        assert page.locator("body").get_attribute("data-md-color-scheme") == "slate"
+        page.locator("[data-clipboard-target], .md-code__button").first.wait_for()
+        page.locator("label.md-header__button[for=__search]").click()
+        page.locator("input.md-search__input").fill("suction")
+        page.locator(".md-search-result__item").first.wait_for()
+    assert faults == []
+    assert [url for url in requests if not url.startswith((address, "data:", "blob:"))] == []
+    assert len(requests) > len(VISITED)
+
+
+def test_no_page_is_wider_than_a_phone(site: Path, address: str, browser: Browser) -> None:
+    with browser.new_context(viewport={"width": PHONE, "height": 844}) as context:
+        page = context.new_page()
+        page.goto(address)
+        every = pages(site)
+        rules = [name for name in every if name.startswith("rules/")]
+        some = {*rules} - {*rules[::10]}  # all are made by one template
+        built = [f"{address}{name}" for name in every if name not in some]
+        assert len(built) > 70
+        planted = f"<article><p style='width: {PHONE + 50}px'>wide</p></article>"
+        assert page.evaluate(TOO_WIDE, [[*built, planted], PHONE]) == [planted]
