@@ -183,7 +183,7 @@ def evaluate_deck(given: EvaluateGiven) -> Made:
     except OSError as error:
         return Made({_UNREADABLE: reason(error)}, lasting=False)
     except MissingPositionsError as error:
-        return Made(_row(failed(file.name, str(error))), lasting=False)
+        return Made(_row(failed(file.name, _as_given(str(error), given))), lasting=False)
     elements = given.inputs.elements and resolved(given.inputs.elements, given.folder)
     with local_copy(positions) as near, local_copy(elements) as near_elements, _near(given) as output:
         inputs = replace(given.inputs, elements=near_elements)
@@ -191,10 +191,18 @@ def evaluate_deck(given: EvaluateGiven) -> Made:
         copies = {near, near_elements} - {positions, elements}
         read = [os.path.abspath(path) for path in done.read if path not in copies]  # noqa: PTH100 - as `look` does
         read += [path for path in (positions, elements) if path and is_url(path)]
-        written = [] if done.kept.row.failed else [str(path) for path in done.written]
+        written = [str(path) for path in done.written]
         if given.output and is_url(given.output) and output is not None:
             written = [_uploaded(path, output, given.output) for path in written]
-    return Made(_row(done.kept), (*read, *written), lasting=not done.kept.row.failed)
+    if done.kept.row.failed:
+        return Made(_row(failed(file.name, _as_given(done.kept.row.reason or "", given))), lasting=False)
+    return Made(_row(done.kept), (*read, *written))
+
+
+def _as_given(why: str, given: EvaluateGiven) -> str:
+    """A reason with paths from the working folder of the command, as they were given."""
+    relative = [path for path in (given.placed.given, given.inputs.elements) if path and not Path(path).is_absolute()]
+    return why.replace(f"{given.folder}{os.sep}", "") if relative else why
 
 
 @contextmanager

@@ -7,6 +7,7 @@ import math
 import time
 from collections import deque
 from collections.abc import Generator, Iterable, Iterator
+from concurrent.futures import CancelledError
 from dataclasses import dataclass, field
 from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING
@@ -170,13 +171,16 @@ class Run:
     def _check_alive(self) -> None:
         workers = {} if self.client.status != "running" else _answered(self.client)
         if workers is None or self.client.status != "running":
-            raise ClusterError(f"{self.address}: the scheduler has gone away; {self._kept()}")
+            raise self._gone()
         if workers:
             self._alone_since, self._threads = None, sum(workers.values())
         elif self._alone_since is None:
             self._alone_since = time.monotonic()
         elif time.monotonic() - self._alone_since > LONGEST_ALONE:
             raise ClusterError(f"{self.address}: no worker is left: start one with dask worker; {self._kept()}")
+
+    def _gone(self) -> ClusterError:
+        return ClusterError(f"{self.address}: the scheduler has gone away; {self._kept()}")
 
     def _kept(self) -> str:
         return f"{self.done} of {self.job.count} are done: the same command with -o goes on from there"
@@ -188,13 +192,16 @@ class Run:
         if future is None:
             return
         if future.status == "finished":
-            part.finished = future.result()
+            try:
+                part.finished = future.result()
+            except (OSError, CancelledError) as error:  # of the connection
+                raise self._gone() from error
             self.done += part.finished.rows
             self._pace.took(part.finished.rows, part.finished.seconds)
         elif future.status == "error":
             self._fail(part, future.exception())
         else:
-            raise ClusterError(f"{self.address}: the scheduler has gone away; {self._kept()}")
+            raise self._gone()
 
     def _fail(self, part: _Part, error: BaseException) -> None:
         from distributed import KilledWorker  # noqa: PLC0415 - few runs use a cluster

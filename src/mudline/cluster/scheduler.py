@@ -135,7 +135,7 @@ def _address(scheduler: Scheduler) -> Iterator[tuple[str | LocalCluster, Securit
         threads_per_worker=1,
         processes=True,
         host="127.0.0.1",
-        dashboard_address=None,
+        dashboard_address="127.0.0.1:0",
         worker_dashboard_address=None,
         silence_logs=logging.CRITICAL,
     ) as cluster:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import errno
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import lru_cache
 from pathlib import Path
@@ -19,9 +19,13 @@ from mudline.files import write_atomically
 if TYPE_CHECKING:
     from fsspec import AbstractFileSystem
 
-_URL = re.compile(r"[A-Za-z][A-Za-z0-9+.-]+://")
+_URL = re.compile(r"[A-Za-z][A-Za-z0-9+.:-]+://")
 _REFUSED = {"memory": "what one process has in memory no other can read"}
 """Protocols of fsspec that workers cannot share, and why."""
+
+
+_listed: dict[str, str] = {}
+"""The marks of files that were listed, until they are asked for: a store would be asked for each of very many."""
 
 
 class UrlError(OSError):
@@ -95,8 +99,10 @@ def files_below(url: str) -> list[str]:
     with _naming(url):
         system, inside = _opened(url)
         start = url.split("://", 1)[0]
-        found = cast("list[str]", system.find(inside))
-        return sorted(f"{start}://{name.lstrip('/')}" for name in found)
+        found = system.find(inside, detail=True).items()
+        urls = {name if is_url(name) else f"{start}://{name}": info for name, info in found}
+    _listed.update((one, _version(info)) for one, info in urls.items())
+    return sorted(urls)
 
 
 def names_in(folder: str) -> list[str]:
@@ -113,22 +119,29 @@ def names_in(folder: str) -> list[str]:
             return sorted(name.rpartition("/")[2] for name in system.ls(inside, detail=False))
         except FileNotFoundError:
             return []
+        finally:
+            system.invalidate_cache(inside)  # else what workers write from now on would not be there
 
 
 def mark(path: str) -> str:
     """What changes when a file does, without reading it: size with date or with what a store calls its version.
 
-    "" for what is not there or cannot be looked at.
+    "" for what is not there or cannot be looked at. What was listed is asked for once as it was then.
     """
+    if path in _listed:
+        return _listed.pop(path)
     try:
         if not is_url(path):
             found = os.stat(path)  # noqa: PTH116 - asked for each of many files
             return f"{found.st_size} {found.st_mtime_ns}"
         with _naming(path):
             system, inside = _opened(path)
-            info = system.info(inside)
+            return _version(system.info(inside))
     except (OSError, ValueError):
         return ""
+
+
+def _version(info: Mapping[str, Any]) -> str:
     version = info.get("ETag") or info.get("etag") or info.get("LastModified") or info.get("mtime") or ""
     return f"{info.get('size')} {version}"
 

@@ -1,0 +1,216 @@
+"""Runs on a cluster of two workers on loopback: python -m tests.benchmarks.cluster [--decks N] [--cases N]
+
+10^4 decks and 10^3 load cases of one deck with positions, one of the workers killed half-way, compared with a run
+without a cluster; strong and weak scaling; what a chunk costs beside its work. Writes docs/scaling.json, from which
+`python -m tests.benchmarks.scaling` makes docs/scaling.md. Takes some minutes.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import platform
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from hashlib import blake2b
+from pathlib import Path
+from statistics import median
+
+import numpy as np
+
+from mudline.cluster.running import Job, Run
+from mudline.cluster.scheduler import Scheduler, connected
+from mudline.cluster.work import Item, Made, Store
+from tests.benchmarks.decks import apart
+from tests.cluster.processes import ROOT, Processes, running, wait_until
+
+FIGURES = ROOT / "docs" / "scaling.json"
+NODES = 101
+STEPS = 200
+_ROUNDS = 2
+_CHUNKS = 400
+
+
+class Timed:
+    """A command as a process of its own: how long it took, and what it printed."""
+
+    def __init__(self, folder: Path, *words: str) -> None:
+        path = os.pathsep.join([str(ROOT / "src"), str(ROOT)])
+        environment = {**os.environ, "PYTHONPATH": path, "MUDLINE_CACHE_DIR": str(folder / "cache")}
+        start = time.perf_counter()
+        done = subprocess.run(
+            [sys.executable, "-m", "mudline", *words], env=environment, cwd=folder, capture_output=True, check=False
+        )
+        self.seconds = time.perf_counter() - start
+        self.code, self.out, self.err = done.returncode, done.stdout, done.stderr.decode()
+        assert self.code in (0, 1), self.err
+
+
+def write_decks(folder: Path, count: int) -> None:
+    """Decks that differ from each other."""
+    folder.mkdir()
+    for number in range(count):
+        (folder / f"{number:05}.keyxm").write_text(apart(number), encoding="utf-8")
+
+
+def write_cases(folder: Path, count: int) -> None:
+    """Copies of a deck of one pipe, each with positions of its nodes in time steps."""
+    folder.mkdir()
+    nodes = "".join(f" {i}, -0.05, {2.0 * (i - 1)}\n" for i in range(1, NODES + 1))
+    elements = "".join(f" {i}, {i}, {i + 1}\n" for i in range(1, NODES))
+    deck = (
+        f"$MODEL\n*OCEAN\n 100.0, 1025.0, 9.81\n*NODE\n{nodes}*ELEMENT\n{elements}"
+        "*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 207.0E9, 79.6E9, 0.5, 0.46, 7850.0\n"
+        "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"
+        "*SEABED STIFFNESS\n CURVE=Clay\n 0.0, 0.0\n 0.1, 1200.0\n 0.5, 3000.0\n"
+    )
+    shape = np.zeros((STEPS, NODES, 3))
+    shape[:, :, 1] = 2.0 * np.arange(NODES)
+    wave = np.sin(np.linspace(0.0, 20.0, STEPS))[:, None]
+    for number in range(count):
+        shape[:, :, 0] = -0.05 + 0.05 * wave * np.linspace(0.0, 1.0 + number / count, NODES)
+        (folder / f"{number:04}.keyxm").write_text(deck, encoding="utf-8")
+        np.savez(folder / f"{number:04}.npz", positions=shape, time=0.1 * np.arange(STEPS))
+
+
+def results_in(folder: Path) -> dict[str, str]:
+    """A digest of each file of results."""
+    files = sorted(path for path in folder.rglob("*.parquet"))
+    return {path.relative_to(folder).as_posix(): blake2b(path.read_bytes()).hexdigest() for path in files}
+
+
+def killed(cluster: Processes, chunks: Path, half: int, *words: str) -> tuple[Timed, int]:
+    """A command with `-o`, one of whose workers is killed when half of its rows are there; and how many were."""
+    found = 0
+
+    def rows() -> int:
+        return sum(path.read_bytes().count(b"\n") for path in chunks.glob("*.jsonl"))
+
+    def kill() -> None:
+        nonlocal found
+        wait_until(lambda: rows() >= half, "no rows", 3600)
+        found = rows()
+        cluster.kill_worker()
+
+    thread = threading.Thread(target=kill)
+    thread.start()
+    done = Timed(chunks.parents[1], *words, "--scheduler", cluster.address)
+    thread.join()
+    cluster.start_workers(2)
+    return done, found
+
+
+def nothing(_: object) -> Made:
+    """Work that takes no time."""
+    return Made(None)
+
+
+def overhead(cluster: Processes, folder: Path) -> dict[str, float]:
+    """Seconds for each chunk beside its work: of the client and the scheduler, and of writing and reading a file."""
+    store = Store(str(folder / "empty"))
+    with connected(Scheduler(cluster.address)) as client:
+        figures = []
+        for round_ in range(_ROUNDS):
+            futures_start = time.perf_counter()
+            client.gather([client.submit(time.sleep, 0, pure=False) for _ in range(_CHUNKS)])
+            bare = (time.perf_counter() - futures_start) / _CHUNKS
+            start = time.perf_counter()
+            items = [Item(f"{round_} {number}", None) for number in range(_CHUNKS)]
+            run = Run(client, Job("empty", nothing, items, len(items), store, fresh=True), cluster.address)
+            run._pace.took(1, 1e6)  # one item makes a chunk
+            run._pace.took = lambda *_: None  # type: ignore[method-assign]
+            assert len(list(run.rows())) == _CHUNKS
+            figures.append((bare, (time.perf_counter() - start) / _CHUNKS))
+    return {"task": median(one for one, _ in figures), "chunk": median(one for _, one in figures)}
+
+
+def series(folder: Path) -> dict[str, float | int]:
+    """Seconds of evaluating a short and a long series of one deck in one process, for the cost of a node in a step."""
+    found: dict[str, float | int] = {}
+    write_cases(folder / "series", 1)
+    positions = np.load(folder / "series" / "0000.npz")["positions"]
+    for name, times in (("short", 1), ("long", 100)):
+        path = folder / f"{name}.npz"
+        np.savez(path, positions=np.tile(positions, (times, 1, 1)), time=0.1 * np.arange(times * STEPS))
+        words = ("evaluate", "series", "--positions", str(path), "--jobs", "1", "-q")
+        found[f"{name} node steps"] = times * STEPS * NODES
+        found[f"{name} seconds"] = min(Timed(folder, *words).seconds for _ in range(_ROUNDS))
+    return found
+
+
+def scaling(folder: Path, base: int) -> list[dict[str, float | int | str]]:
+    """The same decks on one worker and on two, and twice as many on two: seconds of the whole command."""
+    write_decks(folder / "one", base)
+    write_decks(folder / "two", 2 * base)
+    rows: list[dict[str, float | int | str]] = []
+    for workers in (1, 2):
+        (folder / f"logs-{workers}").mkdir()
+        with running(folder / f"logs-{workers}", workers) as cluster:
+            address = ("--scheduler", cluster.address)
+            Timed(folder, "lint", "one", "-q", *address)  # the workers import what they need
+            for name, count in (("one", base), ("two", 2 * base)):
+                times = [Timed(folder, "lint", name, "-q", *address).seconds for _ in range(_ROUNDS)]
+                rows.append({"workers": workers, "decks": count, "seconds": min(times), "slowest": max(times)})
+    return rows
+
+
+def main() -> None:
+    """Measure and write the figures."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--decks", type=int, default=10_000, metavar="N")
+    parser.add_argument("--cases", type=int, default=1000, metavar="N")
+    parser.add_argument("--output", type=Path, default=FIGURES)
+    given = parser.parse_args()
+    figures: dict[str, object] = {
+        "machine": f"{platform.machine()}, {os.cpu_count()} processors, Python {platform.python_version()}",
+        "load": os.getloadavg()[0],
+        "steps": STEPS,
+        "nodes": NODES,
+    }
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        write_decks(folder / "decks", given.decks)
+        write_cases(folder / "cases", given.cases)
+        (folder / "logs").mkdir()
+        lint = ("lint", "decks", "--output-format", "json")
+        evaluate = ("evaluate", "cases", "--positions", "cases", "--output-format", "json")
+        with running(folder / "logs", 2) as cluster:
+            alone = Timed(folder, *lint, "--no-cache", "--jobs", "1")
+            both, at = killed(cluster, folder / "out" / "chunks", given.decks // 2, *lint, "-o", "out/chunks")
+            assert both.out == alone.out, "lint: another output than without a cluster"
+            assert both.code == alone.code
+            again = Timed(folder, *lint, "-o", "out/chunks", "--scheduler", cluster.address)
+            assert again.out == alone.out
+            files = len(list((folder / "out" / "chunks").iterdir()))
+            figures["lint"] = {
+                "decks": given.decks, "alone": alone.seconds, "cluster": both.seconds, "killed at": at,
+                "again": again.seconds, "chunks": files,
+            }  # fmt: skip
+            print(figures["lint"], flush=True)
+            alone = Timed(folder, *evaluate, "-o", "alone", "--jobs", "1", "--form", "parquet")
+            half = given.cases // 2
+            both, at = killed(
+                cluster, folder / "both" / ".mudline-chunks", half, *evaluate, "-o", "both", "--form", "parquet"
+            )
+            assert both.out == alone.out, "evaluate: another output than without a cluster"
+            assert results_in(folder / "both") == results_in(folder / "alone")
+            files = len(list((folder / "both" / ".mudline-chunks").iterdir()))
+            figures["evaluate"] = {
+                "cases": given.cases, "node steps": given.cases * NODES * STEPS, "alone": alone.seconds,
+                "cluster": both.seconds, "killed at": at, "chunks": files,
+            }  # fmt: skip
+            print(figures["evaluate"], flush=True)
+            figures["overhead"] = overhead(cluster, folder)
+            print(figures["overhead"], flush=True)
+        figures["series"] = series(folder)
+        figures["scaling"] = scaling(folder, max(given.decks // 5, 10))
+    given.output.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
+    print(json.dumps(figures, indent=1))
+
+
+if __name__ == "__main__":
+    main()
