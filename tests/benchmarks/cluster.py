@@ -16,6 +16,7 @@ import sys
 import tempfile
 import threading
 import time
+from collections.abc import Callable
 from hashlib import blake2b
 from pathlib import Path
 from statistics import median
@@ -109,10 +110,11 @@ def nothing(_: object) -> Made:
     return Made(None)
 
 
-def overhead(cluster: Processes, folder: Path) -> dict[str, float]:
+def overhead(folder: Path) -> dict[str, float]:
     """Seconds for each chunk beside its work: of the client and the scheduler, and of writing and reading a file."""
     store = Store(str(folder / "empty"))
-    with connected(Scheduler(cluster.address)) as client:
+    (folder / "logs").mkdir()
+    with running(folder / "logs", 2) as cluster, connected(Scheduler(cluster.address)) as client:
         figures = []
         for round_ in range(_ROUNDS):
             futures_start = time.perf_counter()
@@ -158,58 +160,61 @@ def scaling(folder: Path, base: int) -> list[dict[str, float | int | str]]:
     return rows
 
 
+def linted(folder: Path, count: int) -> dict[str, float | int]:
+    """The decks with a killed worker, again with all that is done, and without a cluster; all print the same."""
+    write_decks(folder / "decks", count)
+    (folder / "logs").mkdir()
+    words = ("lint", "decks", "--output-format", "json")
+    with running(folder / "logs", 2) as cluster:
+        alone = Timed(folder, *words, "--no-cache", "--jobs", "1")
+        both, at = killed(cluster, folder / "out" / "chunks", count // 2, *words, "-o", "out/chunks")
+        again = Timed(folder, *words, "-o", "out/chunks", "--scheduler", cluster.address)
+    assert (both.out, both.code) == (again.out, again.code) == (alone.out, alone.code), "lint prints something else"
+    files = len(list((folder / "out" / "chunks").iterdir()))
+    times = {"alone": alone.seconds, "cluster": both.seconds, "again": again.seconds}
+    return {"decks": count, **times, "killed at": at, "chunks": files}
+
+
+def evaluated(folder: Path, count: int) -> dict[str, float | int]:
+    """The load cases with a killed worker and without a cluster; both print and write the same."""
+    write_cases(folder / "cases", count)
+    (folder / "logs").mkdir()
+    words = ("evaluate", "cases", "--positions", "cases", "--output-format", "json", "--form", "parquet")
+    chunks = folder / "both" / ".mudline-chunks"
+    with running(folder / "logs", 2) as cluster:
+        alone = Timed(folder, *words, "-o", "alone", "--jobs", "1")
+        both, at = killed(cluster, chunks, count // 2, *words, "-o", "both")
+    assert (both.out, both.code) == (alone.out, alone.code), "evaluate prints something else"
+    assert results_in(folder / "both") == results_in(folder / "alone"), "evaluate writes something else"
+    times = {"alone": alone.seconds, "cluster": both.seconds}
+    steps = count * NODES * STEPS
+    return {"cases": count, "node steps": steps, **times, "killed at": at, "chunks": len(list(chunks.iterdir()))}
+
+
 def main() -> None:
-    """Measure and write the figures."""
+    """Measure and write the figures; parts that are left out keep theirs."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--decks", type=int, default=10_000, metavar="N")
     parser.add_argument("--cases", type=int, default=1000, metavar="N")
     parser.add_argument("--output", type=Path, default=FIGURES)
-    given = parser.parse_args()
-    figures: dict[str, object] = {
-        "machine": f"{platform.machine()}, {os.cpu_count()} processors, Python {platform.python_version()}",
-        "load": os.getloadavg()[0],
-        "steps": STEPS,
-        "nodes": NODES,
+    parts: dict[str, Callable[[Path], object]] = {
+        "lint": lambda folder: linted(folder, given.decks),
+        "evaluate": lambda folder: evaluated(folder, given.cases),
+        "overhead": overhead,
+        "series": series,
+        "scaling": lambda folder: scaling(folder, max(given.decks // 5, 10)),
     }
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        write_decks(folder / "decks", given.decks)
-        write_cases(folder / "cases", given.cases)
-        (folder / "logs").mkdir()
-        lint = ("lint", "decks", "--output-format", "json")
-        evaluate = ("evaluate", "cases", "--positions", "cases", "--output-format", "json")
-        with running(folder / "logs", 2) as cluster:
-            alone = Timed(folder, *lint, "--no-cache", "--jobs", "1")
-            both, at = killed(cluster, folder / "out" / "chunks", given.decks // 2, *lint, "-o", "out/chunks")
-            assert both.out == alone.out, "lint: another output than without a cluster"
-            assert both.code == alone.code
-            again = Timed(folder, *lint, "-o", "out/chunks", "--scheduler", cluster.address)
-            assert again.out == alone.out
-            files = len(list((folder / "out" / "chunks").iterdir()))
-            figures["lint"] = {
-                "decks": given.decks, "alone": alone.seconds, "cluster": both.seconds, "killed at": at,
-                "again": again.seconds, "chunks": files,
-            }  # fmt: skip
-            print(figures["lint"], flush=True)
-            alone = Timed(folder, *evaluate, "-o", "alone", "--jobs", "1", "--form", "parquet")
-            half = given.cases // 2
-            both, at = killed(
-                cluster, folder / "both" / ".mudline-chunks", half, *evaluate, "-o", "both", "--form", "parquet"
-            )
-            assert both.out == alone.out, "evaluate: another output than without a cluster"
-            assert results_in(folder / "both") == results_in(folder / "alone")
-            files = len(list((folder / "both" / ".mudline-chunks").iterdir()))
-            figures["evaluate"] = {
-                "cases": given.cases, "node steps": given.cases * NODES * STEPS, "alone": alone.seconds,
-                "cluster": both.seconds, "killed at": at, "chunks": files,
-            }  # fmt: skip
-            print(figures["evaluate"], flush=True)
-            figures["overhead"] = overhead(cluster, folder)
-            print(figures["overhead"], flush=True)
-        figures["series"] = series(folder)
-        figures["scaling"] = scaling(folder, max(given.decks // 5, 10))
-    given.output.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
-    print(json.dumps(figures, indent=1))
+    parser.add_argument("--only", nargs="+", choices=parts, default=list(parts), help="measure these parts only")
+    given = parser.parse_args()
+    output: Path = given.output
+    figures = json.loads(output.read_text(encoding="utf-8")) if output.exists() else {}
+    figures["machine"] = f"{platform.machine()}, {os.cpu_count()} processors, Python {platform.python_version()}"
+    figures |= {"load": os.getloadavg()[0], "steps": STEPS, "nodes": NODES}
+    for part in given.only:
+        with tempfile.TemporaryDirectory() as name:
+            figures[part] = parts[part](Path(name))
+        print(part, figures[part], flush=True)
+        output.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":
