@@ -13,7 +13,7 @@ CORE := $(addprefix tests/,syntax expression keywords curves contact scene compa
 ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help install demo test test-fast test-lowest lint format typecheck docs tutorials pictures studies bench build clean
+.PHONY: help install demo test test-fast test-lowest lint format typecheck docs tutorials pictures studies dynamics bench build clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' Makefile
@@ -100,6 +100,9 @@ pictures: $(VENV)/.developer ## redraw the pictures of docs/images
 
 studies: $(VENV)/.developer ## regenerate the pictures and numbers of docs/studies/ (minutes)
 	@for study in precision stability pruning; do $(BIN)/mudline study $$study -o docs/studies || exit; done
+
+dynamics: $(VENV)/.developer ## time integration of a line on the seabed, and other programs: docs/studies/benchmark.md
+	$(BIN)/python -m tests.benchmarks.dynamics $(ARGS)
 
 bench: $(VENV)/.developer ## measure speed beside other programs, and write docs/benchmarks.md (25 minutes)
 	$(BIN)/python -m tests.benchmarks $(ARGS)

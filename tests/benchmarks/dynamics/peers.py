@@ -1,0 +1,177 @@
+"""The other programs, each in an environment of its own (see `tests.benchmarks.peers`), and what they found.
+
+Rows of a program that is not installed are those that the tables have already.
+"""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mudline.study.report import Cell
+from tests.benchmarks.dynamics.bouncing import DECK, EVERY, TIMES, fall, for_exudyn
+from tests.benchmarks.dynamics.chains import CASES, PULLS, Case, Chain, Equilibrium, Tensions, catenary, read_chain
+from tests.benchmarks.dynamics.reference import Tolerance
+from tests.benchmarks.dynamics.tables import Row
+from tests.benchmarks.peers import Environment, Peer
+from tests.benchmarks.runner import ROOT
+
+MOORDYN = Peer("moordyn", ("moordyn==2.7.2", "numpy==2.4.6"), "static chain, and its fairlead pulled away")
+EXUDYN = Peer("exudyn", ("exudyn==1.13.6", "numpy==2.4.6"), "bouncing beam")
+
+CHAINS = ("depth [m]", "when", "friction", "source", "fairlead [kN]", "anchor [kN]")
+ANCHOR = ("depth [m]", "node", "share of its weight")
+BOUNCES = ("model", "parts of an element", "step [s]", "compared with", "program", "to 0.5 s [m]", "to 1 s [m]",
+           "to 2 s [m]", "failure")  # fmt: skip
+BOUNCE_PATH = ("time [s]", "reference, first node [m]", "last node [m]", "Exudyn masses, last node [m]",
+               "Exudyn cable, last node [m]")  # fmt: skip
+
+REST, PULLED, HELD = "at rest", "pulled", "pulled and held"
+_OVER, _HOLD = 100.0, 100.0
+"""Seconds of a pull in MoorDyn, and after it."""
+_LONGEST = 900
+_TOLERANCE = Tolerance(1e-9, 5e-4)
+
+
+def ask(place: Environment, script: str, given: dict[str, Any]) -> dict[str, Any]:
+    """What a peer's script answers; its last line is JSON. Raises RuntimeError with what it said if it failed."""
+    words = [str(place.program("python")), str(Path(__file__).parent / script)]
+    done = subprocess.run(
+        words, input=json.dumps(given), capture_output=True, text=True, check=False, timeout=_LONGEST, cwd=ROOT
+    )
+    if done.returncode:
+        raise RuntimeError((done.stderr.strip().splitlines() or ["no message"])[-1])
+    answer: dict[str, Any] = json.loads(done.stdout.strip().splitlines()[-1])
+    return answer
+
+
+# ------------------------------------------------------------------------------------------------------------- chains
+
+
+def chains(
+    progress: Callable[[str], None], place: Environment, before: list[Row]
+) -> tuple[list[tuple[Cell, ...]], list[tuple[Cell, ...]]]:
+    """The rows of `CHAINS` and of `ANCHOR`."""
+    rows: list[tuple[Cell, ...]] = []
+    pressing: list[tuple[Cell, ...]] = []
+    for case in CASES:
+        progress(f"chain in {case.depth} m")
+        tensions, shares = own(case)
+        rows, pressing = rows + tensions, pressing + shares
+        if place.reason:
+            rows += [tuple(row.values()) for row in before if _of_moordyn(row, case)]
+        else:
+            rows += _moordyn(place, case)
+    return rows, pressing
+
+
+def _of_moordyn(row: Row, case: Case) -> bool:
+    return row["source"].startswith("MoorDyn") and row["depth [m]"] == str(case.depth)
+
+
+def own(case: Case) -> tuple[list[tuple[Cell, ...]], list[tuple[Cell, ...]]]:
+    """Rows of `CHAINS`: published, by the evaluator's forces, and of the catenary; at rest, then pulled.
+
+    And those of `ANCHOR`: how the nodes next to the anchor press in the end.
+    """
+    chain, pull = read_chain(case), PULLS[case.depth]
+    free = Equilibrium.hanging(chain.smooth(), case.depth, case.distance)
+    found = [
+        (REST, "no", "published", Tensions(case.fairlead, case.anchor)),
+        (REST, "no", "mudline", free.tensions()),
+        (REST, "no", "catenary", catenary(chain, case.depth, case.distance, 0.0)),
+    ]
+    held = free.with_friction(chain)
+    for friction, line, coefficient in (("no", free, 0.0), ("yes", held, chain.friction)):
+        line.pull(pull)
+        found.append((PULLED, friction, "mudline", line.tensions()))
+        found.append((PULLED, friction, "catenary", catenary(chain, case.depth, case.distance + pull, coefficient)))
+    shares = held.pressing()[1:6]
+    return (
+        [(case.depth, when, friction, source, *tensions) for when, friction, source, tensions in found],
+        [(case.depth, node, float(share)) for node, share in enumerate(shares, start=2)],
+    )
+
+
+def _moordyn(place: Environment, case: Case) -> list[tuple[Cell, ...]]:
+    """With its default friction; in 200 m also with a friction ramp as steep as a tenth of the step allows."""
+    chain = read_chain(case)
+    ramps = [("FricDamp 200", 200.0, 1e-3)]
+    if case.depth == 200:
+        ramps.append(("FricDamp 3e7", 3e7, 1e-4))
+    rows: list[tuple[Cell, ...]] = []
+    for friction, damping, step in ramps:
+        answer = ask(place, "peer_moordyn.py", for_moordyn(chain, case, damping, step))
+        for when, tensions in zip((REST, PULLED, HELD), answer["tensions"], strict=True):
+            if when == REST and rows:
+                continue
+            rows.append((case.depth, when, friction, answer["program"], *tensions))
+    return rows
+
+
+def for_moordyn(chain: Chain, case: Case, damping: float, step: float) -> dict[str, Any]:
+    """What `peer_moordyn` takes: all from the deck, but the published damping of the seabed."""
+    length = float(chain.length[0])
+    spring = float(chain.contact.input.assigned["nodal"].parameters["stiffness"][1])
+    seabed = spring / length / chain.diameter
+    return {
+        "depth": case.depth,
+        "distance": case.distance,
+        "length": float(chain.length.sum()),
+        "segments": len(chain.length),
+        "diameter": chain.diameter,
+        "mass": chain.mass,
+        "axial": chain.axial,
+        "seabed": seabed,
+        "seabed_damping": 0.1 * seabed,
+        "friction": chain.friction,
+        "friction_damping": damping,
+        "gravity": chain.gravity,
+        "step": step,
+        "pull": PULLS[case.depth],
+        "over": _OVER,
+        "hold": _HOLD,
+    }
+
+
+# ------------------------------------------------------------------------------------------------------ bouncing beam
+
+
+def bounces(
+    progress: Callable[[str], None], place: Environment
+) -> tuple[list[tuple[Cell, ...]], list[tuple[Cell, ...]]]:
+    """The rows of `BOUNCES` and of `BOUNCE_PATH`; Exudyn must be there."""
+    progress(f"reference of {DECK}")
+    beam, path = fall(_TOLERANCE)
+    exact = path.displacements[:, : beam.nodes] + beam.start[:, 0]
+    rows: list[tuple[Cell, ...]] = []
+    heights: dict[tuple[str, int, int], np.ndarray[Any, np.dtype[np.float64]]] = {}
+    plan = [("masses", 1, steps) for steps in (2000, 8000, 32000)]
+    plan += [(model, parts, 8000 * parts) for parts in (1, 2, 3) for model in ("masses", "cable")][1:]
+    for model, parts, steps in plan:
+        progress(f"Exudyn, {model}, elements in {parts} parts, {steps} steps")
+        other = "reference" if model == "masses" and parts == 1 else "masses"
+        head = (model, parts, TIMES[-1] / steps, other)
+        try:
+            answer = ask(place, "peer_exudyn.py", for_exudyn(beam, model, steps, parts))
+        except RuntimeError as error:
+            rows.append((*head, "", None, None, None, str(error)))
+            continue
+        found = heights[model, parts, steps] = np.array(answer["heights"])
+        if model == "masses" and parts > 1:
+            continue
+        truth = exact if other == "reference" else heights.get(("masses", parts, steps))
+        if truth is None:
+            continue
+        off = np.abs(found - truth).max(axis=1)
+        ends = (round(end / EVERY) + 1 for end in (0.5, 1.0, 2.0))
+        rows.append((*head, answer["program"], *(float(off[:end].max()) for end in ends), ""))
+    picture = np.column_stack([
+        TIMES, exact[:, 0], exact[:, -1], heights["masses", 1, 8000][:, -1], heights["cable", 1, 8000][:, -1]
+    ])  # fmt: skip
+    return rows, [tuple(float(cell) for cell in row) for row in picture]

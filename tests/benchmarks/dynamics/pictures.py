@@ -1,0 +1,91 @@
+"""The pictures docs/studies/benchmark-*.png, from the tables."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from mudline.study.pictures import Picture, label, legend_below, panels
+from mudline.study.schemes import SCHEMES, STYLES
+from tests.benchmarks.dynamics.tables import FOLDER, column, load
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+SHOWN = ("velocity-verlet", "rk4", "newmark", "generalised-alpha-0.5", "generalised-alpha-0", "backward-euler")
+"""Schemes in the picture; the others are in the tables of the page: they lie on one of these lines, or grow."""
+
+
+_BOTTOM = {"touchdown rms [m]": 1e-4, "peak force": 1e-5, "seabed work": 1e-6, "energy balance": 1e-6}
+"""Of the axes: Newmark closes the balance to round-off, and is not drawn there."""
+
+
+def draw_path(figure: Figure) -> None:
+    """The reference over time: touchdown, force of the hoist, and works."""
+    rows = load("path")
+    time = column(rows, "time [s]")
+    above, middle, below = panels(figure, 3, 1)
+    above.plot(time, column(rows, "touchdown [m]"), color="#0072b2")
+    label(above, "Touchdown point", "", "arc length [m]")
+    for name, colour in (("hoist up", "#d55e00"), ("hoist along", "#009e73")):
+        middle.plot(time, column(rows, f"{name} [N]"), color=colour, label=name)
+    label(middle, "Force of the hoist", "", "[N]")
+    for name, colour in (("hoist work", "#d55e00"), ("seabed work", "#0072b2"), ("damping work", "#7a7a7a")):
+        below.plot(time, column(rows, f"{name} [J]"), color=colour, label=name)
+    label(below, "Work done on the line", "time [s]", "[J]")
+    for axes in (middle, below):
+        axes.legend(fontsize="small", loc="upper right")
+
+
+def draw_schemes(figure: Figure) -> None:
+    """Errors against work."""
+    rows = [row for row in load("schemes") if not row["failure"]]
+    wanted = (
+        ("touchdown rms [m]", "Touchdown: root mean square error", "[m]"),
+        ("peak force", "Peak force of the hoist: error", "share of the peak"),
+        ("seabed work", "Work of the seabed: largest error", "share of the hoist's work"),
+        ("energy balance", "Energy that is not accounted for", "share of the hoist's work"),
+    )
+    axes: Axes
+    for axes, (heading, title, unit) in zip(panels(figure, 4, 2), wanted, strict=True):
+        for name in SHOWN:
+            own = [row for row in rows if row["scheme"] == name]
+            work = [float(row["evaluations"]) + float(row["tangents"]) for row in own]
+            errors = [max(abs(error), 1e-12) for error in column(own, heading)]
+            axes.loglog(work, errors, label=SCHEMES[name].title, **STYLES[SCHEMES[name].title])
+        axes.set_ylim(bottom=_BOTTOM[heading])
+        if heading == "energy balance":
+            axes.text(0.03, 0.04, "Newmark: below 1e-10, at every step", transform=axes.transAxes, fontsize="small")
+        label(axes, title, "evaluations of the contact (forces and tangents)", unit)
+    legend_below(figure, axes, columns=3)
+
+
+def draw_bounces(figure: Figure) -> None:
+    """The last node of the bouncing beam by three models."""
+    rows = load("bouncing-path")
+    time = column(rows, "time [s]")
+    (axes,) = panels(figure, 1, 1)
+    axes.plot(time, column(rows, "last node [m]"), color="#000000", linewidth=2.5, label="mudline, reference")
+    for heading, colour, name in (
+        ("Exudyn masses, last node [m]", "#56b4e9", "Exudyn, the same masses and springs"),
+        ("Exudyn cable, last node [m]", "#d55e00", "Exudyn, its own beam element"),
+    ):
+        axes.plot(time, column(rows, heading), "--", color=colour, label=name)
+    axes.axhline(0.0, color="#8c6d31", linewidth=0.8)
+    axes.legend(fontsize="small")
+    label(axes, "Height of the last node above the seabed", "time [s]", "[m]")
+
+
+PICTURES: dict[str, tuple[Callable[[Figure], None], tuple[float, float]]] = {
+    "path": (draw_path, (9.0, 8.0)),
+    "schemes": (draw_schemes, (9.0, 8.0)),
+    "bouncing": (draw_bounces, (9.0, 4.5)),
+}
+
+
+def draw(folder: Path = FOLDER) -> None:
+    """Write all pictures."""
+    for name, (function, size) in PICTURES.items():
+        (folder / f"benchmark-{name}.png").write_bytes(Picture(name, name, function, size).png())
