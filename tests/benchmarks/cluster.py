@@ -144,20 +144,25 @@ def series(folder: Path) -> dict[str, float | int]:
     return found
 
 
-def scaling(folder: Path, base: int) -> list[dict[str, float | int | str]]:
-    """The same decks on one worker and on two, and twice as many on two: seconds of the whole command."""
-    write_decks(folder / "one", base)
-    write_decks(folder / "two", 2 * base)
-    rows: list[dict[str, float | int | str]] = []
+def scaling(folder: Path, base: int) -> list[dict[str, float | int]]:
+    """The same decks on one worker and on two, and twice as many on two: seconds of the whole command, in turn."""
+    sizes = {"one": base, "two": 2 * base}
+    for name, count in sizes.items():
+        write_decks(folder / name, count)
+    times: dict[tuple[int, int], list[float]] = {}
     for workers in (1, 2):
         (folder / f"logs-{workers}").mkdir()
-        with running(folder / f"logs-{workers}", workers) as cluster:
-            address = ("--scheduler", cluster.address)
-            Timed(folder, "lint", "one", "-q", *address)  # the workers import what they need
-            for name, count in (("one", base), ("two", 2 * base)):
-                times = [Timed(folder, "lint", name, "-q", *address).seconds for _ in range(_ROUNDS)]
-                rows.append({"workers": workers, "decks": count, "seconds": min(times), "slowest": max(times)})
-    return rows
+    with running(folder / "logs-1", 1) as alone, running(folder / "logs-2", 2) as both:
+        for round_ in range(1 + _ROUNDS):  # in the first one, the workers import what they need
+            for name, count in sizes.items():
+                for workers, cluster in ((1, alone), (2, both)):
+                    taken = Timed(folder, "lint", name, "-q", "--scheduler", cluster.address).seconds
+                    if round_:
+                        times.setdefault((workers, count), []).append(taken)
+    return [
+        {"workers": workers, "decks": count, "seconds": min(found), "slowest": max(found)}
+        for (workers, count), found in times.items()
+    ]
 
 
 def linted(folder: Path, count: int) -> dict[str, float | int]:

@@ -129,8 +129,8 @@ def extrapolated(figures: dict[str, Any]) -> str:
     work = jobs[0][1]
     sizes = []
     for chunk in CHUNKS:
-        found = [simulate(work, chunk, Cluster(workers, over)).efficiency for workers in WORKERS]
-        sizes.append([f"{chunk:g}", *(f"{one:.0%}" for one in found)])
+        shares = [simulate(work, chunk, Cluster(workers, over)).efficiency for workers in WORKERS]
+        sizes.append([f"{chunk:g}", *(f"{share:.0%}" for share in shares)])
     limit = 1.0 / over
     return f"""## Extrapolated
 
