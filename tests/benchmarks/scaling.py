@@ -117,7 +117,7 @@ def extrapolated(figures: dict[str, Any]) -> str:
     """The section of what follows from the measured rates."""
     per_deck, _, per_step = costs(figures)
     over = figures["overhead"]["chunk"]
-    jobs = ((f"{DECKS:.0e} decks linted", DECKS * per_deck), (f"{NODE_STEPS:.0e} node-steps", NODE_STEPS * per_step))
+    jobs = (("10^7 decks linted", DECKS * per_deck), ("10^12 node-steps", NODE_STEPS * per_step))
     rows = []
     for name, work in jobs:
         for workers in WORKERS:
@@ -141,20 +141,20 @@ minutes; workers are there a minute after the start; {PRICE} EUR for a processor
 
 {table(["work", "workers", "chunk, s", "time", "efficiency", "chunks repeated", "EUR"], rows)}
 
-The efficiency with {DECKS:.0e} decks, by the length of a chunk and the number of workers:
+The efficiency with 10^7 decks, by the length of a chunk and the number of workers:
 
 {table(["chunk, s", *map(str, WORKERS)], sizes)}
 
 ## What breaks first
 
-1. **The one client and scheduler.** At {over * 1e3:.2g} ms a chunk they serve {number(limit)} chunks a second: with
-   chunks of one second, {number(limit)} workers. More workers need longer chunks (the chunks grow to 2000 decks at
+1. **The one client and scheduler.** At {over * 1e3:.2g} ms a chunk they serve {limit:.0f} chunks a second: with
+   chunks of one second, {limit:.0f} workers. More workers need longer chunks (the chunks grow to 2000 decks at
    most) or several runs beside each other, each over a part of the decks.
 2. **The client's list of what is done.** A second run reads all rows that are done: at {_ROW_BYTES} bytes a deck
-   without findings, {DECKS * _ROW_BYTES / 1e9:.0f} GB for {DECKS:.0e} decks. Run folder by folder from about a million.
-3. **The store.** Chunks are few ({number(work)} files for {DECKS:.0e} decks at a second each), decks are many: each is
+   without findings, {DECKS * _ROW_BYTES / 1e9:.0f} GB for 10^7 decks. Run folder by folder from about a million.
+3. **The store.** Chunks are few ({number(work)} files for 10^7 decks at a second each), decks are many: each is
    one request, and object stores bill and limit those. `evaluate -o` writes at least three files for each load case.
-4. **One long series.** Workers share decks, not the steps of one: {NODE_STEPS:.0e} node-steps have to come as many load
+4. **One long series.** Workers share decks, not the steps of one: 10^12 node-steps have to come as many load
    cases. A series on one machine is bounded by its memory bandwidth.
 """
 

@@ -38,7 +38,10 @@ def processes(store: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[
 
 @pytest.fixture
 def cluster(processes: Processes) -> Processes:
-    """The scheduler with two workers, also after a test that has ended one."""
+    """The scheduler with two workers, also after a test that has ended one of them."""
+    if processes.scheduler is None or processes.scheduler.poll() is not None:
+        processes.end()
+        processes.start_scheduler()
     processes.start_workers(2)
     return processes
 

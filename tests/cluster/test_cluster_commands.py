@@ -13,7 +13,7 @@ import pytest
 
 from tests.builders.decks import BAD_NUMBER, CLEAN, UNSORTED
 from tests.cli.runner import Outcome, run
-from tests.cluster.processes import ROOT, Processes, running, wait_until
+from tests.cluster.processes import ROOT, Processes, wait_until
 from tests.processes import TIMEOUT, started
 
 s3fs = pytest.importorskip("s3fs", reason="s3fs is not installed")
@@ -184,20 +184,20 @@ def test_local_starts_scheduler_and_workers(folder: Path) -> None:
     assert done == run("validate", "decks")
 
 
-def test_a_scheduler_that_goes_away_is_named(folder: Path, tmp_path_factory: pytest.TempPathFactory) -> None:
+def test_a_scheduler_that_goes_away_is_named(cluster: Processes, folder: Path) -> None:
     write_decks(folder / "decks", 60, LARGE)
-    with running(tmp_path_factory.mktemp("short"), 1) as short:
 
-        def kill() -> None:
-            wait_until(lambda: len(rows_in(folder / "out")) >= 4, "nothing is done")
-            assert short.scheduler
-            short.scheduler.kill()
+    def kill() -> None:
+        wait_until(lambda: len(rows_in(folder / "out")) >= 4, "nothing is done")
+        assert cluster.scheduler
+        cluster.scheduler.kill()
+        cluster.scheduler.wait(TIMEOUT)
 
-        killer = threading.Thread(target=kill)
-        killer.start()
-        done = run("lint", "decks", "-q", "-o", "out", "--scheduler", short.address)
-        killer.join(TIMEOUT)
+    killer = threading.Thread(target=kill)
+    killer.start()
+    done = run("lint", "decks", "-q", "-o", "out", "--scheduler", cluster.address)
+    killer.join(TIMEOUT)
     assert done.code == 2
     last = done.err.splitlines()[-1]
-    assert last.startswith(f"mudline: {short.address}: the scheduler has gone away; ")
+    assert last.startswith(f"mudline: {cluster.address}: the scheduler has gone away; ")
     assert last.endswith("are done: the same command with -o goes on from there")
