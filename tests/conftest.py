@@ -21,15 +21,19 @@ settings.load_profile("mudline-ci" if os.environ.get("CI") else "mudline")
 
 Report = pytest.CollectReport
 OPTIONAL = (
+    "distributed",
     "duckdb",
+    "fsspec",
     "jsonschema",
     "matplotlib",
+    "moto",
     "mpmath",
     "numba",
     "openpyxl",
     "pandas",
     "polars",
     "pyarrow",
+    "s3fs",
     "scipy",
     "xarray",
     "xlsxwriter",
