@@ -65,7 +65,8 @@ def measured(figures: dict[str, Any]) -> str:
 
 By `python -m tests.benchmarks.cluster` on {figures["machine"]}, with a load of {figures["load"]:.1f} from other
 programs before it began. Client, scheduler and two workers share the two processors, and other programs ran beside
-them: the figures are noisy, and two workers cannot be twice as fast as one here.
+them: the figures are noisy, and two workers cannot be twice as fast as one here. The parts were measured one by one
+under loads that changed, `evaluate` under the highest: only figures of one row compare.
 
 {
         table(
