@@ -21,10 +21,13 @@ settings.load_profile("mudline-ci" if os.environ.get("CI") else "mudline")
 
 Report = pytest.CollectReport
 OPTIONAL = (
+    "distributed",
     "duckdb",
+    "fsspec",
     "jsonschema",
     "lsprotocol",
     "matplotlib",
+    "moto",
     "mpmath",
     "numba",
     "openpyxl",
@@ -33,6 +36,7 @@ OPTIONAL = (
     "pyarrow",
     "pygls",
     "pytest_lsp",
+    "s3fs",
     "scipy",
     "xarray",
     "xlsxwriter",

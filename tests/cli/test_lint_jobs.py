@@ -147,7 +147,7 @@ def test_small_runs_stay_in_one_process(decks: str, monkeypatch: pytest.MonkeyPa
 def test_workers_do_what_is_done_here(place: Place) -> None:
     name = place(BAD_NUMBER)
     one = lint_run.Task(Input(name, name), BAD_NUMBER.encode(), LintSettings(rules()))
-    order, codes = lint_run._order(one, {})
+    order, codes = lint_run.order_of(one, {})
     assert order.settings.rules == ()
     assert lint_run.lint_orders([(order, codes)]) == [one.lint()]
 

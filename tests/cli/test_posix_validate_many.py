@@ -15,7 +15,7 @@ from mudline.__main__ import main
 from mudline.cli import view
 from mudline.cli.inputs import Input
 from mudline.cli.printing import elided
-from mudline.cli.validate_command import Total, Verdict
+from mudline.cli.verdicts import Total, Verdict
 from mudline.cli.view import View
 from tests.builders.decks import CLEAN, ILLEGAL
 from tests.cli.conftest import Place

@@ -20,6 +20,8 @@ from mudline.cli.known_results import Kept
 from mudline.cli.result_files import behind, beside, line_watch, result_files
 from mudline.cli.streams import counted, reason
 from mudline.cli.view import View
+from mudline.cluster.storage import exists, is_folder, is_url, join
+from mudline.cluster.work import resolved
 from mudline.contact.result import Part
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Diagnostic
@@ -67,6 +69,9 @@ def named_cases(files: Sequence[Input], form: str) -> tuple[str, list[Case]]:
         common = ""
     inside = [_inside(path, common) for path in paths]
     cases = [Case(file, name) for file, name in zip(files, inside, strict=True)]
+    if all(is_url(file.path or "") for file in files):
+        here = str(Path.cwd())
+        common = os.path.relpath(common, here).replace(os.sep, "/").replace(":/", "://", 1)
     if not form:
         return common, cases
     plain = [str(PurePosixPath(name).with_suffix("")) for name in inside]
@@ -103,7 +108,7 @@ class PositionFiles:
 
     def check(self) -> None:
         """Refuse a pattern with unknown fields, and a file that is not there; raises click.ClickException."""
-        if self.given is None or Path(self.given).exists():
+        if self.given is None or _there(self.given):
             return
         try:
             names = {name for _, name, _, _ in Formatter().parse(self.given) if name is not None}
@@ -116,29 +121,47 @@ class PositionFiles:
 
     def of(self, case: Case) -> str | None:
         """The file of a deck; raises MissingPositionsError."""
-        if self.given is None or Path(self.given).is_file():
+        if self.given is None or _is_file(self.given):
             return self.given
-        if Path(self.given).is_dir():
-            return self._in_folder(case, Path(self.given))
+        if _there(self.given):
+            return self._in_folder(case, self.given)
         folder = os.path.dirname(case.file.path or case.file.name) or "."  # noqa: PTH120 - as it was given
         path = self.given.replace("{name}", case.name).replace("{folder}", folder)
-        if not Path(path).is_file():
+        if not _is_file(path):
             raise MissingPositionsError(f"its positions are not there: {path}")
         return path
 
-    def _in_folder(self, case: Case, folder: Path) -> str:
+    def from_folder(self, folder: str) -> PositionFiles:
+        """The same, given in a working folder that may not be this one."""
+        if self.given is None or self.given.startswith("{folder}"):
+            return self
+        return PositionFiles(resolved(self.given, folder))
+
+    def _in_folder(self, case: Case, folder: str) -> str:
         """The file with the name of the deck: in the folder that the deck is in below the common one, or at the top."""
-        stem = PurePosixPath(case.inside).with_suffix("")
-        for start in dict.fromkeys((folder / stem, folder / case.name)):
-            found = [path for end in _POSITIONS if (path := start.with_name(start.name + end)).is_file()]
+        stem = str(PurePosixPath(case.inside).with_suffix(""))
+        for start in dict.fromkeys((join(folder, stem), join(folder, case.name))):
+            found = [path for end in _POSITIONS if _is_file(path := start + end)]
             if len(found) > 1:
-                raise MissingPositionsError(
-                    f"several files of positions: {', '.join(path.as_posix() for path in found)}"
-                )
+                raise MissingPositionsError(f"several files of positions: {', '.join(map(_slashed, found))}")
             if found:
-                return found[0].as_posix()
+                return _slashed(found[0])
         ends = f"{', '.join(_POSITIONS[:-1])} or {_POSITIONS[-1]}"
-        raise MissingPositionsError(f"its positions are not there: {(folder / stem).as_posix()} with {ends}")
+        raise MissingPositionsError(f"its positions are not there: {_slashed(join(folder, stem))} with {ends}")
+
+
+def _there(path: str) -> bool:
+    return "{" not in path and exists(path) if is_url(path) else Path(path).exists()
+
+
+def _is_file(path: str) -> bool:
+    if not is_url(path):
+        return Path(path).is_file()
+    return _there(path) and not is_folder(path)
+
+
+def _slashed(path: str) -> str:
+    return path if is_url(path) else Path(path).as_posix()
 
 
 # ------------------------------------------------------------------------------------------------------------ evaluated
@@ -242,6 +265,8 @@ def print_cases(rows: Sequence[CaseSummary], folder: str, names: Mapping[str, st
 
 
 def _title(count: int, folder: str) -> str:
+    if is_url(folder):
+        return f"Contact of {counted(count, 'deck')} in {folder}"
     place, here = Path(folder), Path.cwd()
     inside = place.relative_to(here) if place.is_relative_to(here) else place
     return f"Contact of {counted(count, 'deck')}" + (f" in {inside.as_posix()}" if folder and inside.parts else "")

@@ -9,13 +9,15 @@ from typing import cast
 import click
 from click.core import ParameterSource
 
-from mudline.cli import DONE, FOUND, options, pictures
+from mudline.cli import DONE, FOUND, on_cluster, options, pictures
 from mudline.cli.evaluate_inputs import EvaluateInputs, read_headings
 from mudline.cli.evaluate_one import Outputs, evaluate_one, show_plan
 from mudline.cli.inputs import STDIN, GivenDeck, collect, refuses_bad_decks
 from mudline.cli.pictures import Pictures
 from mudline.cli.result_files import has_library, is_installed
 from mudline.cli.view import View
+from mudline.cluster.scheduler import Scheduler
+from mudline.cluster.storage import is_url
 from mudline.files import suffix_of
 from mudline.results.evaluation import Tension
 from mudline.results.forms import form_names
@@ -105,6 +107,7 @@ from mudline.results.panels import ANIMATIONS, PICTURES
     help="Exit with 1 for warnings about the results too.",
 )
 @options.output_format("text", "json", "csv")
+@on_cluster.options
 @options.every_file
 @options.decks
 @options.stdin_name
@@ -138,6 +141,7 @@ def command(
     spreadsheet: bool,
     fail_on: str,
     output_format: str,
+    scheduler: Scheduler | None,
     view: View,
 ) -> int:
     """Evaluate contact forces and stiffnesses of decks, at their own coordinates or at positions from a file.
@@ -145,12 +149,15 @@ def command(
     Forces are per unit length, in the deck's units; reactions are the total force of the seabed on a node.
 
     DECKS is one deck or - for standard input; or several decks and directories (searched for *.keyx, *.keyxm, *.keyxi,
-    *.das): a row for each deck is then printed, those that failed and those with the largest force first.
+    *.das), or URLs: a row for each deck is then printed, those that failed and those with the largest force first.
     """
     inputs = EvaluateInputs(cast("Tension", tension), elements, time_step, read_headings(columns))
     inputs.check(positions)
     _check_chunk(chunk, summary_only=summary_only)
-    if _are_many(decks):
+    on_cluster.refuse(scheduler, {}, None, decks)
+    if scheduler is None:
+        _refuse_urls({"--positions": positions, "--elements": elements, "-o": output})
+    if scheduler is not None or _are_many(decks):
         from mudline.cli.evaluate_many import ManyOptions, evaluate_many  # noqa: PLC0415 - one deck starts quicker
 
         _refuse_options(_OF_ONE, "is for one deck: give a single file")
@@ -159,8 +166,10 @@ def command(
             return FOUND
         if spreadsheet and "csv" not in (output_format, form):
             raise click.UsageError(options.CSV_ONLY)
-        many = ManyOptions(inputs, units, positions, output, form, output_format, fail_on, spreadsheet, jobs, no_cache)
-        return evaluate_many(collect(decks, gitignore=not every_file), many, view)
+        many = ManyOptions(
+            inputs, units, positions, output, form, output_format, fail_on, spreadsheet, jobs, no_cache, scheduler
+        )
+        return evaluate_many(collect(decks, gitignore=not every_file, urls=True), many, view)
     _check_one(form, (output_format, suffix_of(output or "")), spreadsheet=spreadsheet)
     if summary_only:
         from mudline.cli.evaluate_series import SeriesOptions, evaluate_series  # noqa: PLC0415 - others start quicker
@@ -208,7 +217,14 @@ def _are_many(decks: Sequence[str]) -> bool:
     """Whether several decks or a folder are given; raises click.UsageError for standard input among others."""
     if len(decks) > 1 and STDIN in decks:
         raise click.UsageError("- is one deck, from standard input: give it alone")
-    return len(decks) > 1 or os.path.isdir(decks[0])  # noqa: PTH112 - Path raises for a name that is too long
+    return len(decks) > 1 or is_url(decks[0]) or os.path.isdir(decks[0])  # noqa: PTH112 - Path raises for a name that is too long
+
+
+def _refuse_urls(given: Mapping[str, str | None]) -> None:
+    """Raise click.UsageError for a URL that only workers read or write."""
+    for option, path in given.items():
+        if path is not None and is_url(path):
+            raise click.UsageError(f"{option} {path}: a URL needs --scheduler, such as local")
 
 
 def _refuse_options(names: Mapping[str, str], why: str) -> None:

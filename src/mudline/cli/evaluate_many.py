@@ -9,6 +9,7 @@ from collections.abc import Generator, Iterable, Iterator, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, NamedTuple
 
 import click
@@ -33,12 +34,17 @@ from mudline.cli.processes import Effort, pays, pool, submitted
 from mudline.cli.result_files import is_installed
 from mudline.cli.streams import MOST_REPORTED, counted, emit, emit_json, notify, reason, write_text, writing
 from mudline.cli.view import Progress, View, wants_bar
+from mudline.cluster import storage
+from mudline.cluster.scheduler import Scheduler
 from mudline.files import remove_left
 from mudline.quantities import CASES, csv_lines
 from mudline.results.cases import CaseSummary, worst_first, write_parquet
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
+
+CHUNKS = ".mudline-chunks"
+"""The folder below that of the results in which workers note what is done."""
 
 TRIED = 0.05
 """Seconds of evaluating by which the remaining work is estimated."""
@@ -61,6 +67,7 @@ class ManyOptions:
     spreadsheet: bool
     jobs: int
     no_cache: bool
+    scheduler: Scheduler | None = None
 
 
 class Task(NamedTuple):
@@ -81,25 +88,15 @@ def evaluate_many(decks: Inputs, options: ManyOptions, view: View) -> int:
     placed.check()
     if not decks.files:
         return decks.code
-    folder = None if options.output is None else Path(options.output)
-    common, cases = named_cases(_once(decks.files), options.form if folder else "")
-    known = None if folder is None else KnownResults(folder, _spelled(options))
-    rows: list[Kept] = []
-    taken = 0
-    with _folder(folder, cases, known), Progress(len(cases), view, shown=wants_bar(view)) as progress:
-        tasks = _tasks(decks, cases, placed, options, known)
-        with closing(_evaluated(tasks, len(cases), Effort(options.jobs))) as results:
-            for task, done in results:
-                rows.append(done.kept)
-                taken += task.known is not None and not done.kept.row.failed
-                progress.advance()
-                if known is not None and task.known is None:
-                    _remember(known, task, done)
-        ranked = worst_first(one.row for one in rows)
-        written = None if folder is None else _write_summary(ranked, folder, spreadsheet=options.spreadsheet)
+    common, cases = named_cases(_once(decks.files), options.form if options.output else "")
+    with Progress(len(cases), view, shown=wants_bar(view)) as progress:
+        evaluated = _on_cluster if options.scheduler else _here
+        rows, taken = evaluated(decks, cases, placed, options, progress)
+    ranked = worst_first(one.row for one in rows)
+    written = options.output and _write_summary(ranked, options.output, spreadsheet=options.spreadsheet)
     if not view.quiet:
         _notify_warnings(rows)
-        _notify_written(rows, taken, folder, written)
+        _notify_written(rows, taken, options.output, written)
     if options.output_format == "json":
         emit_json([row.row() for row in ranked])
     elif options.output_format == "csv":
@@ -124,6 +121,47 @@ def _spelled(options: ManyOptions) -> str:
 
 
 # ------------------------------------------------------------------------------------------------- evaluating decks
+
+
+def _here(
+    decks: Inputs, cases: Sequence[Case], placed: PositionFiles, options: ManyOptions, progress: Progress
+) -> tuple[list[Kept], int]:
+    """What the decks gave, evaluated on this machine, and how many were taken over from an earlier run."""
+    folder = None if options.output is None else Path(options.output)
+    known = None if folder is None else KnownResults(folder, _spelled(options))
+    rows: list[Kept] = []
+    taken = 0
+    with _folder(folder, cases, known):
+        tasks = _tasks(decks, cases, placed, options, known)
+        with closing(_evaluated(tasks, len(cases), Effort(options.jobs))) as results:
+            for task, done in results:
+                rows.append(done.kept)
+                taken += task.known is not None and not done.kept.row.failed
+                progress.advance()
+                if known is not None and task.known is None:
+                    _remember(known, task, done)
+    return rows, taken
+
+
+def _on_cluster(
+    decks: Inputs, cases: Sequence[Case], placed: PositionFiles, options: ManyOptions, progress: Progress
+) -> tuple[list[Kept], int]:
+    """As `_here`, evaluated by the workers of a cluster; what is done is noted below the results."""
+    from mudline.cli.cluster_decks import EvaluateGiven, evaluated_on_cluster  # noqa: PLC0415 - few runs use a cluster
+    from mudline.cli.on_cluster import OnCluster  # noqa: PLC0415 - as above
+
+    if options.scheduler is None:
+        raise ValueError("no scheduler is given")
+    place = None if options.output is None else storage.join(options.output, CHUNKS)
+    cluster = OnCluster(options.scheduler, place, options.no_cache)
+    here = os.getcwd()  # noqa: PTH109 - sent as text
+    given = EvaluateGiven(cases[0], placed, options.inputs, options.output, options.units, options.spreadsheet, here)
+    rows: list[Kept] = []
+    words = f"{_spelled(options)} {options.output} {placed}"
+    for one in evaluated_on_cluster(decks, cases, given, words, cluster):
+        rows.append(one)
+        progress.advance()
+    return rows, cluster.taken
 
 
 def _tasks(
@@ -217,16 +255,25 @@ def _remember(known: KnownResults, task: Task, done: Done) -> None:
         known.put(task.key, task.case.result, done.kept, done.read, done.written)
 
 
-def _write_summary(rows: Sequence[CaseSummary], folder: Path, *, spreadsheet: bool) -> Path:
-    """Write the rows of all decks: in Parquet where that is installed, else as CSV."""
+def _write_summary(rows: Sequence[CaseSummary], folder: str, *, spreadsheet: bool) -> str:
+    """Write the rows of all decks: in Parquet where that is installed, else as CSV. Returns the path or the URL."""
+    if storage.is_url(folder):
+        with TemporaryDirectory(prefix="mudline-") as near:
+            path = Path(_write_summary(rows, near, spreadsheet=spreadsheet))
+            target = storage.join(folder, path.name)
+            try:
+                storage.write(target, path.read_bytes())
+            except OSError as error:
+                raise click.ClickException(f"{target}: cannot be written: {reason(error)}") from error
+        return target
     if is_installed("parquet"):
-        path = folder / f"{SUMMARY}.parquet"
+        path = Path(folder, f"{SUMMARY}.parquet")
         with writing(path) as stream:
             write_parquet(rows, stream)
     else:
-        path = folder / f"{SUMMARY}.csv"
+        path = Path(folder, f"{SUMMARY}.csv")
         write_text(path, _csv(rows, spreadsheet=spreadsheet))
-    return path
+    return path.as_posix()
 
 
 def _csv(rows: Sequence[CaseSummary], *, spreadsheet: bool) -> Iterator[str]:
@@ -247,10 +294,14 @@ def _notify_warnings(rows: Sequence[Kept]) -> None:
         notify(f"warning: {texts[0]}{more}")
 
 
-def _notify_written(rows: Sequence[Kept], taken: int, folder: Path | None, summary: Path | None) -> None:
+def _notify_written(rows: Sequence[Kept], taken: int, folder: str | None, summary: str | None) -> None:
     """Report how many results were taken over, and where they are."""
     if folder is None or summary is None:
         return
     done = sum(not one.row.failed for one in rows)
-    notify(f"results of {counted(done, 'deck')} -> {folder.as_posix()}, {taken} taken over from an earlier run")
-    notify(f"summary -> {summary.as_posix()}")
+    notify(f"results of {counted(done, 'deck')} -> {_shown(folder)}, {taken} taken over from an earlier run")
+    notify(f"summary -> {summary}")
+
+
+def _shown(folder: str) -> str:
+    return folder if storage.is_url(folder) else Path(folder).as_posix()

@@ -17,6 +17,8 @@ import click
 from mudline.cli import FOUND, WRONG_USAGE, options
 from mudline.cli.search import Search
 from mudline.cli.streams import notify, notify_diagnostics, reason
+from mudline.cluster import storage
+from mudline.cluster.storage import is_url
 from mudline.deck.forms import form_of
 from mudline.diagnostics import DeckError
 from mudline.files import write_atomically
@@ -42,12 +44,16 @@ class Input:
 
     @property
     def folder(self) -> Path | None:
-        """The folder of files that the deck names; None for standard input."""
-        return None if self.path is None else _folder(os.path.dirname(self.path))  # noqa: PTH120 - asked for many files
+        """The folder of files that the deck names; None for standard input and for a URL, beside which none is read."""
+        if self.path is None or is_url(self.path):
+            return None
+        return _folder(os.path.dirname(self.path))  # noqa: PTH120 - asked for many files
 
     def read(self) -> bytes:
         """The content; raises OSError."""
         if self.path is not None:
+            if is_url(self.path):
+                return storage.read(self.path)
             with open(self.path, "rb", buffering=0) as stream:  # noqa: PTH123 - as above
                 return stream.readall()
         if sys.stdin is None:
@@ -139,31 +145,40 @@ def is_deck(path: str) -> bool:
 
 
 def collect(
-    paths: Sequence[str], stdin_name: str = "<stdin>", wanted: Wanted = is_deck, *, gitignore: bool = True
+    paths: Sequence[str],
+    stdin_name: str = "<stdin>",
+    wanted: Wanted = is_deck,
+    *,
+    gitignore: bool = True,
+    urls: bool = False,
 ) -> Inputs:
     """Files as given; directories searched for wanted files, in sorted order; `-` for standard input.
 
-    `gitignore` leaves out of a search what `.gitignore` files hide.
+    `gitignore` leaves out of a search what `.gitignore` files hide. With `urls` those of files and folders are taken.
     """
 
     def taken(path: str) -> bool:
-        return wanted(path) and os.path.isfile(path)  # noqa: PTH113 - Path raises for a name that is too long
+        return wanted(path) and (is_url(path) or os.path.isfile(path))  # noqa: PTH113 - Path raises for long names
 
-    return _collect(paths, stdin_name, taken, gitignore=gitignore)
+    return _collect(paths, stdin_name, taken, gitignore=gitignore, urls=urls)
 
 
-def collect_any_form(paths: Sequence[str], stdin_name: str, *, gitignore: bool, may_be_empty: bool = False) -> Inputs:
+def collect_any_form(
+    paths: Sequence[str], stdin_name: str, *, gitignore: bool, urls: bool = False, may_be_empty: bool = False
+) -> Inputs:
     """As `collect`, for decks in any form: also JSON and YAML files whose beginning names the format of decks.
 
     A directory without a deck is a fault unless it `may_be_empty`.
     """
-    return _collect(paths, stdin_name, _is_deck_in_any_form, gitignore=gitignore, may_be_empty=may_be_empty)
+    return _collect(paths, stdin_name, _is_deck_in_any_form, gitignore=gitignore, urls=urls, may_be_empty=may_be_empty)
 
 
 def _is_deck_in_any_form(path: str) -> bool:
     """Whether a file is a deck by its suffix or its content; one that cannot be opened is taken, and reported later."""
     if not is_deck(path) and form_of(path) == "keyword":
         return False
+    if is_url(path):
+        return is_deck(path) or _MARK in storage.head(path, _HEAD)
     file = Path(path)
     if file.exists() and not file.is_file():
         return False
@@ -177,10 +192,20 @@ def _is_deck_in_any_form(path: str) -> bool:
 
 
 def _collect(
-    paths: Sequence[str], stdin_name: str, taken: Wanted, *, gitignore: bool, may_be_empty: bool = False
+    paths: Sequence[str], stdin_name: str, taken: Wanted, *, gitignore: bool, urls: bool, may_be_empty: bool = False
 ) -> Inputs:
     found = Inputs()
-    for given in paths:
+    for path in paths:
+        given = path
+        if urls and is_url(path):
+            try:
+                given = storage.as_path(path)
+                if is_url(given):
+                    _below_url(given, found, taken)
+                    continue
+            except OSError as error:
+                found.fail(f"{path}: {reason(error)}")
+                continue
         if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
             _directory(Search(given, gitignore), found, taken, may_be_empty=may_be_empty)
         else:
@@ -188,6 +213,17 @@ def _collect(
     if len(paths) > 1:
         found.files = Files([list(dict.fromkeys(found.files))])
     return found
+
+
+def _below_url(url: str, found: Inputs, taken: Wanted) -> None:
+    """The file at a URL, or the wanted ones below a folder; raises OSError."""
+    if not storage.is_folder(url):
+        found.files.parts.append([Input(url, url)])
+        return
+    files = [Input(one, one) for one in storage.files_below(url) if taken(one)]
+    if not files:
+        found.fail(f"{url}: no deck in this folder (looked for {', '.join(sorted(SUFFIXES))})")
+    found.files.parts.append(files)
 
 
 def _single(given: str, stdin_name: str) -> Input:

@@ -6,12 +6,13 @@ from functools import partial
 
 import click
 
-from mudline.cli import DONE, FOUND, options
+from mudline.cli import DONE, FOUND, on_cluster, options
 from mudline.cli.configured import Configured
 from mudline.cli.inputs import collect
 from mudline.cli.lint_known import known_decks
 from mudline.cli.lint_report import Report, complete, outputs
 from mudline.cli.view import View
+from mudline.cluster.scheduler import Scheduler
 from mudline.diagnostics import Severity
 from mudline.linting.output import TEXT, form_names
 from mudline.linting.settings import Given
@@ -65,6 +66,8 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
 )
 @click.option("--no-cache", "uncached", is_flag=True, help="Lint every deck again, without the cache.")
 @click.option("--watch", is_flag=True, help="Lint again whenever a deck or a configuration changes, until Ctrl-C.")
+@on_cluster.options
+@on_cluster.output
 @options.every_file
 @options.stdin_name
 @options.units
@@ -90,6 +93,8 @@ def command(
     jobs: int,
     uncached: bool,
     watch: bool,
+    scheduler: Scheduler | None,
+    output: str | None,
     every_file: bool,
     stdin_name: str,
     units: str | None,
@@ -97,8 +102,10 @@ def command(
 ) -> int:
     """Find faults in decks: all findings of every file in one run.
 
-    PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi and *.das) or - for standard input.
+    PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi and *.das), URLs of either, or - for standard
+    input.
     """
+    on_cluster.refuse(scheduler, {"--fix": fix, "--diff": diff, "--watch": watch}, output, paths)
     given = Given(_words(chosen), _words(ignored), _words(also), dialect, units)
     fixing = "none" if not (fix or diff) else "unsafe" if unsafe else "safe"
     wanted = outputs(forms)
@@ -106,10 +113,10 @@ def command(
 
     def once() -> int:
         configured = Configured(config, isolated)
-        inputs = collect(paths, stdin_name, configured.wanted, gitignore=not every_file)
+        inputs = collect(paths, stdin_name, configured.wanted, gitignore=not every_file, urls=not (fix or diff))
         aside = diff or (fix and any(file.path is None for file in inputs.files))
         report = Report(wanted, view, statistics=statistics, aside=aside, fixing=fix or diff)
-        known = None if uncached or fix or diff else known_decks(inputs, given, configured)
+        known = None if uncached or fix or diff or scheduler else known_decks(inputs, given, configured)
         if known is not None and known.all_clean and not (baseline or recording):
             for file in inputs.files:
                 report.add(file.name, b"", [], 0, Severity.ERROR)
@@ -119,6 +126,11 @@ def command(
 
         settings = lint_run.checked_settings(config, given, fixing, isolated=isolated, fail_on=fail_on)
         run = lint_run.Run(inputs, settings, report, known, baseline, recording=recording, diff=diff, jobs=jobs)
+        if scheduler is not None:
+            from mudline.cli.cluster_decks import lint_on_cluster  # noqa: PLC0415 - few runs use a cluster
+
+            cluster = on_cluster.OnCluster(scheduler, output, uncached, view.verbose)
+            run.elsewhere = partial(lint_on_cluster, cluster=cluster, view=view)
         failing = run.go() and not exit_zero
         return max(inputs.code, FOUND if failing else DONE)
 

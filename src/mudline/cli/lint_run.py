@@ -111,6 +111,7 @@ def checked_settings(config: str | None, given: Given, fixing: str, *, isolated:
 class Run:
     """All files: fixed decks are written or shown, known findings left out, the others reported.
 
+    `elsewhere` lints them instead of this machine's processes.
     `baseline` is the file of the findings that are known already, or that are to be recorded. With `diff` nothing is
     written.
     """
@@ -124,6 +125,7 @@ class Run:
     recording: bool = False
     diff: bool = False
     jobs: int = 0
+    elsewhere: Callable[[Inputs, SettingsOf], Generator[Linted, None, None]] | None = None
     _differs: bool = field(default=False, init=False)
     _documents: int = field(default=0, init=False)
     _recorded: Baseline | None = field(default=None, init=False)
@@ -131,7 +133,7 @@ class Run:
     def go(self) -> bool:
         """Lint all files; returns whether there is a reason to fail."""
         self._recorded = _baseline(self.baseline, recording=self.recording)
-        with closing(lint_all(self.inputs, self.settings.of, Effort(self.jobs), self.known)) as results:
+        with closing(self._linted()) as results:
             for file, data, result in results:
                 self._take(file, data, result)
         if self._documents:
@@ -140,6 +142,12 @@ class Run:
         if self._recorded is not None and self.baseline is not None:
             _report_baseline(self._recorded, Path(self.baseline), self.report.view, recording=self.recording)
         return self.report.failing or self._differs
+
+    def _linted(self) -> Generator[Linted, None, None]:
+        """Each file with its content and report, made here or on a cluster."""
+        if self.elsewhere is None:
+            return lint_all(self.inputs, self.settings.of, Effort(self.jobs), self.known)
+        return self.elsewhere(self.inputs, self.settings.of)
 
     def _take(self, file: Input, data: bytes, result: FileReport) -> None:
         settings = self.settings.of(file)
@@ -277,7 +285,7 @@ def _ahead(tasks: Iterable[Task], executor: Executor, most: int) -> Iterator[tup
     waiting: deque[tuple[list[Task], Future[list[FileReport]] | None]] = deque()
     sendable: dict[int, Sendable] = {}
     for chunk in _chunks(tasks):
-        waiting.append((chunk, _sent(executor, [_order(one, sendable) for one in chunk if one.known is None])))
+        waiting.append((chunk, _sent(executor, [order_of(one, sendable) for one in chunk if one.known is None])))
         if len(waiting) > most:
             yield from _done(*waiting.popleft())
     while waiting:
@@ -309,8 +317,11 @@ def _chunks(tasks: Iterable[Task]) -> Iterator[list[Task]]:
 # -------------------------------------------------------------------------------------------------- other processes
 
 
-def _order(task: Task, sendable: dict[int, Sendable]) -> Order:
-    """`sendable` has settings that many files share: a process is sent the same object once in a chunk."""
+def order_of(task: Task, sendable: dict[int, Sendable]) -> Order:
+    """A file as it is sent.
+
+    `sendable` has settings that many files share: a process is sent the same object once in a chunk.
+    """
     if id(task.settings) not in sendable:
         codes = tuple(rule.code.code for rule in task.settings.rules)
         sendable[id(task.settings)] = Sendable(task.settings, replace(task.settings, rules=()), codes)
@@ -331,4 +342,8 @@ def lint_orders(orders: Sequence[Order]) -> list[FileReport]:
 
 @cache
 def _named(codes: tuple[str, ...]) -> tuple[Rule, ...]:
-    return tuple(rule for rule in rules() if rule.code.code in codes)
+    """The rules of these codes; raises ValueError where a package that has some of them is not installed here."""
+    found = tuple(rule for rule in rules() if rule.code.code in codes)
+    if missing := sorted(set(codes) - {rule.code.code for rule in found}):
+        raise ValueError(f"no rule {', '.join(missing)}: install the package that has it, as where the command runs")
+    return found

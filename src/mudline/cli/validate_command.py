@@ -5,27 +5,21 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import asdict, dataclass, fields
-from functools import cache
+from contextlib import closing
+from dataclasses import asdict, fields
 from textwrap import indent
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import click
 
-from mudline.cli import DONE, FOUND, options
-from mudline.cli.inputs import Input, Inputs, collect_any_form
+from mudline.cli import DONE, FOUND, on_cluster, options
+from mudline.cli.inputs import Inputs, collect_any_form
 from mudline.cli.streams import emit, reason
+from mudline.cli.verdicts import Judged, Total, Verdict, judge
 from mudline.cli.view import Progress, View, wants_bar
-from mudline.codes.contact import SBD006
-from mudline.deck.loading import load_bytes
-from mudline.diagnostics import DeckError, Diagnostic, Problem, Severity
-from mudline.linting.engine import grouped_problems, unsuppressed
+from mudline.cluster.scheduler import Scheduler
 from mudline.linting.output.json import as_object
-from mudline.linting.registry import rules, select
-from mudline.linting.rule import LintContext
 from mudline.quantities import csv_lines
-from mudline.results.warnings import seabed_warnings
-from mudline.short_repr import counted
 from mudline.syntax.source import Source
 
 if TYPE_CHECKING:
@@ -42,12 +36,22 @@ _SHORTEST = 20
 @click.command("validate")
 @options.paths
 @options.output_format("text", "json", "csv")
+@on_cluster.options
+@on_cluster.output
 @options.every_file
 @options.stdin_name
 @options.units
 @options.common
 def command(
-    *, paths: tuple[str, ...], output_format: str, every_file: bool, stdin_name: str, units: str | None, view: View
+    *,
+    paths: tuple[str, ...],
+    output_format: str,
+    scheduler: Scheduler | None,
+    output: str | None,
+    every_file: bool,
+    stdin_name: str,
+    units: str | None,
+    view: View,
 ) -> int:
     """Validate decks: print the errors of each, then a table with a row per deck.
 
@@ -55,12 +59,15 @@ def command(
     counted in its verdict, those about a pipe without a seabed under it among them; -v prints them too.
 
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that begin
-    as decks do) or - for standard input. Of many decks -q shows the table without the errors.
+    as decks do), URLs of either, or - for standard input. Of many decks -q shows the table without the errors.
     """
-    inputs = collect_any_form(paths, stdin_name, gitignore=not every_file)
+    on_cluster.refuse(scheduler, {}, output, paths)
+    inputs = collect_any_form(paths, stdin_name, gitignore=not every_file, urls=True)
     total = Total()
     shown = wants_bar(view) and (output_format == "text" or not sys.stdout.isatty())
-    judged = _judged(inputs, units, total, view, Progress(len(inputs.files), view, shown=shown))
+    progress = Progress(len(inputs.files), view, shown=shown)
+    cluster = None if scheduler is None else on_cluster.OnCluster(scheduler, output, verbose=view.verbose)
+    judged = _judged_on(cluster, inputs, units, total, view, progress)
     if output_format == "json":
         _print_json(judged, total)
     elif output_format == "csv":
@@ -72,68 +79,7 @@ def command(
     return max(inputs.code, DONE if total.legal == total.decks else FOUND)
 
 
-# -------------------------------------------------------------------------------------------------------- verdicts
-
-
-@dataclass(frozen=True, slots=True)
-class Verdict:
-    """Counts of a deck, and "legal", "legal, 3 warnings", "illegal" or, for a file without any section, "empty"."""
-
-    file: str
-    sections: int
-    keywords: int
-    curves: int
-    elements: int
-    errors: int
-    warnings: int
-    verdict: str
-
-    @property
-    def legal(self) -> bool:
-        """Whether the deck is legal, with warnings or without."""
-        return self.verdict.startswith("legal")
-
-
-@dataclass(slots=True)
-class Total:
-    """Decks by verdict, their errors and warnings, and the files that could not be read, which are not counted."""
-
-    decks: int = 0
-    legal: int = 0
-    illegal: int = 0
-    empty: int = 0
-    errors: int = 0
-    warnings: int = 0
-    unreadable: int = 0
-
-    def add(self, verdict: Verdict) -> None:
-        """Count one more deck."""
-        self.decks += 1
-        self.legal += verdict.legal
-        self.illegal += verdict.verdict == "illegal"
-        self.empty += verdict.verdict == "empty"
-        self.errors += verdict.errors
-        self.warnings += verdict.warnings
-
-    def __str__(self) -> str:
-        """The total for a reader, without counts of zero."""
-        others = [
-            f"{self.illegal} illegal" if self.illegal else "",
-            f"{self.empty} empty" if self.empty else "",
-            counted(self.errors, "error") if self.errors else "",
-            counted(self.warnings, "warning") if self.warnings else "",
-            f"{counted(self.unreadable, 'file')} unreadable" if self.unreadable else "",
-        ]
-        rest = ", ".join(filter(None, others))
-        return f"{self.legal} of {counted(self.decks, 'deck')} legal" + (f": {rest}" if rest else "")
-
-
-class Judged(NamedTuple):
-    """A deck with its errors, the warnings too where they are asked for, and its content, which is not kept."""
-
-    verdict: Verdict
-    found: list[Diagnostic]
-    data: bytes
+# --------------------------------------------------------------------------------------------------------- judging
 
 
 def _judged(inputs: Inputs, units: str | None, total: Total, view: View, progress: Progress) -> Iterator[Judged]:
@@ -147,7 +93,7 @@ def _judged(inputs: Inputs, units: str | None, total: Total, view: View, progres
                 progress.hide()
                 inputs.fail(f"{file.name}: {reason(error)}")
             else:
-                verdict, found = _judge(data, file, units, verbose=view.verbose)
+                verdict, found = judge(data, file, units, verbose=view.verbose)
                 total.add(verdict)
                 if found:
                     progress.hide()
@@ -155,38 +101,25 @@ def _judged(inputs: Inputs, units: str | None, total: Total, view: View, progres
             progress.advance()
 
 
-def _judge(data: bytes, file: Input, units: str | None, *, verbose: bool) -> tuple[Verdict, list[Diagnostic]]:
-    try:
-        deck = load_bytes(data, file.name, units=units, folder=file.folder)
-    except DeckError as error:
-        return Verdict(file.name, 0, 0, 0, 0, len(error.diagnostics), 0, "illegal"), list(error.diagnostics)
-    context = LintContext(deck)
-    problems = grouped_problems(context, rules(), suppress=False)
-    errors = deck.diagnose([one for one in problems if one.weight is Severity.ERROR])
-    warnings = _warnings(context, problems, legal=not errors)
-    keywords = sum(len(section.blocks) for section in deck.sections)
-    curves, elements = len(context.scene.laws.curves), len(context.scene.element_ids)
-    behind = f", {counted(len(warnings), 'warning')}" if warnings else ""
-    verdict = "illegal" if errors else f"legal{behind}" if deck.sections else "empty"
-    counts = (len(deck.sections), keywords, curves, elements, len(errors), len(warnings))
-    found = sorted([*errors, *warnings], key=lambda one: one.sort_key) if verbose else errors
-    return Verdict(deck.file, *counts, verdict), found
+def _judged_on(
+    cluster: on_cluster.OnCluster | None,
+    inputs: Inputs,
+    units: str | None,
+    total: Total,
+    view: View,
+    progress: Progress,
+) -> Iterator[Judged]:
+    """As `_judged`, by the workers of a cluster where there is one."""
+    if cluster is None:
+        yield from _judged(inputs, units, total, view, progress)
+        return
+    from mudline.cli.cluster_decks import validated_on_cluster  # noqa: PLC0415 - few runs use a cluster
 
-
-def _warnings(context: LintContext, problems: list[Problem], *, legal: bool) -> list[Diagnostic]:
-    """What lint warns of, and of a legal deck what evaluating it at its own coordinates adds to that."""
-    codes = _default_codes()
-    kept = unsuppressed(context, problems, rules())
-    found = [one for one in kept if one.weight is Severity.WARNING and one.code.code in codes]
-    reported = {one.code.code for one in problems if one.weight is Severity.WARNING}
-    more = seabed_warnings(context.scene) if legal and SBD006.code not in reported else []
-    return [*context.deck.diagnose(found), *(one.diagnostic for one in more if one.diagnostic.code not in reported)]
-
-
-@cache
-def _default_codes() -> frozenset[str]:
-    """The codes of the rules that lint runs unless it is asked for others."""
-    return frozenset(rule.code.code for rule in select())
+    with closing(validated_on_cluster(inputs, units, cluster, progress, verbose=view.verbose)) as judged:
+        for one in judged:
+            total.add(one.verdict)
+            yield one
+    total.unreadable = len(inputs.files) - total.decks
 
 
 # ---------------------------------------------------------------------------------------------------------- output
