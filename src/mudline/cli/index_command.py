@@ -19,7 +19,7 @@ from mudline.cli.lint_run import SettingsOf, checked_settings
 from mudline.cli.processes import Effort, pays, pool, submitted
 from mudline.cli.streams import counted, notify, notify_missing, reason
 from mudline.cli.view import Progress, View, wants_bar
-from mudline.linting.settings import Given
+from mudline.linting.configuration import Given
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
