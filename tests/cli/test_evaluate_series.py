@@ -256,7 +256,7 @@ def test_state_of_another_run_is_refused(
     kept = unfinished.read_bytes()
     outcome = run("evaluate", *GIVEN, *options, "-o", "out.json")
     assert outcome.code != 0
-    assert f"out.json.unfinished {what}. Delete it, or begin anew with --no-cache" in outcome.err
+    assert f"out.json.unfinished {what}. Delete it, or begin again with --no-cache" in outcome.err
     assert unfinished.read_bytes() == kept
     outcome = run("evaluate", *GIVEN, *options, "-o", "out.json", "--no-cache")
     assert (outcome.code, "goes on" in outcome.err) == (0, False)

@@ -157,7 +157,7 @@ def opened(archive: Archive, memory: str, threads: int) -> Iterator[Database]:
 
 
 def write_views(archive: Archive) -> None:
-    """Write the database of views anew, for a shell of DuckDB that is started in the folder. Raises OSError."""
+    """Write the database of views again, for a shell of DuckDB that is started in the folder. Raises OSError."""
     target = (archive.folder / VIEWS).absolute()
     temporary = target.with_name(f".{VIEWS}.{os.urandom(8).hex()}.mudline")
     before = Path.cwd()

@@ -185,7 +185,7 @@ class Update:
             self._links.append((None, place, *[None] * 5, 0))
 
     def finish(self) -> None:
-        """Write the rest, make small batches one, and write the views anew; the archive is in order after that."""
+        """Write the rest, make small batches one, and write the views again; the archive is in order after that."""
         self.flush()
         if self._wrote:
             compact(self.archive)

@@ -69,7 +69,7 @@ if TYPE_CHECKING:
 @click.option(
     "--no-cache",
     is_flag=True,
-    help="Evaluate every deck again, whatever -o DIR holds from before; with --summary-only begin anew.",
+    help="Evaluate every deck again, whatever -o DIR holds from before; with --summary-only begin again.",
 )
 @click.option(
     "--summary-only",

@@ -245,7 +245,7 @@ class _Run:
         except OSError as error:
             raise click.ClickException(f"{path}: {reason(error)}") from error
         except CheckpointError as error:
-            raise click.ClickException(f"{path} {error}. Delete it, or begin anew with --no-cache") from error
+            raise click.ClickException(f"{path} {error}. Delete it, or begin again with --no-cache") from error
         self._done = reached.done
         if not view.quiet:
             notify(f"goes on at step {reached.done} of {self._evaluation.steps}: {path}")

@@ -79,7 +79,7 @@ class Scheduler:
             parts = urlsplit(self.given)
             if parts.scheme in ("tcp", "tls") and parts.hostname and parts.port and not parts.path:
                 return parts.scheme, parts.hostname
-        except ValueError:  # a port that is no number
+        except ValueError:  # a port that is not a number
             pass
         raise ValueError(f"--scheduler {self.given}: expected {_FORMS}")
 

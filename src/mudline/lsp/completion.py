@@ -108,7 +108,7 @@ def _sections(cursor: _Cursor, start: int) -> Iterator[types.CompletionItem]:
 
 
 def _keywords(cursor: _Cursor, start: int) -> Iterator[types.CompletionItem]:
-    """The keywords of the section first, then those that may stand in any; with the lines of each, as an example."""
+    """The keywords of the section first, then those allowed in any; with the lines of each, as an example."""
     section = cursor.spot.raw_section.name if cursor.spot.raw_section else ""
     for name in catalogue.keywords():
         belongs = catalogue.sections_of(name) or ()
@@ -230,7 +230,7 @@ def _values(cursor: _Cursor, slot: FieldSpec, start: int) -> Iterator[types.Comp
 
 
 def _named(cursor: _Cursor, kind: Names | None) -> Iterator[tuple[str, str]]:
-    """The names that may stand in a field, with what is to be said of each."""
+    """The names allowed in a field, with what is to be said of each."""
     scene, parameters = cursor.analysis.scene, cursor.analysis.parameters
     if scene is None or parameters is None:
         return

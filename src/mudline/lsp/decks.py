@@ -43,7 +43,7 @@ _MARK = "mudline-deck/"
 class Analysis:
     """What is known of one text of a document.
 
-    `deck` is None where the text is no deck, or too large. `looked_at` are the files that the findings depend on.
+    `deck` is None where the text is not a deck, or too large. `looked_at` are the files that the findings depend on.
     """
 
     document: Document
@@ -58,7 +58,7 @@ class Analysis:
 
     @property
     def origin(self) -> TextOrigin | None:
-        """Lines and places of a keyword text; None for JSON, YAML and what is no deck."""
+        """Lines and places of a keyword text; None for JSON, YAML and what is not a deck."""
         return self.context.text if self.context else None
 
     @cached_property

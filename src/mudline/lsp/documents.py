@@ -243,7 +243,7 @@ def _lines(text: str) -> list[str]:
 
 
 def file_of(uri: str) -> Path | None:
-    """The file of an address; None for one that is no file on this machine, or that cannot be read as an address."""
+    """The file of an address; None for one that is not a file on this machine, or that cannot be read as an address."""
     if not uri.startswith("file:///") or "%00" in uri:
         return None
     try:

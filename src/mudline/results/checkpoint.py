@@ -109,7 +109,7 @@ class Checkpoint:
         write_atomically(self.path, [json.dumps(head).encode(), b"\n", data])
 
     def remove(self) -> None:
-        """Remove the file: the run is finished, or begins anew."""
+        """Remove the file: the run is finished, or begins again."""
         with suppress(FileNotFoundError):
             self.path.unlink()
 

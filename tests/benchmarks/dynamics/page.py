@@ -57,7 +57,7 @@ _REFERENCE = """\
 ## The reference
 
 The reference integrates the same equations with an explicit pair of order 8 (DOP853) under error control, and
-**begins anew at every event of the contact**: touchdown or lift-off of an element or node, the corners of the
+**begins again at every event of the contact**: touchdown or lift-off of an element or node, the corners of the
 suction, its change to rest, a new largest velocity, slip and stick. Between two events all forces are smooth, so high
 order holds.
 

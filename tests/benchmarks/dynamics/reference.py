@@ -1,4 +1,4 @@
-"""The reference: an explicit pair of order 8 with error control that begins anew at every event of the contact.
+"""The reference: an explicit pair of order 8 with error control that begins again at every event of the contact.
 
 Contact with a history is smooth only between events: an element touches or lets go, its suction reaches a corner, its
 velocity changes sign or passes v_r or its largest value so far; a node begins to slip or sticks again. The evaluator

@@ -1,6 +1,6 @@
 """What follows for a deck: measured orders, and the step and the work that a scheme needs for an error.
 
-Nothing of it is known beforehand: contact that begins with a jump of the force makes every scheme one of first order.
+Nothing of it is known before: contact that begins with a jump of the force makes every scheme one of first order.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The ways to call the evaluator, few steps and many, on a line and in the order of the deck, beside plain numpy.
 
-Nodes of a deck stand in the order in which it gives them: GEN= puts those that it makes behind the two that it is
+Nodes of a deck have the order in which it gives them: GEN= puts those that it makes behind the two that it is
 between, so that neighbours on the line are no neighbours in memory.
 """
 

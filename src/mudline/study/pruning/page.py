@@ -258,7 +258,7 @@ def _calls_text(tables: Tables) -> str:
     )
     return (
         f"In times of plain numpy, over all sizes and series: {'; '.join(spans)}. A call of `step` on {_nodes(few)} "
-        f"nodes costs {_whole(few, _MEDIAN)}, most of it the calls of numpy in it: a series that is known beforehand "
+        f"nodes costs {_whole(few, _MEDIAN)}, most of it the calls of numpy in it: a series that is known before "
         f"belongs into `stream`. On {_nodes(kept)} nodes and {kept.text('steps')} steps `evaluate` holds "
         f"{rounded(kept.number(_MEMORY), 3)} bytes a node, `stream` {rounded(passed.number(_MEMORY), 3)}. All sizes "
         "and numbers of steps are in [`pruning-calls.csv`](pruning-calls.csv)."
@@ -367,8 +367,8 @@ def _conclusions(tables: Tables) -> Iterator[str]:
         "Do not leave out a feature for fear of its price elsewhere: a scene with a curve loads no module of any other "
         "stage than its own."
     )
-    dearest = sorted(tables.rows("stages", steps="one by one"), key=lambda row: -row.number(_RATIO))
-    named = [f"{row.text('scene')} ({rounded(row.number(_RATIO))} times the curve)" for row in dearest[:3]]
+    costliest = sorted(tables.rows("stages", steps="one by one"), key=lambda row: -row.number(_RATIO))
+    named = [f"{row.text('scene')} ({rounded(row.number(_RATIO))} times the curve)" for row in costliest[:3]]
     yield (
         f"What makes a run long is history and the number of steps: {', '.join(named)}. If only the embedment is asked "
         "for, evaluate a copy of the deck without friction."

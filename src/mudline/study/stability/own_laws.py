@@ -107,8 +107,8 @@ def _small_deck(scene: Scene, numbers: dict[str, float], points: Sequence[tuple[
 
     zone = "nodal" if text("nodal stiffness") else "smoothed"
     width = numbers.get(f"{zone} half_width", np.nan)
-    rubs = bool(text("friction axial_coefficient"))
-    mobilised = rubs and not text("friction axial_stiffness")
+    frictional = bool(text("friction axial_coefficient"))
+    mobilised = frictional and not text("friction axial_stiffness")
     slope, direction, point = _plane(scene)
     return SmallDeck(
         diameter=text("diameter", "0.3"),
@@ -119,7 +119,7 @@ def _small_deck(scene: Scene, numbers: dict[str, float], points: Sequence[tuple[
         smoothing=repr(width) if width > 0.0 else "",
         form="ONE-SIDED" if numbers.get(f"{zone} one_sided", 0.0) > 0.0 else "CENTRED",
         unloading=text("unloading stiffness"),
-        coefficients=(text("friction axial_coefficient"), text("friction lateral_coefficient")) if rubs else None,
+        coefficients=(text("friction axial_coefficient"), text("friction lateral_coefficient")) if frictional else None,
         springs=(text("friction axial_stiffness", "1.0"), text("friction lateral_stiffness", "1.0")),
         criterion="ELLIPSE" if numbers.get("friction elliptic", 0.0) > 0.0 else "BOX",
         angle=text("friction angle"),
