@@ -18,10 +18,9 @@ from mudline.cli import FOUND, WRONG_USAGE, options
 from mudline.cli.search import Search
 from mudline.cli.streams import notify, notify_diagnostics, reason
 from mudline.cluster import storage
-from mudline.cluster.storage import is_url
 from mudline.deck.forms import form_of
 from mudline.diagnostics import DeckError
-from mudline.files import write_atomically
+from mudline.files import is_url, write_atomically
 
 if TYPE_CHECKING:
     from mudline.deck.model import Deck

@@ -18,6 +18,7 @@ from mudline.cluster import storage
 from mudline.cluster.running import Job, Run
 from mudline.cluster.scheduler import ClusterError, Scheduler, connected
 from mudline.cluster.work import Item, Row, Store, Work
+from mudline.files import is_url
 
 _HELP = "Do the work on a cluster: tcp://HOST:PORT, tls://HOST:PORT, or local[:WORKERS] (needs mudline[cluster])."
 
@@ -138,7 +139,7 @@ def _store(place: str | None) -> Iterator[Store]:
         storage.make_folder(place)
     except OSError as error:
         raise click.ClickException(f"{place}: cannot be created: {reason(error)}") from error
-    yield Store(place if storage.is_url(place) else os.path.abspath(place))  # noqa: PTH100 - links stay what they are
+    yield Store(place if is_url(place) else os.path.abspath(place))  # noqa: PTH100 - links stay what they are
 
 
 @contextmanager
