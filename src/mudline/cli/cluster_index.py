@@ -26,6 +26,8 @@ from mudline.cluster.scheduler import Scheduler
 from mudline.cluster.work import Made, resolved
 
 _CHUNKS = ".chunks-"
+_RUNNING = "running"
+"""A file in the folder of chunks of a run that has not ended."""
 _LEFT = 86400.0
 """Seconds after which the chunks of a run are those of a killed one."""
 
@@ -102,13 +104,21 @@ def _decks(
 @contextmanager
 def _chunks(archive: Path) -> Iterator[str]:
     """A folder of the archive for the chunks of this run; it is removed with the block, and so are those left over."""
-    for path in archive.glob(f"{_CHUNKS}*"):
-        with suppress(OSError):
-            if time.time() - path.stat().st_mtime > _LEFT:
-                shutil.rmtree(path, ignore_errors=True)
+    _remove_left(archive)
     place = archive / f"{_CHUNKS}{os.urandom(8).hex()}"
     place.mkdir()  # not that of tempfile, which lets in no workers of other users
+    (place / _RUNNING).touch()
     try:
         yield str(place)
     finally:
         shutil.rmtree(place, ignore_errors=True)
+        _remove_left(archive)
+
+
+def _remove_left(archive: Path) -> None:
+    """Remove the chunks of runs that were killed, and those that a worker finished after its run had ended."""
+    for folder in archive.glob(f"{_CHUNKS}*"):
+        with suppress(OSError):
+            is_late = not (folder / _RUNNING).exists() and any(folder.iterdir())
+            if is_late or time.time() - folder.stat().st_mtime > _LEFT:
+                shutil.rmtree(folder, ignore_errors=True)
