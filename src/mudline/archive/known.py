@@ -44,14 +44,8 @@ class Entry(NamedTuple):
     depends: str
 
 
-def looked(path: str) -> Looked:
-    """Size and date of a file; raises OSError."""
-    found = os.stat(path)  # noqa: PTH116 - many files
-    return trusted(found.st_size, found.st_mtime_ns)
-
-
-def trusted(size: int, modified: int) -> Looked:
-    """A file of this size and date, which was looked at just now; -1 for a date that is not known."""
+def looked(size: int, modified: int) -> Looked:
+    """A file of this size and date, in ns since 1970 or -1, which was looked at just now."""
     return Looked(size, -1 if time.time_ns() - modified < NEW else modified)
 
 

@@ -15,8 +15,8 @@ from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 from typing import NamedTuple
 
+from mudline.archive.known import looked
 from mudline.archive.updating import Order, Read, Update, read_decks
-from mudline.cli.index_command import looked_at
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.lint_run import SettingsOf
 from mudline.cli.on_cluster import Keyed, OnCluster
@@ -44,8 +44,8 @@ def index_deck(given: IndexGiven) -> Made:
     """Read a deck and give its tables, or why it cannot be read; run by a worker."""
     path = resolved(given.order.path, given.folder)
     try:
-        now = looked_at(path)
-        data = Input(given.file.name, path).read()
+        file = Input(given.file.name, path)
+        now, data = looked(*file.size_and_date()), file.read()
     except OSError as error:
         return Made({"unreadable": reason(error)})
     return Made({"tables": read_decks([given.order.having(path, data, now)]).packed()})
@@ -85,7 +85,7 @@ def _decks(
         settings = settings_of(file)
         order = None
         try:
-            now = looked_at(path)
+            now = looked(*file.size_and_date())
             if not update.is_unchanged(path, now, settings):
                 if update.may_know(now):
                     order = update.order(path, file.read(), now, settings)

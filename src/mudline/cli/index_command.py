@@ -27,7 +27,6 @@ from mudline.linting.settings import Given
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
 
-    from mudline.archive.known import Looked
     from mudline.archive.updating import Order, Read, Update
 
 TRIED = 0.2
@@ -155,20 +154,15 @@ def _index(inputs: Inputs, settings_of: SettingsOf, update: Update, effort: Effo
             raise
 
 
-def looked_at(path: str) -> Looked:
-    """Size and date of a file or of what is at a URL; raises OSError."""
-    from mudline.archive.known import looked, trusted  # noqa: PLC0415 - an extra
-
-    return trusted(*storage.size_and_date(path)) if is_url(path) else looked(path)
-
-
 def _orders(inputs: Inputs, settings_of: SettingsOf, update: Update, progress: Progress) -> Iterator[Order]:
     """The decks that have changed; what cannot be read is reported, and stays in the archive as it was."""
+    from mudline.archive.known import looked  # noqa: PLC0415 - an extra
+
     for file in inputs.files:
         path = file.path or file.name
         settings = settings_of(file)
         try:
-            now = looked_at(path)
+            now = looked(*file.size_and_date())
             order = None
             if not update.is_unchanged(path, now, settings):
                 order = update.order(path, file.read(), now, settings)

@@ -48,6 +48,13 @@ class Input:
             return None
         return _folder(os.path.dirname(self.path))  # noqa: PTH120 - asked for many files
 
+    def size_and_date(self) -> tuple[int, int]:
+        """Bytes, and the time of the last change in ns since 1970, -1 where that is not known; raises OSError."""
+        if self.path is not None and is_url(self.path):
+            return storage.size_and_date(self.path)
+        found = os.stat(self.path or self.name)  # noqa: PTH116 - asked for many files
+        return found.st_size, found.st_mtime_ns
+
     def read(self) -> bytes:
         """The content; raises OSError."""
         if self.path is not None:
