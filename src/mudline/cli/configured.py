@@ -13,7 +13,6 @@ import click
 from mudline.cli.inputs import is_deck
 from mudline.cli.streams import reason
 from mudline.linting.configuration import CodeFault, Configuration, ConfigurationError, Search, read_configuration
-from mudline.linting.settings import place
 from mudline.patterns import matches
 
 T = TypeVar("T")
@@ -59,7 +58,7 @@ class Configured:
         include, exclude = found.words("include"), found.words("exclude")
         if not (include or exclude):
             return is_deck(path)
-        relative = place(found, path)
+        relative = found.relative(path)
         return (is_deck(path) or matches(relative, include)) and not matches(relative, exclude)
 
 

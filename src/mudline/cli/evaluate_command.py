@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 import click
 from click.core import ParameterSource
@@ -16,11 +16,13 @@ from mudline.cli.inputs import STDIN, GivenDeck, collect, refuses_bad_decks
 from mudline.cli.pictures import Pictures
 from mudline.cli.result_files import has_library, is_installed
 from mudline.cli.view import View
-from mudline.cluster.scheduler import Scheduler
 from mudline.files import is_url, suffix_of
 from mudline.results.evaluation import Tension
 from mudline.results.forms import form_names
 from mudline.results.panels import ANIMATIONS, PICTURES
+
+if TYPE_CHECKING:
+    from mudline.cluster.scheduler import Scheduler
 
 
 @click.command("evaluate")

@@ -20,14 +20,14 @@ from mudline.cli.processes import Effort, pays, pool, submitted
 from mudline.cli.streams import counted, notify, notify_missing, reason
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.cluster import storage
-from mudline.cluster.scheduler import Scheduler
 from mudline.files import is_url
-from mudline.linting.settings import Given
+from mudline.linting.configuration import Given
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
 
     from mudline.archive.updating import Order, Read, Update
+    from mudline.cluster.scheduler import Scheduler
 
 TRIED = 0.2
 """Seconds of reading by which the remaining work is estimated."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import TYPE_CHECKING
 
 import click
 
@@ -12,10 +13,12 @@ from mudline.cli.inputs import collect
 from mudline.cli.lint_known import known_decks
 from mudline.cli.lint_report import Report, complete, outputs
 from mudline.cli.view import View
-from mudline.cluster.scheduler import Scheduler
 from mudline.diagnostics import Severity
+from mudline.linting.configuration import Given
 from mudline.linting.output import TEXT, form_names
-from mudline.linting.settings import Given
+
+if TYPE_CHECKING:
+    from mudline.cluster.scheduler import Scheduler
 
 _rules = partial(click.option, multiple=True, metavar="CODE[,CODE...]", shell_complete=options.complete_rules)
 

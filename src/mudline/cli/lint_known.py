@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from mudline.cli.configured import Configured
 from mudline.cli.inputs import Input, Inputs
 from mudline.linting.cache import Cache, opened
-from mudline.linting.settings import Given
+from mudline.linting.configuration import Given
 
 
 @dataclass

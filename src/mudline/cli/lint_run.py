@@ -27,12 +27,12 @@ from mudline.cli.streams import counted, emit_deck, notify, reason, write_text
 from mudline.cli.view import View
 from mudline.deck.forms import form_of
 from mudline.diagnostics import Diagnostic
-from mudline.linting.configuration import Configuration
+from mudline.linting.configuration import Configuration, Given
 from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.fixing import FileReport, lint_one
 from mudline.linting.registry import UnknownRule, code_fault, plugin_files, rules
 from mudline.linting.rule import Rule
-from mudline.linting.settings import Given, hidden_codes, merged_settings
+from mudline.linting.settings import hidden_codes, merged_settings
 from mudline.linting.suppression import Baseline, BaselineError, read_baseline
 
 if TYPE_CHECKING:

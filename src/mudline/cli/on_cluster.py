@@ -8,6 +8,7 @@ from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
 from functools import wraps
 from hashlib import blake2b
+from typing import TYPE_CHECKING
 
 import click
 
@@ -15,10 +16,11 @@ from mudline.cli.inputs import Input, Inputs
 from mudline.cli.options import Command
 from mudline.cli.streams import counted, notify, reason
 from mudline.cluster import storage
-from mudline.cluster.running import Job, Run
-from mudline.cluster.scheduler import ClusterError, Scheduler, connected
-from mudline.cluster.work import Item, Row, Store, Work
 from mudline.files import is_url
+
+if TYPE_CHECKING:
+    from mudline.cluster.scheduler import Scheduler
+    from mudline.cluster.work import Item, Row, Store, Work
 
 _HELP = "Do the work on a cluster: tcp://HOST:PORT, tls://HOST:PORT, or local[:WORKERS] (needs mudline[cluster])."
 
@@ -48,6 +50,8 @@ def options(command: Command) -> Command:
             if tls_ca or tls_cert or tls_key or insecure:
                 raise click.UsageError("--tls-* and --insecure are for --scheduler: give it too")
             return command(scheduler=None, **others)
+        from mudline.cluster.scheduler import Scheduler  # noqa: PLC0415 - few runs use a cluster
+
         found = Scheduler(scheduler, tls_ca, tls_cert, tls_key, insecure)
         try:
             found.check()
@@ -91,7 +95,9 @@ class OnCluster:
 
         Ends the command where the cluster cannot be used; what is done stays in `place`.
         """
-        from mudline.linting.cache import program  # noqa: PLC0415 - few runs use a cluster
+        from mudline.cluster.running import Job, Run  # noqa: PLC0415 - few runs use a cluster
+        from mudline.cluster.scheduler import connected  # noqa: PLC0415 - as above
+        from mudline.linting.cache import program  # noqa: PLC0415 - as above
         from mudline.linting.registry import plugin_files  # noqa: PLC0415 - as above
 
         plugins = [(path, storage.mark(path)) for path in plugin_files()]
@@ -117,6 +123,8 @@ class OnCluster:
 
     @staticmethod
     def _item(start: bytes, deck: Keyed, names: list[str]) -> Item:
+        from mudline.cluster.work import Item  # noqa: PLC0415 - as above
+
         file, words, given = deck
         names.append(file.name)
         digest = blake2b(start, digest_size=20)
@@ -128,6 +136,8 @@ class OnCluster:
 @contextmanager
 def _store(place: str | None) -> Iterator[Store]:
     """The place of finished chunks; a temporary folder is removed when the run ends."""
+    from mudline.cluster.work import Store  # noqa: PLC0415 - as above
+
     if place is None:
         from tempfile import TemporaryDirectory  # noqa: PLC0415 - few runs use a cluster
 
@@ -145,6 +155,8 @@ def _store(place: str | None) -> Iterator[Store]:
 @contextmanager
 def _refusing(address: str) -> Iterator[None]:
     """End the command for a cluster or a store that cannot be used."""
+    from mudline.cluster.scheduler import ClusterError  # noqa: PLC0415 - as above
+
     try:
         yield
     except ClusterError as error:

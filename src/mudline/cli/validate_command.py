@@ -17,13 +17,13 @@ from mudline.cli.inputs import Inputs, collect_any_form
 from mudline.cli.streams import emit, reason
 from mudline.cli.verdicts import Judged, Total, Verdict, judge
 from mudline.cli.view import Progress, View, wants_bar
-from mudline.cluster.scheduler import Scheduler
 from mudline.linting.output.json import as_object
 from mudline.quantities import csv_lines
 from mudline.syntax.source import Source
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
+    from mudline.cluster.scheduler import Scheduler
 
 _COUNTS = ("errors", "warnings", "sections", "keywords", "curves", "elements")
 _OPTIONAL = ("sections", "keywords", "curves")

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import reduce
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from mudline.spelling import nearest
 
@@ -65,6 +65,24 @@ class Configuration:
     def table(self, key: str) -> dict[str, Any]:
         """A table, empty if it is not set."""
         return dict(self.values.get(key, {}))
+
+    def relative(self, path: str) -> str:
+        """A path as seen from the folder of the configuration, with `/`."""
+        folder = os.curdir if self.path is None else self.path.parent
+        try:
+            return os.path.relpath(path, folder).replace(os.sep, "/")
+        except ValueError:  # another drive
+            return path.replace(os.sep, "/")
+
+
+class Given(NamedTuple):
+    """What a caller gives of the settings that findings depend on; None or empty where that is nothing."""
+
+    chosen: tuple[str, ...] = ()
+    ignored: tuple[str, ...] = ()
+    also: tuple[str, ...] = ()
+    dialect: str | None = None
+    units: str | None = None
 
 
 def read_configuration(

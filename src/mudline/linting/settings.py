@@ -2,39 +2,17 @@
 
 from __future__ import annotations
 
-import os
-from typing import NamedTuple
-
 from mudline.diagnostics import Severity
-from mudline.linting.configuration import Configuration
+from mudline.linting.configuration import Configuration, Given
 from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.registry import rules, select
 from mudline.patterns import matches
 
 
-class Given(NamedTuple):
-    """What a caller gives of the settings that findings depend on; None or empty where that is nothing."""
-
-    chosen: tuple[str, ...] = ()
-    ignored: tuple[str, ...] = ()
-    also: tuple[str, ...] = ()
-    dialect: str | None = None
-    units: str | None = None
-
-
-def place(found: Configuration, path: str) -> str:
-    """A path as seen from the folder of a configuration, with `/`."""
-    folder = os.curdir if found.path is None else found.path.parent
-    try:
-        return os.path.relpath(path, folder).replace(os.sep, "/")
-    except ValueError:  # another drive
-        return path.replace(os.sep, "/")
-
-
 def hidden_codes(found: Configuration, path: str) -> tuple[str, ...]:
     """The codes that a configuration ignores in a file."""
     ignores = found.table("per-file-ignores")
-    relative = place(found, path) if ignores else ""
+    relative = found.relative(path) if ignores else ""
     return tuple(code for glob, codes in ignores.items() if matches(relative, [glob]) for code in codes)
 
 

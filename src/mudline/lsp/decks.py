@@ -18,12 +18,12 @@ from mudline.diagnostics import DeckError, Diagnostic, Where
 from mudline.files import Unsaved, recording_looks, with_unsaved
 from mudline.keywords.text import shown
 from mudline.keywords.values import Equation
-from mudline.linting.configuration import Configuration, ConfigurationError, Search
+from mudline.linting.configuration import Configuration, ConfigurationError, Given, Search
 from mudline.linting.engine import LintSettings, lint_context, read_deck
 from mudline.linting.fixing import with_severities
 from mudline.linting.registry import UnknownRule, code_fault
 from mudline.linting.rule import LintContext
-from mudline.linting.settings import Given, hidden_codes, merged_settings, place
+from mudline.linting.settings import hidden_codes, merged_settings
 from mudline.lsp.documents import Document
 from mudline.lsp.names import Occurrence, occurrences
 from mudline.patterns import matches
@@ -213,4 +213,4 @@ def _is_deck(document: Document) -> bool:
 
 def _excluded(found: Configuration, document: Document) -> bool:
     exclude = found.words("exclude")
-    return bool(exclude and document.path and matches(place(found, str(document.path)), exclude))
+    return bool(exclude and document.path and matches(found.relative(str(document.path)), exclude))
