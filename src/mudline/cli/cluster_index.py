@@ -23,7 +23,7 @@ from mudline.cli.on_cluster import Keyed, OnCluster
 from mudline.cli.streams import reason
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.cluster.scheduler import Scheduler
-from mudline.cluster.work import Made, resolved
+from mudline.cluster.work import Made, Store, resolved, row_of
 
 _CHUNKS = ".chunks-"
 _RUNNING = "running"
@@ -48,12 +48,13 @@ def index_deck(given: IndexGiven) -> Made:
         now, data = looked(*file.size_and_date()), file.read()
     except OSError as error:
         return Made({"unreadable": reason(error)})
-    return Made({"tables": read_decks([given.order.having(path, data, now)]).packed()})
+    return Made({"place": given.order.place, "tables": read_decks([given.order.having(path, data, now)]).packed()})
 
 
 def index_on_cluster(inputs: Inputs, settings_of: SettingsOf, update: Update, scheduler: Scheduler, view: View) -> None:
     """Read the decks that have changed; what has come back is written, also when the run is interrupted."""
     sent: deque[IndexGiven] = deque()
+    taken: set[str] = set()
     with Progress(len(inputs.files), view, shown=wants_bar(view)) as progress, _chunks(update.archive.folder) as place:
         decks = _decks(inputs, settings_of, update, progress, sent)
         cluster = OnCluster(scheduler, place, verbose=view.verbose)
@@ -68,11 +69,22 @@ def index_on_cluster(inputs: Inputs, settings_of: SettingsOf, update: Update, sc
                         inputs.fail(f"{file.name}: {why}")
                         update.not_read(order)
                     else:
+                        taken.add(order.place)
                         update.take(Read.of_packed(row.result["tables"], 1))
                     progress.advance()
         except BaseException:
+            for read in _rest(place, taken):
+                update.take(read)
             update.flush()
             raise
+
+
+def _rest(place: str, taken: set[str]) -> Iterator[Read]:
+    """What workers have left that has not been taken: later decks may be done before earlier ones."""
+    for lines in Store(place).known("index").values():
+        result = row_of(lines[0]).result
+        if "tables" in result and result["place"] not in taken:
+            yield Read.of_packed(result["tables"], 1)
 
 
 def _decks(
