@@ -13,6 +13,7 @@ from mudline.archive import compaction, updating
 from mudline.archive.known import looked
 from mudline.archive.store import Archive
 from mudline.archive.updating import Update, read_decks
+from mudline.cli.inputs import Input
 from mudline.linting.engine import LintSettings
 from mudline.linting.registry import select
 from tests.archive.trial import ask, contents, deck, index, summary, write
@@ -265,7 +266,7 @@ def test_two_writers_at_the_same_time(decks: Path, archive: Path, tmp_path: Path
     for name in ("a", "b", "c"):
         for writer in writers:
             path = decks / f"{name}.keyxm"
-            order = writer.order(str(path), path.read_bytes(), looked(str(path)), settings)
+            order = writer.order(str(path), path.read_bytes(), looked(*Input("", str(path)).size_and_date()), settings)
             assert order is not None
             writer.take(read_decks([order]))
             writer.flush()

@@ -6,7 +6,7 @@ import json
 import os
 import sys
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from hashlib import blake2b
@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 from mudline.archive.store import Archive, newest
 from mudline.archive.tables import FILES, TABLES
+from mudline.files import is_url
 from mudline.linting.cache import changed_since, state
 from mudline.linting.engine import LintSettings
 from mudline.linting.registry import plugin_files
@@ -43,11 +44,9 @@ class Entry(NamedTuple):
     depends: str
 
 
-def looked(path: str) -> Looked:
-    """Size and date of a file; raises OSError."""
-    found = os.stat(path)  # noqa: PTH116 - many files
-    new = time.time_ns() - found.st_mtime_ns < NEW
-    return Looked(found.st_size, -1 if new else found.st_mtime_ns)
+def looked(size: int, modified: int) -> Looked:
+    """A file of this size and date, in ns since 1970 or -1, which was looked at just now."""
+    return Looked(size, -1 if time.time_ns() - modified < NEW else modified)
 
 
 def digest_of(data: bytes) -> str:
@@ -89,18 +88,28 @@ def start_of(settings: LintSettings) -> str:
 
 
 def key_of(start: str, name: str, content: str) -> str:
-    """The key of a content in a file of this name, whose suffix gives form and units."""
+    """The key of a content in a file of this name, whose suffix gives form and units.
+
+    At a URL it is another one: files beside it are not looked for.
+    """
     suffix = os.path.splitext(name)[1].lower()  # noqa: PTH122 - many files
+    if is_url(name):
+        suffix = f"{suffix} at a URL"
     return digest_of(f"{start} {suffix} {content}".encode("utf-8", "surrogatepass"))
 
 
 @dataclass
 class Known:
-    """The files of an archive by their path from the folder that holds it, and the same by key."""
+    """The files of an archive by their path from the folder that holds it, or by their URL, and the same by key.
+
+    `is_at_url` says whether there is something at a URL; it raises OSError where that cannot be found out.
+    """
 
     archive: Archive
+    is_at_url: Callable[[str], bool]
     files: dict[str, Entry] = field(default_factory=dict)
     by_key: dict[str, Entry] = field(default_factory=dict)
+    sizes: set[int] = field(default_factory=set)
     latest: int = 0
     _root: str = ""
     _places: dict[str, str] = field(default_factory=dict)
@@ -115,9 +124,15 @@ class Known:
             self.latest = max(self.latest, written)
             if values[0] in there:  # else it is gone, or its batch is damaged
                 self.files[file] = self.by_key[values[4]] = Entry(*values)
+                self.sizes.add(values[1])
 
     def place(self, path: str) -> str:
-        """A path from the folder that holds the archive, so that both may be moved; as it is from another drive."""
+        """A path from the folder that holds the archive, so that both may be moved; as it is from another drive.
+
+        A URL is its own place.
+        """
+        if is_url(path):
+            return _escaped(path)
         folder, name = os.path.split(path)
         if folder not in self._places:
             absolute = os.path.abspath(folder)  # noqa: PTH100 - links stay what they are called
@@ -159,22 +174,38 @@ class Known:
 
     def gone(self, below: Sequence[str], seen: set[str], *, everywhere: bool) -> Iterator[str]:
         """The places of files that are no longer found below folders, or `everywhere`; not those nobody may look at."""
-        starts = tuple(self.place(os.path.join(os.path.abspath(folder), "_"))[:-1] for folder in below)  # noqa: PTH100, PTH118
+        starts = tuple(self._start(folder) for folder in below)
         for place in self.files:
             if place in seen:
                 continue
-            inside = any(place.startswith(start) if start else not place.startswith("../") for start in starts)
+            inside = any(place.startswith(start) if start else not _is_elsewhere(place) for start in starts)
             if not inside and not everywhere:
                 continue
             try:
-                os.stat(self.path(place))  # noqa: PTH116 - many files
-            except (FileNotFoundError, NotADirectoryError):
-                yield place
+                is_there = self._is_there(place)
             except (OSError, ValueError):
                 continue
-            else:
-                if inside:
-                    yield place
+            if inside or not is_there:
+                yield place
+
+    def _start(self, folder: str) -> str:
+        if is_url(folder):
+            return self.place(folder.rstrip("/") + "/")
+        return self.place(os.path.join(os.path.abspath(folder), "_"))[:-1]  # noqa: PTH100, PTH118 - many files
+
+    def _is_there(self, place: str) -> bool:
+        """Raises OSError for a file that may not be looked at."""
+        if is_url(place):
+            return self.is_at_url(place)
+        try:
+            os.stat(self.path(place))  # noqa: PTH116 - many files
+        except (FileNotFoundError, NotADirectoryError):
+            return False
+        return True
+
+
+def _is_elsewhere(place: str) -> bool:
+    return place.startswith("../") or is_url(place)
 
 
 def _escaped(text: str) -> str:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import time
+import zlib
+from base64 import b64decode, b64encode
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
@@ -19,7 +21,7 @@ from mudline.archive.database import write_views
 from mudline.archive.known import Known, Looked, depends_on, digest_of, key_of, start_of
 from mudline.archive.store import VIEWS, Archive
 from mudline.archive.tables import FILES
-from mudline.files import recording_looks
+from mudline.files import is_url, recording_looks
 from mudline.linting.engine import LintSettings
 from mudline.linting.registry import rules
 from mudline.linting.rule import Rule
@@ -35,7 +37,8 @@ SECONDS = 20.0
 class Order(NamedTuple):
     """A deck to read: its place in the archive, its path, its content with size, date and key, and how to lint it.
 
-    It can be sent to another process: the settings are without their rules, which `codes` names.
+    It can be sent to another process: the settings are without their rules, which `codes` names; `start` is their
+    digest.
     """
 
     place: str
@@ -46,6 +49,12 @@ class Order(NamedTuple):
     key: str
     settings: LintSettings
     codes: tuple[str, ...]
+    start: str
+
+    def having(self, path: str, data: bytes, now: Looked) -> Order:
+        """The same with another content, which was read from this path: size, date and key are those of it."""
+        content = digest_of(data)
+        return self._replace(path=path, data=data, now=now, content=content, key=key_of(self.start, path, content))
 
 
 class Read(NamedTuple):
@@ -53,6 +62,31 @@ class Read(NamedTuple):
 
     tables: dict[str, ArrowTable]
     decks: int
+
+    def packed(self) -> dict[str, str]:
+        """The tables as text by their names, for JSON."""
+        return {name: _packed(table) for name, table in self.tables.items()}
+
+    @classmethod
+    def of_packed(cls, tables: dict[str, str], decks: int) -> Read:
+        """Of what `packed` gave; raises ValueError for anything else."""
+        return cls({name: _unpacked(text) for name, text in tables.items()}, decks)
+
+
+def _packed(table: ArrowTable) -> str:
+    sink = pa.BufferOutputStream()
+    with pa.ipc.new_stream(sink, table.schema) as stream:
+        stream.write_table(table)
+    return b64encode(zlib.compress(sink.getvalue(), 1)).decode("ascii")
+
+
+def _unpacked(text: str) -> ArrowTable:
+    try:
+        data = zlib.decompress(b64decode(text))
+    except zlib.error as error:
+        raise ValueError(str(error)) from error
+    with pa.ipc.open_stream(data) as stream:
+        return stream.read_all()
 
 
 def read_decks(orders: Sequence[Order]) -> Read:
@@ -63,7 +97,8 @@ def read_decks(orders: Sequence[Order]) -> Read:
         path = Path(one.path)
         with recording_looks() as looked_at:
             number = chunk.decks
-            add_deck(chunk, one.data, path.name, replace(one.settings, rules=_named(one.codes)), path.parent)
+            folder = None if is_url(one.path) else path.parent
+            add_deck(chunk, one.data, path.name, replace(one.settings, rules=_named(one.codes)), folder)
         file = (one.place, *one.now, one.content, one.key, depends_on(looked_at, one.path, began), 0)
         chunk.rows[FILES.name].append((number, *file))
     return Read(chunk.finished(), chunk.decks)
@@ -89,11 +124,12 @@ class Counts:
 class Update:
     """A run that brings decks into an archive. Raises ArchiveError for damaged files, OSError where it cannot write.
 
-    `check` compares contents where size and date of a file are as they were, too.
+    `check` compares contents where size and date of a file are as they were, too; `is_at_url` is that of Known.
     """
 
     archive: Archive
     check: bool = False
+    is_at_url: Callable[[str], bool] = bool
     counts: Counts = field(default_factory=Counts)
     seen: set[str] = field(default_factory=set)
     _arrived: Counter[str] = field(default_factory=Counter)
@@ -108,7 +144,7 @@ class Update:
     def __post_init__(self) -> None:
         if self.check:
             self.archive.verified()
-        self.known = Known(self.archive)
+        self.known = Known(self.archive, self.is_at_url)
         self._due = time.monotonic() + SECONDS
 
     def is_unchanged(self, path: str, now: Looked, settings: LintSettings) -> bool:
@@ -140,7 +176,33 @@ class Update:
         else:
             self._arrived[key] += 1
             self.counts.new += 1
-        return None if same is not None else Order(place, path, data, now, content, key, plain, codes)
+        return None if same is not None else Order(place, path, data, now, content, key, plain, codes, start)
+
+    def may_know(self, now: Looked) -> bool:
+        """Whether a file of this size may have a content that the archive has; else nobody needs to compare it."""
+        return now.bytes in self.known.sizes
+
+    def unread_order(self, path: str, now: Looked, settings: LintSettings) -> Order | None:
+        """As `order`, for a file with an unknown size that others read; `not_read` is called where they cannot."""
+        start, plain, codes, _ = self._start(settings)
+        place = self.known.place(path)
+        if place in self.seen:
+            return None
+        self.seen.add(place)
+        if place in self.known.files:
+            self.counts.changed += 1
+        else:
+            self.counts.new += 1
+        return Order(place, path, b"", now, "", "", plain, codes, start)
+
+    def not_read(self, order: Order) -> None:
+        """Take back the count of a deck that could not be read after all; it stays as it was."""
+        if order.place in self.known.files:
+            self.counts.changed -= 1
+        else:
+            self.counts.new -= 1
+            if order.key:
+                self._arrived[order.key] -= 1
 
     def _start(self, settings: LintSettings) -> tuple[str, LintSettings, tuple[str, ...], LintSettings]:
         found = self._starts.get(id(settings))

@@ -20,12 +20,12 @@ from mudline.cli.known_results import Kept
 from mudline.cli.result_files import behind, beside, line_watch, result_files
 from mudline.cli.streams import counted, reason
 from mudline.cli.view import View
-from mudline.cluster.storage import exists, is_folder, is_url, join
+from mudline.cluster.storage import exists, is_folder, join
 from mudline.cluster.work import resolved
 from mudline.contact.result import Part
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Diagnostic
-from mudline.files import recording_looks, suffix_of
+from mudline.files import is_url, recording_looks, suffix_of
 from mudline.quantities import CASES, shown
 from mudline.results.cases import CaseSummary, CaseWatch
 from mudline.results.forms import ResultConsumer, form_module

@@ -24,10 +24,10 @@ from mudline.cli.streams import reason
 from mudline.cli.verdicts import Judged, Verdict, judge
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.cluster import storage
-from mudline.cluster.storage import is_url, local_copy
+from mudline.cluster.storage import local_copy
 from mudline.cluster.work import Made, Work, resolved
 from mudline.diagnostics import Diagnostic
-from mudline.files import recording_looks
+from mudline.files import is_url, recording_looks
 from mudline.linting.cache import packed, unpacked
 from mudline.linting.fixing import FileReport
 from mudline.results.cases import CaseSummary

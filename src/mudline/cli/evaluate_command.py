@@ -16,8 +16,7 @@ from mudline.cli.inputs import STDIN, GivenDeck, collect, refuses_bad_decks
 from mudline.cli.pictures import Pictures
 from mudline.cli.result_files import has_library, is_installed
 from mudline.cli.view import View
-from mudline.cluster.storage import is_url
-from mudline.files import suffix_of
+from mudline.files import is_url, suffix_of
 from mudline.results.evaluation import Tension
 from mudline.results.forms import form_names
 from mudline.results.panels import ANIMATIONS, PICTURES

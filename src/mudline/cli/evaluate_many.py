@@ -36,7 +36,7 @@ from mudline.cli.streams import MOST_REPORTED, counted, emit, emit_json, notify,
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.cluster import storage
 from mudline.cluster.scheduler import Scheduler
-from mudline.files import remove_left
+from mudline.files import is_url, remove_left
 from mudline.quantities import CASES, csv_lines
 from mudline.results.cases import CaseSummary, worst_first, write_parquet
 
@@ -257,7 +257,7 @@ def _remember(known: KnownResults, task: Task, done: Done) -> None:
 
 def _write_summary(rows: Sequence[CaseSummary], folder: str, *, spreadsheet: bool) -> str:
     """Write the rows of all decks: in Parquet where that is installed, else as CSV. Returns the path or the URL."""
-    if storage.is_url(folder):
+    if is_url(folder):
         with TemporaryDirectory(prefix="mudline-") as near:
             path = Path(_write_summary(rows, near, spreadsheet=spreadsheet))
             target = storage.join(folder, path.name)
@@ -304,4 +304,4 @@ def _notify_written(rows: Sequence[Kept], taken: int, folder: str | None, summar
 
 
 def _shown(folder: str) -> str:
-    return folder if storage.is_url(folder) else Path(folder).as_posix()
+    return folder if is_url(folder) else Path(folder).as_posix()

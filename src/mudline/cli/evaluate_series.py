@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from hashlib import blake2b
 from pathlib import Path
-from threading import Thread
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
@@ -306,17 +305,5 @@ def _kept(given: tuple[Order, range]) -> dict[str, Any]:
 @lru_cache(maxsize=1)
 def _evaluation(order: Order) -> Evaluation:
     """The evaluation of this process: one thread, as there are other processes."""
-    Thread(target=_end_with_parent, daemon=True).start()
     found = order.evaluation()
     return replace(found, model=ContactModel(found.model.input, threads=1))
-
-
-def _end_with_parent() -> None:
-    """End this process as soon as the one that started it has ended, by whatever it was killed."""
-    from multiprocessing import parent_process  # noqa: PLC0415 - other processes have loaded it
-    from multiprocessing.connection import wait  # noqa: PLC0415 - as above
-
-    parent = parent_process()
-    if parent is not None:
-        wait([parent.sentinel])
-        os._exit(1)

@@ -6,25 +6,28 @@ import os
 import time
 from collections import deque
 from collections.abc import Generator, Iterable, Iterator, Sequence
-from contextlib import closing
+from contextlib import closing, suppress
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from mudline.cli import DONE, WRONG_USAGE, options
+from mudline.cli import DONE, WRONG_USAGE, on_cluster, options
 from mudline.cli.inputs import Inputs, collect_any_form
 from mudline.cli.lint_run import SettingsOf, checked_settings
 from mudline.cli.processes import Effort, pays, pool, submitted
 from mudline.cli.streams import counted, notify, notify_missing, reason
 from mudline.cli.view import Progress, View, wants_bar
+from mudline.cluster import storage
+from mudline.files import is_url
 from mudline.linting.configuration import Given
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
 
     from mudline.archive.updating import Order, Read, Update
+    from mudline.cluster.scheduler import Scheduler
 
 TRIED = 0.2
 """Seconds of reading by which the remaining work is estimated."""
@@ -60,6 +63,7 @@ def lacks_libraries(command: str) -> bool:
     metavar="N",
     help="Use at most N processes, when that pays; 0 (default): one for each processor.",
 )
+@on_cluster.options
 @options.every_file
 @options.units
 @options.common
@@ -72,6 +76,7 @@ def command(
     config: str | None,
     isolated: bool,
     jobs: int,
+    scheduler: Scheduler | None,
     every_file: bool,
     units: str | None,
     view: View,
@@ -79,25 +84,32 @@ def command(
     """Bring decks into an archive, which mudline query answers questions about.
 
     PATHS are decks, or directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that
-    begin as decks do). Decks that have not changed are not read again; those that are no longer there are dropped.
-    Needs pip install 'mudline[archive]'.
+    begin as decks do), or URLs of either. Decks that have not changed are not read again; those that are no longer
+    there are dropped. Needs pip install 'mudline[archive]'.
     """
     if lacks_libraries("index"):
         return WRONG_USAGE
     if "-" in paths:
         raise click.UsageError("standard input has no place in an archive: give files or directories")
-    inputs = collect_any_form(paths, "", gitignore=not every_file)
+    output = _folder(output)
+    inputs = collect_any_form(paths, "", gitignore=not every_file, urls=True)
+    listed = inputs.code == 0
     settings = checked_settings(config, Given(units=units), "none", isolated=isolated, fail_on=None)
     from mudline.archive.store import Archive, ArchiveError  # noqa: PLC0415 - an extra
     from mudline.archive.updating import Update  # noqa: PLC0415 - an extra
 
     folder = Path(output)
     try:
-        update = Update(Archive.made(folder), check)
+        update = Update(Archive.made(folder), check, storage.exists)
         for problem in update.archive.damaged.values():
             notify(problem)
-        _index(inputs, settings.of, update, Effort(jobs), view)
-        update.remove_gone([path for path in paths if os.path.isdir(path)], everywhere=prune)  # noqa: PTH112 - as in inputs
+        if scheduler is None:
+            _index(inputs, settings.of, update, Effort(jobs), view)
+        else:
+            from mudline.cli.cluster_index import index_on_cluster  # noqa: PLC0415 - few runs use a cluster
+
+            index_on_cluster(inputs, settings.of, update, scheduler, view)
+        update.remove_gone(_folders(paths, listed=listed), everywhere=prune)
         update.finish()
     except ArchiveError as error:
         raise click.ClickException(str(error)) from error
@@ -106,6 +118,27 @@ def command(
     if not view.quiet:
         _notify_counts(update, folder)
     return max(inputs.code, DONE)
+
+
+def _folder(output: str) -> str:
+    try:
+        output = storage.as_path(output)
+    except OSError as error:
+        raise click.UsageError(f"-o {output}: {reason(error)}") from error
+    if is_url(output):
+        raise click.UsageError(f"-o {output}: an archive is a folder, not a URL: give the path of a folder")
+    return output
+
+
+def _folders(paths: Sequence[str], *, listed: bool) -> list[str]:
+    """The folders whose decks are all known now; of those at URLs only if everything was `listed`."""
+    found = []
+    for path in paths:
+        with suppress(OSError):
+            given = storage.as_path(path)
+            if (listed and storage.is_folder(given)) if is_url(given) else os.path.isdir(given):  # noqa: PTH112 - as in inputs
+                found.append(given)
+    return found
 
 
 def _index(inputs: Inputs, settings_of: SettingsOf, update: Update, effort: Effort, view: View) -> None:
@@ -129,7 +162,7 @@ def _orders(inputs: Inputs, settings_of: SettingsOf, update: Update, progress: P
         path = file.path or file.name
         settings = settings_of(file)
         try:
-            now = looked(path)
+            now = looked(*file.size_and_date())
             order = None
             if not update.is_unchanged(path, now, settings):
                 order = update.order(path, file.read(), now, settings)

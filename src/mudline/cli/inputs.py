@@ -18,10 +18,9 @@ from mudline.cli import FOUND, WRONG_USAGE, options
 from mudline.cli.search import Search
 from mudline.cli.streams import notify, notify_diagnostics, reason
 from mudline.cluster import storage
-from mudline.cluster.storage import is_url
 from mudline.deck.forms import form_of
 from mudline.diagnostics import DeckError
-from mudline.files import write_atomically
+from mudline.files import is_url, write_atomically
 
 if TYPE_CHECKING:
     from mudline.deck.model import Deck
@@ -48,6 +47,13 @@ class Input:
         if self.path is None or is_url(self.path):
             return None
         return _folder(os.path.dirname(self.path))  # noqa: PTH120 - asked for many files
+
+    def size_and_date(self) -> tuple[int, int]:
+        """Bytes, and the time of the last change in ns since 1970, -1 where that is not known; raises OSError."""
+        if self.path is not None and is_url(self.path):
+            return storage.size_and_date(self.path)
+        found = os.stat(self.path or self.name)  # noqa: PTH116 - asked for many files
+        return found.st_size, found.st_mtime_ns
 
     def read(self) -> bytes:
         """The content; raises OSError."""

@@ -16,6 +16,7 @@ from mudline.cli.inputs import Input, Inputs
 from mudline.cli.options import Command
 from mudline.cli.streams import counted, notify, reason
 from mudline.cluster import storage
+from mudline.files import is_url
 
 if TYPE_CHECKING:
     from mudline.cluster.scheduler import Scheduler
@@ -148,7 +149,7 @@ def _store(place: str | None) -> Iterator[Store]:
         storage.make_folder(place)
     except OSError as error:
         raise click.ClickException(f"{place}: cannot be created: {reason(error)}") from error
-    yield Store(place if storage.is_url(place) else os.path.abspath(place))  # noqa: PTH100 - links stay what they are
+    yield Store(place if is_url(place) else os.path.abspath(place))  # noqa: PTH100 - links stay what they are
 
 
 @contextmanager

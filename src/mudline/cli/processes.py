@@ -10,6 +10,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from threading import Thread
 from typing import TYPE_CHECKING, TypeVar
 
 import click
@@ -80,7 +81,7 @@ def pool(processes: int, work: str, module: str) -> Iterator[Executor]:
     context = multiprocessing.get_context(method)
     if method == "forkserver":
         context.set_forkserver_preload([module])
-    executor = ProcessPoolExecutor(processes, context, ignore_interrupt)
+    executor = ProcessPoolExecutor(processes, context, _begin)
     try:
         yield executor
     except BaseException as error:
@@ -92,6 +93,23 @@ def pool(processes: int, work: str, module: str) -> Iterator[Executor]:
         raise click.ClickException(message) from error
     finally:
         executor.shutdown(cancel_futures=True)
+
+
+def _begin() -> None:
+    """What each process does first."""
+    ignore_interrupt()
+    Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    """End this process as soon as the one that started it has ended, by whatever it was killed."""
+    from multiprocessing import parent_process  # noqa: PLC0415 - other processes have loaded it
+    from multiprocessing.connection import wait  # noqa: PLC0415 - as above
+
+    parent = parent_process()
+    if parent is not None:
+        wait([parent.sentinel])
+        os._exit(1)
 
 
 def submitted(executor: Executor, work: Callable[[_Given], _Made], given: _Given) -> Future[_Made]:

@@ -7,25 +7,32 @@ from __future__ import annotations
 
 import errno
 import os
-import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from datetime import datetime
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
-from mudline.files import write_atomically
+from mudline.files import is_url, write_atomically
 
 if TYPE_CHECKING:
     from fsspec import AbstractFileSystem
 
-_URL = re.compile(r"[A-Za-z][A-Za-z0-9+.:-]+://")
 _REFUSED = {"memory": "what one process has in memory no other can read"}
 """Protocols of fsspec that workers cannot share, and why."""
 
 
-_listed: dict[str, str] = {}
-"""The marks of files that were listed, until they are asked for: a store would be asked for each of very many."""
+class Found(NamedTuple):
+    """A file at a URL: its size, what its store calls its version, and its last change in ns since 1970 or -1."""
+
+    size: int
+    version: str
+    changed: int
+
+
+_listed: dict[str, Found] = {}
+"""Files that were listed, until their marks are asked for: a store would be asked for each of very many."""
 
 
 class UrlError(OSError):
@@ -34,11 +41,6 @@ class UrlError(OSError):
 
 class MissingLibraryError(OSError):
     """A library for URLs is not installed; `strerror` names it and what brings it."""
-
-
-def is_url(path: str) -> bool:
-    """Whether a path is a URL."""
-    return _URL.match(path) is not None
 
 
 def as_path(given: str) -> str:
@@ -101,7 +103,7 @@ def files_below(url: str) -> list[str]:
         start = url.split("://", 1)[0]
         found = system.find(inside, detail=True).items()
         urls = {name if is_url(name) else f"{start}://{name}": info for name, info in found}
-    _listed.update((one, _version(info)) for one, info in urls.items())
+    _listed.update((one, _found(info)) for one, info in urls.items())
     return sorted(urls)
 
 
@@ -129,21 +131,41 @@ def mark(path: str) -> str:
     "" for what is not there or cannot be looked at. What was listed is asked for once as it was then.
     """
     if path in _listed:
-        return _listed.pop(path)
+        return _mark(_listed.pop(path))
     try:
         if not is_url(path):
             found = os.stat(path)  # noqa: PTH116 - asked for each of many files
             return f"{found.st_size} {found.st_mtime_ns}"
         with _naming(path):
             system, inside = _opened(path)
-            return _version(system.info(inside))
+            return _mark(_found(system.info(inside)))
     except (OSError, ValueError):
         return ""
 
 
-def _version(info: Mapping[str, Any]) -> str:
-    version = info.get("ETag") or info.get("etag") or info.get("LastModified") or info.get("mtime") or ""
-    return f"{info.get('size')} {version}"
+def size_and_date(url: str) -> tuple[int, int]:
+    """Bytes of a file and the time of its last change in ns since 1970, -1 where a store has none; raises UrlError.
+
+    Of what was listed they are those of the list.
+    """
+    found = _listed.get(url)
+    if found is None:
+        with _naming(url):
+            system, inside = _opened(url)
+            found = _found(system.info(inside))
+    return found.size, found.changed
+
+
+def _found(info: Mapping[str, Any]) -> Found:
+    date = info.get("LastModified") or info.get("mtime") or info.get("last_modified") or info.get("updated")
+    version = info.get("ETag") or info.get("etag") or date or ""
+    seconds: object = date.timestamp() if isinstance(date, datetime) else date
+    changed = round(seconds * 1e9) if isinstance(seconds, (int, float)) else -1
+    return Found(info.get("size") or 0, str(version), changed)
+
+
+def _mark(found: Found) -> str:
+    return f"{found.size} {found.version}"
 
 
 # --------------------------------------------------------------------------------------------------------- writing

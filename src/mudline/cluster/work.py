@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 from mudline import __version__
 from mudline.cluster import storage
+from mudline.files import is_url
 
 _SUFFIX = ".jsonl"
 _DIGEST = 20
@@ -159,6 +160,6 @@ def row_of(line: bytes) -> Row:
 
 def resolved(path: str, folder: str) -> str:
     """A path that was given in a working folder, as a worker can open it: unchanged where the worker is in it too."""
-    if storage.is_url(path) or os.getcwd() == folder:  # noqa: PTH109 - compared as text
+    if is_url(path) or os.getcwd() == folder:  # noqa: PTH109 - compared as text
         return path
     return os.path.join(folder, path)  # noqa: PTH118 - the text stays what was given
