@@ -221,9 +221,13 @@ def test_interrupted_run_keeps_what_is_done(monkeypatch: pytest.MonkeyPatch) -> 
             signal.raise_signal(signal.SIGINT)
         return work(order, path)
 
+    before = signal.signal(
+        signal.SIGINT, signal.default_int_handler
+    )  # a shell ignores it for what is in the background
     with monkeypatch.context() as patch:
         patch.setattr(cases, "_kept", second_is_interrupted)
         outcome = evaluated("--jobs", "1")  # a slow machine would start processes, which the patch does not reach
+    signal.signal(signal.SIGINT, before)
     assert (outcome.code, outcome.out) == (130, "")
     assert files() == {"a.csv", "a-nodes.csv", "a-summary.csv", known_results.LIST}
     assert taken(evaluated()) == 1

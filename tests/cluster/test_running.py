@@ -44,13 +44,15 @@ class Client:
     workers: dict[str, int] = field(default_factory=lambda: {"tcp://a:1": 2})
     sizes: list[int] = field(default_factory=list)
     lost: str = ""
+    losses: int = 1_000_000
 
     def nthreads(self) -> dict[str, int]:
         return self.workers
 
     def submit(self, call: Callable[[Chunk], Finished], chunk: Chunk, **_: object) -> Done:
         self.sizes.append(len(chunk.items))
-        if self.lost:
+        if self.lost and self.losses > 0:
+            self.losses -= 1
             return Done(self.lost)
         if self.deadly & {item.given for item in chunk.items}:
             return Done("error", error=distributed.KilledWorker("task", None, 3))
@@ -117,6 +119,13 @@ def test_results_of_a_folder_that_is_not_shared_are_missed(folder: Path, monkeyp
 def test_a_scheduler_that_goes_away_ends_the_run(folder: Path, lost: str) -> None:
     with pytest.raises(ClusterError, match=r"tcp://a: the scheduler has gone away; 0 of 5 are done"):
         list(run_of(Client(lost=lost), str(folder), 5).rows())
+
+
+@pytest.mark.parametrize("lost", ["lost", "cancelled"])
+def test_an_answer_that_is_lost_with_its_worker_is_asked_for_again(folder: Path, lost: str) -> None:
+    client = Client(lost=lost, losses=2)
+    assert list(run_of(client, str(folder), 5).rows()) == [Row(2 * number) for number in range(5)]
+    assert sum(client.sizes) > 5
 
 
 def test_a_run_without_workers_ends(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

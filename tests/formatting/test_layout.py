@@ -292,7 +292,7 @@ def test_a_row_that_no_model_holds_stays_as_it_is(monkeypatch: pytest.MonkeyPatc
 
 def test_the_page_shows_what_comes_out() -> None:
     page = Path(__file__).parents[2] / "docs" / "format.md"
-    before, after = (block.text for block in Page.read(page).blocks if block.language == "text")
+    before, after = (block.text for block in Page.read(page).blocks if block.language == "mudline")
     assert record_schema(before) == after
 
 

@@ -25,7 +25,7 @@ LONGEST_ALONE = 60.0
 """Seconds after which a run without any worker ends."""
 
 RETRIES = 2
-"""Times that a chunk is tried again whose results could not be written."""
+"""Times that a chunk is tried again whose results could not be written, or whose answer was lost."""
 
 _FIRST = 4
 _LARGEST = 2000
@@ -74,12 +74,13 @@ class Job:
 
 @dataclass(eq=False)
 class _Part:
-    """Items that were sent together; `finished` or `failed` once that is known."""
+    """Items that were sent together; `finished` or `failed` once that is known, `lost` with their worker so often."""
 
     items: list[Item]
     future: Future[Finished] | None = None
     finished: Finished | None = None
     failed: str = ""
+    lost: int = 0
 
     @property
     def settled(self) -> bool:
@@ -194,14 +195,22 @@ class Run:
         if future.status == "finished":
             try:
                 part.finished = future.result()
-            except (OSError, CancelledError) as error:  # of the connection
-                raise self._gone() from error
+            except (OSError, CancelledError):  # of the connection
+                self._send_again(part)
+                return
             self.done += part.finished.rows
             self._pace.took(part.finished.rows, part.finished.seconds)
         elif future.status == "error":
             self._fail(part, future.exception())
         else:
+            self._send_again(part)
+
+    def _send_again(self, part: _Part) -> None:
+        """Send a part whose answer was lost: with its worker, unless the scheduler is gone too."""
+        part.lost += 1
+        if part.lost > RETRIES or self.client.status != "running" or _answered(self.client) is None:
             raise self._gone()
+        self._send(part)
 
     def _fail(self, part: _Part, error: BaseException) -> None:
         from distributed import KilledWorker  # noqa: PLC0415 - few runs use a cluster
