@@ -221,9 +221,7 @@ def test_interrupted_run_keeps_what_is_done(monkeypatch: pytest.MonkeyPatch) -> 
             signal.raise_signal(signal.SIGINT)
         return work(order, path)
 
-    before = signal.signal(
-        signal.SIGINT, signal.default_int_handler
-    )  # a shell ignores it for what is in the background
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # it may be ignored in the background
     with monkeypatch.context() as patch:
         patch.setattr(cases, "_kept", second_is_interrupted)
         outcome = evaluated("--jobs", "1")  # a slow machine would start processes, which the patch does not reach
