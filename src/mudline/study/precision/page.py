@@ -34,6 +34,12 @@ _LIES = 1e-6
 _FLOATING = WIDTHS[3]
 
 
+_STABILITY = (
+    "Explicit schemes also have to keep below the critical step of every contact, suction damping included, "
+    "which can be much smaller: `mudline study stability`."
+)
+
+
 def advice(tables: Tables) -> str:
     """Return which scheme and which step the deck needs, because of which line; "" where it has nothing to step on."""
     parts: list[str] = []
@@ -49,7 +55,7 @@ def advice(tables: Tables) -> str:
         other = [_use(row) for row in reached if (row.text("scheme") in _EXPLICIT) != explicit][:1]
         besides = f" ({'implicit' if explicit else 'explicit'}: {other[0]})" if other else ""
         parts.append(f"for errors of {percent(float(goal))} use {_use(reached[0])}{besides}{because}")
-    return f"On this deck, {'; '.join(parts)}." if parts else ""
+    return f"On this deck, {'; '.join(parts)}. {_STABILITY}" if parts else ""
 
 
 def _use(row: Record) -> str:
