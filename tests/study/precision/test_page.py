@@ -31,7 +31,9 @@ def read(name: str) -> list[dict[str, str]]:
 def test_the_page_of_the_sample_with_a_short_ladder(sample_report: StudyReport) -> None:
     assert sample_report.advice == (
         "On this deck, for errors of 1 % no step of the ladder is small enough, because of the mass dropped on Soft "
-        "Clay (deck line 30); for errors of 0.1 % no step of the ladder is small enough."
+        "Clay (deck line 30); for errors of 0.1 % no step of the ladder is small enough. Explicit schemes also have to "
+        "keep below the critical step of every contact, suction damping included, which can be much smaller: "
+        "`mudline study stability`."
     )
     assert "| drop-curve | dropped on Soft Clay | 30 |" in sample_report.page
     assert "64 runs meet the seabed" in sample_report.page
