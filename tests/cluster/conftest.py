@@ -1,4 +1,4 @@
-"""A cluster of two workers on loopback and an object store, started once for the tests of a module."""
+"""A cluster of two workers on loopback, started once for the tests of a module, and one object store for all."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ STORE = {"AWS_ACCESS_KEY_ID": "testing", "AWS_SECRET_ACCESS_KEY": "testing", "AW
 """What every client of S3 wants to know."""
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def store() -> Iterator[str]:
-    """The address of an S3 service of this process."""
+    """The address of an S3 service of this process, one for all tests: clients that know it are kept."""
     server = pytest.importorskip("moto.server", reason="moto is not installed").ThreadedMotoServer(
         ip_address="127.0.0.1", port=0, verbose=False
     )
