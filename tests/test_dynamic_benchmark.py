@@ -8,15 +8,31 @@ import numpy as np
 import pytest
 
 import mudline
+from mudline.contact.arrays import FloatArray
+from mudline.contact.laws.suction import SuctionLaw, breakout_uplift
+from mudline.contact.stiffest import critical_step
+from mudline.study.motion import Forces, History, Motion
 from mudline.study.schemes import SCHEMES
 from tests.benchmarks.dynamics import page as pages
-from tests.benchmarks.dynamics.beam import DECKS
+from tests.benchmarks.dynamics.beam import DECKS, read_beam
 from tests.benchmarks.dynamics.bouncing import TIMES, fall
 from tests.benchmarks.dynamics.chains import CASES, read_chain
-from tests.benchmarks.dynamics.lifting import touchdown
-from tests.benchmarks.dynamics.peers import CHAINS, EXUDYN, MOORDYN, for_moordyn, own
+from tests.benchmarks.dynamics.lifting import DAMPING, touchdown
+from tests.benchmarks.dynamics.limits import EXPLICIT, Tangent, amplification, follow, frequencies, limits, line_limit
+from tests.benchmarks.dynamics.page_limits import TRIED, stiffer
+from tests.benchmarks.dynamics.peers import (
+    CHAINS,
+    CORRECTED,
+    EXUDYN,
+    LOWERED,
+    MOORDYN,
+    PULLED,
+    REST,
+    for_moordyn,
+    own,
+)
 from tests.benchmarks.dynamics.reference import Reference, Tolerance
-from tests.benchmarks.dynamics.schemes import RUNS, Truth, lifting, limits, look, measure, row
+from tests.benchmarks.dynamics.schemes import RUNS, Truth, lifting, look, measure, row
 from tests.benchmarks.dynamics.schemes import TIMES as MOMENTS
 from tests.benchmarks.dynamics.tables import FOLDER, column, load
 
@@ -58,14 +74,145 @@ def test_what_the_page_says_in_words_holds_in_its_tables() -> None:
     assert off["velocity-verlet", 2500] < 1.1 * off["rk4", 10000]
     assert off["velocity-verlet", 1250] < off["rk4", 5000]
     assert {name for name, _ in runs} == set(SCHEMES) - {"forward-euler"}
-    limit = {one["what"]: float(one["explicit limit [s]"]) for one in load("limits")}
-    assert min(limit, key=limit.__getitem__) == "EA of the line"
-    assert min((what for what in limit if "line" not in what), key=limit.__getitem__) == "suction, damping"
+    rows = {one["what"]: one for one in load("limits")}
+    for scheme in EXPLICIT:
+        limit = {what: float(one[f"{scheme} [s]"]) for what, one in rows.items()}
+        if scheme not in {"rk2", "forward-euler"}:  # these have none on springs that nothing damps
+            assert min((what for what in limit if "line" not in what), key=limit.__getitem__) == "suction, damping"
+        failed = {float(one["step [s]"]): bool(one["failure"]) for one in load("schemes") if one["scheme"] == scheme}
+        assert failed == {step: step > limit["EA of the line"] for step in failed}
+    assert not any(one["failure"] for one in load("schemes") if one["explicit"] == "false")
 
 
 def test_what_limits_a_step_is_as_in_the_table() -> None:
-    found = [limit[-1] for limit in limits()]
-    assert found == pytest.approx(column(load("limits"), "explicit limit [s]"), rel=1e-9)
+    for found, kept in zip(limits(), load("limits"), strict=True):
+        assert [cell or 0.0 for cell in found[1:2] + found[3:]] == pytest.approx(
+            [float(cell or 0.0) for heading, cell in kept.items() if heading not in {"what", "unit"}], rel=1e-9
+        )
+
+
+def test_suction_damps_one_element_where_it_damps_most() -> None:
+    kept = next(one for one in load("suction") if one["scheme"] == "velocity-verlet")
+    at, rate = float(kept["time [s]"]), float(kept["rate [1/s]"])
+    *_, (system, seen) = follow("velocity-verlet", 8, at)
+    found = Tangent.at(system, seen)
+    mass = float(system.beam.mass[1])
+    assert seen.position[-1] == pytest.approx(at)
+    assert (found.damped, found.slopes.max()) == (1, pytest.approx(float(kept["slope [N s/m2]"]), rel=1e-6))
+    assert found.rate == pytest.approx(rate, rel=1e-6) == pytest.approx(0.5 * found.slopes.max() / mass)
+    assert float(kept["step [s]"]) > critical_step("velocity-verlet", 0.0, 13467.6 / mass)
+    assert float(kept["step [s]"]) < critical_step("velocity-verlet", 0.0, rate) == pytest.approx(1.0 / rate)
+    assert max(found.growth(0.005, 0.5)) <= 1.0 + 1e-9
+
+
+class Linear:
+    """Masses of 1 with a force K x + C v."""
+
+    def __init__(self, stiffness: FloatArray, damping: FloatArray) -> None:
+        self.stiffness, self.damping, self.mass = stiffness, damping, np.ones(len(stiffness))
+
+    def forces(self, position: FloatArray, velocity: FloatArray, history: History) -> Forces:
+        return Forces(self.stiffness @ position + self.damping @ velocity, position, velocity, history)
+
+
+@pytest.mark.parametrize(("omega", "rate"), [(0.0, 1.0), (1.0, 1.0), (3.0, 0.2), (1.0, 0.0)])
+@pytest.mark.parametrize(("scheme", "ahead", "kick"), [("velocity-verlet", 0.5, 4.0), ("central-difference", 0.0, 2.0)])
+def test_a_damped_node_grows_above_the_limit_of_the_page_and_not_below(
+    scheme: str, ahead: float, kick: float, omega: float, rate: float
+) -> None:
+    limit = critical_step(scheme, omega, rate)
+    assert (omega * limit) ** 2 + kick * rate * limit == pytest.approx(4.0)
+    node = Linear(np.array([[-(omega**2)]]), np.array([[-rate]]))
+    for share, grows in ((0.99, False), (1.01, True)):
+        motion = Motion.start(node, np.array([0.0]), np.array([1.0]))
+        for _ in range(2000):
+            motion = SCHEMES[scheme].step(node, motion, share * limit).motion
+        assert (abs(motion.velocity[0]) > 100.0) == grows
+        w, h = (omega * share * limit) ** 2, rate * share * limit
+        matrix = amplification(node.stiffness, node.damping, share * limit, ahead)
+        cubic = [1.0, w + 1.5 * h - 2.0, 1.0 - 2.0 * h, 0.5 * h] if ahead else [1.0, w + h - 2.0, 1.0 - h, 0.0]
+        assert np.poly(matrix) == pytest.approx(cubic, abs=1e-12)
+        assert (np.abs(np.roots(cubic)).max() > 1.0 + 1e-6) == grows
+
+
+@pytest.mark.parametrize("scheme", ["velocity-verlet", "central-difference"])
+def test_the_damped_line_grows_above_the_limit_of_its_axial_stiffness(scheme: str) -> None:
+    beam = read_beam("lay-and-lift.keyxm")
+    along = (beam.stiffness / beam.mass[:, None])[beam.nodes :, beam.nodes :]
+    line = Linear(-along, -DAMPING * along)
+    limit = line_limit(scheme, frequencies(beam, slice(beam.nodes, None)))
+    assert limit == pytest.approx(float(load("limits")[0][f"{scheme} [s]"]), rel=1e-9)
+    for share, grows in ((0.99, False), (1.01, True)):
+        motion = Motion.start(line, np.zeros(beam.nodes), np.eye(beam.nodes)[3])
+        for _ in range(1000):
+            motion = SCHEMES[scheme].step(line, motion, share * limit).motion
+        assert (np.abs(motion.velocity).max() > 100.0) == grows
+
+
+class Raised:
+    """The line in the middle of its suction, which a load raises steadily: heights of its nodes beside that."""
+
+    def __init__(self, speed: float) -> None:
+        self.beam, self.speed = lifting().beam, speed
+        self.mass = self.beam.mass[: self.beam.nodes]
+        lying = self.beam.contact.step(self.beam.start, None, self.beam.contact.initial_state())[1]
+        law = SuctionLaw(*self.beam.contact.input.assigned["suction"].columns)
+        breakout = breakout_uplift(speed, law.depth_factor, law.depth_exponent, law.regularisation)
+        self.height = 0.5 * (law.first_corner[0] + law.second_corner[0]) * breakout[0] - self.beam.start[0, 0]
+        rest = np.zeros(self.beam.nodes)
+        self.load = np.zeros(self.beam.nodes)
+        steady = self.forces(rest, rest, lying)
+        self.load, self.begin = -steady.force, steady.history
+
+    def forces(self, position: FloatArray, velocity: FloatArray, history: History) -> Forces:
+        both = np.concatenate([self.height + position, 0.0 * position])
+        moving = np.concatenate([self.speed + velocity, 0.0 * velocity])
+        beam = self.beam
+        result, after = beam.contact.step(beam.positions(both), beam.velocities(moving), history)
+        return Forces(result.reaction[:, 0] + self.load, position, velocity, after)
+
+
+@pytest.mark.parametrize("scheme", ["velocity-verlet", "central-difference"])
+def test_a_line_raised_as_a_whole_grows_above_the_limit_of_its_suction(scheme: str) -> None:
+    limit = next(float(one[f"{scheme} [s]"]) for one in load("limits") if one["what"] == "suction, damping")
+    line = Raised(speed=1e-6)
+    for share, grows in ((1.0 - TRIED, False), (1.0 + TRIED, True)):
+        start = np.full(line.beam.nodes, 1e-11)
+        motion = Motion.start(line, 0.0 * start, start, line.begin)
+        for _ in range(600):
+            motion = SCHEMES[scheme].step(line, motion, share * limit).motion
+        # at the limit of damping the growing motion is one of accelerations, with next to no velocity
+        assert (share * limit * np.abs(motion.acceleration).max() > 100.0 * start[0]) == grows
+
+
+def test_a_line_so_much_stiffer_has_just_the_step_that_the_page_looks_for() -> None:
+    omegas = frequencies(read_beam("lay-and-lift.keyxm"), slice(25, None))
+    for damping in (0.0, DAMPING):
+        times = stiffer(load("limits")[0], 0.00125, damping)
+        assert line_limit("velocity-verlet", np.sqrt(times) * omegas, damping) == pytest.approx(0.00125, rel=1e-9)
+
+
+def test_what_the_page_says_of_the_chain_holds_in_its_tables() -> None:
+    def tensions(depth: int, when: str, source: str, friction: str = "no") -> FloatArray:
+        row = next(
+            one
+            for one in load("chains")
+            if (one["depth [m]"], one["when"], one["source"], one["friction"]) == (str(depth), when, source, friction)
+        )
+        return np.array([float(row["fairlead [kN]"]), float(row["anchor [kN]"])])
+
+    for case in CASES:
+        assert tensions(case.depth, REST, "published") == pytest.approx([case.fairlead, case.anchor])
+        assert tensions(case.depth, REST, LOWERED) == pytest.approx([case.fairlead, case.anchor], rel=1e-3)
+        assert tensions(case.depth, REST, CORRECTED) == pytest.approx(tensions(case.depth, REST, "mudline"), rel=5e-4)
+        taken = {
+            source: tensions(case.depth, PULLED, source)[1] - tensions(case.depth, PULLED, source, "yes")[1]
+            for source in ("catenary", "mudline")
+        }
+        near = [one for one in load("anchor") if one["depth [m]"] == str(case.depth)]
+        assert near[0]["share of its weight"] == "0.0"
+        missing = float(near[-1]["friction missing up to it [kN]"])
+        assert missing == pytest.approx(taken["catenary"] - taken["mudline"], rel=0.1)
 
 
 def test_a_chain_comes_out_as_it_is_in_the_table() -> None:

@@ -23,6 +23,10 @@ from tests.benchmarks.dynamics.beam import DECKS, in_line_order
 
 PULLS = {50: 3.0, 200: 15.0, 600: 40.0}
 """Metres by which the fairlead is pulled away from the anchor: so far that all that lies on the seabed slips."""
+STANDARD_GRAVITY = 9.80665
+"""m/s2; MoorDyn takes it if none is given."""
+VOLUME, LINK = 1.80, 3.35
+"""Diameters of a studless chain over that of its bar: of a rod of the same volume, and around its links."""
 _MOVES = 20
 _CLOSE = 1e-3
 """Newtons at the worst node: equilibrium."""
@@ -71,6 +75,21 @@ class Chain:
     mass: float
     diameter: float
     gravity: float
+
+    @property
+    def spring(self) -> float:
+        """Of the seabed below a metre of the line, N/m2."""
+        return float(self.contact.input.assigned["nodal"].parameters["stiffness"][1]) / float(self.length[0])
+
+    @property
+    def sinks(self) -> float:
+        """How deep the line lies under its weight, m."""
+        return self.weight / self.spring
+
+    @property
+    def share(self) -> FloatArray:
+        """The length (n,) that each node has of the elements."""
+        return np.convolve(self.length, [0.5, 0.5])
 
     def smooth(self) -> Chain:
         """The same chain on a seabed without friction."""
@@ -126,6 +145,30 @@ def catenary(chain: Chain, height: float, distance: float, friction: float) -> T
 
     h, v = (float(value) for value in fsolve(misses, [7e3 * height, 2.2 * w * height], xtol=1e-12))
     return Tensions(hypot(h, v) / 1e3, max(h - friction * w * (whole - v / w), 0.0) / 1e3)
+
+
+def lowered(chain: Chain, height: float, distance: float) -> Tensions:
+    """The catenary of a chain that lies on its links, under standard gravity."""
+    lighter = replace(chain, weight=chain.weight * STANDARD_GRAVITY / chain.gravity)
+    return catenary(lighter, height - lies_higher(chain), distance, 0.0)
+
+
+def lies_higher(chain: Chain) -> float:
+    """How high above the seabed the lowest point of the catenary is where the links rest on it and sink in, m."""
+    link = LINK / VOLUME * chain.diameter
+    return 0.5 * link - 0.5 * chain.sinks * chain.diameter / link
+
+
+def on_springs(chain: Chain, height: float, distance: float) -> Tensions:
+    """The catenary as a chain of elements on an elastic seabed has it.
+
+    Under the horizontal force H a cable sinks into springs k per unit length by s (1 - exp(x / b)) in front of where it
+    leaves the mudline, s = w / k, b = root(H / k). There its slope is s / b and its curvature w / H: it goes on as a
+    catenary whose lowest point is s / 2 below the mudline. And the tension of the last element is that of its middle.
+    """
+    high = catenary(chain, height + 0.5 * chain.sinks, distance, 0.0)
+    vertical = sqrt(high.fairlead**2 - high.anchor**2) / high.fairlead
+    return Tensions(high.fairlead - 0.5e-3 * chain.weight * float(chain.length[-1]) * vertical, high.anchor)
 
 
 @dataclass(slots=True)
@@ -216,9 +259,8 @@ class Equilibrium:
 
     def pressing(self) -> FloatArray:
         """The normal force of each node (n,), as a share of the weight that it has."""
-        share = np.convolve(self.chain.length, [0.5, 0.5])
         result, _ = self.chain.contact.step(self.places, None, self.state)
-        found: FloatArray = result.normal_force / (self.chain.weight * share)
+        found: FloatArray = result.normal_force / (self.chain.weight * self.chain.share)
         return found
 
     def with_friction(self, chain: Chain) -> Equilibrium:

@@ -6,14 +6,21 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from tests.benchmarks.dynamics.beam import read_beam
-from tests.benchmarks.dynamics.bouncing import DECK
-from tests.benchmarks.dynamics.chains import CASES, PULLS, catenary, read_chain
-from tests.benchmarks.dynamics.peers import HELD, PULLED, REST
+from tests.benchmarks.dynamics.bouncing import DECK, END
+from tests.benchmarks.dynamics.chains import (
+    CASES,
+    LINK,
+    PULLS,
+    STANDARD_GRAVITY,
+    VOLUME,
+    catenary,
+    lies_higher,
+    read_chain,
+)
+from tests.benchmarks.dynamics.peers import CORRECTED, HELD, HOLD, LOWERED, PULLED, REST, STEEP, STEEP_IN, USUAL
 from tests.benchmarks.dynamics.tables import Row, load
-from tests.benchmarks.dynamics.words import mm, percent, short, table, wrapped
+from tests.benchmarks.dynamics.words import listed, mm, percent, short, table, wrapped
 
-_STANDARD = 9.80665
-"""Standard gravity, m/s2, which MoorDyn takes if none is given."""
 _ENDS = ("fairlead [kN]", "anchor [kN]")
 
 _CHAINS = """\
@@ -33,46 +40,55 @@ At rest, without friction, tensions in kN:
 _SINKING = """\
 * mudline and MoorDyn have the same masses, springs and seabed and differ by {relaxation} at most. Gravity is given to
   MoorDyn as the deck has it, {gravity:g} m/s2: its default of {usual:g} alone would make {gravities}.
-* Both differ from the catenary by up to {catenary}. It lies on a rigid seabed, while a chain of {weight:.2f} kN/m
-  sinks by {sinks:.2f} m on {spring:.1f} kN/m per m; and the tension of their last element is that of its middle, half
-  an element below the fairlead (an element has {element:g} m in {deepest} m).
+* Both differ from the catenary by up to {catenary}, for two reasons. It lies on a rigid seabed, while a chain of
+  {weight:.2f} kN/m sinks by {sinks:.2f} m on {spring:.1f} kN/m per m: where it leaves the mudline it is already
+  inclined, and goes on as a catenary whose lowest point is half of that below the mudline. And the tension of their
+  last element is that of its middle, half an element below the fairlead (an element has {element:g} m in {deepest}
+  m). With both, the *corrected* catenary, {corrected} remain.
 * The published tensions differ from the catenary by up to {published}, most in {shallow} m, where 1 % of the
-  fairlead's tension is {centimetres:.0f} cm of depth. How the codes behind them measured the depth is not said. The
-  difference of both tensions, which the weight of the suspended line fixes, is that of a line hanging {heights} m
-  less high. All are far inside the limit of their own test.
+  fairlead's tension is {centimetres:.0f} cm of depth. **They are those of a chain that lies on its links.** The test
+  calls itself a validation against OrcaFlex, and its diameter, mass and EA are those that OrcaFlex gives a studless
+  chain of d = {bar:g} m: {volume:g} d, 19.9 d^2 t/m, 0.854e8 d^2 kN. Such links are {link:g} d wide, so the middle of
+  the chain lies half of that above the seabed, and with its sinking the lowest point of the catenary is {lower:.2f} m
+  higher. With that, and standard gravity of {usual:g} m/s2, the *lowered* catenary has all six tensions within
+  {lowered}; nothing was fitted. In MoorDyn and in the decks the middle of the chain meets the seabed. All are far
+  inside the limit of that test.
 
 Then the fairlead is pulled away from the anchor, so far that all of the chain on the seabed slips ({pulls}). With
-friction the anchor feels less. Tensions in kN; MoorDyn with its default friction, 100 s after the pull:
+friction the anchor feels less. Tensions in kN; MoorDyn with its default friction, {hold:g} s after
+the pull:
 """
 
 _FRICTION = """\
 * With Coulomb friction ({coefficient:g}) mudline's anchor tension is within {friction} of the catenary's, which takes
-  off the whole limit of what lies on the seabed. mudline's nodes press less next to the anchor: it is held at the
-  mudline, and the chain needs some length to sink in. In {shallow} m the first five nodes press with {pressing} of
-  their weight.
+  off the whole limit of what lies on the seabed: {lacks} kN more than mudline's. mudline's nodes press less next to
+  the anchor: it is held at the mudline, bears half an element itself, and the chain needs some length to sink in. In
+  {shallow} m the five nodes behind it press with {pressing} of their weight. In {depths} m
+  that makes {missing} kN of the difference.
 * MoorDyn's friction is another law: a force that grows with the velocity, `FricDamp` and the coefficient times it, up
-  to the Coulomb limit. With its default of 200 N s/m the anchor has the tension of a chain without friction, within
-  {default}. With 3e7 N s/m, which needs a step of 0.1 ms, the anchor in 200 m has {ramp:.0f} kN at the end of the
-  pull, between {smooth:.0f} without and {rough:.0f} with Coulomb friction, and {held:.0f} kN when the fairlead has
-  stood still for 100 s: a law of velocity holds nothing at rest. **Friction that stays in a line at rest needs a
-  spring with a stick point.**
+  to the Coulomb limit. With its default of {usual:g} N s/m the anchor has the tension of a chain without friction,
+  within {default}. With {steep} N s/m, run with a step of {step:g} ms, the anchor in {deep} m has {ramp:.0f} kN at
+  the end of the pull, between {smooth:.0f} without and {rough:.0f} with Coulomb friction, and {held:.0f} kN when the
+  fairlead has stood still for {hold:g} s: a law of velocity holds nothing at rest. **Friction that stays in a line at
+  rest needs a spring with a stick point.**
 """
 
 _BOUNCES = """\
 ## A bouncing beam in {program}
 
-[`bouncing-beam.keyxm`](benchmark/bouncing-beam.keyxm) is a free beam of 12 m that falls, tilted, on springs of 50
-kN/m below its 13 nodes and bounces for 2 s, at first its low end, then the other, with whipping between. Twice
-Exudyn: with the same masses and springs, its own contact (limit stops with its own switching) and its own integrator
-(Newmark); and with its own beam element (ANCF `Cable2D`: cubic, consistent mass, large rotations).
+[`bouncing-beam.keyxm`](benchmark/bouncing-beam.keyxm) is a free beam of {length:g} m that falls, tilted, on springs
+of {spring:g} kN/m below its {nodes} nodes and bounces for {end:g} s, at first its low end, then the other, with
+whipping between. Twice Exudyn: with the same masses and springs, its own contact (limit stops with its own switching)
+and its own integrator (Newmark); and with its own beam element (ANCF `Cable2D`: cubic, consistent mass, large
+rotations).
 
 ![Height of the last node over time](benchmark-bouncing.png)
 
-Largest difference of the height of any of the 13 nodes up to a time:
+Largest difference of the height of any of the {nodes} nodes up to a time:
 """
 
 _BOUNCED = """\
-* On the same masses and springs Exudyn meets the reference within {finest} over 2 s of bouncing, with errors that
+* On the same masses and springs Exudyn meets the reference within {finest} over {end:g} s of bouncing, with errors that
   fall as its step does: mudline's nodal springs and the located events of the reference are right.
 * The beam element differs by {cable} in 0.5 s. That is the beam, not the contact: {parts} elements with lumped masses
   have a rotary inertia that is {inertia} too large and no cubic shape. Cutting each element in two, with the springs
@@ -96,7 +112,7 @@ def peer_bullets(folder: Path) -> Iterator[str]:
     close = max(_off(chains, depth, "mudline", "MoorDyn") for depth in PULLS)
     yield wrapped(
         f"* {_program(chains)} has the same static tensions within {percent(close)} in three depths;",
-        f"{bounces[0]['program']} the same bouncing beam within {mm(_finest(bounces)['to 2 s [m]'])} over 2 s.",
+        f"{bounces[0]['program']} the same bouncing beam within {mm(_finest(bounces)['to 2 s [m]'])} over {END:g} s.",
     )
 
 
@@ -104,13 +120,20 @@ def peer_parts(folder: Path) -> Iterator[str]:
     """The text, by paragraphs and tables."""
     chains, bounces = load("chains", folder), load("bouncing", folder)
     yield _CHAINS.format(program=_program(chains))
-    yield _chain_table(chains, REST, ("published", "catenary", "mudline", "MoorDyn"))
+    yield _chain_table(chains, REST, ("published", LOWERED, "catenary", CORRECTED, "mudline", "MoorDyn"))
     yield _sinking(chains)
     yield _chain_table(
         chains, PULLED, ("no: catenary", "no: mudline", "FricDamp 200: MoorDyn", "yes: catenary", "yes: mudline")
     )
     yield _friction(chains, folder)
-    yield _BOUNCES.format(program=bounces[0]["program"])
+    beam = read_beam(DECK)
+    yield _BOUNCES.format(
+        program=bounces[0]["program"],
+        length=beam.start[-1, 1],
+        spring=float(beam.contact.input.assigned["nodal"].parameters["stiffness"][0]) / 1e3,
+        nodes=beam.nodes,
+        end=END,
+    )
     heads = ("to 0.5 s [m]", "to 1 s [m]", "to 2 s [m]")
     shown = [head.replace("[m]", "[mm]") for head in heads]
     yield table(
@@ -127,8 +150,9 @@ def peer_parts(folder: Path) -> Iterator[str]:
         ],
     )
     cables = {row["parts of an element"]: row for row in bounces if row["model"] == "cable"}
-    parts = len(read_beam(DECK).start) - 1
+    parts = beam.nodes - 1
     yield _BOUNCED.format(
+        end=END,
         parts=parts,
         inertia=percent(2.0 / parts**2),
         finest=mm(_finest(bounces)["to 2 s [m]"]),
@@ -185,52 +209,69 @@ def _when(when: str, source: str) -> str:
 
 
 def _sinking(chains: list[Row]) -> str:
-    shallow, deepest = min(PULLS), max(PULLS)
     case, deep = CASES[0], read_chain(CASES[-1])
-    spring = float(deep.contact.input.assigned["nodal"].parameters["stiffness"][1]) / float(deep.length[0])
-    line, lower = read_chain(case), []
+    line = read_chain(case)
     low, high = (catenary(line, height, case.distance, 0.0).fairlead for height in (case.depth, case.depth + 0.01))
     steeper = 100.0 * (high / low - 1.0)
-    for depth in PULLS:
-        rows = [_find(chains, depth, REST, source) for source in ("published", "catenary")]
-        drops = [float(row[_ENDS[0]]) - float(row[_ENDS[1]]) for row in rows]
-        lower.append(depth * (1.0 - drops[0] / drops[1]))
+
+    def worst(one: str, other: str) -> str:
+        return percent(max(_off(chains, depth, one, other) for depth in PULLS))
+
     return _SINKING.format(
         gravity=deep.gravity,
-        usual=_STANDARD,
-        gravities=percent(1.0 - _STANDARD / deep.gravity),
-        relaxation=percent(max(_off(chains, depth, "mudline", "MoorDyn") for depth in PULLS)),
-        catenary=percent(max(_off(chains, depth, "mudline", "catenary") for depth in PULLS)),
-        published=percent(max(_off(chains, depth, "published", "catenary") for depth in PULLS)),
-        shallow=shallow,
+        usual=STANDARD_GRAVITY,
+        gravities=percent(1.0 - STANDARD_GRAVITY / deep.gravity),
+        relaxation=worst("mudline", "MoorDyn"),
+        catenary=worst("mudline", "catenary"),
+        corrected=worst("mudline", CORRECTED),
+        published=worst("published", "catenary"),
+        lowered=worst("published", LOWERED),
+        lower=lies_higher(deep),
+        bar=deep.diameter / VOLUME,
+        volume=VOLUME,
+        link=LINK,
+        shallow=min(PULLS),
         weight=deep.weight / 1e3,
-        spring=spring / 1e3,
-        sinks=deep.weight / spring,
-        deepest=deepest,
+        spring=deep.spring / 1e3,
+        sinks=deep.sinks,
+        deepest=max(PULLS),
         element=float(deep.length[0]),
         centimetres=1.0 / steeper,
-        heights=f"{min(lower):.2f} to {max(lower):.2f}",
+        hold=HOLD,
         pulls=", ".join(f"{pull:g} m in {depth} m" for depth, pull in PULLS.items()),
     )
 
 
 def _friction(chains: list[Row], folder: Path) -> str:
-    anchor = _ENDS[1]
-    near = (row for row in load("anchor", folder) if row["depth [m]"] == str(min(PULLS)))
-    shares = [f"{float(row['share of its weight']):.2f}" for row in near]
+    anchor, near = _ENDS[1], load("anchor", folder)
+    shares = [row["share of its weight"] for row in near if row["depth [m]"] == str(min(PULLS))][1:6]
+    missing = {row["depth [m]"]: float(row["friction missing up to it [kN]"]) for row in near}
+
+    def tension(depth: int, source: str, kind: str, when: str = PULLED) -> float:
+        return float(_find(chains, depth, _when(when, source), source, kind)[anchor])
 
     def ratio(depth: int, one: tuple[str, str], other: tuple[str, str]) -> float:
-        first, second = (_find(chains, depth, _when(PULLED, source), source, kind) for source, kind in (one, other))
-        return abs(float(first[anchor]) / float(second[anchor]) - 1.0)
+        return abs(tension(depth, *one) / tension(depth, *other) - 1.0)
+
+    def taken(depth: int, source: str) -> float:
+        return tension(depth, source, "no") - tension(depth, source, "yes")
 
     return _FRICTION.format(
         coefficient=read_chain(CASES[0]).friction,
         shallow=min(PULLS),
-        pressing=", ".join(shares),
+        pressing=", ".join(f"{float(share):.2f}" for share in shares),
+        lacks=listed(f"{taken(depth, 'catenary') - taken(depth, 'mudline'):.1f}" for depth in PULLS),
+        depths=listed(map(str, PULLS)),
+        missing=listed(f"{missing[str(depth)]:.1f}" for depth in PULLS),
         friction=percent(max(ratio(depth, ("mudline", "yes"), ("catenary", "yes")) for depth in PULLS)),
-        default=percent(max(ratio(depth, ("MoorDyn", "FricDamp 200"), ("mudline", "no")) for depth in PULLS)),
-        ramp=float(_find(chains, 200, PULLED, "MoorDyn", "FricDamp 3e7")[anchor]),
-        held=float(_find(chains, 200, HELD, "MoorDyn", "FricDamp 3e7")[anchor]),
-        smooth=float(_find(chains, 200, PULLED, "mudline", "no")[anchor]),
-        rough=float(_find(chains, 200, PULLED, "mudline", "yes")[anchor]),
+        usual=USUAL[1],
+        default=percent(max(ratio(depth, ("MoorDyn", USUAL[0]), ("mudline", "no")) for depth in PULLS)),
+        steep=f"{STEEP[1]:.0e}".replace("+0", ""),
+        step=1e3 * STEEP[2],
+        deep=STEEP_IN,
+        hold=HOLD,
+        ramp=float(_find(chains, STEEP_IN, PULLED, "MoorDyn", STEEP[0])[anchor]),
+        held=tension(STEEP_IN, "MoorDyn", STEEP[0]),
+        smooth=tension(STEEP_IN, "mudline", "no"),
+        rough=tension(STEEP_IN, "mudline", "yes"),
     )

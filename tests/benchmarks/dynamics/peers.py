@@ -15,7 +15,18 @@ import numpy as np
 
 from mudline.study.report import Cell
 from tests.benchmarks.dynamics.bouncing import DECK, EVERY, TIMES, fall, for_exudyn
-from tests.benchmarks.dynamics.chains import CASES, PULLS, Case, Chain, Equilibrium, Tensions, catenary, read_chain
+from tests.benchmarks.dynamics.chains import (
+    CASES,
+    PULLS,
+    Case,
+    Chain,
+    Equilibrium,
+    Tensions,
+    catenary,
+    lowered,
+    on_springs,
+    read_chain,
+)
 from tests.benchmarks.dynamics.reference import Tolerance
 from tests.benchmarks.dynamics.tables import Row
 from tests.benchmarks.peers import Environment, Peer
@@ -25,14 +36,23 @@ MOORDYN = Peer("moordyn", ("moordyn==2.7.2", "numpy==2.4.6"), "static chain, and
 EXUDYN = Peer("exudyn", ("exudyn==1.13.6", "numpy==2.4.6"), "bouncing beam")
 
 CHAINS = ("depth [m]", "when", "friction", "source", "fairlead [kN]", "anchor [kN]")
-ANCHOR = ("depth [m]", "node", "share of its weight")
+ANCHOR = ("depth [m]", "node", "share of its weight", "friction missing up to it [kN]")
 BOUNCES = ("model", "parts of an element", "step [s]", "compared with", "program", "to 0.5 s [m]", "to 1 s [m]",
            "to 2 s [m]", "failure")  # fmt: skip
 BOUNCE_PATH = ("time [s]", "reference, first node [m]", "last node [m]", "Exudyn masses, last node [m]",
                "Exudyn cable, last node [m]")  # fmt: skip
 
+CORRECTED, LOWERED = "corrected catenary", "lowered catenary"
+"""Sources: the catenary as elements on an elastic seabed have it, and as the published tensions are."""
 REST, PULLED, HELD = "at rest", "pulled", "pulled and held"
-_OVER, _HOLD = 100.0, 100.0
+USUAL, STEEP = ("FricDamp 200", 200.0, 1e-3), ("FricDamp 3e7", 3e7, 1e-4)
+"""Friction of MoorDyn: its name in the table, force over velocity (N s/m; the default, and one as steep as its step
+allows), and the step it is run with (s)."""
+STEEP_IN = 200
+"""Metres of water where the steep one is run as well."""
+_NEAR = 10
+"""Nodes from the anchor that are looked at."""
+_OVER, HOLD = 100.0, 100.0
 """Seconds of a pull in MoorDyn, and after it."""
 _LONGEST = 900
 _TOLERANCE = Tolerance(1e-9, 5e-4)
@@ -77,7 +97,7 @@ def _of_moordyn(row: Row, case: Case) -> bool:
 def own(case: Case) -> tuple[list[tuple[Cell, ...]], list[tuple[Cell, ...]]]:
     """Rows of `CHAINS`: published, by the evaluator's forces, and of the catenary; at rest, then pulled.
 
-    And those of `ANCHOR`: how the nodes next to the anchor press in the end.
+    And those of `ANCHOR`: how the anchor and the nodes next to it press in the end.
     """
     chain, pull = read_chain(case), PULLS[case.depth]
     free = Equilibrium.hanging(chain.smooth(), case.depth, case.distance)
@@ -85,27 +105,28 @@ def own(case: Case) -> tuple[list[tuple[Cell, ...]], list[tuple[Cell, ...]]]:
         (REST, "no", "published", Tensions(case.fairlead, case.anchor)),
         (REST, "no", "mudline", free.tensions()),
         (REST, "no", "catenary", catenary(chain, case.depth, case.distance, 0.0)),
+        (REST, "no", CORRECTED, on_springs(chain, case.depth, case.distance)),
+        (REST, "no", LOWERED, lowered(chain, case.depth, case.distance)),
     ]
     held = free.with_friction(chain)
     for friction, line, coefficient in (("no", free, 0.0), ("yes", held, chain.friction)):
         line.pull(pull)
         found.append((PULLED, friction, "mudline", line.tensions()))
         found.append((PULLED, friction, "catenary", catenary(chain, case.depth, case.distance + pull, coefficient)))
-    shares = held.pressing()[1:6]
+    shares = held.pressing()[:_NEAR]
+    missing = np.cumsum((1.0 - shares) * chain.share[:_NEAR]) * chain.friction * chain.weight / 1e3
+    near = zip(shares.tolist(), missing.tolist(), strict=True)
     return (
         [(case.depth, when, friction, source, *tensions) for when, friction, source, tensions in found],
-        [(case.depth, node, float(share)) for node, share in enumerate(shares, start=2)],
+        [(case.depth, node, *cells) for node, cells in enumerate(near, start=1)],
     )
 
 
 def _moordyn(place: Environment, case: Case) -> list[tuple[Cell, ...]]:
-    """With its default friction; in 200 m also with a friction ramp as steep as a tenth of the step allows."""
+    """With its default friction, and in one depth with a steep one."""
     chain = read_chain(case)
-    ramps = [("FricDamp 200", 200.0, 1e-3)]
-    if case.depth == 200:
-        ramps.append(("FricDamp 3e7", 3e7, 1e-4))
     rows: list[tuple[Cell, ...]] = []
-    for friction, damping, step in ramps:
+    for friction, damping, step in (USUAL, STEEP) if case.depth == STEEP_IN else (USUAL,):
         answer = ask(place, "peer_moordyn.py", for_moordyn(chain, case, damping, step))
         for when, tensions in zip((REST, PULLED, HELD), answer["tensions"], strict=True):
             if when == REST and rows:
@@ -116,9 +137,7 @@ def _moordyn(place: Environment, case: Case) -> list[tuple[Cell, ...]]:
 
 def for_moordyn(chain: Chain, case: Case, damping: float, step: float) -> dict[str, Any]:
     """What `peer_moordyn` takes: all from the deck, but the published damping of the seabed."""
-    length = float(chain.length[0])
-    spring = float(chain.contact.input.assigned["nodal"].parameters["stiffness"][1])
-    seabed = spring / length / chain.diameter
+    seabed = chain.spring / chain.diameter
     return {
         "depth": case.depth,
         "distance": case.distance,
@@ -135,7 +154,7 @@ def for_moordyn(chain: Chain, case: Case, damping: float, step: float) -> dict[s
         "step": step,
         "pull": PULLS[case.depth],
         "over": _OVER,
-        "hold": _HOLD,
+        "hold": HOLD,
     }
 
 

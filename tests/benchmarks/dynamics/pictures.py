@@ -36,7 +36,8 @@ def draw_path(figure: Figure) -> None:
         below.plot(time, column(rows, f"{name} [J]"), color=colour, label=name)
     label(below, "Work done on the line", "time [s]", "[J]")
     for axes in (middle, below):
-        axes.legend(fontsize="small", loc="upper right")
+        axes.set_ylim(top=1.3 * axes.get_ylim()[1])  # above the curves there is space for the legend
+        axes.legend(fontsize="small", loc="upper right", ncols=3)
 
 
 def draw_schemes(figure: Figure) -> None:

@@ -26,7 +26,7 @@ from tests.benchmarks.dynamics.lifting import Forces, Lifting
 
 _PEEK = 1e-7
 """Seconds ahead over which the change of the normal force is taken: it decides only a sign."""
-_RESOLUTION = 1e-13
+RESOLUTION = 1e-13
 """Seconds within which an event is located."""
 
 
@@ -155,7 +155,7 @@ class Reference:
     def _event(self, solver: DOP853, mode: IndexArray) -> tuple[float, FloatArray]:
         """The first moment of the last step in another mode, and the values there."""
         dense, before, after = solver.dense_output(), float(solver.t_old or 0.0), float(solver.t)
-        while after - before > _RESOLUTION:
+        while after - before > RESOLUTION:
             middle = 0.5 * (before + after)
             if not before < middle < after:
                 break

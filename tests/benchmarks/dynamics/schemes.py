@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -31,7 +31,6 @@ REFERENCE = ("relative tolerance", "longest step [s]", "events", "evaluations", 
              "to the tightest: displacement [m]", "force [N]", "seabed work [J]", "touchdown [m]")  # fmt: skip
 RUNS = ("scheme", "title", "explicit", "step [s]", "evaluations", "tangents", "most iterations", "touchdown rms [m]",
         "touchdown max [m]", "peak force", "force rms", "seabed work", "energy balance", "failure")  # fmt: skip
-LIMITS = ("what", "value", "unit", "omega [rad/s]", "explicit limit [s]")
 
 
 def lifting() -> Lifting:
@@ -145,23 +144,3 @@ def _rms(values: FloatArray) -> float:
 def wanted() -> list[tuple[str, int]]:
     """All runs: the scheme, and its steps between two moments."""
     return [(name, steps) for name, scheme in SCHEMES.items() for steps in STEPS[scheme.explicit]]
-
-
-def limits() -> Iterator[tuple[Cell, ...]]:
-    """The rows of `LIMITS`: what an explicit step must resolve, of the line and of each law on it."""
-    beam = read_beam(DECK)
-    root = np.sqrt(beam.mass)
-    squares = beam.stiffness / root[:, None] / root
-    for what, part in (("EA of the line", slice(beam.nodes, None)), ("EI of the line", slice(beam.nodes))):
-        fastest = float(np.sqrt(np.linalg.eigvalsh(squares[part, part]).max()))
-        yield what, None, "", fastest, 2.0 / fastest
-    length = float(beam.contact.input.length[0])
-    mass = float(beam.mass[1]) / length
-    for law in beam.contact.stiffest().laws:
-        over = mass * (length if law.per == "node" else 1.0)
-        stiffness, damping = float(np.nanmax(law.stiffness)), float(np.nanmax(law.damping))
-        omega = float(np.sqrt(stiffness / over))
-        unit = "N/m" if law.per == "node" else "N/m2"
-        yield f"{law.law}, stiffness", stiffness, unit, omega, 2.0 / omega
-        if damping:
-            yield f"{law.law}, damping", damping, unit.replace("N", "N s"), None, 2.0 * over / damping

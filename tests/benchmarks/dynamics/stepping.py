@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.study.motion import Forces, History, Motion, Scheme
+from mudline.study.motion import Forces, History, Motion, Scheme, System
 from mudline.study.schemes import OneStep
 from tests.benchmarks.dynamics.lifting import Lifting
 from tests.benchmarks.dynamics.reference import Path
@@ -115,13 +115,18 @@ class Run:
     failure: str
 
 
+def beginning(system: System, lifting: Lifting) -> Motion:
+    """The line at rest at the time 0."""
+    rest = np.zeros(2 * lifting.beam.nodes + 1)
+    return Motion.start(system, rest, np.append(rest[:-1], 1.0), lifting.beam.contact.initial_state())
+
+
 def run(scheme: Scheme, lifting: Lifting, times: FloatArray, steps: int) -> Run:
     """Step through the equally spaced `times` (s,), from rest, with so many steps between two of them."""
-    beam, system, size = lifting.beam, Timed(lifting), 2 * lifting.beam.nodes
+    system = Timed(lifting)
     dt = float(times[1] - times[0]) / steps
-    path = Path.blank(len(times), beam.nodes)
-    rest = np.zeros(size + 1)
-    motion = Motion.start(system, rest, np.append(rest[:-1], 1.0), beam.contact.initial_state())
+    path = Path.blank(len(times), lifting.beam.nodes)
+    motion = beginning(system, lifting)
     works, most, failure = np.zeros(3), 0, ""
     before = _record(path, 0, lifting, motion, works)
     for row in range(1, len(times)):

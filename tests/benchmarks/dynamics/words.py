@@ -35,6 +35,12 @@ def power(value: str | float) -> str:
     return f"{number:.0e}".replace("e-0", "e-").replace("e+0", "e") if number else "0"
 
 
+def listed(words: Iterable[str]) -> str:
+    """A, b and c."""
+    *first, last = words
+    return f"{', '.join(first)} and {last}" if first else last
+
+
 def wrapped(*sentences: str) -> str:
     """A paragraph, or a bullet if it begins with one."""
     text = " ".join(sentences)
