@@ -101,7 +101,7 @@ pictures: $(VENV)/.developer ## redraw the pictures of docs/images
 studies: $(VENV)/.developer ## regenerate the pictures and numbers of docs/studies/ (minutes)
 	@for study in precision stability pruning; do $(BIN)/mudline study $$study -o docs/studies || exit; done
 
-dynamics: $(VENV)/.developer ## time integration of a line on the seabed, and other programs: docs/studies/benchmark.md
+dynamics: $(VENV)/.developer ## time integration of a line on the seabed, and other programs: docs/studies/benchmark.md (15 minutes)
 	$(BIN)/python -m tests.benchmarks.dynamics $(ARGS)
 
 bench: $(VENV)/.developer ## measure speed beside other programs, and write docs/benchmarks.md (25 minutes)

@@ -48,7 +48,7 @@ def main() -> None:
             bounces(place(peers.EXUDYN))
         if given.no_peers:
             continue
-        own = [end - start for start, end in zip(begin, spent(), strict=True)]
+        own = [round(end - start, 1) for start, end in zip(begin, spent(), strict=True)]
         kept = {row["part"]: (float(row[COST[1]]), float(row[COST[2]])) for row in load("cost")}
         cost = {**kept, part: own}
         save("cost", COST, [(name, *cost[name]) for name in PARTS if name in cost])

@@ -116,7 +116,8 @@ def main() -> None:
     settings.timeIntegration.endTime = given["end"]
     settings.timeIntegration.numberOfSteps = given["steps"]
     settings.timeIntegration.verboseMode = 0
-    settings.timeIntegration.newton.relativeTolerance = 1e-10
+    # the residual of short beam elements has a round-off of 1e-10
+    settings.timeIntegration.newton.relativeTolerance = 1e-10 if given["model"] == "masses" else 1e-9
     settings.timeIntegration.discontinuous.iterationTolerance = 1e-6
     settings.timeIntegration.generalizedAlpha.useNewmark = True
     settings.solutionSettings.writeSolutionToFile = False
