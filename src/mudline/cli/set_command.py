@@ -11,8 +11,7 @@ from hashlib import blake2b
 import click
 
 from mudline.assignment.assigning import Assigned, AssignmentError, assigned
-from mudline.assignment.conditions import ConditionError, DeckCondition
-from mudline.assignment.fields import Target, target_of
+from mudline.assignment.fields import ConditionError, DeckCondition, Target, target_of
 from mudline.assignment.paths import Assignment, Operand, PathError, parse_assignment, parse_condition
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_changes
