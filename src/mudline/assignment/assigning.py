@@ -17,7 +17,7 @@ from mudline.formatting.document import same_meaning
 from mudline.keywords.model import Part, record_schema
 from mudline.keywords.table import Table
 from mudline.keywords.values import Equation, Kind
-from mudline.scene.checks.fields import range_fault
+from mudline.scene.deck_values import range_fault
 from mudline.scene.model import resolve
 from mudline.short_repr import cut
 from mudline.syntax.edits import TextEdit, edited_bytes

@@ -16,7 +16,7 @@ from mudline.keywords.model import FieldSpec, ListRow, Part, Rows, record_schema
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
 from mudline.scene.checks import check
-from mudline.scene.deck_values import missing_files
+from mudline.scene.deck_values import missing_files, range_fault
 from mudline.scene.sections import format_of
 
 if TYPE_CHECKING:
@@ -102,28 +102,6 @@ def _table_faults(table: Table, slot: FieldSpec) -> Iterator[tuple[tuple[int, in
         for row, value in enumerate(table.column(index).tolist()):
             if fault := range_fault(value, column):
                 yield (row, index), fault
-
-
-def range_fault(value: float, slot: FieldSpec) -> str:
-    """What is wrong with a number, or nothing; NaN stands for one that could not be read."""
-    low, above, most = slot.about.at_least, slot.about.above, slot.about.at_most
-    if low is not None and value < low:
-        return f"{_name(slot)} is {value!r}: it must not be less than {low:g}"
-    if above is not None and value <= above:
-        return f"{_name(slot)} is {value!r}: it must be greater than {above:g}"
-    if most is not None and value > most:
-        return f"{_name(slot)} is {value!r}: it must not be more than {most:g}"
-    return ""
-
-
-def _name(slot: FieldSpec) -> str:
-    """The field in words: `FRICTION=`, `water depth`, `external diameter Do`, `area of the section (A)`."""
-    meaning = slot.about.meaning.partition(";")[0]
-    if slot.key:
-        return slot.label
-    if slot.label.islower():  # words of the meaning; a symbol has capitals
-        return meaning
-    return f"{meaning} ({slot.label})" if " of " in meaning else f"{meaning} {slot.label}"
 
 
 @check(REF015)
