@@ -99,12 +99,12 @@ class Printer:
 
     def findings(self, found: list[Diagnostic], source: Source, *, following: bool = False) -> None:
         """Print the findings of one file, each with its source line, and with those that follow from it if wanted."""
-        screen = _Screen(min(self.width, EXCERPT_WIDTH), self.encoding)
-        self.lines(_findings(found, source, screen, following=following))
+        screen = Screen(min(self.width, EXCERPT_WIDTH), self.encoding)
+        self.lines(findings(found, source, screen, following=following))
 
     def summary(self, found: list[Diagnostic], files: int) -> None:
         """Print how many findings there are in so many files."""
-        self._console.print(_summary(found, files))
+        self._console.print(summary(found, files))
 
     def table(
         self,
@@ -275,15 +275,15 @@ _FOLLOWS = "    follows: "
 
 
 @dataclass(frozen=True, slots=True)
-class _Screen:
+class Screen:
     """What findings are shown on: its width in columns, and its encoding."""
 
     width: int
     encoding: str = "utf-8"
 
 
-def _findings(
-    diagnostics: Iterable[Diagnostic], source: Source, screen: _Screen, *, following: bool = False
+def findings(
+    diagnostics: Iterable[Diagnostic], source: Source, screen: Screen, *, following: bool = False
 ) -> Iterator[Text]:
     """Every finding in one file, as styled plain text; deck text is never read as markup.
 
@@ -291,12 +291,12 @@ def _findings(
     """
     for found in diagnostics:
         yield _headline(found, screen)
-        yield from _excerpt(found, source, screen)
+        yield from excerpt(found, source, screen)
         for one in found.following if following else ():
             yield Text(_FOLLOWS).append_text(_headline(one, screen))
 
 
-def _headline(found: Diagnostic, screen: _Screen) -> Text:
+def _headline(found: Diagnostic, screen: Screen) -> Text:
     style = _STYLES[found.severity]
     return Text.assemble(
         (visible(f"{found.file}:{found.line}:{found.column}", screen.encoding), "bold"),
@@ -309,7 +309,7 @@ def _headline(found: Diagnostic, screen: _Screen) -> Text:
     )
 
 
-def _excerpt(found: Diagnostic, source: Source, screen: _Screen) -> Iterator[Text]:
+def excerpt(found: Diagnostic, source: Source, screen: Screen) -> Iterator[Text]:
     """The source line with a mark under the fault; a long line is cut around it."""
     line = _line_span(source, found.line)
     number = str(found.line)
@@ -342,7 +342,7 @@ def _line_span(source: Source, number: int) -> Span:
     return Span(start, end)
 
 
-def _window(text: str, line: Span, start: int, width: int, screen: _Screen) -> Span:
+def _window(text: str, line: Span, start: int, width: int, screen: Screen) -> Span:
     """The part of a line that fits into `width` columns and shows what stands before and behind `start`."""
     if line.end - line.start <= width and cell_len(visible(text[slice(*line)], screen.encoding)) <= width:
         return line
@@ -354,7 +354,7 @@ def _window(text: str, line: Span, start: int, width: int, screen: _Screen) -> S
     return Span(first, max(last, min(start + 1, line.end)))
 
 
-def _summary(diagnostics: list[Diagnostic], files: int) -> Text:
+def summary(diagnostics: list[Diagnostic], files: int) -> Text:
     """How many findings of each severity there are."""
     text = Text("Found ")
     for severity, style in _STYLES.items():
