@@ -143,11 +143,11 @@ class PositionFiles:
         for start in dict.fromkeys((join(folder, stem), join(folder, case.name))):
             found = [path for end in _POSITIONS if _is_file(path := start + end)]
             if len(found) > 1:
-                raise MissingPositionsError(f"several files of positions: {', '.join(map(_slashed, found))}")
+                raise MissingPositionsError(f"several files of positions: {', '.join(map(slashed, found))}")
             if found:
-                return _slashed(found[0])
+                return slashed(found[0])
         ends = f"{', '.join(_POSITIONS[:-1])} or {_POSITIONS[-1]}"
-        raise MissingPositionsError(f"its positions are not there: {_slashed(join(folder, stem))} with {ends}")
+        raise MissingPositionsError(f"its positions are not there: {slashed(join(folder, stem))} with {ends}")
 
 
 def _there(path: str) -> bool:
@@ -160,7 +160,8 @@ def _is_file(path: str) -> bool:
     return _there(path) and not is_folder(path)
 
 
-def _slashed(path: str) -> str:
+def slashed(path: str) -> str:
+    """A path or URL as it is printed, with `/` between folders on every system."""
     return path if is_url(path) else Path(path).as_posix()
 
 

@@ -9,10 +9,10 @@ import click
 import numpy as np
 
 from mudline.cli import DONE, FOUND
-from mudline.cli.inputs import STDIN, SUFFIXES, GivenDeck, takes_deck
+from mudline.cli.inputs import STDIN, GivenDeck, takes_deck
 from mudline.cli.streams import emit, notify, notify_missing, write_text
 from mudline.cli.view import View
-from mudline.deck.forms import form_names, form_of
+from mudline.deck.forms import SUFFIXES, form_names, form_of
 from mudline.deck.loading import dump
 from mudline.deck.model import Deck
 from mudline.keywords.model import Comment

@@ -15,6 +15,7 @@ from mudline.keywords import catalogue
 from mudline.keywords.reader import read_block
 from mudline.linting.corrections import Blocks, Correction, line_at, start_of, whole
 from mudline.syntax.edits import TextEdit
+from mudline.syntax.rows import NUMBER
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, RawBlock, parse
 
@@ -30,7 +31,6 @@ LONGEST_PIECE = 600
 _OF_FOREIGN_LINES = (SYN001, SYN002, SYN003, SYN004, REF007, REF009)
 """What the lines of another keyword give in a block."""
 _MISREAD = str.maketrans({"O": "0", "o": "0", "l": "1", "I": "1"})
-_NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[EeDd][-+]?[0-9]+)?")
 _CURVE_NAMES = {"EMBEDMENT": "SET", "SEABED STIFFNESS": "CURVE"}
 """Keywords of points, and the setting that names the curve."""
 _VALUES = {"RIGID": range(5, 9), "MOORING": range(3, 4)}
@@ -308,13 +308,13 @@ def _rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
 def _numbers(written: str) -> list[str]:
     """The numbers that a word with a wrong letter may be."""
     translated = written.translate(_MISREAD)
-    found = [translated] if _NUMBER.fullmatch(translated) else []
-    if begun := _NUMBER.match(written):
+    found = [translated] if NUMBER.fullmatch(translated) else []
+    if begun := NUMBER.match(written):
         found.append(begun[0])
     return found
 
 
 def _row(written: str) -> list[str]:
     """The numbers of a line, with commas between them."""
-    found = _NUMBER.findall(written)
+    found = NUMBER.findall(written)
     return [f" {', '.join(found)}"] if len(found) > 1 else []

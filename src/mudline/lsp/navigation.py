@@ -12,6 +12,7 @@ from typing import NamedTuple, cast
 import numpy as np
 from lsprotocol import types
 
+from mudline.deck.forms import SUFFIXES
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Span
@@ -37,7 +38,6 @@ from mudline.syntax.edits import TextEdit, apply_edits
 
 # ----------------------------------------------------------------------------------------------------- decks of a chain
 
-_SUFFIXES = (".keyx", ".keyxm", ".keyxi", ".das")
 _MOST_FILES = 1000
 _LARGEST = 5_000_000
 """Bytes of a file beside a deck that is looked through for a *RESTART."""
@@ -95,7 +95,7 @@ def _beside(decks: Decks, path: Path) -> Iterator[Linked]:
     for number, other in enumerate(sorted(path.parent.iterdir())):
         if number == _MOST_FILES:
             return
-        if other == path or other.suffix.lower() not in _SUFFIXES or decks.at(other) is not None:
+        if other == path or other.suffix.lower() not in SUFFIXES or decks.at(other) is not None:
             continue
         try:
             data = other.read_bytes() if other.stat().st_size <= _LARGEST else b""

@@ -13,6 +13,7 @@ from pygls.lsp.server import LanguageServer
 from pygls.protocol import JsonRPCNotification, LanguageServerProtocol, lsp_method
 
 from mudline import __version__
+from mudline.deck.forms import SUFFIXES
 from mudline.lsp import findings
 from mudline.lsp.decks import Analysis, Decks
 from mudline.lsp.documents import LARGEST, Document, address_of, file_of
@@ -104,7 +105,7 @@ _PAUSE = 2.0
 
 CONFIGURATION = ".toml"
 """The suffix of configurations, and of what they extend."""
-_WATCHED = ("*.keyx", "*.keyxm", "*.keyxi", "*.das", "*.fcsbd", "*.txt", f"*{CONFIGURATION}")
+_WATCHED = tuple(f"*{suffix}" for suffix in (*SUFFIXES, ".fcsbd", ".txt", CONFIGURATION))
 
 
 class DeckServer(LanguageServer):

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from mudline.codes import MIG001
+from mudline.deck.forms import SUFFIXES
 from mudline.deck.loading import load_path
 from mudline.deck.model import Deck, Opaque
 from mudline.diagnostics import DeckError, Problem, Where
@@ -16,11 +17,11 @@ from mudline.keywords.model import Block
 from mudline.keywords.surfaces import Surface
 from mudline.keywords.values import Equation
 from mudline.scene.deck_values import LARGEST_MOBILISATION
+from mudline.scene.laws import DIRECTIONS
 from mudline.scene.model import Scene
 from mudline.scene.restart import decks_before
 from mudline.syntax.tree import canonical_name
 
-DIRECTIONS = ("longitudinal", "transverse")
 _MISSPELT = "{} may be meant as *{}{}: correct or remove it first"
 
 
@@ -153,7 +154,6 @@ def _shapes(deck: Deck, block: Surface, where: Where) -> Iterator[Problem]:
 
 # ---------------------------------------------------------------------------------------------- decks that continue one
 
-_SUFFIXES = frozenset({".keyx", ".keyxm", ".keyxi", ".das"})
 _LARGEST = 50_000_000
 _NEWER = {"SEABED PROPERTIES", "SEABED STIFFNESS"}
 """New keywords whose laws would be combined with those of a migrated deck."""
@@ -174,7 +174,7 @@ class Continuations:
         if file.parent not in self._visited:
             self._visited.add(file.parent)
             for other in sorted(file.parent.iterdir()):
-                if other.suffix.lower() in _SUFFIXES:
+                if other.suffix.lower() in SUFFIXES:
                     self._visit(other)
         return sorted(self._by_base.get(file.resolve(), ()))
 

@@ -27,6 +27,9 @@ if TYPE_CHECKING:
     from mudline.keywords.model import Block, Part, Record
 
 
+DIRECTIONS = ("longitudinal", "transverse")
+"""Of friction, as the names of its fields begin."""
+
 NOTHING = -1
 _UNKNOWN = float("nan")
 
@@ -245,7 +248,8 @@ def _present(covered: Indices) -> list[int]:
 
 
 def _two(part: Part | None, name: str) -> tuple[float, float]:
-    return number(part, f"longitudinal{name}"), number(part, f"transverse{name}")
+    longitudinal, transverse = (number(part, f"{direction}{name}") for direction in DIRECTIONS)
+    return longitudinal, transverse
 
 
 def _of_set(entry: SeabedSet) -> ResistanceValues:
