@@ -290,7 +290,7 @@ def test_other_forms_are_wrong_usage(place: Place, name: str) -> None:
     outcome = run("evaluate", place(), "-o", name)
     assert (outcome.code, outcome.out) == (2, "")
     *names, last = (f".{form}" for form in forms.form_names())
-    assert f"{name}: results are written as {', '.join(names)} or {last}" in outcome.err
+    assert f"{name}: unknown file format: give a name ending in {', '.join(names)} or {last}" in outcome.err
 
 
 @pytest.mark.parametrize("name", ["nowhere/out.json", "nowhere/out.csv", "nowhere/out.npz"])

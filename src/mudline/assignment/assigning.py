@@ -96,10 +96,12 @@ def _the_one(deck: Deck, target: Target) -> Value | None:
         )
     if not given and all_found:
         raise AssignmentError(
-            f"{target.path} is left out here, and only a value that is there is changed", _line(deck, all_found[0])
+            f"{target.path} is left out here: only a value that is written can be changed", _line(deck, all_found[0])
         )
     if not given and (faults := _read_faults(deck, target.path.keyword)):
-        raise AssignmentError(f"*{target.path.keyword} could not be read as a whole", None, deck.diagnose(faults))
+        raise AssignmentError(
+            f"*{target.path.keyword} cannot be read: correct its errors first", None, deck.diagnose(faults)
+        )
     return given[0] if given else None
 
 

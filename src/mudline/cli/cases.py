@@ -128,7 +128,7 @@ class PositionFiles:
         folder = os.path.dirname(case.file.path or case.file.name) or "."  # noqa: PTH120 - as it was given
         path = self.given.replace("{name}", case.name).replace("{folder}", folder)
         if not _is_file(path):
-            raise MissingPositionsError(f"its positions are not there: {path}")
+            raise MissingPositionsError(f"its positions were not found: {path}")
         return path
 
     def from_folder(self, folder: str) -> PositionFiles:
@@ -147,7 +147,7 @@ class PositionFiles:
             if found:
                 return slashed(found[0])
         ends = f"{', '.join(_POSITIONS[:-1])} or {_POSITIONS[-1]}"
-        raise MissingPositionsError(f"its positions are not there: {slashed(join(folder, stem))} with {ends}")
+        raise MissingPositionsError(f"its positions were not found: {slashed(join(folder, stem))} with {ends}")
 
 
 def _there(path: str) -> bool:

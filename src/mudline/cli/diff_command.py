@@ -32,7 +32,7 @@ FOLDER_FORMAT = "mudline-diff-folders/1"
     default=0.0,
     show_default=True,
     metavar="REL",
-    help="Largest difference of equal numbers, relative to the larger one.",
+    help="Ignore differences of numbers up to this one, relative to the larger number.",
 )
 @click.option("--strict", is_flag=True, help="List differences of spelling in superseded keywords too: exit code 1.")
 @options.output_format("text", "json", "markdown")

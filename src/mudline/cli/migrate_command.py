@@ -23,7 +23,7 @@ _MOST_REPORTED = 20
 
 @click.command("migrate")
 @options.paths
-@click.option("-o", "--output", metavar="OUT", help="File to write instead of the deck itself; for one deck only.")
+@click.option("-o", "--output", metavar="OUT", help="Write to this file instead of the deck itself; for one deck only.")
 @click.option("--diff", is_flag=True, help="Print what would change, and write nothing.")
 @click.option(
     "--verify",

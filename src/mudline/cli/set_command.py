@@ -34,7 +34,7 @@ _CHANGED, _SAME, _WITHOUT, _UNMET, _REFUSED = "changed", "the same already", "wi
     "--where",
     "condition",
     metavar="CONDITION",
-    help="Only decks for which this holds, such as 'OCEAN.depth > 100 and UNITS.units == METRIC'.",
+    help="Change only decks for which this holds, such as 'OCEAN.depth > 100 and UNITS.units == METRIC'.",
 )
 @click.option("--check", is_flag=True, help="Write nothing; name the files that would change, and exit with 1 if any.")
 @click.option("--diff", is_flag=True, help="Write nothing; print what would change, and exit with 1 if anything.")

@@ -363,7 +363,7 @@ def _accepted(error: UnexpectedInput) -> AbstractSet[str]:
 
 def _unexpected_token(text: str, token: Token, accepted: AbstractSet[str]) -> ExpressionError:
     if token.type == "$END":
-        return ExpressionError(f"the equation ends too early, expected {_expected(accepted)}", len(text), len(text))
+        return ExpressionError(f"the equation is incomplete, missing {_expected(accepted)}", len(text), len(text))
     message = f"found {_found(token)}, expected {_expected(accepted)}"
     if token.type == "COMPARE" and "AND" in accepted and "NUMBER" not in accepted:
         message = f"found a second comparison '{token}', expected AND or OR between two comparisons"

@@ -288,7 +288,7 @@ class Navigator:
         """The name at an offset, if it can be changed; raises RenameError."""
         named = names.at(self.analysis.names, offset)
         if named is None:
-            raise RenameError("there is no name here: sets, curves and parameters can be renamed")
+            raise RenameError("only sets, curves and parameters can be renamed")
         word = WORDS[named.thing.kind]
         if named.thing == Thing(Names.SET, ALL):
             raise RenameError("set ALL is predefined and cannot be renamed")
@@ -327,7 +327,7 @@ class Navigator:
         scene = self.analysis.scene
         opaque = scene is not None and old.kind is Names.SET and scene.set_table.find(name) is not None
         if new != old and (opaque or new == Thing(Names.SET, ALL) or any(True for _ in self._named(new))):
-            raise RenameError(f"there is a {word} {shown(name)} already: choose another name")
+            raise RenameError(f"{word} {shown(name)} is already defined: choose another name")
 
 
 def _is_parameter(name: str) -> bool:

@@ -210,8 +210,7 @@ class DeckServer(LanguageServer):
     @property
     def takes_snippets(self) -> bool:
         """Whether the editor takes texts with places to fill in."""
-        document = self.client_capabilities.text_document
-        item = document.completion.completion_item if document and document.completion else None
+        item = self._completion_items
         return bool(item and item.snippet_support)
 
     @property
@@ -224,9 +223,14 @@ class DeckServer(LanguageServer):
     @property
     def item_help_formats(self) -> list[types.MarkupKind]:
         """The formats of help on items of a completion that the editor shows."""
-        document = self.client_capabilities.text_document
-        item = document.completion.completion_item if document and document.completion else None
+        item = self._completion_items
         return list(item.documentation_format or ()) if item else []
+
+    @property
+    def _completion_items(self) -> types.ClientCompletionItemOptions | None:
+        """What the editor can do with items of a completion."""
+        document = self.client_capabilities.text_document
+        return document.completion.completion_item if document and document.completion else None
 
     @property
     def shows_trees(self) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from itertools import islice, pairwise
+from itertools import islice
 from typing import cast
 
 from lsprotocol import types
@@ -26,7 +26,7 @@ from mudline.lsp.sites import slot_of_key
 from mudline.syntax.edits import TextEdit, apply_edits
 from mudline.syntax.fields import Field, first_key, read_line, trimmed
 from mudline.syntax.rows import line_spans, read_number
-from mudline.syntax.tree import Kind, Leaf, RawBlock
+from mudline.syntax.tree import Kind, Leaf, RawBlock, RawSection
 
 _MOST_RECORDS = 1000
 """Records of a block that the outline shows."""
@@ -45,19 +45,25 @@ def outline(analysis: Analysis) -> list[types.DocumentSymbol]:
     if origin is None:
         return []
     found: list[types.DocumentSymbol] = []
-    end = len(origin.source.unified)
-    for index, (section, following) in enumerate(pairwise([*origin.tree.sections, None])):
-        if section is None or section.head is None:
-            continue
-        stop = following.head.span.start if following is not None and following.head else end
-        blocks = [
-            _block(analysis, origin, (index, number), raw, behind.head.span.start if behind else stop)
-            for number, (raw, behind) in enumerate(pairwise([*section.blocks, None]))
-            if raw is not None
-        ]
-        kind = types.SymbolKind.Module
-        found.append(_symbol(analysis, f"${section.name}", kind, section.head.span, stop, blocks))
+    for index, section in enumerate(origin.tree.sections):
+        if section.head is not None:
+            lines = _extents(section, _end(origin, index))
+            blocks = [_block(analysis, origin, (index, number), raw, stop) for number, (raw, stop) in enumerate(lines)]
+            kind = types.SymbolKind.Module
+            found.append(_symbol(analysis, f"${section.name}", kind, section.head.span, _end(origin, index), blocks))
     return found
+
+
+def _end(origin: TextOrigin, index: int) -> int:
+    """Where a section ends: where the next one begins, or with the text."""
+    following = origin.tree.sections[index + 1 : index + 2]
+    return following[0].head.span.start if following and following[0].head else len(origin.source.unified)
+
+
+def _extents(section: RawSection, stop: int) -> Iterator[tuple[RawBlock, int]]:
+    """Every block of a section that ends at `stop`, and where it ends."""
+    ends = [*(block.head.span.start for block in section.blocks[1:]), stop]
+    return zip(section.blocks, ends, strict=False)
 
 
 def _symbol(
@@ -136,16 +142,11 @@ def folding(analysis: Analysis) -> list[types.FoldingRange]:
 
 def _regions(origin: TextOrigin) -> Iterator[Span]:
     """The lines of every section and block."""
-    end = len(origin.source.unified)
-    sections = origin.tree.sections
-    for section, following in pairwise([*sections, None]):
-        if section is None or section.head is None:
-            continue
-        stop = following.head.span.start if following is not None and following.head else end
-        yield Span(section.head.span.start, stop)
-        for raw, behind in pairwise([*section.blocks, None]):
-            if raw is not None:
-                yield Span(raw.head.span.start, behind.head.span.start if behind else stop)
+    for index, section in enumerate(origin.tree.sections):
+        if section.head is not None:
+            stop = _end(origin, index)
+            yield Span(section.head.span.start, stop)
+            yield from (Span(raw.head.span.start, end) for raw, end in _extents(section, stop))
 
 
 def _comments(origin: TextOrigin) -> Iterator[Span]:

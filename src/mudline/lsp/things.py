@@ -66,7 +66,7 @@ def named_help(analysis: Analysis, found: Site, name: str) -> str:
         return curve_help(scene, entry) if entry else ""
     if kind in (Names.FILE, Names.DECK):
         path = find_deck(analysis.deck, name) if kind is Names.DECK else find_file(analysis.deck.folder, name)
-        return path.as_posix() if path else "this file is not there"
+        return path.as_posix() if path else "this file was not found"
     return ""
 
 

@@ -215,6 +215,11 @@ class SeabedResistance:
 
     __repr__ = short_repr
 
+    @property
+    def has_mobilisation(self) -> bool:
+        """Whether a mobilisation length above 0 is given."""
+        return any(length > 0.0 for entry in self.values for length in entry.mobilisation)
+
     def column(self, name: str) -> Floats:
         """One of the fields of `ResistanceValues` for all elements: (m,), or (m, 2) for those of two directions."""
         table = np.array([getattr(entry, name) for entry in (*self.values, _NO_VALUES)], dtype=np.float64)

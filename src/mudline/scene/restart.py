@@ -135,7 +135,7 @@ def _follow(deck: Deck) -> _Chain:
 def _missing(deck: Deck, name: str) -> str:
     folder = deck.folder.as_posix() if deck.folder else ""
     names = candidate_names(deck, name)
-    return f"the deck {shown(names[0])} is not there (looked in {folder} for {', '.join(names)}): {_ADVICE}"
+    return f"the deck {shown(names[0])} was not found (looked in {folder} for {', '.join(names)}): {_ADVICE}"
 
 
 def _identity(path: Path) -> Path:

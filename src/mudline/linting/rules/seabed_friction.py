@@ -259,7 +259,7 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     resistance = scene.resistance
-    if not any(length > 0.0 for values in resistance.values for length in values.mobilisation):
+    if not resistance.has_mobilisation:
         return
     lengths, friction = resistance.column("mobilisation"), resistance.column("friction")
     friction[resistance.column("lateral") > 0.0, 1] = 0.0  # a lateral spring replaces it

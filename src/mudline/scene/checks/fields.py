@@ -112,7 +112,7 @@ def missing_file(scene: ResolvedDeck) -> Iterator[Problem]:
     """
     for where, folder, name in missing_files(scene.context.written):
         looked = f"looked in {folder.as_posix()}"
-        message = f"the file {shown(name)} is not there ({looked}): correct the name, or put the file there"
+        message = f"the file {shown(name)} was not found ({looked}): correct the name, or put the file there"
         profile = bool(scene.seabed.missing) and where == scene.seabed.where.inside("file")
         yield Problem(REF015, message, where=where, blocks=Blocks.ALWAYS if profile else Blocks.NEVER)
 
