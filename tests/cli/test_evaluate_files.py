@@ -332,7 +332,7 @@ def test_a_module_is_a_form_of_files(place: Place, folder: Path, monkeypatch: py
         monkeypatch.delitem(sys.modules, name)
     assert run("evaluate", place(), "-o", "out.toy", "-q").code == 0
     assert Path("out.toy").read_text(encoding="utf-8") == "1 step\n"
-    written = f"are written as {', '.join(names)} or {last}"
+    written = f"give a name ending in {', '.join(names)} or {last}"
     assert written in run("evaluate", place(), "-o", "out.xls").err
     imported = {name for name in sys.modules if name.startswith(f"{forms.__name__}.")}
     monkeypatch.delitem(sys.modules, f"{forms.__name__}.toy")
