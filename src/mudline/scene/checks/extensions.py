@@ -216,7 +216,7 @@ def _lists_pull(entry: SceneCurve) -> bool:
 
 
 def _may_pull(entry: SceneCurve) -> bool:
-    """Whether a curve without such a point is negative at the mudline, or falls for ever behind its last point."""
+    """Whether a curve without such a point is negative at the mudline, or falls for ever beyond its last point."""
     if entry.curve is None:
         return False
     force, slope = entry.curve.evaluate(np.array([0.0, max(0.0, float(entry.curve.ratios[-1]))]))
