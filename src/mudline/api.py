@@ -117,7 +117,7 @@ def from_yaml(text: str | bytes) -> Deck:
     """Return the deck of a YAML 1.2 text, as `Deck.to_yaml` writes it.
 
     Raises:
-        DeckError: the text is no YAML, has a key twice or an alias, or breaks the schema.
+        DeckError: the text is not valid YAML, has a key twice or an alias, or breaks the schema.
     """
     return _from_text(text, "yaml")
 

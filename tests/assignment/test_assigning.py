@@ -5,8 +5,7 @@ from __future__ import annotations
 import pytest
 
 from mudline.assignment.assigning import AssignmentError, assigned
-from mudline.assignment.conditions import ConditionError, DeckCondition
-from mudline.assignment.fields import target_of
+from mudline.assignment.fields import ConditionError, DeckCondition, target_of
 from mudline.assignment.paths import Operand, parse_assignment, parse_condition
 from mudline.deck.loading import load_bytes
 from mudline.syntax.edits import edited_bytes

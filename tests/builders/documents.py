@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING, Any
 import pytest
 from hypothesis import strategies as st
 
-from mudline.deck.document import FORMAT, UNITS, json_schema
+from mudline.deck.document import FORMAT, json_schema
 from mudline.keywords import catalogue
 from mudline.keywords.library.geometric_sets import GeometricSet
 from mudline.keywords.library.seabed_profile import SeabedProfile
 from mudline.keywords.library.variation import VariedParameter
 from mudline.keywords.model import Block, FieldSpec, ListRow, Record, Row, record_schema
 from mudline.keywords.values import Kind
+from mudline.quantities import UNIT_SYSTEMS
 from mudline.syntax.rows import spells_number
 from tests.builders.spellings import EQUATIONS, NAMES, labels, no_head, texts
 from tests.builders.spellings import comments as comment_lines
@@ -264,7 +265,7 @@ def section(draw: st.DrawFn, blocks: int = 3) -> Values:
 def document(draw: st.DrawFn) -> Values:
     """A whole deck."""
     made: Values = {"format": FORMAT, "source": draw(st.sampled_from(["a.keyxm", "\u00e9 b"]))}
-    made["units"] = draw(st.sampled_from(UNITS))
+    made["units"] = draw(st.sampled_from(UNIT_SYSTEMS))
     told = draw(st.lists(remarks, max_size=2))
     if told:
         made["comments"] = draw(comments(told, 4))

@@ -105,7 +105,7 @@ def test_no_matplotlib(place: Place, folder: Path, monkeypatch: pytest.MonkeyPat
 def test_other_forms_are_wrong_usage(place: Place, name: str) -> None:
     outcome = run("curves", place(), "--plot", name)
     assert (outcome.code, outcome.out) == (2, "")
-    assert f"{name}: a plot is a .png or a .svg" in outcome.err
+    assert f"{name}: unknown file format: give a name ending in .png or .svg" in outcome.err
 
 
 def test_folder_that_is_missing(place: Place) -> None:

@@ -7,7 +7,7 @@ from html import unescape
 
 import pytest
 
-from mudline.cli.diff_markdown import LONGEST, code, fenced
+from mudline.cli.diff_output import LONGEST, code, fenced
 from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.conftest import Place
 from tests.cli.runner import run

@@ -103,7 +103,7 @@ def test_columns_are_for_positions_from_csv(place: Place) -> None:
     assert "--columns is for positions from a CSV: give --positions too" in outcome.err
     outcome = run("evaluate", place(), "--columns", "node=n", "--positions", "p.npz")
     assert outcome.code == 2
-    assert "--columns is for CSV: the arrays of p.npz have their names" in outcome.err
+    assert "--columns is for CSV: the arrays of p.npz have names already" in outcome.err
 
 
 def test_columns_of_many_decks(place: Place) -> None:

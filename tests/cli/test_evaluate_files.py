@@ -290,7 +290,7 @@ def test_other_forms_are_wrong_usage(place: Place, name: str) -> None:
     outcome = run("evaluate", place(), "-o", name)
     assert (outcome.code, outcome.out) == (2, "")
     *names, last = (f".{form}" for form in forms.form_names())
-    assert f"{name}: results are written as {', '.join(names)} or {last}" in outcome.err
+    assert f"{name}: unknown file format: give a name ending in {', '.join(names)} or {last}" in outcome.err
 
 
 @pytest.mark.parametrize("name", ["nowhere/out.json", "nowhere/out.csv", "nowhere/out.npz"])
@@ -332,7 +332,7 @@ def test_a_module_is_a_form_of_files(place: Place, folder: Path, monkeypatch: py
         monkeypatch.delitem(sys.modules, name)
     assert run("evaluate", place(), "-o", "out.toy", "-q").code == 0
     assert Path("out.toy").read_text(encoding="utf-8") == "1 step\n"
-    written = f"are written as {', '.join(names)} or {last}"
+    written = f"give a name ending in {', '.join(names)} or {last}"
     assert written in run("evaluate", place(), "-o", "out.xls").err
     imported = {name for name in sys.modules if name.startswith(f"{forms.__name__}.")}
     monkeypatch.delitem(sys.modules, f"{forms.__name__}.toy")

@@ -236,7 +236,7 @@ def test_positions_by_name(place: Place, folder: Path, given: str) -> None:
     (where / "a.csv").write_text(STATE, encoding="utf-8")
     found = rows("decks", "--positions", given, code=1)
     assert found["a"]["largest_force"] == 3500.0
-    assert found["b"]["reason"].startswith("its positions are not there: ")
+    assert found["b"]["reason"].startswith("its positions were not found: ")
 
 
 def test_folder_of_positions_is_as_that_of_the_decks(place: Place, folder: Path) -> None:

@@ -100,7 +100,10 @@ def test_no_positions_leave_the_curve(place: Place) -> None:
 @pytest.mark.parametrize("name", ["p.jpg", "p", "p.gif"])
 def test_other_forms_are_wrong_usage(place: Place, name: str) -> None:
     outcome = run("evaluate", place(), "--plot", name)
-    assert (outcome.code, f"{name}: a plot is a .png, .svg or .pdf" in outcome.err) == (2, True)
+    assert (outcome.code, f"{name}: unknown file format: give a name ending in .png, .svg or .pdf" in outcome.err) == (
+        2,
+        True,
+    )
 
 
 @pytest.mark.parametrize(
@@ -114,7 +117,7 @@ def test_other_forms_are_wrong_usage(place: Place, name: str) -> None:
         (("--plot-elements", "1,7"), "--plot-elements: no evaluated element has the number 7"),
         (("--plot-elements", "1,b"), "--plot-elements: 'b' is not a number of an element; give numbers as 12,13"),
         (("--animate", "a.gif"), "a.gif: an animation needs time steps, and this is one state"),
-        (("--animate", "a.mp4"), "a.mp4: an animation is a .gif or .html"),
+        (("--animate", "a.mp4"), "a.mp4: unknown file format: give a name ending in .gif or .html"),
     ],
 )
 def test_what_cannot_be_drawn_is_wrong_usage(

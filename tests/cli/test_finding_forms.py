@@ -7,9 +7,9 @@ import json
 import pytest
 
 from mudline.cli.lint_report import statistics_lines
+from mudline.cli.printing import Screen, excerpt, findings, summary
 from mudline.diagnostics import Diagnostic, Edit, Fix, Severity
 from mudline.linting.output import LONGEST, form, visible, visible_lines
-from mudline.linting.output.text import Screen, excerpt, findings, summary
 from mudline.syntax.source import Source
 from tests.cli.runner import assert_fits
 

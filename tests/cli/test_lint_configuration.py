@@ -34,7 +34,7 @@ def test_a_wrong_file_is_wrong_usage(tmp_path: Path) -> None:
     config.write_text("selct = []\n", encoding="utf-8")
     outcome = run("lint", str(deck), "--config", str(config))
     assert outcome.code == 2
-    assert "other.toml:1: there is no key 'selct': did you mean select?" in outcome.err
+    assert "other.toml:1: unknown key 'selct': did you mean select?" in outcome.err
     assert run("lint", str(deck), "--config", str(tmp_path / "none.toml")).code == 2
     assert run("lint", str(deck), "--config", str(config), "--isolated").code == 2
 

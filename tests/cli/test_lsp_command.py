@@ -16,5 +16,5 @@ def test_without_its_library_it_names_the_extra(monkeypatch: pytest.MonkeyPatch)
 
 def test_the_library_is_imported_when_it_serves(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("pygls")
-    monkeypatch.setattr("mudline.lsp.process.serve", lambda: 0)
+    monkeypatch.setattr("mudline.lsp.serving.serve", lambda: 0)
     assert run("lsp").code == 0

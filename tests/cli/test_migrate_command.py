@@ -8,7 +8,7 @@ from unittest.mock import patch
 import pytest
 
 from mudline.deck.loading import load_bytes, load_path
-from mudline.migration.verification import Difference, Verdict
+from mudline.migration.migrating import Difference, Verdict
 from tests.builders.decks import CLEAN
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, run

@@ -58,7 +58,7 @@ def test_an_animation(steps: Callable[[str], str], folder: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (("-o", "p.jpg"), "p.jpg: a plot is a .png, .svg or .pdf"),
+        (("-o", "p.jpg"), "p.jpg: unknown file format: give a name ending in .png, .svg or .pdf"),
         (("-o", "p.svg", "--panels", "friction"), "the panel friction cannot be drawn: there is neither friction nor"),
         (("-o", "p.svg", "--panels", "loop"), "the panel loop cannot be drawn: it needs the numbers of elements"),
         (("-o", "p.svg", "--panels", "wine"), "no panel is called 'wine'"),

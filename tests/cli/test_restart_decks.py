@@ -60,8 +60,8 @@ def test_a_missing_deck_is_a_warning(place: Place) -> None:
     name = place(DYNAMIC, "dynamic.keyxm")
     found = run("lint", name, "--output-format", "concise", "--select", "REF015")
     assert found.out == (
-        "dynamic.keyxm:3:7: REF015 the deck 'static' is not there (looked in . for static, static.keyxm, static.keyxi, "
-        "static.keyx, static.das): correct the name, or put the deck there\n"
+        "dynamic.keyxm:3:7: REF015 the deck 'static' was not found (looked in . for static, static.keyxm, "
+        "static.keyxi, static.keyx, static.das): correct the name, or put the deck there\n"
     )
     assert run("validate", name).code == 0
     assert run("show", name).out.startswith("dynamic.keyxm: metric units, 0 nodes, 0 elements, no seabed\n  $LOAD")
@@ -92,8 +92,8 @@ def test_a_file_that_is_not_there(place: Place) -> None:
     found = run("lint", name, "--select", "REF015", "--output-format", "concise")
     lines = [line.partition(" REF015 ")[2] for line in found.out.splitlines()]
     assert lines == [
-        "the file 'soil.txt' is not there (looked in .): correct the name, or put the file there",
-        "the file 'Sand.txt' is not there (looked in .): correct the name, or put the file there",
+        "the file 'soil.txt' was not found (looked in .): correct the name, or put the file there",
+        "the file 'Sand.txt' was not found (looked in .): correct the name, or put the file there",
     ]
     place("", "soil.txt")
     place("", "Sand.txt")

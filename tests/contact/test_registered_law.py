@@ -315,9 +315,9 @@ def test_only_normal_laws_without_history_can_be_added(law: NormalLaw) -> None:
 
 
 def test_a_name_is_given_once() -> None:
-    with pytest.raises(ValueError, match="there is a contact law 'hyperbolic' already"):
+    with pytest.raises(ValueError, match="contact law 'hyperbolic' is already registered"):
         register(plain_law("hyperbolic"))
-    with pytest.raises(ValueError, match="there is a contact law 'linear' already"):
+    with pytest.raises(ValueError, match="contact law 'linear' is already registered"):
         register(plain_law("linear"))
 
 

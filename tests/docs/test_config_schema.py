@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from mudline.cli.schema_command import MEANINGS, configuration_schema
 from mudline.linting.configuration import KEYS, ConfigurationError, read_configuration
-from mudline.linting.configuration_schema import MEANINGS, configuration_schema
 from tests.docs.blocks import Page
 from tests.docs.commands import output
 from tests.docs.make import CONFIG_SCHEMA, ROOT

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 import mudline
-from mudline.cli.inputs import SUFFIXES
+from mudline.deck.forms import SUFFIXES
 from tests.cli.runner import ROOT
 from tests.editors.extension import EXTENSION, needs_node, node
 
@@ -31,7 +31,7 @@ needs_server = pytest.mark.skipif(
 def test_the_version_and_the_suffixes_are_those_of_mudline() -> None:
     assert ABOUT["version"] == mudline.__version__
     (language,) = ABOUT["contributes"]["languages"]
-    assert set(language["extensions"]) == SUFFIXES
+    assert set(language["extensions"]) == set(SUFFIXES)
 
 
 def test_every_named_file_is_there() -> None:

@@ -9,10 +9,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mudline.expression.descent import LEVELS, descend, read_plain
 from mudline.expression.evaluation import evaluate
 from mudline.expression.nodes import Expression, ExpressionError
-from mudline.expression.parsing import DEEPEST, by_grammar, parse, plain_equations, tokens, tree
+from mudline.expression.parsing import (
+    DEEPEST,
+    LEVELS,
+    by_grammar,
+    descend,
+    parse,
+    plain_equations,
+    read_plain,
+    tokens,
+    tree,
+)
 
 MARKS = st.sampled_from([*'+-*/^(),=<>"#[ \t', "**", "==", "!=", "<>", "<=", ">=", '""'])
 WORDS = st.sampled_from(["and", "or", "not", "AND", "Or", "NOT", "and_1", "nothing", "x", "x y not", "Water Depth"])

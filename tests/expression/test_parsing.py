@@ -64,10 +64,10 @@ VALUE = "a number, a name or '('"
     [
         ("", 0, 0, "the equation is empty"),
         (" \t", 0, 2, "the equation is empty"),
-        ("1 +", 3, 3, f"the equation ends too early, expected {VALUE}"),
-        ("(1", 2, 2, "the equation ends too early, expected an operator or ')'"),
-        ("max(1 ", 6, 6, "the equation ends too early, expected an operator, ',' or ')'"),
-        ("pi(", 3, 3, "the equation ends too early, expected a number, a name, '(' or ')'"),
+        ("1 +", 3, 3, f"the equation is incomplete, missing {VALUE}"),
+        ("(1", 2, 2, "the equation is incomplete, missing an operator or ')'"),
+        ("max(1 ", 6, 6, "the equation is incomplete, missing an operator, ',' or ')'"),
+        ("pi(", 3, 3, "the equation is incomplete, missing a number, a name, '(' or ')'"),
         ("1)", 1, 2, "found ')', expected an operator"),
         ("max(1,)", 6, 7, f"found ')', expected {VALUE}"),
         ("()", 1, 2, f"found ')', expected {VALUE}"),
@@ -137,7 +137,7 @@ def test_length_limit() -> None:
 
 
 def test_an_unclosed_tower_of_brackets_is_an_error_of_its_end() -> None:
-    with pytest.raises(ExpressionError, match="ends too early"):
+    with pytest.raises(ExpressionError, match="is incomplete"):
         parse("(" * LONGEST)
 
 

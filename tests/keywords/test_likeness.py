@@ -57,11 +57,11 @@ def test_a_keyword_of_another_section_may_be_a_slip() -> None:
 
 def test_words_behind_a_name_are_told_and_can_be_removed() -> None:
     deck = deck_of(f"{TABLE}*NODE  (6 nodes)\n 1, 0.0, 0.0\n")
-    (told,) = [problem for problem in deck.problems if problem.code.code == "SYN009"]
-    assert told.weight is Severity.WARNING
-    assert "(did you mean NODE, with nothing behind the name?)" in told.message
-    assert told.repair is not None
-    assert [text for _, text in told.repair.edits] == ["*NODE"]
+    (found,) = [problem for problem in deck.problems if problem.code.code == "SYN009"]
+    assert found.weight is Severity.WARNING
+    assert "(did you mean NODE, with nothing after the name?)" in found.message
+    assert found.repair is not None
+    assert [text for _, text in found.repair.edits] == ["*NODE"]
 
 
 def test_sets_of_a_misplaced_keyword_may_be_there(tmp_path: Path) -> None:
@@ -76,10 +76,10 @@ def test_sets_of_a_misplaced_keyword_may_be_there(tmp_path: Path) -> None:
 @pytest.mark.parametrize("number", ["85 000.0", "1 250", "-2'500.5", "1_000_000"])
 def test_groups_of_digits_are_no_name_of_a_curve(number: str) -> None:
     text = f"{TABLE}*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS={number}\n"
-    (told,) = deck_of(text).problems
+    (found,) = deck_of(text).problems
     plain = number.translate({ord(mark): None for mark in " '_"})
-    assert told.code.code == "SYN002"
-    assert f"write {plain} for STIFFNESS=" in told.message
+    assert found.code.code == "SYN002"
+    assert f"write {plain} for STIFFNESS=" in found.message
 
 
 @pytest.mark.parametrize("name", ["Clay 100", "85 00", "5 to 6", "1 2345"])

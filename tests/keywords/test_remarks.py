@@ -14,7 +14,7 @@ from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
 from tests.growth import FOURFOLD, TWOFOLD, call_growth, growth
 
-ADVICE = "a line cannot end with a comment; put it on a line of its own, behind C and a space"
+ADVICE = "a line cannot end with a comment; put it on a line of its own, after C and a space"
 DECK = """\
 $MODEL
 *OCEAN

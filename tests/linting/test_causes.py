@@ -299,7 +299,7 @@ def test_the_table_of_an_interface_is_named() -> None:
 
 def test_hints_of_a_setting_say_what_to_write() -> None:
     (empty,) = found(changed((" SET=Left\n STIFF", " SET=\n STIFF")))
-    assert empty.message == "SET= has no value: write the name of a set behind it (ALL is every element)"
+    assert empty.message == "SET= has no value: write the name of a set after it (ALL is every element)"
     by_set = found(changed((" CURVE=Clay\n", " SET=Left\n")))
     assert "name the curve by CURVE= here, and give it to the set in STIFFNESS=" in by_set[0].message
 

@@ -12,7 +12,7 @@ from mudline.linting.registry import code_fault
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("\nselct = []", ":2: there is no key 'selct': did you mean select?"),
+        ("\nselct = []", ":2: unknown key 'selct': did you mean select?"),
         ('select = [\n "REF",\n "REF9999"]', ":3: select: 'REF9999' names no rule"),
         ('fail-on = "warn"', ":1: fail-on cannot be 'warn': choose from error, warning, info"),
         ('fail-on = "warnign"', ":1: fail-on cannot be 'warnign': did you mean warning?"),
@@ -100,7 +100,7 @@ def test_a_pyproject_may_be_a_base(tmp_path: Path) -> None:
             "c.toml:3: extend leads back to itself: {0}/b.toml -> {0}/c.toml -> {0}/b.toml",
         ),
         ({"a": '\nextend = "b.toml"'}, "a.toml:2: extend: {0}/b.toml cannot be read: no such file or directory"),
-        ({"a": 'extend = "b.toml"', "b": "\nselct = []"}, "b.toml:2: there is no key 'selct'"),
+        ({"a": 'extend = "b.toml"', "b": "\nselct = []"}, "b.toml:2: unknown key 'selct'"),
         ({"a": 'extend = "b.toml"', "b": "="}, "b.toml: this is not TOML"),
         ({"a": "extend = []"}, 'a.toml:1: extend must be the path of a file, such as "../base.toml", not []'),
     ],

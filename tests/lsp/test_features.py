@@ -7,7 +7,7 @@ from lsprotocol import types
 from pygls.exceptions import JsonRpcException
 
 from mudline.formatting.document import formatted
-from mudline.lsp.tokens import TYPES
+from mudline.lsp.structure import TYPES
 from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.lsp.editor import Editor, applied, document, position
 

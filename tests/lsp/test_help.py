@@ -49,7 +49,7 @@ async def hover(editor: Editor, mark: str, behind: str = "", text: str = DECK) -
         (" 2, 2, 3", " ", ["element **2**: nodes 2 and 3", "D = 0.5 m", "'Pipe'"]),
         ("TYPE=ELASTIC", "TYPE=E", ["contact model", "RIGID, ELASTIC"]),
         ("0.46", "0", ["internal diameter", "unit m"]),
-        ("LAST=base", "LAST=b", ["this file is not there"]),
+        ("LAST=base", "LAST=b", ["this file was not found"]),
     ],
 )
 async def test_hover_explains_what_is_there(editor: Editor, mark: str, behind: str, words: list[str]) -> None:

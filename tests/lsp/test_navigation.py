@@ -146,17 +146,17 @@ async def test_a_thing_is_renamed_wherever_it_is_named(
 @pytest.mark.parametrize(
     ("mark", "behind", "name", "reason"),
     [
-        ("SET=Pipe", "SET=", "All of it", "there is a set 'All of it' already"),
-        ("SET=Pipe", "SET=", "ALL", "there is a set 'ALL' already"),
+        ("SET=Pipe", "SET=", "All of it", "set 'All of it' is already defined"),
+        ("SET=Pipe", "SET=", "ALL", "set 'ALL' is already defined"),
         ("SET=Pipe", "SET=", "a, b", "cannot be the name of a set"),
         ("SET=Pipe", "SET=", "", "cannot be the name of a set"),
         ("SET=Pipe", "SET=", "a\nb", "cannot be the name of a set"),
         ("SET=Pipe", "SET=", "x" * 300, "at most 256 characters"),
-        (" depth, 100", " ", "twice", "there is a parameter 'twice' already"),
+        (" depth, 100", " ", "twice", "parameter 'twice' is already defined"),
         (" depth, 100", " ", "2*x", "cannot be used in an equation"),
         (" depth, 100", " ", "pi", "cannot be used in an equation"),
-        (" depth, 100", " ", "point_x", "there is a parameter 'point_x' already"),
-        ("$MODEL", "$", "x", "there is no name here"),
+        (" depth, 100", " ", "point_x", "parameter 'point_x' is already defined"),
+        ("$MODEL", "$", "x", "only sets, curves and parameters can be renamed"),
     ],
 )
 async def test_a_name_that_cannot_be_given_is_refused(

@@ -20,8 +20,7 @@ from mudline.deck.model import Deck
 from mudline.linting.engine import lint_context
 from mudline.linting.registry import rules
 from mudline.linting.rule import LintContext
-from mudline.migration.migrating import Migration, legacy_blocks, migrate
-from mudline.migration.verification import verify
+from mudline.migration.migrating import Migration, legacy_blocks, migrate, verify
 from mudline.scene.model import resolve
 from tests.builders.decks import PIPE_WITH_SETS
 from tests.builders.scenes import deck_of

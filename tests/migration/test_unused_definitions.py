@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from mudline.migration.migrating import migrate
-from mudline.migration.verification import verify
+from mudline.migration.migrating import migrate, verify
 from tests.builders.decks import PIPE_WITH_SETS
 from tests.builders.scenes import deck_of
 

@@ -7,8 +7,7 @@ from dataclasses import replace
 import pytest
 
 from mudline.deck.loading import load_bytes
-from mudline.migration.migrating import Migration, migrate
-from mudline.migration.verification import verify
+from mudline.migration.migrating import Migration, migrate, verify
 from mudline.scene.model import resolve
 from tests.builders.decks import PIPE_WITH_SETS
 from tests.builders.scenes import deck_of

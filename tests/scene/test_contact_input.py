@@ -178,7 +178,7 @@ def test_suction_of_cohesion_and_of_explicit_laws() -> None:
         ),
         (
             CURVED_BED.replace("0.5, 4000", "0.5, -4000") + "*SEABED SUCTION\n SET=ALL\n COHESION=5\n",
-            "10: EXT006 10 elements (first: 1) have a curve that pulls too",
+            "10: EXT006 10 elements (first: 1) have a curve that is negative in contact too",
         ),
     ],
 )
@@ -282,7 +282,7 @@ def test_a_trench_counts_its_own_elements() -> None:
         ),
         (
             RUBBING + "*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n PEAK=1\n CENTRELINE=1, 2, 1, 2\n",
-            "10: EXT003 the two points of the centreline are one",
+            "10: EXT003 the two points of the centreline coincide",
         ),
         (
             LINEAR_BED + "*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n SLOPE=90\n",
@@ -290,7 +290,7 @@ def test_a_trench_counts_its_own_elements() -> None:
         ),
         (
             LINEAR_BED + "*SEABED PROFILE\n TYPE=2D\n FILE=none.txt\n",
-            "5: RUN001 the seabed is not known: 'none.txt' is not there",
+            "5: RUN001 the seabed is not known: 'none.txt' was not found",
         ),
     ],
 )

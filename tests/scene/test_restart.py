@@ -196,7 +196,7 @@ def test_the_last_of_several_holds(folder: Path) -> None:
     text = DYNAMIC + RESTART.format("gone") + RESTART.format("other")
     assert scene(folder, text).node_ids.tolist() == [1]
     (line,) = lint(folder, text, "REF015")
-    assert line.startswith("6:7 warning REF015 the deck 'gone' is not there")
+    assert line.startswith("6:7 warning REF015 the deck 'gone' was not found")
 
 
 # ------------------------------------------------------------------------------------------------------ chains, faults
@@ -215,7 +215,7 @@ def test_a_missing_deck_is_told_with_the_names_that_were_tried(folder: Path) -> 
     first, second = lint(folder, DYNAMIC + USES, "REF015", "REF008")
     tried = "static, static.keyxm, static.keyxi, static.keyx, static.das"
     assert first == (
-        f"3:7 warning REF015 the deck 'static' is not there (looked in {folder.as_posix()} for {tried}): "
+        f"3:7 warning REF015 the deck 'static' was not found (looked in {folder.as_posix()} for {tried}): "
         "correct the name, or put the deck there"
     )
     assert second.startswith("7:9 warning REF008")

@@ -111,14 +111,14 @@ def test_a_compiled_profile_is_kept_and_reported_unless_the_file_is_missing(tmp_
 def test_a_deck_without_a_path_reads_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "bed.txt").write_text("0, 0\n1, 1\n", encoding="utf-8")
-    assert scene_of(PIPE + PROFILE.format("bed.txt")).seabed.missing == "'bed.txt' is not there"
+    assert scene_of(PIPE + PROFILE.format("bed.txt")).seabed.missing == "'bed.txt' was not found"
 
 
 @pytest.mark.parametrize("name", ["nothing.txt", "folder", "a\0b", "n" * 5000, "=[x]", '""'])
 def test_a_file_that_is_not_there_is_no_fault_of_the_profile(tmp_path: Path, name: str) -> None:
     (tmp_path / "folder").mkdir()
     scene = scene_in(tmp_path, PIPE + PROFILE.format(name))
-    assert scene.seabed.missing.endswith("is not there")
+    assert scene.seabed.missing.endswith("was not found")
 
 
 def test_a_file_that_may_not_be_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -63,7 +63,7 @@ def holds_the_slow_rows(text: str, columns: int) -> None:
     span = Span(0, len(text))
     slow = read_rows_slow(text, span, columns)
     for piece in (1, 40, number_rows.ARROW_PIECE):
-        with patch.object(number_rows, "ARROW_PIECE", piece), patch("mudline.syntax.rows._PIECE", max(piece // 2, 1)):
+        with patch.object(number_rows, "ARROW_PIECE", piece), patch("mudline.syntax.rows.PIECE", max(piece // 2, 1)):
             assert read_rows(text, span, columns).same(slow)
     values = number_rows.read_with_arrow(arrow(), text, columns)
     if values is not None:

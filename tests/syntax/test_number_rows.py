@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 import mudline
 from mudline.diagnostics import DeckError, Span
-from mudline.syntax.decimals import nearest
-from mudline.syntax.number_rows import NumberRows
+from mudline.syntax.number_rows import NumberRows, nearest
 from mudline.syntax.rows import line_spans, read_number, read_rows, read_rows_fast, read_rows_slow, row_starts
 from mudline.syntax.source import Source
 

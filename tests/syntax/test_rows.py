@@ -98,8 +98,8 @@ def compared(text: str, columns: int) -> Rows:
     """The rows of a text by the slow reader, with which the fast one is compared on the whole and on small pieces."""
     slow = read_rows_slow(text, whole(text), columns)
     assert read_rows(text, whole(text), columns).same(slow)
-    for piece in (reader._PIECE, 12):
-        with patch.multiple(reader, _SHORT=0, _PIECE=piece):
+    for piece in (reader.PIECE, 12):
+        with patch.multiple(reader, _SHORT=0, PIECE=piece):
             assert read_rows(text, whole(text), columns).same(slow)
             fast = read_rows_fast(text, whole(text), columns)
             assert fast is None or fast.same(slow)

@@ -162,7 +162,7 @@ START = 11
         ),
         (" NAME=v\n PARA=Depth, GEN=0, 1, 1e-300\n", (START + 1, 14), "EXP001", "GEN= gives more than 100000 values"),
         (" NAME=v\n PARA=Depth, GEN=0, =[1/0]\n", (START + 1, 14), "EXP001", "GEN= needs numbers"),
-        (" NAME=v\n NAME=V\n", (START + 1, 7), "EXP001", "there is a variation 'V' already"),
+        (" NAME=v\n NAME=V\n", (START + 1, 7), "EXP001", "variation 'V' is already defined"),
         (
             " NAME=v\n PARA=Depth, VALUE=1\n NAME=w\n PARA=Depth, VALUE=2\n",
             (START + 5, 2),

@@ -272,7 +272,7 @@ def test_a_block_may_take_the_place_of_another() -> None:
         ("REMOVE, KEYWORD=FRICTION", "missing SECTION= for *FRICTION: $LOAD CASE or $MODES"),
         ("REMOVE, KEYWORD=OCEAN, SECTION=MODELL", "the deck has no section $MODELL (did you mean MODEL?)"),
         ("REMOVE, KEYWORD=PARAMETERS", "*PARAMETERS describes the decks"),
-        ("ADD, KEYWORD=OFFSET, FILE=none.txt", "file 'none.txt' is not found beside the deck"),
+        ("ADD, KEYWORD=OFFSET, FILE=none.txt", "file 'none.txt' was not found beside the deck"),
         ("ADD, KEYWORD=OFFSET, FILE=other.txt", "other.txt holds *OCEAN, expected *OFFSET only"),
         ("ADD, KEYWORD=OFFSET, FILE=section.txt", "section.txt opens the section $MODEL"),
         ("ADD, KEYWORD=OFFSET, FILE=utf16.txt", "utf16.txt: the file is UTF-16"),

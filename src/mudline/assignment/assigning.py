@@ -1,4 +1,4 @@
-"""One value of a deck set: the edit of its text, or why the deck is left unchanged."""
+"""One value of a deck set: the edits of its text, aligned as before, or why the deck is left unchanged."""
 
 from __future__ import annotations
 
@@ -6,22 +6,22 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice
-from typing import cast
+from typing import NamedTuple, cast
 
 from mudline.assignment.fields import MOST_LISTED, Target, Value, blocks_of, cell, values_of
-from mudline.assignment.layout import replacement_in_layout
 from mudline.assignment.paths import Assignment, Operand
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin, read_source
-from mudline.diagnostics import Diagnostic, Problem, Severity
+from mudline.diagnostics import Diagnostic, Problem, Severity, Span
 from mudline.formatting.document import same_meaning
 from mudline.keywords.model import Part, record_schema
 from mudline.keywords.table import Table
 from mudline.keywords.values import Equation, Kind
-from mudline.scene.checks.fields import range_fault
+from mudline.scene.deck_values import range_fault
 from mudline.scene.model import resolve
 from mudline.short_repr import cut
 from mudline.syntax.edits import TextEdit, edited_bytes
+from mudline.syntax.fields import Field, first_key, split
 from mudline.syntax.source import Source
 
 
@@ -96,10 +96,12 @@ def _the_one(deck: Deck, target: Target) -> Value | None:
         )
     if not given and all_found:
         raise AssignmentError(
-            f"{target.path} is left out here, and only a value that is there is changed", _line(deck, all_found[0])
+            f"{target.path} is left out here: only a value that is written can be changed", _line(deck, all_found[0])
         )
     if not given and (faults := _read_faults(deck, target.path.keyword)):
-        raise AssignmentError(f"*{target.path.keyword} could not be read as a whole", None, deck.diagnose(faults))
+        raise AssignmentError(
+            f"*{target.path.keyword} cannot be read: correct its errors first", None, deck.diagnose(faults)
+        )
     return given[0] if given else None
 
 
@@ -220,3 +222,76 @@ def _inner(part: object, step: str | int) -> object:
         return None
     name = next((slot.name for slot in record_schema(type(part)).slots if slot.json == step), "")
     return getattr(part, name, None)
+
+
+# ------------------------------------------------------------------------------------------------------------ alignment
+
+
+class _Row(NamedTuple):
+    """A line of fields, and where it begins."""
+
+    start: int
+    fields: list[Field]
+
+
+def replacement_in_layout(source: Source, span: Span, text: str) -> list[TextEdit]:
+    """The edits that put `text` in the place of `span`.
+
+    Where the row above or below ends or begins its field of the same number in the same column, the blanks before or
+    behind the field make up for the difference in length, as far as one of them stays.
+    """
+    replaced = [TextEdit(span, text)]
+    growth = len(text) - (span.end - span.start)
+    row = _row(source, source.position(span.start)[0])
+    index = next((i for i, field in enumerate(row.fields) if field.span == span), None) if row else None
+    if row is None or index is None or not growth:
+        return replaced
+    blanks = _to_resize(source, row, index)
+    return replaced if blanks is None else [*replaced, _resized(blanks, growth)]
+
+
+def _to_resize(source: Source, row: _Row, index: int) -> Span | None:
+    """The blanks before a field that ends in one column with its neighbours, or behind one that begins so.
+
+    Columns that are in line only because all fields are of one length are not aligned.
+    """
+    span = row.fields[index].span
+    others = [(one.fields[index].span, one.start) for one in _neighbours(source, span, index)]
+    if any(span.end - row.start == other.end - start for other, start in others):
+        return _wide_blanks_before(source, row, span)
+    if index + 1 < len(row.fields) and any(span.start - row.start == other.start - start for other, start in others):
+        return _wide_blanks_before(source, row, row.fields[index + 1].span)
+    return None
+
+
+def _resized(blanks: Span, growth: int) -> TextEdit:
+    """Blanks that are fewer by `growth`, but at least one."""
+    left = max(blanks.end - blanks.start - growth, 1)
+    return TextEdit(blanks, " " * left)
+
+
+def _wide_blanks_before(source: Source, row: _Row, span: Span) -> Span | None:
+    """The blanks directly before a field; None where there are fewer than two, or a tab stands before it."""
+    before = source.text[row.start : span.start]
+    length = len(before) - len(before.rstrip(" "))
+    return Span(span.start - length, span.start) if length > 1 and "\t" not in before else None
+
+
+def _neighbours(source: Source, span: Span, index: int) -> Iterator[_Row]:
+    """The rows directly above and below that have such a field."""
+    line = source.position(span.start)[0]
+    for number in (line - 1, line + 1):
+        row = _row(source, number) if 1 <= number <= len(source.line_starts) else None
+        if row is not None and index < len(row.fields):
+            yield row
+
+
+def _row(source: Source, number: int) -> _Row | None:
+    """A line as a row of fields; None for a setting, a comment, a keyword."""
+    start = source.line_starts[number - 1]
+    line = source.line(number)
+    span = Span(start, start + len(line))
+    if not line.strip() or line[0] in "Cc*$" or line.lstrip()[0] in "*$" or first_key(source.unified, span):
+        return None
+    fields, problems = split(source.unified, span)
+    return None if problems else _Row(start, fields)

@@ -107,7 +107,7 @@ def parse_assignment(text: str) -> Assignment:
     """`KEYWORD.field=value`, `KEYWORD[set=NAME].field=value`; raises PathError."""
     found = cast("Assignment", _parsed(text, "assignment"))
     if not found.value or not found.value.isprintable():
-        raise PathError(f"{found.path}: expected a value of printable characters behind =")
+        raise PathError(f"{found.path}: expected a value of printable characters after =")
     return found
 
 
@@ -136,7 +136,7 @@ def _parsed(text: str, start: str) -> object:
     except (RecursionError, VisitError) as error:  # whatever a method below raises, and what is nested too deep
         if isinstance(error, VisitError) and isinstance(error.orig_exc, PathError):
             raise error.orig_exc from error
-        raise PathError(f"too many levels in one another: expected {_FORMS[start]}") from error
+        raise PathError(f"nested too deeply: expected {_FORMS[start]}") from error
 
 
 @cache

@@ -128,7 +128,7 @@ class PositionFiles:
         folder = os.path.dirname(case.file.path or case.file.name) or "."  # noqa: PTH120 - as it was given
         path = self.given.replace("{name}", case.name).replace("{folder}", folder)
         if not _is_file(path):
-            raise MissingPositionsError(f"its positions are not there: {path}")
+            raise MissingPositionsError(f"its positions were not found: {path}")
         return path
 
     def from_folder(self, folder: str) -> PositionFiles:
@@ -143,11 +143,11 @@ class PositionFiles:
         for start in dict.fromkeys((join(folder, stem), join(folder, case.name))):
             found = [path for end in _POSITIONS if _is_file(path := start + end)]
             if len(found) > 1:
-                raise MissingPositionsError(f"several files of positions: {', '.join(map(_slashed, found))}")
+                raise MissingPositionsError(f"several files of positions: {', '.join(map(slashed, found))}")
             if found:
-                return _slashed(found[0])
+                return slashed(found[0])
         ends = f"{', '.join(_POSITIONS[:-1])} or {_POSITIONS[-1]}"
-        raise MissingPositionsError(f"its positions are not there: {_slashed(join(folder, stem))} with {ends}")
+        raise MissingPositionsError(f"its positions were not found: {slashed(join(folder, stem))} with {ends}")
 
 
 def _there(path: str) -> bool:
@@ -160,7 +160,8 @@ def _is_file(path: str) -> bool:
     return _there(path) and not is_folder(path)
 
 
-def _slashed(path: str) -> str:
+def slashed(path: str) -> str:
+    """A path or URL as it is printed, with `/` between folders on every system."""
     return path if is_url(path) else Path(path).as_posix()
 
 

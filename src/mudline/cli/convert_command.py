@@ -9,10 +9,10 @@ import click
 import numpy as np
 
 from mudline.cli import DONE, FOUND
-from mudline.cli.inputs import STDIN, SUFFIXES, GivenDeck, takes_deck
+from mudline.cli.inputs import STDIN, GivenDeck, takes_deck
 from mudline.cli.streams import emit, notify, notify_missing, write_text
 from mudline.cli.view import View
-from mudline.deck.forms import form_names, form_of
+from mudline.deck.forms import SUFFIXES, form_names, form_of
 from mudline.deck.loading import dump
 from mudline.deck.model import Deck
 from mudline.keywords.model import Comment
@@ -26,14 +26,14 @@ _OTHER_SHEETS = {".xls", ".xlsb", ".ods"}
 
 
 @click.command("convert")
-@click.option("-o", "--output", metavar="OUT", help="File to write; without it, or with -, standard output.")
+@click.option("-o", "--output", metavar="OUT", help="Write to this file; without it, or with -, to standard output.")
 @click.option(
     "--from",
     "source",
     type=_SOURCES,
-    help="Format of DECK, instead of that of its suffix.",
+    help="Read DECK in this format, not in that of its suffix.",
 )
-@click.option("--to", "target", type=_FORMS, help="Format to write, instead of that of the suffix of OUT.")
+@click.option("--to", "target", type=_FORMS, help="Write in this format, not in that of the suffix of OUT.")
 @click.option("--sorted", "in_order", is_flag=True, help="Write curves with their points sorted by ratio.")
 @takes_deck
 def command(
@@ -65,7 +65,7 @@ def _is_workbook(deck: GivenDeck, source: str | None) -> bool:
     """Whether curves of a workbook are to be read; raises click.UsageError for sheets of another form."""
     suffix = PurePath(deck.path).suffix.lower()
     if source is None and suffix in _OTHER_SHEETS:
-        raise click.UsageError(f"{deck.path}: {suffix} is not read: save it as .xlsx in the spreadsheet program")
+        raise click.UsageError(f"{deck.path}: {suffix} cannot be read: save it as .xlsx in the spreadsheet program")
     return source == WORKBOOK or (source is None and suffix in _WORKBOOKS)
 
 

@@ -34,13 +34,18 @@ _SOFTENS = "unstable: the curve softens there, and a pipe that is pushed deeper 
 
 @click.command("curves")
 @click.option(
-    "--at", "ratios", type=float, multiple=True, metavar="RATIO", help="Value at an embedment ratio; repeatable."
+    "--at",
+    "ratios",
+    type=float,
+    multiple=True,
+    metavar="RATIO",
+    help="Evaluate the curves at this embedment ratio. Repeatable.",
 )
 @click.option(
     "--weight",
     type=float,
     metavar="W",
-    help="Static embedment under a submerged weight per unit length, in the deck's units.",
+    help="Find the static embedment under this submerged weight per unit length, in the deck's units.",
 )
 @click.option("--plot", "picture", metavar="FILE.png|svg", help="Draw the curves (needs the extra mudline[plot]).")
 @options.spreadsheet
@@ -66,7 +71,7 @@ def command(
         raise click.UsageError("CSV holds one table: give --at or --weight, not both")
     form = "" if picture is None else suffix_of(picture)
     if picture and form not in {"png", "svg"}:
-        raise click.UsageError(f"{picture}: a plot is a .png or a .svg")
+        raise click.UsageError(f"{picture}: unknown file format: give a name ending in .png or .svg")
     scene = resolve(deck.load()).require()
     try:
         rows = _curve_rows(scene, ratios, weight)

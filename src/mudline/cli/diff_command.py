@@ -12,6 +12,7 @@ import click
 
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.diff_folders import ComparedDeck, Comparing, Folders, Status
+from mudline.cli.diff_output import difference_lines, folder_lines, of_decks, of_folders, summary_of
 from mudline.cli.inputs import STDIN, refuses_bad_decks
 from mudline.cli.streams import emit
 from mudline.cli.view import View
@@ -31,7 +32,7 @@ FOLDER_FORMAT = "mudline-diff-folders/1"
     default=0.0,
     show_default=True,
     metavar="REL",
-    help="Largest difference of equal numbers, relative to the larger one.",
+    help="Ignore differences of numbers up to this one, relative to the larger number.",
 )
 @click.option("--strict", is_flag=True, help="List differences of spelling in superseded keywords too: exit code 1.")
 @options.output_format("text", "json", "markdown")
@@ -73,12 +74,8 @@ def command(
     if output_format == "json":
         emit(_json(first.file, second.file, tolerance, comparison))
     elif output_format == "markdown":
-        from mudline.cli.diff_markdown import of_decks  # noqa: PLC0415 - only this form needs it
-
         emit(of_decks(first.file, second.file, comparison, view))
     else:
-        from mudline.cli.diff_text import difference_lines, summary_of  # noqa: PLC0415 - as above
-
         view.printer().lines(difference_lines(first.file, second.file, comparison, view))
         if not view.quiet:
             view.printer().lines([summary_of(comparison)])
@@ -89,12 +86,8 @@ def _print_folders(folders: Folders, output_format: str, view: View) -> int:
     if output_format == "json":
         emit(_folders_json(folders))
     elif output_format == "markdown":
-        from mudline.cli.diff_markdown import of_folders  # noqa: PLC0415 - as above
-
         emit(of_folders(folders, view))
     else:
-        from mudline.cli.diff_text import folder_lines  # noqa: PLC0415 - as above
-
         view.printer().lines(folder_lines(folders, view))
     return folders.code
 

@@ -88,7 +88,7 @@ class Folders:
         """Each name of a deck in one of the folders, in sorted order."""
         old, new = (_Folder(path, gitignore=self.gitignore) for path in (self.before, self.after))
         if not old.files and not new.files and not (old.inputs.code or new.inputs.code):
-            old.inputs.fail(f"{self.before}, {self.after}: no deck in these directories")
+            old.inputs.fail(f"{self.before}, {self.after}: no deck in these folders")
         for name in sorted({*old.files, *new.files}):
             one = self._compared(name, old, new)
             if one is not None:

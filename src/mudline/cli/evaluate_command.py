@@ -29,23 +29,27 @@ if TYPE_CHECKING:
 @click.option(
     "--positions",
     metavar="FILE",
-    help="Positions of the nodes: CSV, NPZ or NPY, one state or time steps. Several decks: also a folder with a file "
-    "NAME.csv for each, or a pattern such as {folder}/{name}.csv.",
+    help="Read the positions of the nodes: CSV, NPZ or NPY, one state or time steps. Several decks: also a folder with "
+    "a file NAME.csv for each, or a pattern such as {folder}/{name}.csv.",
 )
 @click.option(
     "--columns",
     multiple=True,
     metavar="NAME=HEADING,...",
-    help='Headings of positions in a CSV of another program: time="Time [s]",node=Node,x=X. Repeatable.',
+    help='Name the columns of positions in a CSV of another program: time="Time [s]",node=Node,x=X. Repeatable.',
 )
-@click.option("--time-step", type=float, metavar="DT", help="Time between the steps of positions that have no times.")
-@click.option("--elements", metavar="FILE", help="Elements as CSV, for decks whose elements come from *LINES.")
+@click.option(
+    "--time-step", type=float, metavar="DT", help="Set the time between the steps of positions that have no times."
+)
+@click.option(
+    "--elements", metavar="FILE", help="Read the elements from a CSV, for decks whose elements come from *LINES."
+)
 @click.option(
     "--tension",
     type=click.Choice(["keep", "cut"]),
     default="keep",
     show_default=True,
-    help="Where a curve is negative in contact: keep the pull, or cut force and stiffness to 0.",
+    help="Keep the tension where a curve is negative in contact, or cut force and stiffness to 0.",
 )
 @click.option("--against", metavar="FILE", help="Compare with another program's element results, a CSV.")
 @click.option(
@@ -57,13 +61,14 @@ if TYPE_CHECKING:
 @click.option(
     "--form",
     type=click.Choice(form_names()),
-    help="Form of the files of several decks; without it Parquet, or NPZ where pyarrow is not installed.",
+    help="Write the files of several decks in this form; without it Parquet, or NPZ where pyarrow is not installed.",
 )
 @click.option(
     "--jobs",
     type=click.IntRange(min=0),
     default=0,
-    help="Processes for several decks, or for --summary-only; 0: one for each processor.",
+    metavar="N",
+    help="Use N processes for several decks, or for --summary-only; 0: one for each processor.",
 )
 @click.option(
     "--no-cache",
@@ -73,13 +78,13 @@ if TYPE_CHECKING:
 @click.option(
     "--summary-only",
     is_flag=True,
-    help="Of a long series only extremes with their times, counts and envelopes; a run that was stopped goes on.",
+    help="Keep of a long series only extremes with their times, counts and envelopes; a run that was stopped goes on.",
 )
 @click.option(
     "--chunk",
     type=click.IntRange(min=1),
     metavar="STEPS",
-    help="Steps that a process of --summary-only evaluates at a time.",
+    help="Evaluate this many steps at a time in a process of --summary-only.",
 )
 @click.option(
     "--plot",
@@ -97,7 +102,7 @@ if TYPE_CHECKING:
     type=click.Choice(["elements", "nodes", "summary"]),
     default="elements",
     show_default=True,
-    help="Which rows text and CSV on standard output show; a line at a step is a row of the summary.",
+    help="Show these rows in text and CSV on standard output; a line at a step is a row of the summary.",
 )
 @options.spreadsheet
 @click.option(

@@ -67,7 +67,7 @@ class EvaluateInputs:
         if path is None:
             return None
         if self.headings and Path(path).suffix.lower() in {".npz", ".npy"}:
-            raise click.UsageError(f"--columns is for CSV: the arrays of {path} have their names")
+            raise click.UsageError(f"--columns is for CSV: the arrays of {path} have names already")
         positions = read_file(path, lambda file: read_positions(file, scene.nodes, self.headings))
         if self.time_step is None:
             return positions

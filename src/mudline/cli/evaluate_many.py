@@ -26,6 +26,7 @@ from mudline.cli.cases import (
     failed,
     named_cases,
     print_cases,
+    slashed,
 )
 from mudline.cli.evaluate_inputs import EvaluateInputs
 from mudline.cli.inputs import Input, Inputs
@@ -299,9 +300,5 @@ def _notify_written(rows: Sequence[Kept], taken: int, folder: str | None, summar
     if folder is None or summary is None:
         return
     done = sum(not one.row.failed for one in rows)
-    notify(f"results of {counted(done, 'deck')} -> {_shown(folder)}, {taken} taken over from an earlier run")
+    notify(f"results of {counted(done, 'deck')} -> {slashed(folder)}, {taken} taken over from an earlier run")
     notify(f"summary -> {summary}")
-
-
-def _shown(folder: str) -> str:
-    return folder if is_url(folder) else Path(folder).as_posix()

@@ -166,7 +166,7 @@ def notify_slow(evaluation: Evaluation, slow: SlowSuction) -> None:
     if slow.element is not None:
         number = int(evaluation.scene.element_ids[slow.element])
         when = f"at {slow.steps} of {counted(evaluation.steps, 'step')}, element {number} first"
-        notify(f"suction is pulled slower than REGULARISATION {when}: the force there is less than alpha v^n")
+        notify(f"the pull-out velocity is below REGULARISATION= {when}: the suction force there is less than alpha v^n")
 
 
 def _notify_unmatched(comparison: Comparison) -> None:

@@ -26,7 +26,7 @@ from mudline.cli.result_files import form_of_file, has_library
 from mudline.cli.streams import emit, notify, reason, writing
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.contact import ContactModel, ContactState
-from mudline.contact.saved_state import restored_state, state_arrays
+from mudline.contact.tables import restored_state, state_arrays
 from mudline.deck.loading import load_bytes
 from mudline.files import recording_looks
 from mudline.linting.cache import program, state

@@ -21,7 +21,9 @@ _NOT_COPIED = "{}: the deck names it and it is not copied: put it beside the new
 
 
 @click.command("expand")
-@click.option("-o", "--output", metavar="DIR", help="Folder for the new decks; created if it does not exist.")
+@click.option(
+    "-o", "--output", metavar="DIR", help="Write the new decks into this folder; it is created if it does not exist."
+)
 @click.option("--dry-run", is_flag=True, help="Print what would be written, and write nothing.")
 @click.option("--force", is_flag=True, help="Overwrite existing files.")
 @options.output_format("text", "json")

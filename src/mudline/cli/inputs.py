@@ -18,18 +18,17 @@ from mudline.cli import FOUND, WRONG_USAGE, options
 from mudline.cli.search import Search
 from mudline.cli.streams import notify, notify_diagnostics, reason
 from mudline.cluster import storage
-from mudline.deck.forms import form_of
+from mudline.deck import MARK
+from mudline.deck.forms import SUFFIXES, form_of
 from mudline.diagnostics import DeckError
 from mudline.files import is_url, write_atomically
 
 if TYPE_CHECKING:
     from mudline.deck.model import Deck
 
-SUFFIXES = frozenset({".keyx", ".keyxm", ".keyxi", ".das"})
 STDIN = "-"
 
 _BATCH = 1000
-_MARK = b"mudline-deck/"
 _HEAD = 4096
 """Bytes at the beginning of a JSON or YAML file that name its format."""
 
@@ -184,7 +183,7 @@ def _is_deck_in_any_form(path: str) -> bool:
     if not is_deck(path) and form_of(path) == "keyword":
         return False
     if is_url(path):
-        return is_deck(path) or _MARK in storage.head(path, _HEAD)
+        return is_deck(path) or MARK.encode() in storage.head(path, _HEAD)
     file = Path(path)
     if file.exists() and not file.is_file():
         return False
@@ -192,7 +191,7 @@ def _is_deck_in_any_form(path: str) -> bool:
         return True
     try:
         with file.open("rb") as stream:
-            return _MARK in stream.read(_HEAD)
+            return MARK.encode() in stream.read(_HEAD)
     except OSError:
         return True
 

@@ -43,7 +43,7 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
     multiple=True,
     metavar="FORM[=FILE]",
     shell_complete=complete,
-    help=f"Format of standard output: {', '.join([f'{TEXT} (default)', *form_names()])}; "
+    help=f"Print findings in this format: {', '.join([f'{TEXT} (default)', *form_names()])}; "
     "=FILE writes a file too. Repeatable.",
 )
 @click.option("--fix", is_flag=True, help="Apply the safe fixes, in place; the deck of - is printed.")
@@ -54,7 +54,7 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
 @click.option(
     "--dialect",
     type=click.Choice(["mudline", "flexcom"]),
-    help="The program that the decks are for (default: mudline); flexcom has no extension keywords.",
+    help="Check decks for this program (default: mudline); flexcom has no extension keywords.",
 )
 @click.option("--config", metavar="FILE", help="Use this configuration for all decks, not the nearest one of each.")
 @click.option("--isolated", is_flag=True, help="Use no configuration file.")

@@ -41,7 +41,7 @@ def outputs(given: Sequence[str]) -> Outputs:
         if not mark:
             printed.append(name)
         elif not path or name == TEXT:
-            what = "text goes to the terminal: write concise=FILE" if path else f"write a file name behind {name}="
+            what = "text goes to the terminal: write concise=FILE" if path else f"write a file name after {name}="
             raise click.UsageError(f"--output-format {word}: {what}")
         else:
             files.append((name, Path(path)))

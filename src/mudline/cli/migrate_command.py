@@ -14,9 +14,8 @@ from mudline.cli.view import View
 from mudline.deck.forms import form_of
 from mudline.deck.loading import dump, load_bytes
 from mudline.diagnostics import DeckError
-from mudline.migration.migrating import Continuations, Migration, legacy_blocks, migrate
-from mudline.migration.refusals import misspelt
-from mudline.migration.verification import Verdict, verify
+from mudline.migration.migrating import Migration, Verdict, legacy_blocks, migrate, verify
+from mudline.migration.refusals import Continuations, misspelt
 from mudline.short_repr import counted
 
 _MOST_REPORTED = 20
@@ -24,7 +23,7 @@ _MOST_REPORTED = 20
 
 @click.command("migrate")
 @options.paths
-@click.option("-o", "--output", metavar="OUT", help="File to write instead of the deck itself; for one deck only.")
+@click.option("-o", "--output", metavar="OUT", help="Write to this file instead of the deck itself; for one deck only.")
 @click.option("--diff", is_flag=True, help="Print what would change, and write nothing.")
 @click.option(
     "--verify",

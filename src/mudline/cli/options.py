@@ -30,7 +30,7 @@ def common(command: Command) -> Command:
             type=click.Choice(["auto", "always", "never"]),
             default="auto",
             show_default=True,
-            help="Colours in the output; auto: on a terminal, unless NO_COLOR is set.",
+            help="Colour the output; auto: on a terminal, unless NO_COLOR is set.",
         ),
     ):
         viewed = option(viewed)
@@ -40,7 +40,7 @@ def common(command: Command) -> Command:
 units = click.option(
     "--units",
     type=click.Choice(["metric", "imperial", "user"]),
-    help="Unit system of the deck, instead of that of its suffix, *UNITS or gravity.",
+    help="Read the deck in this unit system, not in that of its suffix, *UNITS or gravity.",
 )
 
 complete_files = click.Path().shell_complete
@@ -71,7 +71,7 @@ every_file = click.option(
 )
 
 spreadsheet = click.option(
-    "--spreadsheet", is_flag=True, help="In CSV, write names that a spreadsheet would take as formulas as text."
+    "--spreadsheet", is_flag=True, help="Write names that a spreadsheet would take as formulas as text, in CSV."
 )
 CSV_ONLY = "--spreadsheet is for CSV: give --output-format csv, or a .csv file with -o where the command has one"
 
@@ -80,7 +80,7 @@ stdin_name = click.option(
     "stdin_name",
     default="<stdin>",
     metavar="NAME",
-    help="Name of standard input (-) in messages; its suffix gives the format and the units.",
+    help="Call standard input (-) by this name in messages; its suffix gives the format and the units.",
 )
 
 
@@ -92,5 +92,5 @@ def output_format(*formats: str) -> Callable[[Command], Command]:
         type=click.Choice(formats),
         default=formats[0],
         show_default=True,
-        help="Format of standard output.",
+        help="Print in this format.",
     )

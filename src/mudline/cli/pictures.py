@@ -27,13 +27,13 @@ def options(command: Command) -> Command:
         click.option(
             "--plot-elements",
             metavar="N,M",
-            help="Elements whose force over penetration is drawn, by number.",
+            help="Draw the force over penetration of these elements, by number.",
         ),
         click.option(
             "--panels",
             metavar="NAMES",
             shell_complete=_complete,
-            help=f"What the picture shows, in this order: {', '.join(PANELS)}.",
+            help=f"Show these panels, in this order: {', '.join(PANELS)}.",
         ),
     ):
         command = option(command)
@@ -60,10 +60,12 @@ class Pictures:
         cls, picture: str | None, animation: str | None, panels: str | None, elements: str | None, *, option: str
     ) -> Pictures:
         """Return what options ask for; raises click.UsageError. `option` is the one that asks for a picture."""
-        for path, forms, what in ((picture, PICTURES, "a plot"), (animation, ANIMATIONS, "an animation")):
+        for path, forms in ((picture, PICTURES), (animation, ANIMATIONS)):
             if path is not None and suffix_of(path) not in forms:
                 *others, last = (f".{form}" for form in forms)
-                raise click.UsageError(f"{path}: {what} is a {', '.join(others)} or {last}")
+                raise click.UsageError(
+                    f"{path}: unknown file format: give a name ending in {', '.join(others)} or {last}"
+                )
         for given, name in ((panels, "--panels"), (elements, "--plot-elements")):
             if given is not None and picture is None:
                 raise click.UsageError(f"{name} is for a plot: give {option}")

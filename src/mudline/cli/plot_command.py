@@ -23,7 +23,7 @@ from mudline.results.plot_data import PlotData
     "--output",
     required=True,
     metavar=f"FILE.{'|'.join((*PICTURES, *ANIMATIONS))}",
-    help="The picture; .gif and .html are animations of a series.",
+    help="Write the picture to this file; .gif and .html are animations of a series.",
 )
 @pictures.options
 @click.argument("result", metavar="RESULT", shell_complete=options.complete_files)

@@ -30,7 +30,7 @@ def form_of_file(path: str | None) -> str:
     form = suffix_of(path)
     if form not in (known := form_names()):
         forms = ", ".join(f".{name}" for name in known[:-1])
-        raise click.UsageError(f"{path}: results are written as {forms} or .{known[-1]}")
+        raise click.UsageError(f"{path}: unknown file format: give a name ending in {forms} or .{known[-1]}")
     return form
 
 

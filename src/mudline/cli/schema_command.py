@@ -1,12 +1,15 @@
-"""`mudline schema`."""
+"""`mudline schema`, and the schema of a mudline.toml, from the keys of the configuration and the codes of the rules."""
 
 from __future__ import annotations
+
+from typing import Any
 
 import click
 
 from mudline.cli import DONE, options
 from mudline.cli.streams import emit_json
 from mudline.deck.document import json_schema
+from mudline.linting.configuration import EXTEND, KEYS, LISTS, OF_CODES, SEVERITIES, WORDS
 
 
 @click.command("schema")
@@ -17,10 +20,71 @@ def command(*, what: str) -> int:
 
     Editors complete and check a mudline.toml by the schema of the configuration.
     """
-    if what == "config":
-        from mudline.linting.configuration_schema import configuration_schema  # noqa: PLC0415 - it imports all rules
-
-        emit_json(configuration_schema())
-    else:
-        emit_json(json_schema())
+    emit_json(configuration_schema() if what == "config" else json_schema())
     return DONE
+
+
+# ---------------------------------------------------------------------------------------------------- the configuration
+
+MEANINGS = {
+    "extend": "A file with the same keys, from the folder of this one, whose values hold where this one sets none.",
+    "select": "Only these rules run: codes, beginnings of codes, or slugs.",
+    "ignore": "Rules that are left out.",
+    "extend-select": "Rules that run too.",
+    "include": "Patterns of files taken from a searched directory besides those with a deck's suffix.",
+    "exclude": "Patterns of files left out of a searched directory.",
+    "fixable": "Rules whose fixes are made.",
+    "unfixable": "Rules whose fixes are never made.",
+    "fail-on": "The least severity that fails a run; warning unless set.",
+    "dialect": "The program that the decks are for.",
+    "per-file-ignores": "Rules that are left out in the files that fit a pattern.",
+    "severity": "Severities that hold instead of the rules' own; off leaves a rule out.",
+}
+"""What each key means."""
+
+
+def configuration_schema() -> dict[str, Any]:
+    """The schema, in draft 7, which editors know best; codes of plugins are taken, but not listed."""
+    properties = {key: {"description": MEANINGS[key], **_values(key)} for key in KEYS}
+    return {
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "mudline.toml, or [tool.mudline] of a pyproject.toml",
+        "type": "object",
+        "properties": properties,
+        "additionalProperties": False,
+        "definitions": {"rule": _rule()},
+    }
+
+
+def _values(key: str) -> dict[str, Any]:
+    if key == EXTEND:
+        return _path()
+    if key in WORDS:
+        return {"enum": list(WORDS[key])}
+    if key in LISTS:
+        return _list(_code() if key in OF_CODES else _path())
+    values = {"enum": list(SEVERITIES)} if key == "severity" else _list(_code())
+    names = {"propertyNames": _code()} if key == "severity" else {}
+    return {"type": "object", **names, "additionalProperties": values}
+
+
+def _path() -> dict[str, Any]:
+    return {"type": "string", "pattern": "\\S"}
+
+
+def _list(item: dict[str, Any]) -> dict[str, Any]:
+    return {"type": "array", "items": item}
+
+
+def _code() -> dict[str, Any]:
+    return {"$ref": "#/definitions/rule"}
+
+
+def _rule() -> dict[str, Any]:
+    """What names rules: an editor offers the families, codes and slugs of mudline, and takes those of plugins too."""
+    from mudline.linting.registry import origin, rules  # noqa: PLC0415 - it imports all rules
+
+    own = [rule.code for rule in rules() if origin(rule.code.code) == "mudline"]
+    families = dict.fromkeys(code.code.rstrip("0123456789") for code in own)
+    known = [*families, *(word for code in own for word in (code.code, code.slug))]
+    return {"type": "string", "anyOf": [{"enum": known}, {"pattern": "\\S"}]}

@@ -11,8 +11,7 @@ from hashlib import blake2b
 import click
 
 from mudline.assignment.assigning import Assigned, AssignmentError, assigned
-from mudline.assignment.conditions import ConditionError, DeckCondition
-from mudline.assignment.fields import Target, target_of
+from mudline.assignment.fields import ConditionError, DeckCondition, Target, target_of
 from mudline.assignment.paths import Assignment, Operand, PathError, parse_assignment, parse_condition
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_changes
@@ -35,7 +34,7 @@ _CHANGED, _SAME, _WITHOUT, _UNMET, _REFUSED = "changed", "the same already", "wi
     "--where",
     "condition",
     metavar="CONDITION",
-    help="Only decks for which this holds, such as 'OCEAN.depth > 100 and UNITS.units == METRIC'.",
+    help="Change only decks for which this holds, such as 'OCEAN.depth > 100 and UNITS.units == METRIC'.",
 )
 @click.option("--check", is_flag=True, help="Write nothing; name the files that would change, and exit with 1 if any.")
 @click.option("--diff", is_flag=True, help="Write nothing; print what would change, and exit with 1 if anything.")

@@ -253,7 +253,7 @@ REF015 = Code(
     "missing-file",
     Severity.WARNING,
     """
-    A file that the deck names is not there.
+    A file that the deck names was not found.
 
     FILE= and the LAST= of *RESTART name files beside the deck. Without the deck before a *RESTART mudline does not know
     the model that this deck works on, and what is missing is a warning only. The finding is also given for a deck that

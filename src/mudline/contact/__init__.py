@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from mudline.contact.model import ContactModel
     from mudline.contact.plan import Plan, Stage
     from mudline.contact.result import ContactResult
-    from mudline.contact.tables import ContactState
+    from mudline.contact.tables import ContactState, restored_state, state_arrays
 
 __all__ = [
     "ContactInput",
@@ -30,6 +30,8 @@ __all__ = [
     "PositionError",
     "Stage",
     "Tension",
+    "restored_state",
+    "state_arrays",
 ]
 
 _HOMES = {
@@ -39,7 +41,7 @@ _HOMES = {
         "model": ["ContactModel"],
         "plan": ["Plan", "Stage"],
         "result": ["ContactResult"],
-        "tables": ["ContactState"],
+        "tables": ["ContactState", "restored_state", "state_arrays"],
     }.items()
     for name in names
 }

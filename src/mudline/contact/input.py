@@ -317,14 +317,14 @@ class ContactInput:
         if law.tables:
             index, held = ("curve", len(self.curves)) if isinstance(law, NormalLaw) else ("table", len(self.tables))
             missing = (found[index] >= held) | (found[index] % 1.0 != 0.0)
-            self._refuse_first(law, rows, missing, f"has a {index} that is not there")
+            self._refuse_first(law, rows, missing, f"has a {index} that does not exist")
         if law.needs_diameter:
             self._refuse_first(law, rows, np.isnan(self.diameter[rows]), f"has a {name} law and no diameter")
         return AssignedLaw(law, rows, found)
 
     def _check_elements(self, nodes: int) -> None:
         first, second = ((ends >= 0) & (ends < nodes) for ends in self.element_nodes.T)
-        self._require(first & second, "has a node that is not there")
+        self._require(first & second, "has a node that does not exist")
         self._require(np.isfinite(self.length) & (self.length >= 0.0), "has no usable length")
         usable = np.isfinite(self.diameter) & (self.diameter > 0.0)
         self._require(usable | np.isnan(self.diameter), "has a diameter that is not positive and finite")

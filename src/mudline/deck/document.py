@@ -9,6 +9,7 @@ from typing import Any
 from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic.json_schema import models_json_schema
 
+from mudline.deck import MARK
 from mudline.deck.faults import DocumentPath, Faults, Locate, document_path, refusal, shown
 from mudline.deck.model import START, Deck, Opaque, Origin, Range, Section
 from mudline.deck.reading import Findings
@@ -18,11 +19,11 @@ from mudline.keywords.model import Block, Comment
 from mudline.keywords.reader import read_block
 from mudline.keywords.table import AS_TABLES
 from mudline.keywords.values import Text
+from mudline.quantities import UNIT_SYSTEMS
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, Leaf, canonical_name, mark_of, parse
 
-FORMAT = "mudline-deck/1"
-UNITS = ("metric", "imperial", "user")
+FORMAT = f"{MARK}1"
 
 Document = dict[str, Any]
 
@@ -103,8 +104,8 @@ class _Reader:
         self._only(document, ("format", "source", "units", "preamble", "comments", "sections"), ())
         deck.source = self._checked(str, document.get("source", ""), ("source",), "")
         deck.units = document.get("units", "user")
-        if deck.units not in UNITS:
-            self.faults.add(("units",), f"expected one of {', '.join(UNITS)}, found {shown(deck.units)}")
+        if deck.units not in UNIT_SYSTEMS:
+            self.faults.add(("units",), f"expected one of {', '.join(UNIT_SYSTEMS)}, found {shown(deck.units)}")
         deck.preamble = self._lines(document.get("preamble", []), ("preamble",), "$")
         if deck.preamble:
             self._stray(deck.preamble, "before the first section", Where(path=("preamble",)))
@@ -318,7 +319,7 @@ def json_schema() -> dict[str, Any]:
         {
             "format": {"const": FORMAT},
             "source": {"type": "string", "description": "name of the file that the deck was read from"},
-            "units": {"enum": list(UNITS)},
+            "units": {"enum": list(UNIT_SYSTEMS)},
             "preamble": {**lines, "description": "lines before the first section"},
             "comments": comments,
             "sections": {"type": "array", "items": {"$ref": "#/$defs/Section"}},

@@ -31,7 +31,8 @@ if TYPE_CHECKING:
 Value = float | str
 _CONVERT = "convert"
 """A function that exists, and whose arguments are not public: a deck with it is no worse for that."""
-_PLACEHOLDER = re.compile(r"%([^%]+)%")
+PLACEHOLDER = re.compile(r"%([^%]+)%")
+"""The name of a parameter in a text that is filled with its value."""
 _ITEM = re.compile(r"""[,\s]*(?:([^\s,:;"=]+)[:;])?(=\[(?:[^\[\]]|\[[^\[\]]*\])*\]|"[^"]*"|[^\s,]+)""")
 
 
@@ -117,7 +118,7 @@ class Parameters:
 
     def filled(self, text: str) -> str:
         """A text with the value of each parameter in place of its `%name%`; what is not known stays."""
-        return _PLACEHOLDER.sub(self._placed, text)
+        return PLACEHOLDER.sub(self._placed, text)
 
     def _placed(self, match: re.Match[str]) -> str:
         value = self.values.get(folded(match[1]), match[0])
@@ -268,7 +269,7 @@ def whole_fault(equation: Equation, value: Value, label: str, where: Where) -> P
 
 _PLAIN = frozenset({float, int, str, NoneType})
 _EVALUATED = (Kind.REAL, Kind.WHOLE, Kind.REAL_OR_NAME)
-_DEFINING = "PREPROCESSOR"
+DEFINING = "PREPROCESSOR"
 """The section of the parameters; `Parameters` and `mudline.variations` evaluate what stands there."""
 
 EvaluatedDeck = NewType("EvaluatedDeck", Deck)
@@ -289,7 +290,7 @@ def evaluated(deck: Deck) -> tuple[EvaluatedDeck, list[Problem]]:
     sections = []
     for i, section in enumerate(deck.sections):
         blocks = list(section.blocks)
-        if section.name != _DEFINING:
+        if section.name != DEFINING:
             evaluator.blocks = Blocks.ALWAYS if section.name == "MODEL" else Blocks.NEVER
             for j, block in enumerate(section.blocks):
                 if _has_equation(block):

@@ -112,7 +112,7 @@ class Findings:
 
 
 def _meant(name: str, near: str) -> str:
-    behind = ", with nothing behind the name" if near and words_behind(name, near) else ""
+    behind = ", with nothing after the name" if near and words_behind(name, near) else ""
     return f" (did you mean {near}{behind}?)" if near else ""
 
 
@@ -252,7 +252,7 @@ class _Reader:
         head = self.origin.heads[Where(index, number)]
         empty = last and not raw.leaves and not read.problems and head.end == len(self.text)
         if empty and set(declared.model_fields) - _OF_EVERY_BLOCK:
-            message = f"the file ends behind *{raw.name}: it seems to be cut off, add what is missing"
+            message = f"the file ends after *{raw.name}: it seems to be cut off, add what is missing"
             self.problems.append(Problem(SYN014, message, head, Severity.WARNING))
         if read.unpublished:
             self._opaque(section, Where(index, number), raw)

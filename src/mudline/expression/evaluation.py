@@ -366,7 +366,7 @@ def _call(node: Call) -> Steps:
     if form is None:
         raise UnknownFunction(f"the function '{shorten(node.name)}' is not known", *node.name_span)
     if not form.takes(len(node.arguments)):
-        raise EvaluationError(f"{name} wants {form.wants}, found {len(node.arguments)}", *node.span)
+        raise EvaluationError(f"{name} needs {form.wants}, found {len(node.arguments)}", *node.span)
     if name == "if":
         condition, then, otherwise = node.arguments
         return (yield then if Operand((yield condition), condition.span).truth else otherwise)

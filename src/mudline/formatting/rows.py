@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from mudline.diagnostics import Span
 from mudline.keywords.model import FieldSpec
 from mudline.keywords.values import Kind
-from mudline.syntax.rows import line_spans, row_fields
+from mudline.syntax.rows import GROUPED, PIECE, line_spans, row_fields
 
 LONGEST = 32
 """Longer fields, such as equations, do not widen their column: the fields after them on their row are shifted right."""
@@ -263,10 +263,8 @@ def _small(values: _Array) -> _Array:
     return values.astype(np.min_scalar_type(int(values.max())))
 
 
-_PIECE = 256 * 1024
 _SHORT = 1000
 """Characters of a table from which on arrays are faster than lists."""
-_GROUPED = re.compile(r'[\["{]')
 
 
 class Run(NamedTuple):
@@ -284,7 +282,7 @@ class Run(NamedTuple):
         start, end = self.span
         most = len(kind.columns)
         while start < end:
-            stop = self.text.find("\n", min(start + _PIECE, end), end) + 1 or end
+            stop = self.text.find("\n", min(start + PIECE, end), end) + 1 or end
             if start in plain:
                 found = plain.pop(start)
             else:
@@ -299,7 +297,7 @@ def word_rows(text: str, most: int) -> WordRows:
     rows: list[list[str]] = []
     for line in line_spans(text, Span(0, len(text))):
         body = text[slice(*line)]
-        if "," not in body or _GROUPED.search(body):
+        if "," not in body or GROUPED.search(body):
             rows.append(cut([given.text for given in row_fields(text, line, most)]))
         else:
             rows.append(cut([piece.strip(" \t\r") for piece in body.split(",")[:most]]))

@@ -337,8 +337,8 @@ def _value_of(slot: FieldSpec) -> str:
     """What to write as the value of a setting, as far as it names something."""
     names = getattr(slot.about, "names", None)
     if names is Names.SET:
-        return ": write the name of a set behind it (ALL is every element)"
-    return ": write the name of the set behind it" if slot.key == "SET" else ""
+        return ": write the name of a set after it (ALL is every element)"
+    return ": write the name of the set after it" if slot.key == "SET" else ""
 
 
 def _alone(slot: FieldSpec, fields: list[Field]) -> bool:

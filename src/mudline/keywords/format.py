@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 
 from mudline.keywords.model import (
     Block,
@@ -78,6 +79,20 @@ def _setting(slot: FieldSpec) -> str:
     ]
     value = "|".join(taken)
     return f"{slot.key}={value}" + (" [, ...]" if slot.many else "")
+
+
+def row_formats(schemas: Iterable[RecordSchema]) -> list[str]:
+    """How the rows of some records look."""
+    shapes: list[str] = []
+    for found in schemas:
+        lines = [slot for slot in found.columns if slot.row]
+        plain = [slot for slot in found.columns if not slot.row]
+        shapes += [record_schema(slot.row).wanted for slot in lines if slot.row]
+        if found.table and found.table.row:
+            shapes.append(record_schema(found.table.row).wanted)
+        if plain and not lines:
+            shapes.append(row_format([slot.label for slot in plain], [slot.required for slot in plain]))
+    return shapes
 
 
 # --------------------------------------------------------------------------------------------------- units and ranges

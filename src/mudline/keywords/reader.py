@@ -16,7 +16,7 @@ from mudline.diagnostics import Problem, Span
 from mudline.keywords import grammar
 from mudline.keywords.builder import Builder, ParsedRecord, construct
 from mudline.keywords.grammar import END, ROW, Content, Mismatch
-from mudline.keywords.model import Block, Part, RecordSchema, record_schema, row_format
+from mudline.keywords.model import Block, Part, RecordSchema, record_schema
 from mudline.keywords.places import Path, Places
 from mudline.keywords.plain import read_plain
 from mudline.keywords.text import hint, instead, merge_per_line, shown, suggestion
@@ -228,7 +228,7 @@ class _Reader:
         if mismatch.found is None:
             code = SYN014 if self.last else SYN001
             where = "the file" if self.last else f"*{self.raw.name}"
-            message = f"{where} ends too early: expected {wanted}"
+            message = f"{where} is incomplete: missing {wanted}"
             lines = [leaf for leaf in (self.raw.head, *self.raw.leaves) if leaf.kind is not Kind.BLANK]
             span = trimmed(self.text, *lines[-1].span)
             self.problems.append(Problem(code, message, span))
@@ -247,7 +247,9 @@ class _Reader:
 
     def _describe(self, terminal: str) -> str:
         if terminal == ROW:
-            formats = dict.fromkeys(row_formats(self.declared))
+            from mudline.keywords.format import row_formats  # noqa: PLC0415 - only for a line that does not fit
+
+            formats = dict.fromkeys(row_formats(schemas_of(self.declared)))
             return "a row " + " or ".join(f"`{shape}`" for shape in formats)
         return next(f"{key}=" for key in self.keys if grammar.terminal_of(key) == terminal)
 
@@ -339,24 +341,11 @@ def _label(part: type[Part], place: tuple[str | int, ...]) -> str:
 @cache
 def all_keys(part: type[Part]) -> frozenset[str]:
     """Every KEY that the lines of a keyword may begin with or hold."""
-    return frozenset(key for found in _layouts(part) for key in found.keys)
+    return frozenset(key for found in schemas_of(part) for key in found.keys)
 
 
-def row_formats(part: type[Part]) -> list[str]:
-    """How the rows of a keyword look."""
-    shapes: list[str] = []
-    for found in _layouts(part):
-        lines = [slot for slot in found.columns if slot.row]
-        plain = [slot for slot in found.columns if not slot.row]
-        shapes += [record_schema(slot.row).wanted for slot in lines if slot.row]
-        if found.table and found.table.row:
-            shapes.append(record_schema(found.table.row).wanted)
-        if plain and not lines:
-            shapes.append(row_format([slot.label for slot in plain], [slot.required for slot in plain]))
-    return shapes
-
-
-def _layouts(part: type[Part]) -> list[RecordSchema]:
+def schemas_of(part: type[Part]) -> list[RecordSchema]:
+    """The schema of a part and of the records below it."""
     own = record_schema(part)
-    below = [inner for slot in own.children.values() for record in slot.record.values() for inner in _layouts(record)]
+    below = [inner for slot in own.children.values() for record in slot.record.values() for inner in schemas_of(record)]
     return [own, *below]

@@ -68,7 +68,7 @@ class Column(NamedTuple):
 class Table:
     """Rows of a fixed number of columns.
 
-    `values` (rows, columns) float64 holds NaN where there is no number; `words` says what is there instead: an
+    `values` (rows, columns) float64 holds NaN in a field without a number; `words` says what it holds instead: an
     equation, a label, or None for an empty field. A NaN without a word is a field that could not be read, or one
     beyond the row's end. `lengths` (rows,) counts the fields given in each row.
     """

@@ -18,7 +18,7 @@ from mudline.keywords.places import Path, Places
 from mudline.keywords.table import LARGEST_WHOLE, Column, Table, from_rows, not_whole
 from mudline.keywords.values import Equation, Kind, Label
 from mudline.spelling import Effort, nearest
-from mudline.syntax.fields import Field, split, trimmed
+from mudline.syntax.fields import Field, is_one_field, split, trimmed
 from mudline.syntax.rows import Rows as RawRows
 from mudline.syntax.rows import read_number, read_rows, row_fields, row_starts, spells_number
 
@@ -77,9 +77,7 @@ def _label(field: Field, slot: FieldSpec, problems: list[Problem]) -> Label:
 
 def reads_as_name(text: str) -> bool:
     """Whether a field where a number or a name belongs takes this text, as it stands, for a name."""
-    fields, problems = split(text, Span(0, len(text)))
-    alone = len(fields) == 1 and not problems and fields[0].text == text
-    return alone and not _maybe_number(text)
+    return is_one_field(text) and not _maybe_number(text)
 
 
 def maybe_label(text: str) -> Label | None:
@@ -222,7 +220,7 @@ _COMMENT = re.compile(r"[ \t]*(?:[#!;]|//|--(?![0-9.]))")
 _OF_FIELDS = frozenset({SYN002, SYN003, SYN005, SYN015, SYN016})
 _OF_LINES = _OF_FIELDS | {SYN001, SYN004}
 _NO_LINE = Span(0, 0)
-_ADVICE = "a line cannot end with a comment; put it on a line of its own, behind C and a space"
+_ADVICE = "a line cannot end with a comment; put it on a line of its own, after C and a space"
 
 
 def remark_of(line: str) -> str:

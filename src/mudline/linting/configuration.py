@@ -182,7 +182,7 @@ class _Reading:
 
     def check(self, key: str, value: object) -> None:
         if key not in KEYS:
-            raise self.error(key, f"there is no key {key!r}{_hint(key, KEYS)}")
+            raise self.error(key, f"unknown key {key!r}{_hint(key, KEYS)}")
         if key == EXTEND:
             if not isinstance(value, str) or not value.strip():
                 raise self.error(key, f'{key} must be the path of a file, such as "../base.toml", not {value!r}')

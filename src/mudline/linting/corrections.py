@@ -15,6 +15,7 @@ from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Problem, Severity, Span, Where
 from mudline.keywords import catalogue
 from mudline.syntax.edits import TextEdit
+from mudline.syntax.rows import NUMBER
 from mudline.syntax.tree import RawBlock, RawSection
 
 _NAMES = (SYN004, SYN005, SYN008, SYN009, SYN010)
@@ -212,7 +213,6 @@ def _section_lines(run: list[tuple[int, str]], current: str) -> tuple[tuple[Text
 MOST_POINTS = 64
 """Points of a curve that are put in order."""
 
-_NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[EeDd][-+]?[0-9]+)?")
 _ROW_NUMBER = re.compile(r"[ \t]*([0-9]{1,10})[ \t]*(?=,)")
 _RIGID = re.compile(r"[ \t]*TYPE[ \t]*=[ \t]*(RIGID)[ \t\r\n]*", re.IGNORECASE)
 _USER_UNITS = (".keyx", ".keyxu")
@@ -318,7 +318,7 @@ def _rising(text: TextOrigin, curve: Where) -> tuple[TextEdit, ...]:
         span = text.span(curve.inside("points", number))
         if span is None or (rows and span.start <= rows[-1][0].start):
             break
-        values = _NUMBER.findall(text.source.unified[slice(*span)])
+        values = NUMBER.findall(text.source.unified[slice(*span)])
         if len(values) != 2:
             return ()
         rows.append((span, [float(value.upper().replace("D", "E")) for value in values]))
@@ -369,7 +369,7 @@ def _water(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     if cause is None or len(wrong) < 2 or not text.source.name.lower().endswith(_USER_UNITS):
         return
     ocean = next((block for name, block in blocks.blocks if (name, block.name) == ("MODEL", "OCEAN")), None)
-    values = list(_NUMBER.finditer(text.source.unified, *whole(ocean))) if ocean else []
+    values = list(NUMBER.finditer(text.source.unified, *whole(ocean))) if ocean else []
     if len(values) != 3:
         return
     density = values[1]

@@ -15,6 +15,7 @@ from mudline.keywords import catalogue
 from mudline.keywords.reader import read_block
 from mudline.linting.corrections import Blocks, Correction, line_at, start_of, whole
 from mudline.syntax.edits import TextEdit
+from mudline.syntax.rows import NUMBER
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, RawBlock, parse
 
@@ -30,7 +31,6 @@ LONGEST_PIECE = 600
 _OF_FOREIGN_LINES = (SYN001, SYN002, SYN003, SYN004, REF007, REF009)
 """What the lines of another keyword give in a block."""
 _MISREAD = str.maketrans({"O": "0", "o": "0", "l": "1", "I": "1"})
-_NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[EeDd][-+]?[0-9]+)?")
 _CURVE_NAMES = {"EMBEDMENT": "SET", "SEABED STIFFNESS": "CURVE"}
 """Keywords of points, and the setting that names the curve."""
 _VALUES = {"RIGID": range(5, 9), "MOORING": range(3, 4)}
@@ -93,14 +93,16 @@ def _missing_line(text: TextOrigin, section: str, block: RawBlock, cause: Proble
     for place in (at for at in (line, *settings[-1:]) if at > first):  # the block has lines of its own before it
         read = _reads_as(text, section, block.name, unified[place:end])
         for keyword in islice(read, MOST_KEYWORDS):
-            message = f"this line and those below it read as *{keyword}: that line seems to be missing above them"
-            if place < line:
-                number = text.source.position(place)[0]
-                message = (
-                    f"the lines from line {number} on read as *{keyword}: that line seems to be missing above them"
-                )
-            edit = TextEdit(Span(place, place), f"*{keyword}\n")
-            yield Correction(cause, (edit,), Span(place, end), message, guessed=True)
+            number = text.source.position(place)[0] if place < line else None
+            yield _keyword_line(keyword, cause, Span(place, end), number)
+
+
+def _keyword_line(keyword: str, cause: Problem, lines: Span, number: int | None = None) -> Correction:
+    """The line of a keyword above some lines, which begin in line `number` if that is not the one of the problem."""
+    which = "this line and those below it" if number is None else f"the lines from line {number} on"
+    message = f"{which} read as *{keyword}: that line seems to be missing above them"
+    edit = TextEdit(Span(lines.start, lines.start), f"*{keyword}\n")
+    return Correction(cause, (edit,), lines, message, guessed=True)
 
 
 def _first_keyword(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
@@ -114,9 +116,7 @@ def _first_keyword(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Corr
             continue
         place, end = lines[0].span.start, section.leaves[-1].span.end
         for keyword in islice(_reads_as(text, section.name, "", text.source.unified[place:end]), MOST_KEYWORDS):
-            message = f"this line and those below it read as *{keyword}: that line seems to be missing above them"
-            edit = TextEdit(Span(place, place), f"*{keyword}\n")
-            yield Correction(cause, (edit,), Span(place, end), message, guessed=True)
+            yield _keyword_line(keyword, cause, Span(place, end))
 
 
 def _reads_as(text: TextOrigin, section: str, own: str, lines: str) -> Iterator[str]:
@@ -308,13 +308,13 @@ def _rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
 def _numbers(written: str) -> list[str]:
     """The numbers that a word with a wrong letter may be."""
     translated = written.translate(_MISREAD)
-    found = [translated] if _NUMBER.fullmatch(translated) else []
-    if begun := _NUMBER.match(written):
+    found = [translated] if NUMBER.fullmatch(translated) else []
+    if begun := NUMBER.match(written):
         found.append(begun[0])
     return found
 
 
 def _row(written: str) -> list[str]:
     """The numbers of a line, with commas between them."""
-    found = _NUMBER.findall(written)
+    found = NUMBER.findall(written)
     return [f" {', '.join(found)}"] if len(found) > 1 else []

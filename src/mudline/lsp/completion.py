@@ -13,11 +13,11 @@ from mudline.diagnostics import Span
 from mudline.expression.evaluation import FORMS, FUNCTIONS
 from mudline.keywords import catalogue
 from mudline.keywords.model import Block, FieldSpec, ListRow, Setting, record_schema
-from mudline.keywords.reader import all_keys
+from mudline.keywords.reader import all_keys, schemas_of
 from mudline.keywords.values import Kind, Names
 from mudline.lsp.decks import Analysis, value_text
 from mudline.lsp.hover import field_help, keyword_help, section_help
-from mudline.lsp.sites import Spot, schemas_of, slot_of_key, spot
+from mudline.lsp.sites import Spot, slot_of_key, spot
 from mudline.syntax.tree import Kind as LeafKind
 
 T = TypeVar("T")

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from functools import cached_property, partial
 from pathlib import Path
 
+from mudline.deck import MARK
 from mudline.deck.forms import KEYWORD, form_of
 from mudline.deck.model import Deck
 from mudline.deck.parameters import NoValueError, Parameters
@@ -33,10 +34,6 @@ from mudline.scene.model import Scene
 def value_text(value: float | str) -> str:
     """A number with ten digits at most, or a text in quotes."""
     return shown(value) if isinstance(value, str) else f"{value:.10g}"
-
-
-_MARK = "mudline-deck/"
-"""What a JSON or YAML text has in it that is a deck."""
 
 
 @dataclass
@@ -208,7 +205,7 @@ class Decks:
 
 def _is_deck(document: Document) -> bool:
     """Whether a text is to be read: of JSON and YAML only decks."""
-    return form_of(document.name) == KEYWORD or _MARK in document.text
+    return form_of(document.name) == KEYWORD or MARK in document.text
 
 
 def _excluded(found: Configuration, document: Document) -> bool:

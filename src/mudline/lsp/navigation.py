@@ -1,32 +1,201 @@
-"""From a name or number to where it is defined and used, and new names for sets, curves and parameters."""
+"""From a name or number to where it is defined and used, in all decks of a chain, and new names for what has one."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
+from functools import cache
+from itertools import islice
 from pathlib import Path
+from typing import NamedTuple, cast
 
+import numpy as np
 from lsprotocol import types
 
-from mudline.deck.model import Deck
+from mudline.deck.forms import SUFFIXES
+from mudline.deck.model import Deck, Opaque
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Span
 from mudline.expression.evaluation import CONSTANTS
 from mudline.expression.nodes import ExpressionError
 from mudline.expression.parsing import parse
+from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Rows, record_schema
+from mudline.keywords.places import Path as ValuePath
+from mudline.keywords.table import Table
 from mudline.keywords.text import shown
 from mudline.keywords.values import Names
 from mudline.linting.engine import read_deck
-from mudline.lsp import names, numbers
-from mudline.lsp.chains import Linked, chain
+from mudline.lsp import names
 from mudline.lsp.decks import Analysis, Decks
 from mudline.lsp.documents import Document, address_of
 from mudline.lsp.names import WORDS, Occurrence, Thing, occurrences
 from mudline.lsp.sites import Site, site
 from mudline.scene.deck_values import find_file
 from mudline.scene.references import given_names
-from mudline.scene.restart import find_deck
+from mudline.scene.restart import decks_before, find_deck
 from mudline.scene.sets import ALL
 from mudline.syntax.edits import TextEdit, apply_edits
+
+# ----------------------------------------------------------------------------------------------------- decks of a chain
+
+_MOST_FILES = 1000
+_LARGEST = 5_000_000
+"""Bytes of a file beside a deck that is looked through for a *RESTART."""
+_RESTART = b"RESTART"
+
+
+class Linked(NamedTuple):
+    """A deck of a chain with its text as a document, open or not."""
+
+    document: Document
+    deck: Deck
+
+
+def chain(decks: Decks, analysis: Analysis, folders: list[Path]) -> list[Linked]:
+    """A deck, those that it continues, and those that continue it.
+
+    Of the latter, open ones count, and files beside the deck if that is in one of the `folders` of the workspace.
+    """
+    if analysis.deck is None or analysis.scene is None:
+        return []
+    found = [Linked(analysis.document, analysis.deck)]
+    for base in analysis.scene.deck.bases:
+        if base.deck.folder is not None and isinstance(base.deck.origin, TextOrigin):
+            path = base.deck.folder / Path(base.deck.file).name
+            found.append(Linked(decks.at(path) or _unopened(path, base.deck.origin), base.deck))
+    if analysis.document.path is not None:
+        found += _dependents(decks, analysis.document.path)
+        if any(analysis.document.path.is_relative_to(folder) for folder in folders):
+            with decks.reading():
+                found += _beside(decks, analysis.document.path)
+    return found
+
+
+def _unopened(path: Path, origin: TextOrigin) -> Document:
+    return Document(address_of(path), origin.source.text, 0)
+
+
+def _dependents(decks: Decks, path: Path) -> Iterator[Linked]:
+    """The open decks that continue a deck."""
+    for uri in list(decks.documents):
+        other = decks.analysis(uri)
+        if other is not None and other.deck is not None and other.document.path != path:
+            with decks.reading():
+                if _continues(other.deck, path):
+                    yield Linked(other.document, other.deck)
+
+
+def _continues(deck: Deck, path: Path) -> bool:
+    """Whether a deck continues that of a file."""
+    return any(os.path.abspath(before) == os.path.abspath(path) for before in decks_before(deck))  # noqa: PTH100 - links stay
+
+
+def _beside(decks: Decks, path: Path) -> Iterator[Linked]:
+    """The decks in the folder of a deck that continue it and are not open."""
+    for number, other in enumerate(sorted(path.parent.iterdir())):
+        if number == _MOST_FILES:
+            return
+        if other == path or other.suffix.lower() not in SUFFIXES or decks.at(other) is not None:
+            continue
+        try:
+            data = other.read_bytes() if other.stat().st_size <= _LARGEST else b""
+        except OSError:
+            continue
+        if _RESTART in data.upper():
+            deck = read_deck(data, other.as_posix(), folder=other.parent)
+            if isinstance(deck.origin, TextOrigin) and _continues(deck, path):
+                yield Linked(_unopened(other, deck.origin), deck)
+
+
+# ---------------------------------------------------------------------------------------- numbers of nodes and elements
+
+KINDS = {Names.NODE: "node", Names.ELEMENT: "element"}
+_MOST = 10_000
+"""Places that are given of one number."""
+
+
+class Use(NamedTuple):
+    """A place where a number is given; `defines` says that the node or element is made there."""
+
+    span: Span
+    defines: bool
+
+
+def uses(deck: Deck, kind: Names, number: int) -> list[Use]:
+    """The first places in a deck of its own, in the order of the text; none in a deck that is no keyword text."""
+    origin = deck.origin
+    if not isinstance(origin, TextOrigin):
+        return []
+    found: list[Use] = []
+    for (i, j), read in origin.read.items():
+        block = deck.sections[i].blocks[j]
+        if type(block) is Opaque or not _leads(type(cast("Block", block)), kind):
+            continue
+        makes = cast("Block", block).facts.defines == f"{KINDS[kind]}s"
+        paths = islice(_paths(cast("Block", block), kind, number, (), makes=makes), _MOST)
+        found += [Use(read.places.find(path), defines) for path, defines in paths]
+    return sorted(found)
+
+
+@cache
+def _leads(part: type[Part], kind: Names) -> bool:
+    return any(_of(slot, kind) or any(_leads(inner, kind) for inner in _inner(slot)) for slot in _slots(part))
+
+
+def _slots(part: type[Part]) -> list[FieldSpec]:
+    return record_schema(part).slots
+
+
+def _of(slot: FieldSpec, kind: Names) -> bool:
+    return kind in (slot.about.names, slot.about.defines)
+
+
+def _inner(slot: FieldSpec) -> list[type[Part]]:
+    row = slot.about.row if isinstance(slot.about, Rows) else slot.row
+    return [each for each in (row, *slot.record.values()) if each]
+
+
+def _paths(part: Part, kind: Names, number: int, path: ValuePath, *, makes: bool) -> Iterator[tuple[ValuePath, bool]]:
+    """The paths below a part that give the number, and whether it is defined there; `makes` is that of the block."""
+    for slot in _slots(type(part)):
+        value = getattr(part, slot.name, None)
+        inner = (*path, slot.json)
+        if isinstance(value, Table):
+            yield from (((*inner, row, column), defines) for row, column, defines in _cells(slot, value, kind, number))
+        elif isinstance(value, ListRow):
+            if any(_of(each, kind) for each in _slots(type(value))) and _holds(value, number):
+                yield inner, makes
+        elif isinstance(value, list) and slot.record:
+            for index, item in enumerate(value):
+                yield from _paths(item, kind, number, (*inner, index), makes=makes)
+        elif isinstance(value, list) and _of(slot, kind):
+            yield from (((*inner, index), False) for index, item in enumerate(value) if item == number)
+        elif _of(slot, kind) and value == number:
+            yield inner, False
+
+
+def _cells(slot: FieldSpec, table: Table, kind: Names, number: int) -> Iterator[tuple[int, int, bool]]:
+    """Row and column of the cells of a table that give the number, and whether it is defined there."""
+    for column, each in enumerate(_slots(_inner(slot)[0])):
+        if _of(each, kind) and column < table.values.shape[1]:
+            rows = np.flatnonzero(table.values[:, column] == number)[:_MOST].tolist()
+            yield from ((row, column, each.about.defines is kind) for row in rows)
+
+
+def _holds(row: ListRow, number: int) -> bool:
+    """Whether a range holds a number: `start, end [, increment]`, or `master, count [, increment]`."""
+    start = getattr(row, "start", getattr(row, "master", None))
+    of_five = getattr(row, "third", None) if getattr(row, "fifth", None) is not None else None  # of *BOUNDARY
+    step = getattr(row, "increment", of_five) or 1
+    end = getattr(row, "end", None)
+    if not isinstance(start, int) or not isinstance(step, int):
+        return False
+    if end is None and isinstance(count := getattr(row, "count", None), int):
+        end = start + (count - 1) * step
+    return isinstance(end, int) and step > 0 and start <= number <= end and (number - start) % step == 0
+
+
+# -------------------------------------------------------------------------------------------------------------- answers
 
 _LONGEST_NAME = 256
 _NOT_IN_NAMES = ',="{}[]%/\r\n'
@@ -87,13 +256,13 @@ class Navigator:
                 if one.thing == thing:
                     yield linked, one
 
-    def _numbered(self, found: Site | None) -> Iterator[tuple[Document, numbers.Use]]:
+    def _numbered(self, found: Site | None) -> Iterator[tuple[Document, Use]]:
         kind = (found.slot.about.names or found.slot.about.defines) if found else None
-        if found is None or kind not in numbers.KINDS or not isinstance(found.value, int | float):
+        if found is None or kind not in KINDS or not isinstance(found.value, int | float):
             return
         if float(found.value).is_integer():
             for linked in self._linked():
-                for use in numbers.uses(linked.deck, kind, int(found.value)):
+                for use in uses(linked.deck, kind, int(found.value)):
                     yield linked.document, use
 
     def _named_file(self, file: Path) -> Iterator[types.Location]:
@@ -119,7 +288,7 @@ class Navigator:
         """The name at an offset, if it can be changed; raises RenameError."""
         named = names.at(self.analysis.names, offset)
         if named is None:
-            raise RenameError("there is no name here: sets, curves and parameters can be renamed")
+            raise RenameError("only sets, curves and parameters can be renamed")
         word = WORDS[named.thing.kind]
         if named.thing == Thing(Names.SET, ALL):
             raise RenameError("set ALL is predefined and cannot be renamed")
@@ -158,7 +327,7 @@ class Navigator:
         scene = self.analysis.scene
         opaque = scene is not None and old.kind is Names.SET and scene.set_table.find(name) is not None
         if new != old and (opaque or new == Thing(Names.SET, ALL) or any(True for _ in self._named(new))):
-            raise RenameError(f"there is a {word} {shown(name)} already: choose another name")
+            raise RenameError(f"{word} {shown(name)} is already defined: choose another name")
 
 
 def _is_parameter(name: str) -> bool:

@@ -1,19 +1,101 @@
-"""The server: open decks, checked again when they or the decks that they depend on change, and what it can be asked."""
+"""The server: its messages, open decks, and their checks when they or the decks that they depend on change."""
 
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Generator
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from lsprotocol import types
+from pygls.exceptions import JsonRpcException, JsonRpcInvalidRequest, JsonRpcServerNotInitialized
 from pygls.lsp.server import LanguageServer
+from pygls.protocol import JsonRPCNotification, LanguageServerProtocol, lsp_method
 
 from mudline import __version__
+from mudline.deck.forms import SUFFIXES
 from mudline.lsp import findings
 from mudline.lsp.decks import Analysis, Decks
 from mudline.lsp.documents import LARGEST, Document, address_of, file_of
-from mudline.lsp.protocol import DeckProtocol
+
+_UNUSABLE = "$/unusable"
+"""The method of a notification that stands for a message which cannot be used; no feature has it."""
+
+
+class DeckProtocol(LanguageServerProtocol):
+    """The protocol of pygls with our own documents, which answers whatever is asked in whatever order."""
+
+    ready = False
+
+    @property
+    def documents(self) -> DeckServer:
+        """The server, which has the open documents."""
+        return cast("DeckServer", self._server)
+
+    # ------------------------------------------------------------------------------------------- unusable messages
+
+    def structure_message(self, data: dict[str, Any]) -> Any:  # noqa: ANN401 - as pygls declares it
+        """A message as an object; a request that cannot be one is answered with an error."""
+        try:
+            return super().structure_message(data)
+        except JsonRpcException as error:
+            self._refuse(data.get("id"), data, f"{data.get('method')}: the parameters cannot be used", error)
+        except (TypeError, ValueError, AttributeError, KeyError, RecursionError) as error:
+            self._refuse(data.get("id"), data, f"the message cannot be used: {error}", JsonRpcInvalidRequest())
+        return JsonRPCNotification(method=_UNUSABLE, jsonrpc=self.VERSION, params=None)
+
+    def handle_message(self, message: Any) -> None:  # noqa: ANN401 - as pygls declares it
+        """Handle a message; requests before the beginning and after the end are answered with an error."""
+        number, method = getattr(message, "id", None), getattr(message, "method", None)
+        if method is not None and not isinstance(method, str):
+            return
+        if number is None and not self.ready and method not in (types.EXIT, types.INITIALIZED):
+            return
+        if number is not None and method is not None:
+            if self._shutdown:
+                self._answer_error(number, JsonRpcInvalidRequest("the server has been shut down"))
+                return
+            if self.ready == (method == types.INITIALIZE):
+                twice = JsonRpcInvalidRequest("the server is initialised already")
+                early = JsonRpcServerNotInitialized("initialize is the first request")
+                self._answer_error(number, twice if self.ready else early)
+                return
+        super().handle_message(message)
+
+    def _refuse(self, number: object, data: dict[str, Any], message: str, error: JsonRpcException) -> None:
+        if isinstance(number, int | str) and isinstance(data.get("method"), str):
+            self._answer_error(number, type(error)(message))
+
+    def _answer_error(self, number: int | str, error: JsonRpcException) -> None:
+        self._send_response(number, error=error.to_response_error())
+
+    # ----------------------------------------------------------------------------------------------------- documents
+
+    @lsp_method(types.INITIALIZE)
+    def lsp_initialize(self, params: types.InitializeParams) -> Generator[Any, Any, types.InitializeResult]:
+        """Begin: the position encoding is agreed."""
+        result = yield from super().lsp_initialize(params)
+        self.ready = True
+        self.documents.begin(result.capabilities.position_encoding or types.PositionEncodingKind.Utf16, params)
+        return result
+
+    @lsp_method(types.TEXT_DOCUMENT_DID_OPEN)
+    def lsp_text_document__did_open(self, params: types.DidOpenTextDocumentParams) -> None:
+        """Take up a document."""
+        self.documents.opened(params.text_document)
+
+    @lsp_method(types.TEXT_DOCUMENT_DID_CHANGE)
+    def lsp_text_document__did_change(self, params: types.DidChangeTextDocumentParams) -> None:
+        """Change a document."""
+        self.documents.changed(params)
+
+    @lsp_method(types.TEXT_DOCUMENT_DID_CLOSE)
+    def lsp_text_document__did_close(self, params: types.DidCloseTextDocumentParams) -> None:
+        """Forget a document."""
+        self.documents.closed(params.text_document.uri)
+
+
+# ----------------------------------------------------------------------------------------------------------- open decks
 
 DELAY = 0.1
 """Seconds without a change after which a deck is checked."""
@@ -21,10 +103,9 @@ _LONGEST_DELAY = 3.0
 _PAUSE = 2.0
 """How many times as long as its last check a pause in typing has to be."""
 
-
 CONFIGURATION = ".toml"
 """The suffix of configurations, and of what they extend."""
-_WATCHED = ("*.keyx", "*.keyxm", "*.keyxi", "*.das", "*.fcsbd", "*.txt", f"*{CONFIGURATION}")
+_WATCHED = tuple(f"*{suffix}" for suffix in (*SUFFIXES, ".fcsbd", ".txt", CONFIGURATION))
 
 
 class DeckServer(LanguageServer):
@@ -129,8 +210,7 @@ class DeckServer(LanguageServer):
     @property
     def takes_snippets(self) -> bool:
         """Whether the editor takes texts with places to fill in."""
-        document = self.client_capabilities.text_document
-        item = document.completion.completion_item if document and document.completion else None
+        item = self._completion_items
         return bool(item and item.snippet_support)
 
     @property
@@ -143,9 +223,14 @@ class DeckServer(LanguageServer):
     @property
     def item_help_formats(self) -> list[types.MarkupKind]:
         """The formats of help on items of a completion that the editor shows."""
-        document = self.client_capabilities.text_document
-        item = document.completion.completion_item if document and document.completion else None
+        item = self._completion_items
         return list(item.documentation_format or ()) if item else []
+
+    @property
+    def _completion_items(self) -> types.ClientCompletionItemOptions | None:
+        """What the editor can do with items of a completion."""
+        document = self.client_capabilities.text_document
+        return document.completion.completion_item if document and document.completion else None
 
     @property
     def shows_trees(self) -> bool:

@@ -10,8 +10,9 @@ from mudline.deck.model import Opaque
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Span, Where
 from mudline.keywords import catalogue
-from mudline.keywords.model import Block, FieldSpec, ListRow, Part, RecordSchema, Rows, record_schema
+from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Rows, record_schema
 from mudline.keywords.places import Path
+from mudline.keywords.reader import schemas_of
 from mudline.keywords.table import Table
 from mudline.lsp.decks import Analysis
 from mudline.syntax.fields import canonical_key, read_line
@@ -114,13 +115,6 @@ def _of_key(origin: TextOrigin, found: Spot, leaf: Leaf, offset: int) -> Site | 
             slot = slot_of_key(declared, group.key)
             return Site(found.where, Span(group.span.start, end), slot, None) if slot else None
     return None
-
-
-def schemas_of(part: type[Part]) -> list[RecordSchema]:
-    """The schema of a part and of the records below it."""
-    own = record_schema(part)
-    below = [inner for slot in own.children.values() for record in slot.record.values() for inner in schemas_of(record)]
-    return [own, *below]
 
 
 def slot_of_key(declared: type[Block], key: str) -> FieldSpec | None:

@@ -1,19 +1,21 @@
-"""A deck with legacy seabed keywords to one in the new family, in the same form and checked against the old one."""
+"""A deck with legacy seabed keywords rewritten in the new family, in the same form, and the proof of equal meaning."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
-from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from mudline.codes import MIG001
+from mudline.contact.input import ContactInput, LawAssignment, LawKind
+from mudline.contact.model import ContactModel
+from mudline.curves import ForceCurve
 from mudline.deck.forms import form_of
 from mudline.deck.forms.keyword import as_text
-from mudline.deck.loading import dump, load_path
+from mudline.deck.loading import dump
 from mudline.deck.model import Deck, Opaque, comment_texts
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import DeckError, Problem
@@ -21,72 +23,13 @@ from mudline.keywords.catalogue import is_superseded, supersedes
 from mudline.migration.refusals import refusals, superseded_blocks
 from mudline.migration.rewriting import Rewriting, rewrite, unused_definitions
 from mudline.scene.deck_values import data_lines
+from mudline.scene.laws import ResistanceValues
 from mudline.scene.model import Scene, resolve
-from mudline.scene.restart import decks_before
+from mudline.scene.numbering import Floats, Indices
+from mudline.scene.representatives import representatives, shows_elements
+from mudline.scene.seabed import SeabedShape, parse_profile
 from mudline.syntax.edits import edited_bytes
 from mudline.syntax.source import Source
-
-_SUFFIXES = frozenset({".keyx", ".keyxm", ".keyxi", ".das"})
-_LARGEST = 50_000_000
-_NEWER = {"SEABED PROPERTIES", "SEABED STIFFNESS"}
-"""New keywords whose laws would be combined with those of a migrated deck."""
-
-
-class Continuations:
-    """The decks that continue a deck, among those to be migrated and those in its folder."""
-
-    def __init__(self, files: Iterable[Path]) -> None:
-        self._visited: set[Path] = set()
-        self._by_base: dict[Path, set[str]] = {}
-        self._extended: set[Path] = set()
-        for file in files:
-            self._visit(file)
-
-    def of(self, file: Path) -> list[str]:
-        """Names of the decks that continue a deck and have seabed keywords of their own."""
-        if file.parent not in self._visited:
-            self._visited.add(file.parent)
-            for other in sorted(file.parent.iterdir()):
-                if other.suffix.lower() in _SUFFIXES:
-                    self._visit(other)
-        return sorted(self._by_base.get(file.resolve(), ()))
-
-    def extend(self, file: Path) -> bool:
-        """Whether a deck that continues a deck, among those visited, has a model of its own: more elements or sets."""
-        return file.resolve() in self._extended
-
-    def _visit(self, file: Path) -> None:
-        if file in self._visited:
-            return
-        self._visited.add(file)
-        try:
-            if file.stat().st_size > _LARGEST or b"RESTART" not in file.read_bytes().upper():
-                return
-            deck = load_path(file)
-        except (OSError, DeckError):
-            return  # an unreadable deck continues nothing; where it is to be migrated itself, that is an error
-        keywords = deck.keywords()
-        if not keywords:
-            return
-        bases = [base.resolve() for base in decks_before(deck)]
-        self._extended.update(bases)
-        if keywords & _NEWER or any(map(is_superseded, keywords)):
-            for base in bases:
-                self._by_base.setdefault(base, set()).add(file.as_posix())
-
-
-def continuations_beside(deck: Deck) -> tuple[list[str], bool]:
-    """What `Continuations.of` and `extend` give for a deck and its folder; the decks of a folder are read once."""
-    if deck.folder is None or not deck.folder.is_dir():
-        return [], False
-    found, file = _continuations_in(deck.folder), deck.folder / Path(deck.file).name
-    return found.of(file), found.extend(file)
-
-
-@lru_cache(maxsize=1)
-def _continuations_in(_: Path) -> Continuations:
-    """Those of a folder, whose decks are read when they are asked for."""
-    return Continuations(())
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,3 +121,182 @@ def _others(deck: Deck) -> list[object]:
         for block in section.blocks
         if section.name != "MODEL" or not (is_superseded(block.keyword) or supersedes(block.keyword))
     ]
+
+
+# ---------------------------------------------------------------------------------------------------------------- proof
+
+
+class Difference(NamedTuple):
+    """What the two decks define differently: an element, or the seabed, and how it differs."""
+
+    what: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """What was compared and what differs.
+
+    `elements` of the deck are of `kinds`; one of each kind and `representatives` for its sets were evaluated, at
+    `positions` in all. There are none for a deck that shows all its elements.
+    """
+
+    elements: int
+    kinds: int
+    positions: int
+    representatives: int
+    differences: tuple[Difference, ...]
+
+
+def verify(migration: Migration) -> Verdict:
+    """Compare the decks before and after.
+
+    Elements that differ in nothing but their number and place have the same law in both decks; one of each kind is
+    evaluated over a sweep that covers every segment of its curve and both ends, and its forces and stiffnesses must be
+    bitwise equal; so must its friction, mobilisation, lateral resistance and suction, and the shape of the seabed. Then
+    the same for representative elements: in every set that a seabed block names and in pairs of them, which shows that
+    the same block wins for elements that the deck does not show, those of `*LINES`.
+    """
+    before, after = migration.before, migration.after
+    differences = [*_seabed_shapes(before.seabed, after.seabed, migration.files)]
+    kinds, positions, found = _compare(before, after, {})
+    differences += found
+    if shows_elements(before):
+        return Verdict(len(before.element_ids), kinds, positions, 0, tuple(differences))
+    external, names = representatives(before)
+    _, more, found = _compare(resolve(before.deck, external), resolve(after.deck, external), names)
+    return Verdict(len(before.element_ids), kinds, positions + more, len(external.ids), (*differences, *found))
+
+
+def _seabed_shapes(before: SeabedShape, after: SeabedShape, files: Mapping[str, bytes]) -> Iterator[Difference]:
+    """The seabed, where it differs; the file of a profile has not been written yet and is among `files`."""
+    if after.file in files:
+        after = replace(after, points=parse_profile(files[after.file], after.file, 2), missing="", file="")
+    if not before.same(after):
+        one, other = (f"{it.kind.value} (slope {it.slope!r}, {len(it.points)} points)" for it in (before, after))
+        yield Difference("the seabed", f"{one} before, {other} after")
+
+
+# ------------------------------------------------------------------------------------------------------------ elements
+
+
+def _compare(before: Scene, after: Scene, names: Mapping[int, str]) -> tuple[int, int, list[Difference]]:
+    """Number of kinds and of positions, and the differences; `names` describes elements by their number."""
+    chosen = _one_of_each_kind(before, after)
+    if not len(chosen):
+        return 0, 0, []
+    inputs = _contact_input(before, chosen), _contact_input(after, chosen)
+    depths = _depths(inputs)
+    labels = [names.get(number, f"element {number}") for number in before.element_ids[chosen].tolist()]
+    found = [*_laws(before, after, chosen), *_values(before, after, chosen), *_forces(inputs, depths)]
+    return len(chosen), depths.size, [Difference(labels[index], text) for index, text in found]
+
+
+def _one_of_each_kind(before: Scene, after: Scene) -> Indices:
+    """One element of each kind: the same source of law and of friction, and the same diameter, before and after."""
+    columns = [
+        column
+        for scene in (before, after)
+        for column in (scene.laws.of_element, scene.resistance.of_element, scene.diameter.view(np.int64))
+    ]
+    _, first = np.unique(np.column_stack(columns), axis=0, return_index=True)
+    return np.sort(first)
+
+
+def _laws(before: Scene, after: Scene, chosen: Indices) -> Iterator[tuple[int, str]]:
+    """The kind of law: a rigid seabed and no law at all both give no force here."""
+    for index in np.flatnonzero(before.law[chosen] != after.law[chosen]).tolist():
+        element = int(chosen[index])
+        yield index, f"law: {before.law_names[element]} before, {after.law_names[element]} after"
+
+
+def _values(before: Scene, after: Scene, chosen: Indices) -> Iterator[tuple[int, str]]:
+    """Friction, lateral resistance and suction: a coefficient, resistance or suction that is not given is 0."""
+    for name in ResistanceValues._fields:
+        if name == "characteristic":  # checked before: those in force are the default, which the new family has as well
+            continue
+        one, other = (np.asarray(scene.resistance.column(name)[chosen], dtype=np.float64) for scene in (before, after))
+        if name in ("friction", "lateral", "suction"):
+            one, other = (np.where(np.isnan(values), 0.0, values) for values in (one, other))
+        same = _same_bits(one, other).reshape(len(chosen), -1).all(axis=1)
+        for index in np.flatnonzero(~same).tolist():
+            yield index, f"{name.replace('_', ' ')}: {one[index]} before, {other[index]} after"
+
+
+def _forces(inputs: Sequence[ContactInput], depths: Floats) -> Iterator[tuple[int, str]]:
+    """The first depth at which an element differs in a result."""
+    positions = np.repeat(-depths, 2, axis=1)[:, :, np.newaxis] * np.array([1.0, 0.0, 0.0])
+    results = [ContactModel(given).evaluate(positions) for given in inputs]
+    for name in ("force", "stiffness", "slope", "ratio"):
+        one, other = (getattr(result, name) for result in results)
+        different = ~_same_bits(one, other)
+        for element in np.flatnonzero(different.any(axis=0)).tolist():
+            step = int(np.argmax(different[:, element]))
+            values = f"{float(one[step, element])!r} before, {float(other[step, element])!r} after"
+            yield element, f"{name} at depth {float(depths[step, element])!r}: {values}"
+
+
+def _same_bits(one: Floats, other: Floats) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
+    same: np.ndarray[tuple[int, ...], np.dtype[np.bool_]] = one.view(np.uint64) == other.view(np.uint64)
+    return same
+
+
+def _contact_input(scene: Scene, chosen: Indices) -> ContactInput:
+    """The chosen elements (k), each with two nodes of its own, whether the deck has nodes for them or not.
+
+    An element without a diameter gets one: its law is the same for every diameter.
+    """
+    count = len(chosen)
+    arrays = scene.law_arrays()
+    (on_curve,), (linear,) = (np.nonzero(arrays.law[chosen] == kind) for kind in (LawKind.CURVE, LawKind.LINEAR))
+    diameter = scene.diameter[chosen]
+    return ContactInput(
+        node_ids=np.arange(1, 2 * count + 1),
+        coordinates=np.zeros((2 * count, 3)),
+        element_ids=scene.element_ids[chosen],
+        element_nodes=np.arange(2 * count, dtype=np.intp).reshape(count, 2),
+        length=np.ones(count),
+        diameter=np.where(np.isnan(diameter), 1.0, diameter),
+        laws=(
+            LawAssignment("curve", on_curve, {"curve": arrays.curve_index[chosen[on_curve]]}),
+            LawAssignment("linear", linear, {"stiffness": arrays.linear_stiffness[chosen[linear]]}),
+        ),
+        curves=arrays.curves,
+    )
+
+
+# -------------------------------------------------------------------------------------------------------------- depths
+
+_FRACTIONS = (0.25, 0.5, 0.75)
+_PLAIN = np.array([-1.0, -1e-9, 0.0, 5e-324, 1e-9, 1e-3, 0.1, 1.0, 37.5, 1e6])
+
+
+def _depths(inputs: Sequence[ContactInput]) -> Floats:
+    """Depths (steps, elements) for inputs with the same elements, in their unit of length.
+
+    For an element with a curve: every point of its curves and the floats beside it, three places within each segment,
+    and places far beyond both ends; for every element the seabed itself, just above and below it, and some depths.
+    """
+    curves: dict[tuple[int, ...], Floats] = {}
+    columns: list[Floats] = []
+    of_element = np.column_stack([given.curve_index for given in inputs]).tolist()
+    for diameter, indices in zip(inputs[0].diameter.tolist(), map(tuple, of_element), strict=True):
+        if indices not in curves:
+            found = [_ratios(given.curves[index]) for given, index in zip(inputs, indices, strict=True) if index >= 0]
+            curves[indices] = np.unique(np.concatenate(found)) if found else np.zeros(0)
+        columns.append(np.concatenate([_PLAIN, curves[indices] * diameter]))
+    steps = max((len(column) for column in columns), default=0)
+    return np.column_stack(
+        [np.pad(column, (0, steps - len(column)), mode="edge") for column in columns] or [_PLAIN[:0]]
+    )
+
+
+def _ratios(curve: ForceCurve) -> Floats:
+    """Ratios at, beside and between the points of a curve, and beyond its ends."""
+    points = curve.ratios
+    inside = [points[:-1] + fraction * np.diff(points) for fraction in _FRACTIONS]
+    width = float(points[-1] - points[0])
+    beyond = np.array([points[0] - width, points[0] - 10.0 * width, points[-1] + width, points[-1] + 10.0 * width])
+    beside = [np.nextafter(points, -np.inf), points, np.nextafter(points, np.inf)]
+    found: Floats = np.concatenate([*beside, *inside, beyond])
+    return found[np.isfinite(found)]

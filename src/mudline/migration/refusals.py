@@ -1,22 +1,27 @@
-"""What stops a migration: errors, seabed keywords that are misspelt, and what the new family cannot express."""
+"""What stops a migration: misspelt seabed keywords, what the new family cannot express, and decks that continue one."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
 from mudline.codes import MIG001
+from mudline.deck.forms import SUFFIXES
+from mudline.deck.loading import load_path
 from mudline.deck.model import Deck, Opaque
-from mudline.diagnostics import Problem, Where
+from mudline.diagnostics import DeckError, Problem, Where
 from mudline.keywords.catalogue import in_order, is_superseded, sections_of, suggest_keyword, supersedes
 from mudline.keywords.model import Block
 from mudline.keywords.surfaces import Surface
 from mudline.keywords.values import Equation
 from mudline.scene.deck_values import LARGEST_MOBILISATION
+from mudline.scene.laws import DIRECTIONS
 from mudline.scene.model import Scene
+from mudline.scene.restart import decks_before
 from mudline.syntax.tree import canonical_name
 
-DIRECTIONS = ("longitudinal", "transverse")
 _MISSPELT = "{} may be meant as *{}{}: correct or remove it first"
 
 
@@ -145,3 +150,67 @@ def _shapes(deck: Deck, block: Surface, where: Where) -> Iterator[Problem]:
         if isinstance(word, Equation):
             message = "an equation in a profile, whose points go to a text file: write the number"
             yield _refusal(message, where.inside("profile", row, column))
+
+
+# ---------------------------------------------------------------------------------------------- decks that continue one
+
+_LARGEST = 50_000_000
+_NEWER = {"SEABED PROPERTIES", "SEABED STIFFNESS"}
+"""New keywords whose laws would be combined with those of a migrated deck."""
+
+
+class Continuations:
+    """The decks that continue a deck, among those to be migrated and those in its folder."""
+
+    def __init__(self, files: Iterable[Path]) -> None:
+        self._visited: set[Path] = set()
+        self._by_base: dict[Path, set[str]] = {}
+        self._extended: set[Path] = set()
+        for file in files:
+            self._visit(file)
+
+    def of(self, file: Path) -> list[str]:
+        """Names of the decks that continue a deck and have seabed keywords of their own."""
+        if file.parent not in self._visited:
+            self._visited.add(file.parent)
+            for other in sorted(file.parent.iterdir()):
+                if other.suffix.lower() in SUFFIXES:
+                    self._visit(other)
+        return sorted(self._by_base.get(file.resolve(), ()))
+
+    def extend(self, file: Path) -> bool:
+        """Whether a deck that continues a deck, among those visited, has a model of its own: more elements or sets."""
+        return file.resolve() in self._extended
+
+    def _visit(self, file: Path) -> None:
+        if file in self._visited:
+            return
+        self._visited.add(file)
+        try:
+            if file.stat().st_size > _LARGEST or b"RESTART" not in file.read_bytes().upper():
+                return
+            deck = load_path(file)
+        except (OSError, DeckError):
+            return  # an unreadable deck continues nothing; where it is to be migrated itself, that is an error
+        keywords = deck.keywords()
+        if not keywords:
+            return
+        bases = [base.resolve() for base in decks_before(deck)]
+        self._extended.update(bases)
+        if keywords & _NEWER or any(map(is_superseded, keywords)):
+            for base in bases:
+                self._by_base.setdefault(base, set()).add(file.as_posix())
+
+
+def continuations_beside(deck: Deck) -> tuple[list[str], bool]:
+    """What `Continuations.of` and `extend` give for a deck and its folder; the decks of a folder are read once."""
+    if deck.folder is None or not deck.folder.is_dir():
+        return [], False
+    found, file = _continuations_in(deck.folder), deck.folder / Path(deck.file).name
+    return found.of(file), found.extend(file)
+
+
+@lru_cache(maxsize=1)
+def _continuations_in(_: Path) -> Continuations:
+    """Those of a folder, whose decks are read when they are asked for."""
+    return Continuations(())

@@ -18,7 +18,8 @@ from mudline.keywords.library.embedment import Embedment
 from mudline.keywords.model import record_schema
 from mudline.keywords.surfaces import Surface
 from mudline.keywords.text import reads_as_name
-from mudline.migration.refusals import DIRECTIONS, surfaces
+from mudline.migration.refusals import surfaces
+from mudline.scene.laws import DIRECTIONS
 from mudline.scene.model import Scene
 from mudline.scene.representatives import shows_elements
 from mudline.scene.sets import ALL, set_key

@@ -18,6 +18,7 @@ from mudline.diagnostics import MORE, MOST_REPORTED, Blocks, Code, Problem, Seve
 from mudline.keywords import catalogue
 from mudline.keywords.catalogue import meant_in, suggest_keyword
 from mudline.keywords.model import ListRow
+from mudline.keywords.table import LARGEST_WHOLE
 from mudline.keywords.text import hint
 from mudline.scene.deck_values import (
     definition_by,
@@ -27,7 +28,6 @@ from mudline.scene.deck_values import (
     opaque_labels,
     opaque_set_names,
 )
-from mudline.scene.numbering import LARGEST
 from mudline.short_repr import counted, short_repr
 from mudline.spelling import Effort, nearest
 from mudline.syntax.tree import canonical_name, mark_of
@@ -234,7 +234,7 @@ class Context:
         values = [getattr(given, name) for name in type(given).model_fields]
         if values[2] is None and not self.without_value(given, where):
             values[2] = 1
-        usable = all(isinstance(value, int) and abs(value) <= LARGEST for value in values)
+        usable = all(isinstance(value, int) and abs(value) <= LARGEST_WHOLE for value in values)
         return (values[0], values[1], values[2]) if usable and not self.deck.damaged(where) else None
 
     def without_value(self, row: ListRow, where: Where) -> bool:

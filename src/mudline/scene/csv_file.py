@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 
 from mudline.codes import DAT001
 from mudline.diagnostics import DeckError, Diagnostic, Span
+from mudline.keywords.table import LARGEST_WHOLE
 from mudline.keywords.text import shown
-from mudline.scene.numbering import LARGEST, Floats, Ids
+from mudline.scene.numbering import Floats, Ids
 from mudline.syntax.rows import read_number, read_rows_fast
 
 _SEPARATORS = (",", ";", "\t")
@@ -101,7 +102,7 @@ def whole_numbers(file: str, name: str, column: Floats, lines: Sequence[int] | N
 def _first_broken(column: Floats) -> int | None:
     """The first row that is not a whole number, or one larger than a double counts exactly."""
     with np.errstate(invalid="ignore"):
-        good = (column == np.floor(column)) & (np.abs(column) <= LARGEST)
+        good = (column == np.floor(column)) & (np.abs(column) <= LARGEST_WHOLE)
     return None if good.all() else int(np.argmin(good))
 
 

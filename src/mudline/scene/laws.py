@@ -27,6 +27,9 @@ if TYPE_CHECKING:
     from mudline.keywords.model import Block, Part, Record
 
 
+DIRECTIONS = ("longitudinal", "transverse")
+"""Of friction, as the names of its fields begin."""
+
 NOTHING = -1
 _UNKNOWN = float("nan")
 
@@ -212,6 +215,11 @@ class SeabedResistance:
 
     __repr__ = short_repr
 
+    @property
+    def has_mobilisation(self) -> bool:
+        """Whether a mobilisation length above 0 is given."""
+        return any(length > 0.0 for entry in self.values for length in entry.mobilisation)
+
     def column(self, name: str) -> Floats:
         """One of the fields of `ResistanceValues` for all elements: (m,), or (m, 2) for those of two directions."""
         table = np.array([getattr(entry, name) for entry in (*self.values, _NO_VALUES)], dtype=np.float64)
@@ -245,7 +253,8 @@ def _present(covered: Indices) -> list[int]:
 
 
 def _two(part: Part | None, name: str) -> tuple[float, float]:
-    return number(part, f"longitudinal{name}"), number(part, f"transverse{name}")
+    longitudinal, transverse = (number(part, f"{direction}{name}") for direction in DIRECTIONS)
+    return longitudinal, transverse
 
 
 def _of_set(entry: SeabedSet) -> ResistanceValues:

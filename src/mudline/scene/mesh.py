@@ -9,11 +9,10 @@ import numpy as np
 
 from mudline.codes.references import REF005, REF006, REF007, REF010
 from mudline.diagnostics import MOST_REPORTED, Blocks, Problem, Severity, Where
-from mudline.keywords.table import Table
+from mudline.keywords.table import LARGEST_WHOLE, Table
 from mudline.keywords.text import shown
 from mudline.scene.context import Context
 from mudline.scene.numbering import (
-    LARGEST,
     MOST_GENERATED,
     Batch,
     Definitions,
@@ -209,7 +208,7 @@ def _add_pattern(context: Context, gathered: Definitions, given: ElementPattern,
     master, count, step = numbers
     if fault := _pattern_fault(gathered, master, count, step):
         context.report(REF010, fault, place, Severity.ERROR)
-        context.doubtful.setdefault("ELEMENT", []).append((master, LARGEST))
+        context.doubtful.setdefault("ELEMENT", []).append((master, LARGEST_WHOLE))
         return
     ends = gathered.find(master)
     if ends is None:
@@ -227,7 +226,7 @@ def _pattern_fault(gathered: Definitions, master: int, count: int, step: int) ->
         return f"GEN={master}, {count}, {step}: the number of elements and the increment must be at least 1"
     if count - 1 > MOST_GENERATED - gathered.generated:
         return f"GEN={master}, {count}, {step}: a deck must not generate more than {MOST_GENERATED} elements"
-    if abs(master) + (count - 1) * step > LARGEST:
+    if abs(master) + (count - 1) * step > LARGEST_WHOLE:
         return (
             f"GEN={master}, {count}, {step}: no element may have the number {master + (count - 1) * step}: correct it"
         )
@@ -263,7 +262,7 @@ def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:
 
 def _node_numbers(values: Floats) -> tuple[Mask, Ids]:
     """Where values are numbers of nodes, and these; 0 elsewhere."""
-    given = np.abs(values) <= 2 * LARGEST
+    given = np.abs(values) <= 2 * LARGEST_WHOLE
     return given, np.where(given, values, 0).astype(np.int64)
 
 

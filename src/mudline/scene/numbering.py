@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.diagnostics import Where
+from mudline.keywords.table import LARGEST_WHOLE
 from mudline.short_repr import short_repr
 
 Ids = NDArray[np.int64]
@@ -22,9 +23,6 @@ Mask = NDArray[np.bool_]
 
 MOST_GENERATED = 10_000_000
 """Nodes or elements that the GEN= lines of a deck may make together: a slip of a digit must not fill the memory."""
-
-LARGEST = 2**53
-"""The largest whole number that a field may hold."""
 
 _FEW = 4096
 _FEW_RUNS = 8
@@ -86,7 +84,7 @@ def blocks_of(count: int) -> Iterator[slice]:
 
 def whole_numbers(column: Floats) -> tuple[Ids, Mask]:
     """A column of a table as whole numbers, and where it holds one; what could not be read is 0."""
-    known = np.abs(column) <= LARGEST
+    known = np.abs(column) <= LARGEST_WHOLE
     known &= column == np.floor(column)
     return np.where(known, column, 0.0).astype(np.int64), known
 

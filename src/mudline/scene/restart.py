@@ -11,6 +11,7 @@ from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 from mudline.codes.references import REF015
+from mudline.deck.forms import SUFFIXES
 from mudline.deck.loading import load_bytes, load_path
 from mudline.deck.model import Base, BaseProblem, Deck
 from mudline.deck.parameters import Parameters, evaluated
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
 MOST_FOLLOWED = 20
 """Decks in a chain; a longer one is not followed to its beginning."""
 
-_SUFFIXES = (".keyxm", ".keyxi", ".keyx", ".das")
 _MOST_LISTED = 20_000
 """Files of a folder that are looked through for a name in another case."""
 
@@ -135,7 +135,7 @@ def _follow(deck: Deck) -> _Chain:
 def _missing(deck: Deck, name: str) -> str:
     folder = deck.folder.as_posix() if deck.folder else ""
     names = candidate_names(deck, name)
-    return f"the deck {shown(names[0])} is not there (looked in {folder} for {', '.join(names)}): {_ADVICE}"
+    return f"the deck {shown(names[0])} was not found (looked in {folder} for {', '.join(names)}): {_ADVICE}"
 
 
 def _identity(path: Path) -> Path:
@@ -197,7 +197,7 @@ def candidate_names(deck: Deck, written: str) -> list[str]:
     """The names that a LAST= may stand for: as written, then with the deck's own suffix, then with the others."""
     name = file_name(written)
     own = PurePath(deck.file).suffix
-    return list(dict.fromkeys([name, *(name + suffix for suffix in (own, *_SUFFIXES))]))
+    return list(dict.fromkeys([name, *(name + suffix for suffix in (own, *SUFFIXES))]))
 
 
 def find_deck(deck: Deck, written: str) -> Path | None:

@@ -133,7 +133,7 @@ def _read_points(context: Context, name: str, columns: int, where: Where) -> tup
     path = find_file(context.deck.folder_of(where), name)
     try:
         if path is None and not name.lower().endswith(COMPILED):
-            return _NO_POINTS, f"{shown(name)} is not there", ""
+            return _NO_POINTS, f"{shown(name)} was not found", ""
         return read_profile(path or Path(name), columns), "", ""
     except ProfileError as error:
         fault = str(error)
@@ -162,7 +162,7 @@ def read_profile(path: Path, columns: int) -> Floats:
     """
     if path.suffix.lower() == COMPILED:
         raise ProfileError(
-            f"a compiled profile ({COMPILED}) is binary and not public: it is kept; give a text file to have it read"
+            f"a compiled profile ({COMPILED}) is binary, and its format is not public: give a text file instead"
         )
     if path.stat().st_size > LARGEST_FILE:
         raise ProfileError(f"the file has more than {LARGEST_FILE // 10**6} million bytes: is it a profile?")

@@ -177,6 +177,12 @@ def _begins_field(text: str, body: Span, at: int) -> bool:
     return at == body.start or text[at - 1] == ","
 
 
+def is_one_field(text: str) -> bool:
+    """Whether a text, as it stands, is one field of a line."""
+    fields, problems = split(text, Span(0, len(text)))
+    return len(fields) == 1 and not problems and fields[0].text == text
+
+
 def _close(text: str, start: int, end: int) -> int:
     """Offset behind the mark that closes the one at `start`, or -1.
 

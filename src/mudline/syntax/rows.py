@@ -17,13 +17,16 @@ from mudline.syntax import number_rows
 from mudline.syntax.fields import Field, split
 from mudline.syntax.number_rows import LONGEST_BLANK_SEPARATED, LONGEST_NUMBER, NumberRows
 
-_NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eEdD][-+]?[0-9]+)?")
+NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eEdD][-+]?[0-9]+)?")
+"""A number as decks write it."""
 _WORD = re.compile(r"[^ \t\r\n]+")
-_SPECIAL = re.compile(r'[\["{]')
+GROUPED = re.compile(r'[\["{]')
+"""What opens an equation, a string or a label, in which a comma does not separate fields."""
 _ONLY_EQUATIONS = re.compile(r'(?:[^"{\[]++|(?<==)\[[^\[\]"{,]*+\])*+')
 """A row whose only brackets are those of equations without commas, brackets, strings or labels inside."""
 _SHORT = 800  # characters: shorter runs are read sooner without arrays
-_PIECE = 256 * 1024  # characters: the arrays of a piece stay in the fast memory of a processor
+PIECE = 256 * 1024
+"""Characters that are read at once: their arrays stay in the fast memory of a processor."""
 _MOST_ODD = 0.5
 _ROOM = 1.05
 _KEPT_BACK = 1 << 22
@@ -55,7 +58,7 @@ class Rows(NamedTuple):
 
 def read_number(text: str) -> float | None:
     """The finite double that a field spells, or None. Fortran's D exponent is read as E."""
-    if len(text) > LONGEST_NUMBER or not _NUMBER.fullmatch(text):
+    if len(text) > LONGEST_NUMBER or not NUMBER.fullmatch(text):
         return None
     try:
         value = float(text)
@@ -66,7 +69,7 @@ def read_number(text: str) -> float | None:
 
 def spells_number(text: str) -> bool:
     """Whether a text has the form of a number, whatever its size."""
-    return _NUMBER.fullmatch(text) is not None
+    return NUMBER.fullmatch(text) is not None
 
 
 def read_rows(text: str, span: Span, columns: int) -> Rows:
@@ -101,7 +104,7 @@ def read_rows_fast(text: str, span: Span, columns: int) -> Rows | None:
     """The same rows where every field is a number and all rows have one length; None otherwise."""
     parts: list[tuple[int, Rows]] = []
     for start, end in _pieces(text, span):
-        found = NumberRows(text[start:end]).read() if end - start <= 2 * _PIECE else None
+        found = NumberRows(text[start:end]).read() if end - start <= 2 * PIECE else None
         if found is None or found[1] is not None or found[0].shape[1] > columns:
             return None
         parts.append((end - start, _plain(found[0])))
@@ -118,7 +121,7 @@ def _parts(text: str, span: Span, columns: int) -> Iterator[tuple[int, Rows]]:
     """The rows of one piece of a text after the other, and how many characters each piece has."""
     arrow = number_rows.arrow_csv(span.end - span.start)
     refused = 0
-    for start, end in _pieces(text, span, number_rows.ARROW_PIECE if arrow else _PIECE):
+    for start, end in _pieces(text, span, number_rows.ARROW_PIECE if arrow else PIECE):
         values = number_rows.read_with_arrow(arrow, text[start:end], columns) if arrow else None
         if values is not None:
             refused -= 1
@@ -132,7 +135,7 @@ def _parts(text: str, span: Span, columns: int) -> Iterator[tuple[int, Rows]]:
 
 def _read_piece(lines: str, columns: int) -> Rows:
     """The rows of some lines: those that hold numbers alone many at once, the others one by one."""
-    if len(lines) > 2 * _PIECE:  # one line without end
+    if len(lines) > 2 * PIECE:  # one line without end
         return read_rows_slow(lines, Span(0, len(lines)), columns)
     rows = NumberRows(lines)
     odd = np.zeros(rows.count, dtype=bool)
@@ -208,7 +211,7 @@ def _all_lengths(parts: list[NDArray[np.intp]]) -> NDArray[np.intp]:
     return np.concatenate(parts) if parts else np.zeros(0, dtype=np.intp)
 
 
-def _pieces(text: str, span: Span, size: int = _PIECE) -> Iterator[Span]:
+def _pieces(text: str, span: Span, size: int = PIECE) -> Iterator[Span]:
     """Parts of whole lines, each but the last of about `size` characters, without the line end of the last line.
 
     A C library that has given back a large block keeps smaller ones for the next that are asked for; otherwise every
@@ -268,7 +271,7 @@ def _row_words(body: str, columns: int) -> tuple[list[str], int]:
 
     Empty fields behind the last column, as trailing commas leave them, do not count.
     """
-    if _SPECIAL.search(body) and not (body.count(",") < columns and _ONLY_EQUATIONS.fullmatch(body)):
+    if GROUPED.search(body) and not (body.count(",") < columns and _ONLY_EQUATIONS.fullmatch(body)):
         texts = [field.text for field in split(body, Span(0, len(body)))[0]]
         while len(texts) > columns and not texts[-1]:
             texts.pop()
@@ -287,4 +290,4 @@ def blank_separated(body: str) -> bool:
     if len(body.rstrip("\r")) > LONGEST_BLANK_SEPARATED:
         return False
     words = _WORD.findall(body)
-    return len(words) > 1 and all(_NUMBER.fullmatch(word) for word in words)
+    return len(words) > 1 and all(NUMBER.fullmatch(word) for word in words)

@@ -20,7 +20,7 @@ from mudline.keywords.text import shown, suggestion
 from mudline.keywords.values import Equation
 from mudline.scene.deck_values import find_file
 from mudline.spelling import Effort
-from mudline.syntax.fields import split
+from mudline.syntax.fields import is_one_field
 from mudline.syntax.rows import read_number
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, canonical_name, parse
@@ -128,9 +128,7 @@ def parameter_field(text: str) -> str | None:
         return text
     if not text:
         return None
-    fields, problems = split(text, Span(0, len(text)))
-    alone = len(fields) == 1 and not problems and fields[0].text == text
-    if alone and (unquoted(text) != text or not (set(text) & set(' \t"') or text[0] in "/=")):
+    if is_one_field(text) and (unquoted(text) != text or not (set(text) & set(' \t"') or text[0] in "/=")):
         return text
     return None if '"' in text else f'"{text}"'
 
@@ -230,7 +228,7 @@ def _addition(deck: Deck, varied: VariedBlock, keyword: str, section: str) -> Ad
         )
     path = find_file(deck.folder, varied.file)
     if path is None:
-        raise RefusedError(f"file {shown(unquoted(varied.file))} is not found beside the deck")
+        raise RefusedError(f"file {shown(unquoted(varied.file))} was not found beside the deck")
     text = _block_text(_content(path, varied.file), keyword)
     try:
         text.encode(cast("TextOrigin", deck.origin).source.encoding)
@@ -287,7 +285,7 @@ class CaseReader:
                 place = where.inside("variations", index)
                 cases = self._cases(variation, place)
                 if name_key(cases.name) in found:
-                    message = f"there is a variation {shown(cases.name)} already: choose another name"
+                    message = f"variation {shown(cases.name)} is already defined: choose another name"
                     self._report(message, place.inside("name"))
                 found[name_key(cases.name)] = cases
         return found

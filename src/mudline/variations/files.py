@@ -12,7 +12,7 @@ from itertools import chain
 from pathlib import Path, PurePath
 from typing import NamedTuple, cast
 
-from mudline.deck.forms import form_of
+from mudline.deck.forms import SUFFIXES, form_of
 from mudline.deck.loading import dump
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin, read_source
@@ -43,7 +43,7 @@ LONGEST_PATH = 1000
 """Bytes of a path within the output folder."""
 
 
-SUFFIXES = (".keyx", ".keyxm", ".keyxi", ".das", ".json", ".yaml", ".yml")
+_ENDINGS = (*SUFFIXES, ".json", ".yaml", ".yml")
 """What a file name of a deck ends with; another name gets the suffix of the source."""
 
 
@@ -84,7 +84,7 @@ class Namer:
             name = filled(template.filename, value_of)
         else:
             name = self.source.name if template.subdirectory is not None else f"{self.source.stem} {counter}"
-        file = name if name.lower().endswith(SUFFIXES) else name + self.suffix
+        file = name if name.lower().endswith(_ENDINGS) else name + self.suffix
         path = "/".join([*(folder.removesuffix("/") or "/" for folder in folders), file])
         if missing:
             return path, f"needs the value of {shown(missing[0])}, which has none"

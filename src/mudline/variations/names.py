@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Collection, Iterable, Iterator
 from typing import TYPE_CHECKING, cast
 
 from mudline.codes.lines import SYN009, SYN010
 from mudline.codes.references import REF001, REF013
 from mudline.deck.model import Deck, Opaque
-from mudline.deck.parameters import Parameters, folded
+from mudline.deck.parameters import DEFINING, PLACEHOLDER, Parameters, folded
 from mudline.diagnostics import Problem, Severity, Where
 from mudline.keywords import catalogue
 from mudline.keywords.text import hint, shown, suggestion
@@ -20,8 +19,6 @@ if TYPE_CHECKING:
     from mudline.keywords.library.combinations import Combinations
     from mudline.keywords.library.parameters import Parameters as ParameterBlock
     from mudline.keywords.library.variation import Variation, VariedBlock
-
-_PLACEHOLDER = re.compile(r"%([^%]+)%")
 
 
 def unquoted(text: str) -> str:
@@ -36,12 +33,12 @@ def name_key(name: str) -> str:
 
 def placeholders(template: str) -> list[str]:
     """The names between `%` in a template, in their order."""
-    return [match[1].strip(" \t") for match in _PLACEHOLDER.finditer(template)]
+    return [match[1].strip(" \t") for match in PLACEHOLDER.finditer(template)]
 
 
 def filled(template: str, value_of: Callable[[str], str]) -> str:
     """A template with every `%name%` replaced by what `value_of` says of the name."""
-    return _PLACEHOLDER.sub(lambda match: value_of(match[1].strip(" \t")), template)
+    return PLACEHOLDER.sub(lambda match: value_of(match[1].strip(" \t")), template)
 
 
 def undefined_parameter(name: str, known: Iterable[str], effort: Effort, where: Where) -> Problem:
@@ -59,16 +56,13 @@ def undefined_variation(name: str, known: Iterable[str], effort: Effort, where: 
 
 # ------------------------------------------------------------------------------------------------------ in any deck
 
-_SECTION = "PREPROCESSOR"
-
-
 _Named = tuple[str, Where]
 """A name, and where it stands."""
 
 
 def may_vary(deck: Deck) -> bool:
     """Whether a deck has a section in which variations and their names may stand."""
-    return any(section.name == _SECTION for section in deck.sections)
+    return any(section.name == DEFINING for section in deck.sections)
 
 
 def undefined_parameters(deck: Deck) -> Iterator[Problem]:
@@ -84,7 +78,7 @@ def undefined_parameters(deck: Deck) -> Iterator[Problem]:
 def undefined_variations(deck: Deck) -> Iterator[Problem]:
     """Variations in VARIATIONS= that no `*VARIATION` defines; `*EXCEL VARIATIONS`, not read, may define any."""
     called = list(_called(deck))
-    present = deck.keywords(_SECTION)
+    present = deck.keywords(DEFINING)
     if not called or "EXCEL VARIATIONS" in present or _unsure(deck, "VARIATION"):
         return
     variations = [
@@ -133,11 +127,11 @@ def _actions(deck: Deck) -> Iterator[tuple[VariedBlock, Where]]:
 
 
 def _variations(deck: Deck) -> Iterable[tuple[Where, Variation]]:
-    return deck.blocks("VARIATION", _SECTION)
+    return deck.blocks("VARIATION", DEFINING)
 
 
 def _combinations(deck: Deck) -> Iterable[tuple[Where, Combinations]]:
-    return deck.blocks("COMBINATIONS", _SECTION)
+    return deck.blocks("COMBINATIONS", DEFINING)
 
 
 def _varied(deck: Deck) -> Iterator[_Named]:
@@ -173,7 +167,7 @@ def _called(deck: Deck) -> Iterator[_Named]:
 
 def _parameters(deck: Deck) -> dict[str, str] | None:
     """Names of parameters by their folded form; None where a line that could not be read may define more."""
-    blocks: Iterable[tuple[Where, ParameterBlock]] = deck.blocks("PARAMETERS", _SECTION)
+    blocks: Iterable[tuple[Where, ParameterBlock]] = deck.blocks("PARAMETERS", DEFINING)
     listed = [parameter for _, block in blocks for parameter in block.parameters]
     unread = any(cast("str | None", parameter.name) is None for parameter in listed)
     if unread or _unsure(deck, "PARAMETERS"):
@@ -187,7 +181,7 @@ def _unsure(deck: Deck, keyword: str) -> bool:
     """Whether a line of a keyword could not be used, or a block with a misspelt name may be meant for one."""
     for i, section in enumerate(deck.sections):
         for j, block in enumerate(section.blocks):
-            if block.keyword == keyword and section.name == _SECTION:
+            if block.keyword == keyword and section.name == DEFINING:
                 if deck.origin.lost(i, j):
                     return True
             elif isinstance(block, Opaque) and nearest(block.keyword, [keyword]):

@@ -90,7 +90,7 @@ WRONG = {
     "element 11 has a trench peak law whose bottom is 0.0; expected > 0": on(
         "trench peak", 1, bottom=0.0, upper=0.7, peak=1.0
     ),
-    "element 12 has a table that is not there": on("trench table", [1], bottom=0.5, upper=0.7, table=2),
+    "element 12 has a table that does not exist": on("trench table", [1], bottom=0.5, upper=0.7, table=2),
 }
 
 

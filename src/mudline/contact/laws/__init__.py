@@ -180,6 +180,6 @@ def register(law: Law) -> NormalLaw:
     if not isinstance(law, NormalLaw) or law.history or law.tables or law.reaction is None or law.steepest is None:
         raise TypeError("only normal laws without history can be added: a NormalLaw with reaction and steepest")
     if law.name in _LAWS and _LAWS[law.name] is not law:
-        raise ValueError(f"there is a contact law {law.name!r} already")
+        raise ValueError(f"contact law {law.name!r} is already registered")
     _LAWS[law.name] = law
     return law

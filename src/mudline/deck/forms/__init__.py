@@ -9,6 +9,9 @@ from mudline.files import suffix_of
 
 KEYWORD = "keyword"
 
+SUFFIXES = (".keyxm", ".keyxi", ".keyx", ".das")
+"""What files of keyword text end with, in the order in which a name without a suffix is completed."""
+
 
 @cache
 def form_names() -> tuple[str, ...]:

@@ -75,7 +75,7 @@ def read(data: bytes, file: str) -> Deck:
         document = json.loads(text, object_pairs_hook=_unique, parse_constant=_no_constant)
     except json.JSONDecodeError as error:
         place = Range(error.lineno, error.colno, error.lineno, error.colno)
-        raise refusal(file, f"no JSON: {error.msg}", place) from error
+        raise refusal(file, f"not valid JSON: {error.msg}", place) from error
     except RecursionError as error:
         raise refusal(file, "nested too deeply: is this a deck?") from error
     except _UnfitError as error:

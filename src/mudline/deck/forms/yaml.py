@@ -149,9 +149,9 @@ def read(data: bytes, file: str) -> Deck:
         root = yaml.compose(text, Loader=CoreLoader)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
-        raise refusal(file, f"no YAML: {error.problem}", mark_range(text, mark)) from error
+        raise refusal(file, f"not valid YAML: {error.problem}", mark_range(text, mark)) from error
     except yaml.YAMLError as error:
-        raise refusal(file, f"no YAML: {str(error).partition(chr(10))[0]}") from error
+        raise refusal(file, f"not valid YAML: {str(error).partition(chr(10))[0]}") from error
     document = None if root is None else _Reader(file, text).value(root)
     return from_document(document, file, locator(text, root))
 

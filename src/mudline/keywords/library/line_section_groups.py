@@ -50,7 +50,7 @@ class LineSectionGroups(Block):
 
     rule = "line_section_groups"
     facts = Facts(makes=("NODE", "ELEMENT", "ELEMENT SETS"))
-    summary = "Groups of line sections, one behind the other, for the REPEAT= of *LINE PATH SECTIONS."
+    summary = "Groups of line sections, one after the other, for the REPEAT= of *LINE PATH SECTIONS."
     example = (
         "*LINE SECTION GROUPS\n"
         " NAME=Joint\n"

@@ -1,7 +1,7 @@
 """The forms of findings, a module each, imported when it is asked for, and what they share.
 
 A module is a form by being here, under its name: `SUMMARY` is a sentence for the documentation, `write(diagnostics,
-run)` returns the text of findings in pieces. `text`, the form for people, is printed as the findings come.
+run)` returns the text of findings in pieces. `text`, the form for people, is printed by the command as they come.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class LintRun:
 
 def form_names() -> list[str]:
     """Return the name of every form but text, found without importing one."""
-    return sorted(found.name for found in iter_modules(__path__) if found.name != TEXT)
+    return sorted(found.name for found in iter_modules(__path__))
 
 
 def form_module(name: str) -> ModuleType:

@@ -1,4 +1,4 @@
-"""Force-embedment curves at ratio 0, above it, and behind their last point."""
+"""Force-embedment curves at ratio 0, above it, and beyond their last point."""
 
 from __future__ import annotations
 

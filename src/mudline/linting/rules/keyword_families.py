@@ -64,8 +64,11 @@ def _migration(context: LintContext) -> Repair | None:
     deck, text = context.deck, context.text
     if text is None or context.scene.errors():
         return None
-    from mudline.migration.migrating import continuations_beside  # noqa: PLC0415 - few decks need it
-    from mudline.migration.refusals import refusals, surfaces  # noqa: PLC0415 - as above
+    from mudline.migration.refusals import (  # noqa: PLC0415 - few decks need it
+        continuations_beside,
+        refusals,
+        surfaces,
+    )
     from mudline.migration.rewriting import rewrite, unused_definitions  # noqa: PLC0415 - as above
 
     continued_by, extended = continuations_beside(deck) if context.fixing else ([], False)

@@ -11,7 +11,7 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.linting.rule import LintContext, rule
 from mudline.scene.deck_values import surfaces
-from mudline.scene.laws import Extension, typed_blocks
+from mudline.scene.laws import DIRECTIONS, Extension, typed_blocks
 from mudline.scene.sets import ALL
 
 if TYPE_CHECKING:
@@ -25,7 +25,6 @@ SBD019 = Code("SBD019", "short-mobilisation", Severity.WARNING)
 SBD020 = Code("SBD020", "unused-characteristic-length", Severity.INFO)
 SBD024 = Code("SBD024", "one-friction-coefficient", Severity.WARNING)
 
-_DIRECTIONS = ("longitudinal", "transverse")
 _CHARACTERISTIC = (3.048, 10.0)
 
 _SHORTEST = 1e-4
@@ -115,7 +114,7 @@ def unused_friction_stiffness(context: LintContext) -> Iterator[Problem]:
     Finds: 6:27
     """
     for entry in context.once(_resisting):
-        for direction in _DIRECTIONS:
+        for direction in DIRECTIONS:
             name = f"{direction}_stiffness"
             idle = positive(entry.value(name)) and absent(context, entry, direction)
             if idle and not friction_replaced(context, entry):
@@ -131,7 +130,7 @@ def _of_load_cases(context: LintContext) -> Iterator[Problem]:
     if not blocks or scene.context.restart or "SEABED FRICTION" in context.keywords:
         return
     entries = list(given(context))
-    for direction in _DIRECTIONS if entries else ():
+    for direction in DIRECTIONS if entries else ():
         if not all(absent(context, entry, direction) for entry in entries):
             continue
         for where, block in blocks:
@@ -188,7 +187,7 @@ def unused_characteristic_length(context: LintContext) -> Iterator[Problem]:
     Finds: 3:27
     """
     for entry in context.once(_resisting):
-        for direction in _DIRECTIONS if entry.legacy else ():
+        for direction in DIRECTIONS if entry.legacy else ():
             name = f"{direction}_length"
             both = positive(entry.value(name)) and positive(entry.value(f"{direction}_mobilisation"))
             if both and not friction_replaced(context, entry):
@@ -260,7 +259,7 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     resistance = scene.resistance
-    if not any(length > 0.0 for values in resistance.values for length in values.mobilisation):
+    if not resistance.has_mobilisation:
         return
     lengths, friction = resistance.column("mobilisation"), resistance.column("friction")
     friction[resistance.column("lateral") > 0.0, 1] = 0.0  # a lateral spring replaces it

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 
 from mudline.diagnostics import Code, Problem, Severity, Where
+from mudline.keywords.table import LARGEST_WHOLE
 from mudline.linting.rule import LintContext, limited, rule
 from mudline.scene.model import Scene
-from mudline.scene.numbering import LARGEST, Floats, Indices, Mask, blocks_of
+from mudline.scene.numbering import Floats, Indices, Mask, blocks_of
 from mudline.scene.seabed import SeabedKind, SeabedShape
 
 if TYPE_CHECKING:
@@ -303,7 +304,7 @@ def _held(scene: Scene) -> Iterator[tuple[Where, int, Indices]]:
 
 def _single(scene: Scene, entry: FixedNode, where: Where) -> Iterator[tuple[Where, int, Indices]]:
     node, dof = entry.node, entry.dof
-    if isinstance(node, int) and abs(node) <= LARGEST and dof in _IN_PLANE:
+    if isinstance(node, int) and abs(node) <= LARGEST_WHOLE and dof in _IN_PLANE:
         found = np.flatnonzero(scene.node_ids == node)
         yield where.inside("dof"), int(dof), found
 
@@ -318,7 +319,7 @@ def _range(scene: Scene, entry: FixedRange, where: Where) -> Iterator[tuple[Wher
         return
     step, dof = (1, values.third) if values.fourth is None else (values.third, values.fourth)
     numbers = (values.start, values.end, step)
-    if dof not in _IN_PLANE or not all(isinstance(value, int) and abs(value) <= LARGEST for value in numbers):
+    if dof not in _IN_PLANE or not all(isinstance(value, int) and abs(value) <= LARGEST_WHOLE for value in numbers):
         return
     start, end, step = (int(value) for value in numbers)
     if step > 0:

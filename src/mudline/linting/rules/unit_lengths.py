@@ -218,7 +218,7 @@ def _mobilisation(context: LintContext) -> Iterator[Problem]:
     """Mobilisation lengths against the widest pipe that they hold for, but for those that SBD013 reports."""
     scene = context.scene
     resistance = scene.resistance
-    if not any(length > 0.0 for values in resistance.values for length in values.mobilisation):
+    if not resistance.has_mobilisation:
         return
     widest = np.full(len(resistance.places) + 1, np.nan)
     friction = scene.extensions.get("SEABED FRICTION")

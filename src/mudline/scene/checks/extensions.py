@@ -190,14 +190,14 @@ def suction_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
             yield Problem(EXT006, message, where=place)
         if np.any(both := held & listed):
             message = (
-                f"{scene.describe(both)} a curve that pulls too: remove one of the two, unless the curve is evaluated "
-                "with --tension cut"
+                f"{scene.describe(both)} a curve that is negative in contact too: remove one of the two, unless the "
+                "curve is evaluated with --tension cut"
             )
             yield Problem(EXT006, message, where=place, blocks=Blocks.WITH_TENSION)
         if np.any(both := held & extrapolated & ~listed):
             message = (
-                f"{scene.describe(both)} a curve that pulls too where it is extrapolated: `evaluate` refuses a "
-                "position there; correct the curve, or evaluate it with --tension cut"
+                f"{scene.describe(both)} a curve that is negative in contact too where it is extrapolated: `evaluate` "
+                "refuses a position there; correct the curve, or evaluate it with --tension cut"
             )
             yield Problem(EXT006, message, None, Severity.WARNING, place)
 
@@ -216,7 +216,7 @@ def _lists_pull(entry: SceneCurve) -> bool:
 
 
 def _may_pull(entry: SceneCurve) -> bool:
-    """Whether a curve without such a point is negative at the mudline, or falls for ever behind its last point."""
+    """Whether a curve without such a point is negative at the mudline, or falls for ever beyond its last point."""
     if entry.curve is None:
         return False
     force, slope = entry.curve.evaluate(np.array([0.0, max(0.0, float(entry.curve.ratios[-1]))]))

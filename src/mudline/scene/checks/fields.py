@@ -16,7 +16,7 @@ from mudline.keywords.model import FieldSpec, ListRow, Part, Rows, record_schema
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
 from mudline.scene.checks import check
-from mudline.scene.deck_values import missing_files
+from mudline.scene.deck_values import missing_files, range_fault
 from mudline.scene.sections import format_of
 
 if TYPE_CHECKING:
@@ -104,28 +104,6 @@ def _table_faults(table: Table, slot: FieldSpec) -> Iterator[tuple[tuple[int, in
                 yield (row, index), fault
 
 
-def range_fault(value: float, slot: FieldSpec) -> str:
-    """What is wrong with a number, or nothing; NaN stands for one that could not be read."""
-    low, above, most = slot.about.at_least, slot.about.above, slot.about.at_most
-    if low is not None and value < low:
-        return f"{_name(slot)} is {value!r}: it must not be less than {low:g}"
-    if above is not None and value <= above:
-        return f"{_name(slot)} is {value!r}: it must be greater than {above:g}"
-    if most is not None and value > most:
-        return f"{_name(slot)} is {value!r}: it must not be more than {most:g}"
-    return ""
-
-
-def _name(slot: FieldSpec) -> str:
-    """The field in words: `FRICTION=`, `water depth`, `external diameter Do`, `area of the section (A)`."""
-    meaning = slot.about.meaning.partition(";")[0]
-    if slot.key:
-        return slot.label
-    if slot.label.islower():  # words of the meaning; a symbol has capitals
-        return meaning
-    return f"{meaning} ({slot.label})" if " of " in meaning else f"{meaning} {slot.label}"
-
-
 @check(REF015)
 def missing_file(scene: ResolvedDeck) -> Iterator[Problem]:
     """Every FILE= of the deck itself that names no file, if it is known where files could be.
@@ -134,7 +112,7 @@ def missing_file(scene: ResolvedDeck) -> Iterator[Problem]:
     """
     for where, folder, name in missing_files(scene.context.written):
         looked = f"looked in {folder.as_posix()}"
-        message = f"the file {shown(name)} is not there ({looked}): correct the name, or put the file there"
+        message = f"the file {shown(name)} was not found ({looked}): correct the name, or put the file there"
         profile = bool(scene.seabed.missing) and where == scene.seabed.where.inside("file")
         yield Problem(REF015, message, where=where, blocks=Blocks.ALWAYS if profile else Blocks.NEVER)
 

@@ -213,13 +213,15 @@ def _faulty_planes(scene: ResolvedDeck) -> Iterator[Problem]:
             lacking = [key for key in ("POINT", "SLOPE") if getattr(plane, key.lower()) is None]
             if lacking and not scene.context.has_read_errors(place):
                 names = " and ".join(f"{key}=" for key in lacking)
-                yield Problem(EXT007, f"this plane lacks {names}: give it", where=place)
+                yield Problem(EXT007, f"this plane lacks {names}: write it", where=place)
             slope = number(plane, "slope")
             if abs(slope) >= _VERTICAL:
                 message = f"slope {slope!r}: it must be between -90 and 90 degrees"
                 yield Problem(EXT007, message, where=place.inside("slope"))
             if _is_empty(plane.bounds):
-                message = "the bounds hold no ground: the smaller value must come first, and the two must differ"
+                message = (
+                    "invalid bounds: the second value must be larger than the first, the fourth larger than the third"
+                )
                 yield Problem(EXT007, message, where=place.inside("bounds"))
 
 
@@ -242,7 +244,7 @@ def _repeated(scene: ResolvedDeck) -> Iterator[Problem]:
         for index, plane in enumerate(cast("SeabedPlanes", block).planes):
             name = folded(cast("str | None", plane.name) or "")
             if name and name in known:
-                message = f"there is a plane {shown(plane.name)} already: choose another name, or remove one of the two"
+                message = f"plane {shown(plane.name)} is already defined: choose another name, or remove one of the two"
                 place = where.inside("planes", index, "name")
                 yield Problem(EXT007, message, None, Severity.WARNING, place)
             known.add(name)

@@ -92,7 +92,7 @@ def _of_block(scene: ResolvedDeck, entry: TrenchSet, where: Where) -> Iterator[P
         yield Problem(EXT003, message, where=where.inside("geometry"))
     line = entry.centreline
     if all(number(line, f"{axis}0") == number(line, f"{axis}1") for axis in "yz"):
-        message = "the two points of the centreline are one: give another one"
+        message = "the two points of the centreline coincide: correct one"
         yield Problem(EXT003, message, where=where.inside("centreline"))
 
 

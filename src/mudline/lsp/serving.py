@@ -1,15 +1,17 @@
-"""What the server can be asked: each request of the protocol and the module that answers it."""
+"""Serving an editor: each request of the protocol and the module that answers it, on standard input and output."""
 
 from __future__ import annotations
 
+import logging
+import sys
 import tempfile
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, BinaryIO, Protocol, cast
 
 from lsprotocol import types
 from pygls.exceptions import JsonRpcException
 
-from mudline.lsp import completion, findings, hints, hover, layout, tokens
+from mudline.lsp import completion, findings, hover, structure, things
 from mudline.lsp.decks import Analysis
 from mudline.lsp.documents import address_of
 from mudline.lsp.navigation import Navigator, RenameError
@@ -167,13 +169,13 @@ def _layout(server: DeckServer) -> None:
         params: types.DocumentSymbolParams,
     ) -> list[types.DocumentSymbol] | list[types.SymbolInformation]:
         found = await server.analysis(params.text_document.uri)
-        tree = layout.outline(found) if found else []
-        return tree if server.shows_trees else list(layout.flat(params.text_document.uri, tree))
+        tree = structure.outline(found) if found else []
+        return tree if server.shows_trees else list(structure.flat(params.text_document.uri, tree))
 
     @server.feature(types.TEXT_DOCUMENT_FOLDING_RANGE)
     async def folding(params: types.FoldingRangeParams) -> list[types.FoldingRange]:
         found = await server.analysis(params.text_document.uri)
-        return layout.folding(found) if found else []
+        return structure.folding(found) if found else []
 
     @server.feature(types.TEXT_DOCUMENT_FORMATTING)
     async def formatting(params: types.DocumentFormattingParams) -> list[types.TextEdit]:
@@ -186,41 +188,94 @@ def _layout(server: DeckServer) -> None:
 
 def _formatted(found: Analysis | None, range_: types.Range | None = None) -> list[types.TextEdit]:
     try:
-        return layout.formatting(found, range_) if found else []
-    except layout.LayoutError as error:
+        return structure.formatting(found, range_) if found else []
+    except structure.LayoutError as error:
         raise _failed(error) from error
 
 
 def _between_the_lines(server: DeckServer) -> None:
-    @server.feature(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, tokens.LEGEND)
+    @server.feature(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, structure.LEGEND)
     async def all_tokens(params: types.SemanticTokensParams) -> types.SemanticTokens:
         found = await server.analysis(params.text_document.uri)
-        return tokens.tokens(found) if found else types.SemanticTokens([])
+        return structure.tokens(found) if found else types.SemanticTokens([])
 
-    @server.feature(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_RANGE, tokens.LEGEND)
+    @server.feature(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_RANGE, structure.LEGEND)
     async def tokens_of_range(params: types.SemanticTokensRangeParams) -> types.SemanticTokens:
         found = await server.analysis(params.text_document.uri)
-        return tokens.tokens(found, params.range) if found else types.SemanticTokens([])
+        return structure.tokens(found, params.range) if found else types.SemanticTokens([])
 
     @server.feature(types.TEXT_DOCUMENT_INLAY_HINT)
     async def inlay_hints(params: types.InlayHintParams) -> list[types.InlayHint]:
         found = await server.analysis(params.text_document.uri)
-        return hints.hints(found, params.range) if found else []
+        return things.hints(found, params.range) if found else []
 
     @server.feature(types.TEXT_DOCUMENT_CODE_LENS, types.CodeLensOptions(resolve_provider=False))
     async def lenses(params: types.CodeLensParams) -> list[types.CodeLens]:
         found = await server.analysis(params.text_document.uri)
-        return hints.lenses(found) if found else []
+        return things.lenses(found) if found else []
 
     pictures = tempfile.TemporaryDirectory(prefix="mudline-curves-")  # removed when the server ends
 
-    @server.command(hints.SHOW_CURVE)
+    @server.command(things.SHOW_CURVE)
     async def show_curve(uri: str, index: int) -> dict[str, Any]:
         found = await server.analysis(uri)
         scene = found.scene if found else None
-        text = hints.curve_text(scene, index) if scene else ""
+        text = things.curve_text(scene, index) if scene else ""
         if scene is None or not text:
             raise _failed("there is no such curve any more")
-        picture = hints.draw_curve(scene, index, Path(pictures.name))
+        picture = things.draw_curve(scene, index, Path(pictures.name))
         server.show_picture(picture, text)
         return {"text": text, "picture": address_of(picture) if picture else None}
+
+
+# ---------------------------------------------------------------------------------------------------------- the process
+
+_LONGEST_HEADER = 8192
+_LARGEST_MESSAGE = 1 << 30
+"""Bytes of a message that is read; a longer one is passed over."""
+_PIECE = 1 << 20
+
+
+class Input:
+    """Standard input, as the protocol reads it: it holds no more than a message of a sensible length."""
+
+    def __init__(self, stream: BinaryIO) -> None:
+        self.stream = stream
+
+    def readline(self) -> bytes:
+        """A line of a header."""
+        return self.stream.readline(_LONGEST_HEADER)
+
+    def read(self, length: int) -> bytes:
+        """The body of a message; an empty object for one that is too long, nothing at the end."""
+        if length <= _LARGEST_MESSAGE:
+            return self.stream.read(length)
+        while length > 0:
+            piece = self.stream.read(min(length, _PIECE))
+            if not piece:
+                return b""
+            length -= len(piece)
+        return b"{}"
+
+
+def quiet_logs() -> None:
+    """Keep what pygls reports of messages that cannot be used, which may be of any length, off standard error."""
+    logging.getLogger("pygls").setLevel(logging.CRITICAL)
+    logging.getLogger("asyncio").setLevel(logging.CRITICAL)
+
+
+def take_streams() -> tuple[BinaryIO, BinaryIO]:
+    """Standard input and output of the protocol; what else is printed goes to standard error from now on."""
+    streams = sys.stdin.buffer, sys.stdout.buffer
+    sys.stdout = sys.stderr
+    return streams
+
+
+def serve() -> int:
+    """Serve until the editor ends it; returns 0 where that was announced before, as the protocol asks, else 1."""
+    quiet_logs()
+    stdin, stdout = take_streams()
+    server = DeckServer()
+    register(server)
+    server.start_io(cast("BinaryIO", Input(stdin)), stdout)
+    return 0 if server.protocol._shutdown else 1  # noqa: SLF001 - pygls has no other way to ask
