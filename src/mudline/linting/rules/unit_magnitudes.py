@@ -95,8 +95,8 @@ def suspicious_magnitude(context: LintContext) -> Iterator[Problem]:
     each metre (10 lbf/ft for each foot), or a curve that nowhere reaches 10 N/m (0.7 lbf/ft), supports no pipe, lateral
     springs and suction of less than 100 N/m for each metre (2 lbf/ft for each foot) hold none, and a cohesion of less
     than 100 Pa (2 lbf/ft2) is that of a fluid. The least stiffness of a seabed is that of its unloading, too. Such a
-    value is usually written in other units. Write it in newtons or pounds. For cables thinner than 0.1 m the least force
-    of a curve falls with their diameter. A stiffness or a cohesion of 0 is accepted.
+    value is usually written in other units. Write it in newtons or pounds. For cables thinner than 0.1 m the least
+    force of a curve falls with their diameter. A stiffness or a cohesion of 0 is accepted.
 
     Example:
          $MODEL
