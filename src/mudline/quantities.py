@@ -25,6 +25,11 @@ class UnitNames(NamedTuple):
     stiffness: str
     """Force per length of pipe and length of penetration."""
 
+    def behind(self, quantity: Literal["length", "force", "line_force", "stiffness"]) -> str:
+        """A unit as it is written behind a number, with a space; "" in user units."""
+        unit: str = getattr(self, quantity)
+        return f" {unit}" if unit else ""
+
 
 _METRIC = UnitNames("m", "N", "N/m", "N/m2")
 _IMPERIAL = UnitNames("ft", "lbf", "lbf/ft", "lbf/ft2")

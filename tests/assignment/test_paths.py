@@ -147,6 +147,8 @@ def test_the_field_that_may_hold_the_value_is_meant() -> None:
         ("LINES.length=1", "passed through unchanged"),
         ("WAVE.height=1", "passed through unchanged"),
         ("OCEAN.dept=1", r"\*OCEAN has no field 'dept': did you mean depth\?"),
+        ("GEOMETRIC SETS.OD=1", r"\*GEOMETRIC SETS has no field 'od': did you mean dd or do\?"),
+        ("SEABED", r"'SEABED' cannot be read .*: expected KEYWORD.field=value, .*; quote what has a space$"),
         ("OCEAN.x=1", r"it has depth, density, gravity, viscosity"),
         ("OCEAN[depht=1].depth=1", r"has no field 'depht': did you mean depth\?"),
     ],

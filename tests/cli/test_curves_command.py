@@ -163,6 +163,13 @@ def test_csv_holds_one_table(place: Place) -> None:
     assert "CSV holds one table: give --at or --weight, not both" in outcome.err
 
 
+def test_a_weight_is_above_0(place: Place) -> None:
+    for weight in ("-5", "0"):
+        outcome = run("curves", place(), "--weight", weight)
+        assert (outcome.code, outcome.out) == (2, "")
+        assert f"--weight {weight}: a line that lies on the seabed has a submerged weight above 0" in outcome.err
+
+
 def test_curve_that_never_carries_the_weight(place: Place) -> None:
     deck = CLEAN.replace(" 0.5, 3000.0", " 0.5, 500.0").replace(" 0.0, 0.0\n", " 0.0, 1000.0\n", 1)
     outcome = run("curves", place(deck), "--weight", "5000")

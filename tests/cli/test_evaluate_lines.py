@@ -48,6 +48,15 @@ def test_figures_stand_in_one_order_whenever_they_are_first_known(place: Place) 
     assert figures == ["touchdown point", "length in contact", "total reaction"]
 
 
+def test_the_first_of_several_touchdown_points_is_called_so(place: Place) -> None:
+    steps = [(0, 0.1, -0.3), (1, 0.1, -0.4)]
+    sags = [f"{time},1,{up},0,0\n{time},2,{low},10,0\n{time},3,{up},20,0\n" for time, up, low in steps]
+    both = "time,node,x,y,z\n" + "".join(sags)
+    tables = run("evaluate", place(CLEAN), "--positions", place(both, "sag.csv"), "-q").out
+    figures = [row[:22].strip() for row in tables.partition("Lines over all steps")[2].splitlines()[4:] if row]
+    assert figures[:2] == ["first touchdown point", "last touchdown point"]
+
+
 def test_a_summary_of_steps_ends_with_the_figures_over_all_of_them(place: Place) -> None:
     command = ("evaluate", place(apart(1)), "--positions", place(heaved(1, -0.1, -0.2), "heave.csv"), "-q")
     figures = run(*command).out.partition("Lines over all steps")[2]

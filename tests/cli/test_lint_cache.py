@@ -15,7 +15,7 @@ from mudline import cache_folder
 from mudline.cli import lint_run
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting import cache
-from mudline.linting.cache import packed, unpacked
+from mudline.linting.cache import packed, program, unpacked
 from mudline.linting.engine import LintSettings
 from mudline.linting.fixing import FileReport, lint_one
 from mudline.linting.registry import rules
@@ -102,6 +102,19 @@ def test_another_program_knows_nothing(
     run("lint", "deck.keyxm")
     run("lint", "deck.keyxm")
     assert len(linted) == 4
+
+
+def test_what_a_run_compiles_is_no_part_of_the_program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    package = tmp_path / "mudline"
+    compiled = package / "contact" / "__pycache__"
+    compiled.mkdir(parents=True)
+    (package / "api.py").write_text("one = 1\n", encoding="utf-8")
+    monkeypatch.setattr("mudline.linting.cache.__file__", str(package / "linting" / "cache.py"))
+    before = program()
+    (compiled / "loops.nbi").write_bytes(b"compiled loops")
+    assert program() == before
+    (package / "contact" / "laws.py").write_text("two = 2\n", encoding="utf-8")
+    assert program() != before
 
 
 # ------------------------------------------------------------------------------------------------ what a deck names

@@ -53,6 +53,7 @@ def test_more_rules_are_added_to_what_is_chosen() -> None:
         ("Unkown-Keyword", "did you mean unknown-keyword?"),
         ("REFX", "did you mean REF?"),
         ("crb", "did you mean CRV?"),
+        ("Unloading", "did you mean soft-unloading or unloading-conflict?"),
         ("zzz", "`mudline rules` lists all rules"),
         ("", "`mudline rules` lists all rules"),
         ("-", "`mudline rules` lists all rules"),

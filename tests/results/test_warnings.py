@@ -160,6 +160,11 @@ def test_smallest_clearance_of_all_steps() -> None:
     )
 
 
+def test_a_line_that_touches_the_seabed_has_its_datum() -> None:
+    found = message(pipe(LAW, "0.0, 0.0, 0.0", "0.0, 0.0, 100.0"), "GEO005")
+    assert "the smallest clearance is 0 m, of node 1; lower the line until it penetrates, or give" in found
+
+
 def test_own_coordinates_above_the_seabed() -> None:
     text = pipe(LAW, "20.0, 0.0, 0.0", "25.0, 0.0, 100.0")
     assert brief(text) == [("GEO005", 5, 10, 1)]

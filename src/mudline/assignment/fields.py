@@ -31,7 +31,7 @@ from mudline.keywords import catalogue
 from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Rows, record_schema
 from mudline.keywords.table import Table
 from mudline.keywords.values import Equation, Kind, Label
-from mudline.spelling import nearest
+from mudline.spelling import edits, nearest
 
 MOST_LISTED = 12
 """Names of fields, or lines of a deck, in a message."""
@@ -158,7 +158,11 @@ def _unknown_field(path: FieldPath, known: Sequence[DeclaredField]) -> str:
 
 def _hint(word: str, known: set[str]) -> str:
     near = nearest(word, known)
-    return f": did you mean {near}?" if near else ""
+    if not near:
+        return ""
+    most = edits(folded_name(word), near, 2)
+    as_near = sorted(name for name in known if edits(folded_name(word), name, 2) == most)
+    return f": did you mean {' or '.join(as_near)}?"
 
 
 # ------------------------------------------------------------------------------------------------ values of a deck

@@ -132,7 +132,8 @@ def _parsed(text: str, start: str) -> object:
         at = cast("int | None", error.pos_in_stream)
         rest = text[at:] if at is not None and at >= 0 else ""
         place = f"at {rest[:20]!r}" if rest else "at its end"
-        raise PathError(f"{text!r} cannot be read {place}: expected {_FORMS[start]}") from error
+        quoted = "; quote what has a space" if start == "assignment" and "=" not in text else ""
+        raise PathError(f"{text!r} cannot be read {place}: expected {_FORMS[start]}{quoted}") from error
     except (RecursionError, VisitError) as error:  # whatever a method below raises, and what is nested too deep
         if isinstance(error, VisitError) and isinstance(error.orig_exc, PathError):
             raise error.orig_exc from error

@@ -67,6 +67,8 @@ def command(
     """
     if spreadsheet and output_format != "csv":
         raise click.UsageError(options.CSV_ONLY)
+    if weight is not None and weight <= 0.0:
+        raise click.UsageError(f"--weight {weight:g}: a line that lies on the seabed has a submerged weight above 0")
     if output_format == "csv" and ratios and weight is not None:
         raise click.UsageError("CSV holds one table: give --at or --weight, not both")
     form = "" if picture is None else suffix_of(picture)

@@ -244,7 +244,7 @@ def _print_extents(printer: Printer, lines: LineWatch) -> None:
         "last": ("last touchdown point", names.length),
         "contact_length": ("length in contact", names.length),
         "force": ("largest force", names.line_force),
-        "uplift": ("largest uplift", names.line_force),
+        "uplift": ("uplift, negative", names.line_force),
         "reaction": ("total reaction", names.force),
     }
     if times is None or not lines.extents:
@@ -256,6 +256,8 @@ def _print_extents(printer: Printer, lines: LineWatch) -> None:
         if name == "last" and lines.extents.get((line, "first")) == extent:
             continue
         what, unit = figures[name]
+        if name == "first" and lines.extents.get((line, "last"), extent) != extent:
+            what = f"first {what}"
         low, high = float(times[extent.least_step]), float(times[extent.largest_step])
         number = (line + 1,) if several else ()
         rows.append((*number, what, unit, extent.least, low, extent.largest, high))

@@ -211,14 +211,15 @@ class _Reader:
         read = read_block(source.text, raw, declared, last=False)
         if read.unpublished:
             self.findings.no_model(block.keyword, section.name, where)
-            return block
-        for problem in read.problems:
+        for problem in read.misspelt if read.unpublished else read.problems:
             line = source.position(problem.span.start)[0] if problem.span else 0
             inside = where._replace(path=("lines", max(line - 3, 0)))
             if problem.weight is Severity.ERROR:
                 self.faults.add(document_path(inside), problem.message)
             else:
-                self.deck.problems.append(replace(problem, span=None, where=inside))
+                self.deck.problems.append(replace(problem, span=None, where=inside, repair=None))
+        if read.unpublished:
+            return block
         section.comments[:0] = [Comment(before=where.block + 1, text=text) for text in read.trailing]
         return read.model
 

@@ -255,6 +255,7 @@ class _Reader:
             message = f"the file ends after *{raw.name}: it seems to be cut off, add what is missing"
             self.problems.append(Problem(SYN014, message, head, Severity.WARNING))
         if read.unpublished:
+            self.problems += read.misspelt
             self._opaque(section, Where(index, number), raw)
             return
         self.origin.read[index, number] = read

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache, partial
 from operator import attrgetter, itemgetter
 from typing import NamedTuple, Protocol, cast
 
 from pydantic import ValidationError
 
-from mudline.codes.lines import SYN001, SYN004, SYN013, SYN014
-from mudline.diagnostics import Problem, Span
+from mudline.codes.lines import SYN001, SYN004, SYN005, SYN013, SYN014
+from mudline.diagnostics import Problem, Severity, Span
 from mudline.keywords import grammar
 from mudline.keywords.builder import Builder, ParsedRecord, construct
 from mudline.keywords.grammar import END, ROW, Content, Mismatch
@@ -73,6 +73,13 @@ class ReadBlock:
     def unpublished(self) -> bool:
         """Whether the lines may have a form that is not public, so that they are passed through unchanged."""
         return bool(self.problems) and self.model.other_form([problem.code for problem in self.problems])
+
+    @property
+    def misspelt(self) -> list[Problem]:
+        """The words that may be misspelt in lines which are passed through unchanged, as warnings."""
+        end = "; the block is passed through unchanged"
+        near = [problem for problem in self.problems if problem.code in (SYN004, SYN005) and problem.repair]
+        return [replace(problem, message=problem.message + end, severity=Severity.WARNING) for problem in near]
 
 
 class BlockReader(Protocol):

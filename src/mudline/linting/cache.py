@@ -55,8 +55,10 @@ def program() -> str:
     """What the program is: its version and files, and the packages beside it, which bring libraries and rules."""
     words = [sys.version]
     for root in {Path(__file__).parents[1], grammar_file("deck.lark").parent}:
-        for folder, _, names in os.walk(root):
-            words += (_version(f"{folder}/{name}") for name in names if not name.endswith(".pyc"))
+        for folder, folders, names in os.walk(root):
+            if "__pycache__" in folders:  # grows while the program runs: compiled modules and loops
+                folders.remove("__pycache__")
+            words += (_version(f"{folder}/{name}") for name in names)
     words += (_version(f"{folder}/entry_points.txt") for folder in metadata_folders())
     words.sort()
     return "\n".join(words)

@@ -12,7 +12,7 @@ from mudline.codes.references import REF007, REF009
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Problem, Severity, Span
 from mudline.keywords import catalogue
-from mudline.keywords.reader import read_block
+from mudline.keywords.reader import all_keys, read_block
 from mudline.linting.corrections import Blocks, Correction, line_at, start_of, whole
 from mudline.syntax.edits import TextEdit
 from mudline.syntax.rows import NUMBER
@@ -249,10 +249,15 @@ def _settings(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correctio
         name = _CURVE_NAMES.get(block.name)
         if name and key.strip().upper() in _CURVE_NAMES.values():
             yield Correction(problem, (TextEdit(line, f" {name}={value.strip()}"),), whole(block))
-        elif problem.code is SYN004 and (row := _as_row(text, block)):
+        elif problem.code is SYN004 and not _has_settings(block) and (row := _as_row(text, block)):
             edits = (TextEdit(Span(block.leaves[0].span.start, whole(block).end), f" {row}\n"),)
             message = f"*{block.name} takes no KEY= at all: write the values as a row, {row}"
             yield Correction(problem, edits, whole(block), message)
+
+
+def _has_settings(block: RawBlock) -> bool:
+    declared = catalogue.declared(block.name)
+    return declared is not None and bool(all_keys(declared))
 
 
 def _as_row(text: TextOrigin, block: RawBlock) -> str:

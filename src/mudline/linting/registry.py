@@ -36,6 +36,8 @@ STRIPPED = (
 RESERVED = {"DOC", "DAT", "EXP", "MIG", "RUN"}
 """Letters of mudline's codes that no rule has; those of its rules are kept from others too."""
 
+_FEW = 4
+"""Rules that are listed where a word is a part of their names."""
 _CODE = re.compile(r"[A-Z]{2,8}[0-9]{3}")
 _SLUG = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 _ORIGINS: dict[str, str] = {}
@@ -109,6 +111,9 @@ def _hint(word: str) -> str:
         codes = sorted({code.rstrip("0123456789") for code in codes})
     slugs = [rule.code.slug for rule in rules()]
     near = nearest(word, slugs) or nearest(word, codes)
+    holding = [slug for slug in slugs if word.casefold() in slug.split("-")]
+    if not near and 0 < len(holding) <= _FEW:
+        near = " or ".join(holding)
     return f": did you mean {near}?" if near else ": `mudline rules` lists all rules"
 
 

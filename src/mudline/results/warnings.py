@@ -33,6 +33,8 @@ BALANCED = (1.0 / 3.0, 3.0)
 
 _MORE_WEIGHT = ("COATINGS", "INTERNAL FLUID", "DRILLING MUD", "MASS", "POINT BUOY")
 """Keywords that are not read, and make the weight another one than that of the sections."""
+_TOUCHING = 1e-3
+"""Clearance over diameter of a line that touches the seabed: its datum is right."""
 _LONGEST_CAPTION = 90
 
 
@@ -262,8 +264,7 @@ class ContactWatch:
             message = "nothing is in contact: the line lies outside the seabed; correct its bounds or the coordinates"
             yield self._warning(GEO005, message, None, self._elements, "line outside the seabed")
             return
-        unit = unit_names(scene.units).length
-        distance = f"{shown(abs(gap))}{' ' if unit else ''}{unit}"
+        distance = f"{shown(abs(gap))}{unit_names(scene.units).behind('length')}"
         times = self._times
         at = "" if times is None else f" at time {shown(float(times[step]))}"
         number = scene.node_ids[node]
@@ -273,7 +274,9 @@ class ContactWatch:
                 f"no element is in contact in the mean of its nodes, though node {number} lies {distance} deep{at}"
             )
         solved = ", or give a solved shape with --positions" if self._own else ""
-        advice = self._turned() or f"; correct the datum of X, which is 0 at the mudline{solved}"
+        touches = 0.0 <= gap <= _TOUCHING * float(np.fmax.reduce(scene.diameter[self._elements], initial=0.0))
+        lower = "lower the line until it penetrates" if touches else "correct the datum of X, which is 0 at the mudline"
+        advice = self._turned() or f"; {lower}{solved}"
         where = scene.nodes.where(node)
         yield self._warning(GEO005, message + advice, where, self._elements, "nothing in contact")
 
@@ -302,8 +305,7 @@ class ContactWatch:
         return not {*deck.keywords(), *deck.keywords("LOAD CASE")}.isdisjoint(_MORE_WEIGHT)
 
     def _balanced(self, balance: _Balance) -> str:
-        unit = unit_names(self._scene.units).force
-        behind = f" {unit}" if unit else ""
+        behind = unit_names(self._scene.units).behind("force")
         elements = counted(len(balance.elements), "element")
         carried = f"total reaction {shown(balance.reaction)}{behind} on {elements} in contact"
         if math.isnan(balance.weight):
@@ -319,8 +321,7 @@ class ContactWatch:
         light = self._elements[floats & (self._touched[self._elements] | (not self._acts and bool(floats.all())))]
         if not light.size or self._weighs_more:
             return
-        unit = unit_names(scene.units).line_force
-        behind = f" {unit}" if unit else " per length"
+        behind = unit_names(scene.units).behind("line_force") or " per length"
         message = (
             f"{scene.describe(light, 'floats', 'float')}: submerged weight {shown(self._least(light))}{behind} without "
             "contents; check diameters and densities"

@@ -163,9 +163,8 @@ class _Reader:
                 unfinished.remove(current)
                 if link is not None and (found := named.get(link)):
                     entry, where = definitions[current][0]
-                    named[current] = NamedSet(
-                        entry.name, found.elements, where, found.open or context.has_read_errors(where)
-                    )
+                    unsure = any(map(context.has_read_errors, (where, where.inside("members", 0))))
+                    named[current] = NamedSet(entry.name, found.elements, where, found.open or unsure)
                 else:
                     self._settle(current)
             else:
@@ -215,6 +214,7 @@ class _Reader:
             for index, member in enumerate(entry.members):
                 if member.rule == "set_subset":
                     found, whole = self._subset(cast("SetSubset", member).subset)
+                    unsure |= self.context.has_read_errors(where.inside("members", index))
                 elif member.rule == "set_list":
                     found, whole = self._listed(cast("SetList", member), where.inside("members", index))
                 else:

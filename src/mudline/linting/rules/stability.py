@@ -21,6 +21,7 @@ from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.linting.rule import LintContext, rule
 from mudline.linting.rules.seabed_position import bounds_of
+from mudline.quantities import unit_names
 from mudline.scene.assignments import suction_law
 from mudline.scene.deck_values import number
 from mudline.scene.force_curves import SceneCurve
@@ -98,10 +99,11 @@ def suction_snap(context: LintContext) -> Iterator[Problem]:
         known = np.flatnonzero(np.isfinite(needed) & (needed > 0.0))
         if known.size:
             worst = int(known[np.argmax(needed[known])])
+            unit = unit_names(scene.units).behind("stiffness")
             message = (
                 f"the release of the suction is softening: equilibrium needs a structural stiffness per unit length "
-                f"above F_max / ((1 - xc2) Delta_B) = {needed[worst]:.6g} at the velocity of REGULARISATION= "
-                f"(element {scene.element_ids[elements[worst]]})"
+                f"above F_max / ((1 - xc2) Delta_B) = {needed[worst]:.6g}{unit} at the velocity of "
+                f"REGULARISATION= (element {scene.element_ids[elements[worst]]})"
             )
             yield Problem(STB001, message, where=where)
 
@@ -347,10 +349,11 @@ def soft_unloading(context: LintContext) -> Iterator[Problem]:
         stiffness = number(entry, "stiffness")
         softer = np.flatnonzero((extension.of_element == index) & (steepest > stiffness))
         if stiffness > 0.0 and softer.size:
+            unit = unit_names(scene.units).behind("stiffness")
             message = (
                 f"unloading stiffness {stiffness!r} is below the steepest slope of the loading law of "
                 f"{softer.size} elements (first: {scene.element_ids[softer[0]]}), "
-                f"{float(steepest[softer].max()):.6g}: it is raised to that; give at least as much"
+                f"{float(steepest[softer].max()):.6g}{unit}: it is raised to that; give at least as much"
             )
             yield Problem(EXT008, message, where=where.inside("stiffness"))
 

@@ -94,9 +94,9 @@ def suspicious_magnitude(context: LintContext) -> Iterator[Problem]:
     Metric decks are in metres and newtons, imperial ones in feet and pounds (lbf). A seabed of less than 500 N/m for
     each metre (10 lbf/ft for each foot), or a curve that nowhere reaches 10 N/m (0.7 lbf/ft), supports no pipe, lateral
     springs and suction of less than 100 N/m for each metre (2 lbf/ft for each foot) hold none, and a cohesion of less
-    than 100 Pa (2 lbf/ft2) is that of a fluid. Such a value is usually written in other units. Write
-    it in newtons or pounds. For cables thinner than 0.1 m the least force of a curve falls with their diameter. A
-    stiffness or a cohesion of 0 is accepted.
+    than 100 Pa (2 lbf/ft2) is that of a fluid. The least stiffness of a seabed is that of its unloading, too. Such a
+    value is usually written in other units. Write it in newtons or pounds. For cables thinner than 0.1 m the least
+    force of a curve falls with their diameter. A stiffness or a cohesion of 0 is accepted.
 
     Example:
          $MODEL
@@ -109,7 +109,7 @@ def suspicious_magnitude(context: LintContext) -> Iterator[Problem]:
     Finds: 5:12
     """
     if least := LEAST.get(context.scene.units):
-        for kind in (_soft, _weak, _fluid):
+        for kind in (_soft, _weak, _fluid, _unloaded):
             yield from islice(kind(context.scene, least), MOST_REPORTED)
         yield from islice(_slight(context, least), MOST_REPORTED)
 
@@ -117,10 +117,7 @@ def suspicious_magnitude(context: LintContext) -> Iterator[Problem]:
 def _soft(scene: Scene, least: _Least) -> Iterator[Problem]:
     for grant in scene.laws.set_laws:
         if grant.kind is LawKind.LINEAR and not grant.unknown and 0.0 < grant.stiffness < least.stiffness:
-            message = (
-                f"a seabed stiffness of {grant.stiffness!r} {least.force_unit} per {least.length_unit}, expected at "
-                f"least {least.stiffness:g}: write it in {least.force_unit} ({least.thousands}?)"
-            )
+            message = _stiffness_message("a seabed", grant.stiffness, least.stiffness, least)
             yield Problem(UNT002, message, where=grant.where)
 
 
@@ -130,11 +127,7 @@ def _slight(context: LintContext, least: _Least) -> Iterator[Problem]:
         for name, what in (("lateral", "lateral"), ("suction_stiffness", "suction")):
             stiffness = entry.value(name)
             if stiffness is not None and 0.0 < stiffness < least.side:
-                unit = least.force_unit
-                message = (
-                    f"a {what} stiffness of {stiffness!r} {unit} per {least.length_unit}, expected at least "
-                    f"{least.side:g}: write it in {unit} ({least.thousands}?)"
-                )
+                message = _stiffness_message(f"a {what}", stiffness, least.side, least)
                 yield Problem(UNT002, message, where=entry.place(name))
 
 
@@ -164,6 +157,22 @@ def _fluid(scene: Scene, least: _Least) -> Iterator[Problem]:
                 f"{least.pressure_unit} ({least.pressure_thousands}?)"
             )
             yield Problem(UNT002, message, where=where.inside("cohesion"))
+
+
+def _unloaded(scene: Scene, least: _Least) -> Iterator[Problem]:
+    unloading = scene.extensions.get("SEABED UNLOADING")
+    for entry, where in zip(unloading.entries, unloading.places, strict=True) if unloading else ():
+        stiffness = getattr(entry, "stiffness", None)
+        if isinstance(stiffness, float) and 0.0 < stiffness < least.stiffness:
+            message = _stiffness_message("an unloading", stiffness, least.stiffness, least)
+            yield Problem(UNT002, message, where=where.inside("stiffness"))
+
+
+def _stiffness_message(what: str, stiffness: float, expected: float, least: _Least) -> str:
+    return (
+        f"{what} stiffness of {stiffness!r} {least.force_unit} per {least.length_unit}, expected at least "
+        f"{expected:g}: write it in {least.force_unit} ({least.thousands}?)"
+    )
 
 
 @rule(UNT003)
