@@ -81,6 +81,11 @@ def test_release_of_suction(scene: Scene) -> None:
     assert_published(statics.RELEASE.table(found, scene.units), "stability-release")
 
 
+def test_halvings_that_suffice(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(statics, "HALVED_RATIOS", (1e2, 2e3))
+    assert_published(statics.HALVINGS.table(statics.halving_counts()), "stability-newton-halvings")
+
+
 def test_motions(scene: Scene) -> None:
     """The cases, and a few steps on each."""
     cases = contacts.all_cases(contacts.contacts_of(scene), [])
