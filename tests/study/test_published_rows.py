@@ -17,7 +17,8 @@ from mudline.scene.model import Scene
 from mudline.study import sample_scene
 from mudline.study.precision import contacts, curves, goals, integration, smoothing
 from mudline.study.precision.drop import reference_drop
-from mudline.study.report import StudyTable
+from mudline.study.pruning import growth
+from mudline.study.report import StudyOptions, StudyTable
 from mudline.study.schemes import SCHEMES
 from mudline.study.stability import critical, deck_steps, landings, statics
 from tests.study.published import read
@@ -116,6 +117,24 @@ def test_orders() -> None:
         found = goals.order(points)
         assert (found is None) == (row["order"] == "")
         assert found is None or found == pytest.approx(float(row["order"]))
+
+
+def test_errors_of_curve_methods(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(curves, "_TIMED", 10)
+    rows = {(row["curve"], row["method"]): row for row in read("precision-curves")}
+    for name, curve in scene.curves.items():
+        for found in curves.evaluate_methods(name, curve, StudyOptions(), []):
+            kept = rows[name, found.method]
+            errors = [float(kept[f"error {which}[of largest force]"]) for which in ("", "beyond the points ")]
+            assert [found.error, found.beyond] == pytest.approx(errors, rel=1e-3, abs=1e-15)
+
+
+def test_growth_is_that_of_the_sizes() -> None:
+    sizes = [
+        growth.GrowthRow(row["number of"], int(row["size"]), *(float(row[heading]) for heading in list(row)[2:]))
+        for row in read("pruning-sizes")
+    ]
+    assert_published(growth.FITS.table(growth.fits(sizes)), "pruning-growth")
 
 
 def test_sampled_closed_forms() -> None:
