@@ -255,10 +255,10 @@ REF015 = Code(
     """
     A file that the deck names is not there.
 
-    FILE= and the LAST= of *RESTART name files beside the deck. Without the deck before a *RESTART mudline does not know
-    the model that this deck works on, and what is missing is a warning only. The finding is also given for a deck that
-    is there and cannot be read, and for decks that continue each other in a cycle. A deck from standard input names no
-    place where its files could be, so nothing is looked for.
+    FILE=, as of *SEABED PROFILE, and LAST= of *RESTART name files beside the deck. Without the deck before a *RESTART
+    mudline does not know the model that this deck works on, and what is missing is a warning only. The finding is also
+    given for a deck that is there and cannot be read, and for decks that continue each other in a cycle. A deck from
+    standard input has no folder in which its files could be, so they are not searched.
 
     Example:
          $LOAD CASE
