@@ -61,7 +61,7 @@ SYN006 = Code(
     A bracket, brace, slash list or quotation mark is opened and not closed on its line.
 
     Commas between `=[` and `]`, in `{...}`, `/.../` and `"..."` do not separate fields. An opened one therefore
-    swallows the rest of the line, and the values behind it are lost. Close it on the same line: nothing continues on
+    swallows the rest of the line, and the values after it are lost. Close it on the same line: nothing continues on
     the next.
 
     Example:

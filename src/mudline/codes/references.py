@@ -12,7 +12,7 @@ REF001 = Code(
     A SET= names a set that the deck does not define.
 
     What is below the SET= would reach no element: no stiffness, no diameter, no curve. Mostly the name is spelt
-    differently in two places: case does not count in names, but spaces do. Define the set in *ELEMENT SETS, or correct
+    differently in two places: case is ignored in names, spaces are not. Define the set in *ELEMENT SETS, or correct
     the name. Where *LINES, which makes sets of its own, or the deck that *RESTART continues could define the set, this
     is a warning. Two more names give warnings here too: a REPEAT= of *LINE PATH SECTIONS that names no group of
     *LINE SECTION GROUPS, and a LINE= there that *LINE PATHS does not name. And a VARIATIONS= of *COMBINATIONS that

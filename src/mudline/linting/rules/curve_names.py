@@ -128,7 +128,7 @@ def duplicate_curve(context: LintContext) -> Iterator[Problem]:
     """Two curves have one name, or one set has two curves in *EMBEDMENT.
 
     The later one is used (inferred: the language does not say what happens) and overrides the earlier one. Names are
-    compared without case. Choose another name, or remove one of the curves.
+    case-insensitive. Choose another name, or remove one of the curves.
 
     Example:
          $MODEL
