@@ -125,8 +125,8 @@ SYN009 = Code(
     """
     The keyword is not known.
 
-    There are more keywords than are known here, so this is an info: the block is passed through unchanged and not
-    checked. A name that differs from a known one by a letter or two, has the same beginning or has extra words is a
+    There are more keywords than are known here, so this is a note: the block is passed through unchanged and not
+    checked. A name that differs from a known one by a letter or two, has the same beginning or has words behind it is a
     warning, as a misspelt keyword takes its whole block out of the model. Correct the name, put a remark into a comment
     line, or ignore this rule where the keyword is right.
 
@@ -147,8 +147,8 @@ SYN010 = Code(
     """
     The section is not known.
 
-    All of it is passed through unchanged and not checked. This is an info, as there are sections that are not known
-    here; a name that differs from a known one by a letter or two, has the same beginning or has extra words is a
+    All of it is passed through unchanged and not checked. This is a note, as there are sections that are not known
+    here; a name that differs from a known one by a letter or two, has the same beginning or has words behind it is a
     warning, as everything in a misspelt section is missing from the analysis. Correct the name.
 
     Example:
@@ -221,7 +221,7 @@ SYN013 = Code(
     A C in column 1 makes a comment. Before a space there is no doubt, but `CURVE=` or `COMPRESSION CHECK=` in
     column 1 is data to one reader and a comment to another. Here a line counts as data if it begins with a key that its
     keyword knows; any other is taken for a comment, which is our reading and not a documented rule. A misspelt `CURV=`
-    drops a whole curve in this way. Put a space after the C of a comment, and before data.
+    drops a whole curve in this way. Put a space after the C of a comment, and in front of data.
 
     Example:
          $MODEL
