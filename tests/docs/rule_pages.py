@@ -18,8 +18,8 @@ What `mudline lint` looks for. On the command line a code or a slug selects one 
 it: `--select SYN`, `--ignore CRV002`, `--ignore unsorted-points`. `mudline rules CODE` prints a page.
 
 An *error* means that the deck is illegal or has no meaning. A *warning* is a likely mistake, or a place where the
-meaning is our choice. An *info* is something to know. A rule that is *off* runs only where it is selected. `--fix` makes
-a *safe* fix, `--fix --unsafe-fixes` also an *unsafe* one; the column shows that of the example.
+meaning is our choice. An *info* is something to know. A rule that is *off* runs only where it is selected. `--fix`
+makes a *safe* fix, `--fix --unsafe-fixes` also an *unsafe* one; the column shows that of the example.
 
 | code | slug | severity | fix | finds |
 | --- | --- | --- | --- | --- |
