@@ -13,8 +13,8 @@ _PAGE = """{made}
 
 # Keywords
 
-How lines, fields, comments, names and equations are written is said in [language.md](language.md), what is evaluated in
-[numerics.md](numerics.md).
+[language.md](language.md) describes how lines, fields, comments, names and equations are written,
+[numerics.md](numerics.md) what is evaluated.
 
 ## Keywords with a model
 
@@ -26,8 +26,8 @@ mudline reads every field of these, checks it, and writes it back.
 
 ## Keywords whose lines are kept
 
-The format of these is not public. Their lines are kept; the names in them are known, so that what they define is not
-reported as missing.
+The format of these is not public. Their lines are kept unchanged; the names in them are read, so that what they define
+is not reported as missing.
 
 | keyword | section | holds |
 | --- | --- | --- |
@@ -35,9 +35,8 @@ reported as missing.
 
 ## Keywords that pass through
 
-These are known by name and kept line for line. In a section other than its own such a keyword is reported by
-[SYN008](rules/SYN008.md). A keyword that is nowhere on this page is kept as well and reported by
-[SYN009](rules/SYN009.md).
+These are known by name, and their lines are kept unchanged. In another section such a keyword is reported by
+[SYN008](rules/SYN008.md). A keyword that is not on this page is kept as well and reported by [SYN009](rules/SYN009.md).
 
 | section | keywords |
 | --- | --- |
@@ -45,10 +44,10 @@ These are known by name and kept line for line. In a section other than its own 
 
 ## Formats
 
-In the formats of the pages `[ ]` may be left out, `|` stands between alternatives, and `...` says that a line, with the
-deeper lines below it, or a value may be repeated. Decks need no such indentation. A setting behind one that is left out
-has a line of its own. The ranges of the fields are checked by [SBD010](rules/SBD010.md). What is *inferred* is our
-reading of something that the language leaves open; each page ends with what that is.
+In the formats of the pages `[ ]` may be left out, `|` separates alternatives, and `...` means that a line, with the
+deeper lines below it, or a value may be repeated. The indentation of a deck is free. If the first setting of a line is
+left out, the next one is on a separate line. [SBD010](rules/SBD010.md) checks the ranges of the fields. *Inferred* is
+our reading of what the language leaves open; each page ends with a list.
 """
 
 

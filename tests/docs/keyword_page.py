@@ -98,7 +98,7 @@ def _head(declared: Declared) -> str:
 
 def _of_model(block: type[Block]) -> Iterator[str]:
     yield _FORMAT.format(lines="\n".join(format_lines(block)))
-    yield "## Fields\n\nUnits are metric / imperial; a deck in units of its own has its own.\n"
+    yield "## Fields\n\nUnits are given as metric / imperial; a deck with user units has its own.\n"
     for caption, table in tables(block):
         yield "\n".join([*([caption, ""] if caption else []), *table, ""])
     yield _EXAMPLE.format(example=block.example.rstrip("\n"))

@@ -34,11 +34,11 @@ def rules_of(declared: Declared) -> list[Rule]:
     """The rules that concern a keyword, by code."""
     own = [rule for rule in rules() if not rule.code.code.startswith(("SYN", "STY"))]
     found = _in_examples(declared)
-    return [rule for rule in own if rule.code.code in found or keyword_of(declared) in _told_by(rule)]
+    return [rule for rule in own if rule.code.code in found or keyword_of(declared) in _named_by(rule)]
 
 
 @cache
-def _told_by(rule: Rule) -> set[str]:
+def _named_by(rule: Rule) -> set[str]:
     """The keywords in the text of a rule, and the one that its bad deck has the finding in."""
     named = set(_keyword().findall(f"{rule.title}\n{rule.why}"))
     return named | set(_keyword().findall("\n".join(rule.bad.splitlines()[: rule.place[0]]))[-1:])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import tomllib
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterator
 from graphlib import TopologicalSorter
 from itertools import pairwise
 from pathlib import Path
@@ -15,6 +15,8 @@ BASE = "diagnostics, files, ..."
 API = ("api", "plugins")
 
 _WIDTH, _ROW, _BOX = 760, 74, (118, 34)
+_GAP, _CROSSING = 10, 16
+"""Least distance of two boxes, and the width that an arrow takes in a row that it crosses."""
 _STYLE = "font-family:sans-serif;font-size:13px"
 
 Graph = dict[str, set[str]]
@@ -91,8 +93,9 @@ def _way(name: str, other: str, level: dict[str, int]) -> list[str]:
     return [name, *between, other]
 
 
-def _placed(level: dict[str, int], ways: Iterable[list[str]]) -> dict[str, tuple[float, float]]:
-    """Places row by row from below, each above what it leads to."""
+def _placed(level: dict[str, int], ways: Collection[list[str]]) -> dict[str, tuple[float, float]]:
+    """Places row by row from below, each above what it leads to, so that no boxes overlap."""
+    crossings = {step for way in ways for step in way[1:-1]}
     below: Graph = {name: set() for name in level}
     for way in ways:
         for upper, lower in pairwise(way):
@@ -101,8 +104,13 @@ def _placed(level: dict[str, int], ways: Iterable[list[str]]) -> dict[str, tuple
     rows = max(level.values()) + 1
     for row in range(rows):
         wanted = {n: sum(places[o][0] for o in below[n]) / max(len(below[n]), 1) for n in level if level[n] == row}
-        for index, name in enumerate(sorted(wanted, key=lambda name: (wanted[name], name))):
-            places[name] = (_WIDTH * (index + 0.5) / len(wanted), (rows - row - 0.5) * _ROW)
+        ordered = sorted(wanted, key=lambda name: (wanted[name], name))
+        widths = [_CROSSING if name in crossings else _box_width(name) + _GAP for name in ordered]
+        spare = (_WIDTH - sum(widths)) / len(ordered)
+        left = 0.0
+        for name, width in zip(ordered, widths, strict=True):
+            places[name] = (left + (width + spare) / 2, (rows - row - 0.5) * _ROW)
+            left += width + spare
     return places
 
 
@@ -117,8 +125,12 @@ def _arrow(places: list[tuple[float, float]]) -> str:
     return f'<path d="{text}" fill="none" stroke="#555" marker-end="url(#head)"/>\n'
 
 
+def _box_width(name: str) -> int:
+    return max(_BOX[0], 8 * len(name) + 12)
+
+
 def _box(name: str, x: float, y: float) -> str:
-    width, height = max(_BOX[0], 8 * len(name) + 12), _BOX[1]
+    width, height = _box_width(name), _BOX[1]
     return (
         f'<rect x="{x - width / 2:.0f}" y="{y - height / 2:.0f}" width="{width}" height="{height}" rx="4"'
         ' fill="#e8f0f7" stroke="#36648b"/>'

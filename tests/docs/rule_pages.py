@@ -14,18 +14,18 @@ _INDEX = """{made}
 
 # Rules
 
-What `mudline lint` looks for. A code or a slug names one rule on the command line, the beginning of a code all rules
-that begin so: `--select SYN`, `--ignore CRV002`, `--ignore unsorted-points`. `mudline rules CODE` prints a page.
+What `mudline lint` looks for. On the command line a code or a slug selects one rule, a prefix of codes all rules with
+it: `--select SYN`, `--ignore CRV002`, `--ignore unsorted-points`. `mudline rules CODE` prints a page.
 
-An *error* is a deck that is illegal or has no meaning. A *warning* is a likely mistake, or a place where the meaning is
-a choice of ours. An *info* is something to know. A rule that is *off* runs only where it is selected. A *safe* fix is
-made by `--fix`, an *unsafe* one by `--fix --unsafe-fixes`, as the finding in the example has it.
+An *error* means that the deck is illegal or has no meaning. A *warning* is a likely mistake, or a place where the
+meaning is our choice. An *info* is something to know. A rule that is *off* runs only where it is selected. `--fix`
+makes a *safe* fix, `--fix --unsafe-fixes` also an *unsafe* one; the column shows that of the example.
 
 | code | slug | severity | fix | finds |
 | --- | --- | --- | --- | --- |
 {rows}
 
-Nine more codes are no rules and cannot be left out; they say why a file could not be used, changed or checked, or what
+Nine more codes are not rules and cannot be ignored; they say why a file could not be used, changed or checked, or what
 is doubtful in the results of one:
 
 | code | slug | severity | says |

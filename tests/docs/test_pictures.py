@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from io import BytesIO
-from itertools import groupby
+from itertools import groupby, pairwise
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ import pytest
 from mudline.contact.laws.suction import SuctionState
 from mudline.results.plots.figure import Cycle
 from tests.docs.full_cycle import NOTES, cycle, draw
+from tests.docs.layer_picture import layer_picture
 from tests.docs.pictures import IMAGES, ROOT, write
 
 
@@ -52,3 +54,11 @@ def test_all_pictures_are_made_and_no_others(tmp_path: Path) -> None:
     write(tmp_path)
     made = {file.name for file in tmp_path.iterdir() if file.stat().st_size > 10_000}
     assert made == {file.name for file in IMAGES.iterdir()} - {"benchmarks.svg"}, "that one is drawn by make bench"
+
+
+def test_boxes_of_the_layers_do_not_overlap() -> None:
+    found = re.findall(r'<rect x="(-?\d+)" y="(\d+)" width="(\d+)"', layer_picture())
+    boxes = sorted((int(y), int(x), int(x) + int(width)) for x, y, width in found)
+    assert len(boxes) > 15
+    assert boxes[0][1] >= 0
+    assert [(left, right) for left, right in pairwise(boxes) if left[0] == right[0] and left[2] >= right[1]] == []

@@ -102,7 +102,7 @@ SYN008 = Code(
     The model is described once, in `$MODEL`, and a load case says what acts on it. A block in the wrong section is not
     read as what it looks like: a restraint in `$MODEL` restrains nothing, a seabed in `$LOAD CASE` carries nothing.
     Move the block to a section that the message names; a missing `$LOAD CASE` line above it is the usual cause. It is
-    an error in `$PREPROCESSOR`, `$MODEL` and `$LOAD CASE` for a keyword whose section is certain, and a note elsewhere.
+    an error in `$PREPROCESSOR`, `$MODEL` and `$LOAD CASE` for a keyword whose section is certain, else an info.
 
     Example:
          $MODEL
@@ -172,7 +172,7 @@ SYN011 = Code(
     A data line belongs to no keyword.
 
     Lines before the first section, or between a `$SECTION` and its first keyword, belong to nothing and are not read.
-    Title lines at the top of a deck are common and do no harm: words above the first section are a note. Numbers there
+    Title lines at the top of a deck are common and do no harm: words above the first section are an info. Numbers there
     are numbers that the model lacks. Turn a title into a comment (C and a space), and put data under their keyword.
 
     Example:
@@ -197,7 +197,7 @@ SYN012 = Code(
     A file that is not UTF-8 is read as CP1252, and as Latin-1 if that cannot be: a guess, after which a set's name may
     not match the same name in another file. Control characters, such as the Ctrl-Z that old systems put at the end of a
     file, are invisible and corrupt the line that holds them (in front of a * or a $ they are ignored). UTF-16 and
-    binary data are not read at all. Where only comments hold such letters, as a degree sign, it is a note. Save the
+    binary data are not read at all. Where only comments hold such letters, as a degree sign, it is an info. Save the
     file as UTF-8, and remove what the message names.
 
     Example:

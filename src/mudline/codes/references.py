@@ -12,7 +12,7 @@ REF001 = Code(
     A SET= names a set that the deck does not define.
 
     What is below the SET= would reach no element: no stiffness, no diameter, no curve. Mostly the name is spelt
-    differently in two places: case does not count in names, but spaces do. Define the set in *ELEMENT SETS, or correct
+    differently in two places: case is ignored in names, spaces are not. Define the set in *ELEMENT SETS, or correct
     the name. Where *LINES, which makes sets of its own, or the deck that *RESTART continues could define the set, this
     is a warning. Two more names give warnings here too: a REPEAT= of *LINE PATH SECTIONS that names no group of
     *LINE SECTION GROUPS, and a LINE= there that *LINE PATHS does not name. And a VARIATIONS= of *COMBINATIONS that
@@ -79,7 +79,7 @@ REF006 = Code(
     The element has no place and no length, and nothing can be said of its contact. Correct the number, or define the
     node. The same holds for nodes that *BOUNDARY holds, of which a range may lack some as a warning, and of NODE= in
     *P-Y and *T-Z. A node that only *LINES or the deck before a *RESTART can define is a warning, and so is a label that
-    is spelt nearly as one that stands in *LINES or *LINE LOCATIONS. Nodes that only *CABLE or *NODE,CURVILINEAR can
+    is spelt nearly as one in *LINES or *LINE LOCATIONS. Nodes that only *CABLE or *NODE,CURVILINEAR can
     define, whose lines are not read, are one info for the keyword.
 
     Example:
@@ -105,8 +105,8 @@ REF007 = Code(
     """
     A node or an element is defined twice.
 
-    The later definition holds, and the earlier one is lost without a word: a line copied and half changed puts a kink
-    into the pipe, or leaves an element out. Remove one of the two, or give it a number of its own.
+    The later definition holds, and the earlier one is lost silently: a line copied and half changed puts a kink
+    into the pipe, or leaves an element out. Remove one of the two, or give it another number.
 
     Example:
          $MODEL
@@ -129,7 +129,7 @@ REF008 = Code(
     A SUBSET= leads back to its own set, or names no set.
 
     A set takes in all elements of its subsets. A set that is, through others, a subset of itself has no meaning, and a
-    subset that does not exist leaves elements out. Remove one of the SUBSET= lines of the circle, or correct the name.
+    subset that does not exist leaves elements out. Remove one of the SUBSET= lines of the cycle, or correct the name.
 
     Example:
          $MODEL
@@ -156,8 +156,8 @@ REF009 = Code(
     """
     The predefined set ALL is defined again.
 
-    ALL holds every element of the model, whatever else the deck says, so the lines below this SET= have no effect. Who
-    reads the deck may believe that they have. Choose another name, or remove the lines.
+    ALL holds every element of the model, whatever else the deck says, so the lines below this SET= have no effect,
+    although a reader may expect it. Choose another name, or remove the lines.
 
     Example:
          $MODEL
@@ -255,10 +255,10 @@ REF015 = Code(
     """
     A file that the deck names was not found.
 
-    FILE= and the LAST= of *RESTART name files beside the deck. Without the deck before a *RESTART mudline does not know
-    the model that this deck works on, and what is missing is a warning only. The finding is also given for a deck that
-    is there and cannot be read, and for decks that continue each other in a circle. A deck from standard input names no
-    place where its files could be, so nothing is looked for.
+    FILE=, as of *SEABED PROFILE, and LAST= of *RESTART name files beside the deck. Without the deck before a *RESTART
+    mudline does not know the model that this deck works on, and what is missing is a warning only. The finding is also
+    given for a deck that is there and cannot be read, and for decks that continue each other in a cycle. A deck from
+    standard input has no folder in which its files could be, so they are not searched.
 
     Example:
          $LOAD CASE

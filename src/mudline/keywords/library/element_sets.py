@@ -44,7 +44,7 @@ class ElementSet(Record):
 
     rule = "element_set"
     name: Annotated[
-        Name, setting("SET", "set name: up to 256 characters, case does not count, spaces do", defines=Names.SET)
+        Name, setting("SET", "set name: up to 256 characters, case is ignored, spaces are not", defines=Names.SET)
     ]
     members: list[SetList | SetGenerate | SetSubset] = []
 

@@ -45,13 +45,13 @@ class SeabedProfile(Block):
     ] = None
     slope: Annotated[
         Real | None,
-        setting("SLOPE", "slope of a plane through the origin, positive when it rises towards +Y", unit="deg"),
+        setting("SLOPE", "of SLOPING: slope of a plane through the origin, positive towards +Y; mandatory", unit="deg"),
     ] = None
     file: Annotated[
         Name | None,
         setting(
             "FILE",
-            "compiled profile (.fcsbd); a linear 2D one may be a text file of lines `Y, elevation`",
+            "of 2D and 3D: compiled profile (.fcsbd), or for linear 2D a text file of lines `Y, elevation`; mandatory",
             names=Names.FILE,
         ),
     ] = None

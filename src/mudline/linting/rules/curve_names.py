@@ -35,7 +35,7 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
 
     It was measured or calculated for something, so perhaps the elements that it was meant for follow another law. Name
     it in a STIFFNESS= of *SEABED PROPERTIES, or remove it. Another estimate of a soil that is used, as Clay Low beside
-    Clay Best, is a note: decks carry all of them. Nothing is reported in a deck whose STIFFNESS= is an
+    Clay Best, is an info: decks carry all of them. Nothing is reported in a deck whose STIFFNESS= is an
     equation, as its parameters choose the curve, or for a curve whose name reads as a number (SBD017).
 
     Example:
@@ -128,7 +128,7 @@ def duplicate_curve(context: LintContext) -> Iterator[Problem]:
     """Two curves have one name, or one set has two curves in *EMBEDMENT.
 
     The later one is used (inferred: the language does not say what happens) and overrides the earlier one. Names are
-    compared without case. Choose another name, or remove one of the curves.
+    case-insensitive. Choose another name, or remove one of the curves.
 
     Example:
          $MODEL

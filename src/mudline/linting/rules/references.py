@@ -121,7 +121,7 @@ def repeated_set(context: LintContext) -> Iterator[Problem]:
     """A set is defined twice: it holds the elements of both definitions.
 
     Whoever changes one of them expects the set to change, but the elements of the other one stay in it, with their
-    stiffness and curve. Names are compared without case. Put the elements under one SET=, or choose another name.
+    stiffness and curve. Names are case-insensitive. Put the elements under one SET=, or choose another name.
 
     Example:
          $MODEL

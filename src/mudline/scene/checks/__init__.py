@@ -38,7 +38,7 @@ CHECKS: list[Check] = []
 
 
 def check(code: Code) -> Callable[[Find], Find]:
-    """Declare a function as a check; for the form of its docstring see `mudline.linting.registry.rule`."""
+    """Declare a function as a check; for the form of its docstring see `mudline.linting.rule.rule`."""
 
     def declare(find: Find) -> Find:
         CHECKS.append(Check(code, find))

@@ -73,9 +73,9 @@ def rigid_with_curve(scene: ResolvedDeck) -> Iterator[Problem]:
 def two_seabed_types(scene: ResolvedDeck) -> Iterator[Problem]:
     """The model has a rigid and an elastic seabed.
 
-    A model has one of them for all its elements, whether it says so with TYPE= or with *RIGID SURFACE and *ELASTIC
-    SURFACE. A block pasted from another deck is the usual cause. Remove one of them; a hard place in an elastic seabed
-    takes a high stiffness instead.
+    A model has one of them for all its elements, given by TYPE= or by *RIGID SURFACE and *ELASTIC SURFACE. A block
+    pasted from another deck is the usual cause. Remove one of them; a hard part of an elastic seabed takes a high
+    stiffness.
 
     Example:
          $MODEL

@@ -105,7 +105,7 @@ def steep_slope(scene: ResolvedDeck) -> Iterator[Problem]:
 def unreadable_profile(scene: ResolvedDeck) -> Iterator[Problem]:
     """The profile of the seabed cannot be read, or its points make no seabed.
 
-    A compiled profile (.fcsbd) is binary, and its format is not public: the deck keeps it, and mudline knows nothing of
+    A compiled file (.fcsbd) of *SEABED PROFILE is binary, and its format is not public: mudline knows nothing of
     the seabed that it describes, so the deck cannot be evaluated. A linear profile may be a text file instead, with a
     line `Y, elevation` for each point; in such a file the finding is a warning and names the first line that cannot be
     read. Another binary file is an info, as a compiled one is. Points that make no seabed, such as a single one or two
