@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from mudline.archive import compaction
+from mudline.archive import store
 from mudline.archive.store import FORMAT, Archive
 from tests.archive.trial import contents, deck, index, summary, write
 from tests.cli.runner import run
@@ -193,8 +193,8 @@ def test_batches_replaced_by_a_killed_run_are_left_out(archive: Path, decks: Pat
     saved = {path: path.read_bytes() for path in archive.rglob("*.json")}
     opened = Archive.opened(archive)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(compaction, "MOST_SMALL", 1)
-        compaction.compact(opened)
+        patch.setattr(store, "MOST_SMALL", 1)
+        store.compact(opened)
     assert all(path.exists() for path in saved)
     assert len(list(archive.glob("batches/*.json"))) == 2
     assert contents(archive) == before

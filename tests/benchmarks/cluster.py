@@ -23,9 +23,8 @@ from statistics import median
 
 import numpy as np
 
-from mudline.cluster.running import Job, Run
+from mudline.cluster.running import Item, Job, Made, Run, Store
 from mudline.cluster.scheduler import Scheduler, connected
-from mudline.cluster.work import Item, Made, Store
 from tests.benchmarks.decks import apart
 from tests.cluster.processes import ROOT, Processes, running, wait_until
 
@@ -122,7 +121,7 @@ def overhead(folder: Path) -> dict[str, float]:
             bare = (time.perf_counter() - futures_start) / _CHUNKS
             start = time.perf_counter()
             items = [Item(f"{round_} {number}", None) for number in range(_CHUNKS)]
-            run = Run(client, Job("empty", nothing, items, len(items), store, fresh=True), cluster.address)
+            run = Run(lambda: client, Job("empty", nothing, items, len(items), store, fresh=True), cluster.address)
             run._pace.took(1, 1e6)  # one item makes a chunk
             run._pace.took = lambda *_: None  # type: ignore[method-assign]
             assert len(list(run.rows())) == _CHUNKS

@@ -26,6 +26,8 @@ pytestmark = [
     pytest.mark.filterwarnings("ignore::ResourceWarning", "ignore::pytest.PytestUnraisableExceptionWarning"),
 ]
 
+NOTHING = "tcp://127.0.0.1:9"
+"""The address of no scheduler."""
 LARGE = (ROOT / "samples" / "legacy-flowline.keyxm").read_text(encoding="utf-8")
 
 
@@ -78,6 +80,7 @@ def test_a_second_run_takes_over_what_still_holds(cluster: Processes, folder: Pa
     (folder / "decks" / "003.keyxm").write_text(CLEAN, encoding="utf-8")
     assert counts() == "1 deck done, 8 from an earlier run"
     assert run(*words, "--no-cache").err.endswith("9 decks done, 0 from an earlier run\n")
+    assert run(*words[:-1], NOTHING).err.endswith(f"{NOTHING}: 0 decks done, 9 from an earlier run\n")
 
 
 def test_a_killed_worker_loses_nothing_and_nothing_is_done_twice(cluster: Processes, folder: Path) -> None:
@@ -142,6 +145,19 @@ def test_decks_are_evaluated_at_their_positions(positions: str, cluster: Process
     assert names == ["001.npz", "002.npz", "003.npz", "004.npz", "005.npz"]
     for name in names:
         assert (folder / "both" / name).read_bytes() == (folder / "alone" / name).read_bytes()
+
+
+def test_results_that_a_deck_no_longer_gives_are_removed(cluster: Processes, folder: Path) -> None:
+    write_cases(folder / "decks", 4)
+    words = ("decks", "--positions", "decks", "-o", "both", "--scheduler", cluster.address)
+    evaluated(*words)
+    for name in ("001", "002"):
+        (folder / "decks" / f"{name}.keyxm").write_text(BAD_NUMBER, encoding="utf-8")
+    (folder / "both" / "002.npz").write_bytes(b"changed by somebody")
+    (folder / "decks" / "003.npz").unlink()
+    rows = {row["deck"].split("/")[-1]: row["verdict"] for row in evaluated(*words).json()}
+    assert set(rows.values()) == {"failed"}
+    assert sorted(path.name for path in (folder / "both").glob("*.npz")) == ["002.npz", "003.npz"]
 
 
 def test_decks_and_results_at_an_object_store(cluster: Processes, folder: Path) -> None:

@@ -56,7 +56,8 @@ def test_the_archive_is_that_of_a_run_without_a_cluster(cluster: Processes, fold
     assert contents(folder / "both") == contents(folder / "alone")
     assert files_of("both") == files_of("alone")
 
-    assert summary(index(cluster, "both", "decks")) == "9 decks: 9 unchanged"
+    nowhere = ("--isolated", "--scheduler", "tcp://127.0.0.1:9")
+    assert summary(run("index", "decks", "-o", "both", *nowhere)) == "9 decks: 9 unchanged"
     (decks / "d001.keyxm").rename(decks / "moved.keyxm")
     write(decks, d000=f"C {7:05}\n{deck()}", d003=f"C a longer line\n{deck()}", new=CLEAN)
     (decks / "d004.keyxm").unlink()

@@ -11,7 +11,7 @@ import pytest
 
 from mudline.contact import ContactModel, ContactState
 from mudline.contact.plan import Backend
-from mudline.contact.saved_state import restored_state, state_arrays
+from mudline.contact.tables import restored_state, state_arrays
 from tests.builders.contact import CURVE, chain, everything, journey
 from tests.contact.bits import same_bits
 from tests.contact.comparison import plain_loops

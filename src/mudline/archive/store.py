@@ -3,7 +3,7 @@
 A batch exists once its manifest does, which names its files. Everything is written beside its place and renamed, so
 that a run may be killed at any moment; runs at the same time write different files. Nothing is ever changed: a newer
 row of `files` holds before an older one, and a batch that has the rows of others names them in its manifest, so that
-these are left out and removed.
+these are left out and removed. Small batches are made one, so that questions open few files.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from typing import Any
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from mudline.archive.chunk import ArrowTable, numbered, schema_of
-from mudline.archive.tables import FILES, STORED
+from mudline.archive.chunk import MOST_DECKS, ArrowTable, numbered, renumbered, schema_of
+from mudline.archive.tables import FILES, STORED, TABLES
 from mudline.files import write_atomically
 from mudline.short_repr import cut
 
@@ -30,6 +30,11 @@ MARKER = "archive.json"
 DATA = "data"
 BATCHES = "batches"
 VIEWS = "archive.duckdb"
+
+MOST_SMALL = 8
+"""Small batches from which on they are made one."""
+SMALL = 32_000_000
+"""Bytes of a batch that is small."""
 
 _ABOUT = "decks in Parquet: mudline query asks it, docs/archive.md describes it"
 _LEFT = 3600.0
@@ -255,3 +260,50 @@ def newest(files: ArrowTable) -> ArrowTable:
     order = files.sort_by([(FILES.columns[-1].name, "ascending"), ("deck", "ascending")])
     index = {file: at for at, file in enumerate(order.column("file").to_pylist())}
     return order.take(pa.array(index.values(), pa.int64()))
+
+
+# -------------------------------------------------------------------------------------------------------- small batches
+
+
+def compact(archive: Archive) -> None:
+    """Make one batch of the small ones, where there are many; raises ArchiveError, OSError.
+
+    The decks get new numbers, so that two runs that do this at the same time write no row twice: the rows of files that
+    name them are written again, newer by a nanosecond.
+    """
+    import pyarrow.compute as pc  # noqa: PLC0415 - slow to import, and questions are asked without it
+
+    small = [batch for batch in archive.batches.values() if batch.bytes < SMALL]
+    if len(small) < MOST_SMALL:
+        return
+    files, given = newest(archive.read(FILES.name)), archive.read(FILES.name, small)
+    decks = archive.read(TABLES[0].name, small)
+    moving = pc.fill_null(pc.is_in(files.column("deck"), _unique(decks.column("deck"))), fill_value=False)
+    moved, others = files.filter(moving), files.filter(pc.invert(moving))
+    links = others.filter(pc.is_in(_row_names(others), _unique(_row_names(given))))
+    if len(small) == len(archive.batches):  # no other batch has an older row of a file that is gone
+        links = links.filter(pc.is_valid(links.column("deck")))
+    live = _unique(moved.column("deck"))
+    if len(live) >= MOST_DECKS:
+        return
+    at = FILES.columns[-1].name
+    newer = pc.add(moved.column(at), 1)
+    tables = {FILES.name: moved.set_column(moved.schema.get_field_index(at), moved.schema.field(at), newer)}
+    for table in TABLES:
+        rows = archive.read(table.name, small)
+        tables[table.name] = rows.filter(pc.is_in(rows.column("deck"), live))
+    archive.write(renumbered(tables), links, [batch.name for batch in small])
+
+
+def _unique(column: ArrowTable) -> ArrowTable:
+    import pyarrow.compute as pc  # noqa: PLC0415 - as above
+
+    found = pc.unique(column)
+    return found.combine_chunks() if isinstance(found, pa.ChunkedArray) else found
+
+
+def _row_names(files: ArrowTable) -> ArrowTable:
+    """What a row of files is known by: the file and the time of the row."""
+    import pyarrow.compute as pc  # noqa: PLC0415 - as above
+
+    return pc.binary_join_element_wise(files.column("file"), pc.cast(files.column("written"), pa.string()), "\n")

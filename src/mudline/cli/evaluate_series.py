@@ -26,15 +26,14 @@ from mudline.cli.result_files import form_of_file, has_library
 from mudline.cli.streams import emit, notify, reason, writing
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.contact import ContactModel, ContactState
-from mudline.contact.saved_state import restored_state, state_arrays
+from mudline.contact.tables import restored_state, state_arrays
 from mudline.deck.loading import load_bytes
 from mudline.files import recording_looks
 from mudline.linting.cache import program, state
 from mudline.results.checkpoint import About, Checkpoint, CheckpointError, FileMark, Reached, sampled_digest
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import Tables, form_module, plan_rows, table_path, tables_as_text
-from mudline.results.series import SeriesSummary
-from mudline.results.series_tables import series_tables
+from mudline.results.series import SeriesSummary, series_tables
 from mudline.scene.positions import StepFile
 
 if TYPE_CHECKING:

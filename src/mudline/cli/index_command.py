@@ -106,7 +106,7 @@ def command(
         if scheduler is None:
             _index(inputs, settings.of, update, Effort(jobs), view)
         else:
-            from mudline.cli.cluster_index import index_on_cluster  # noqa: PLC0415 - few runs use a cluster
+            from mudline.cli.cluster_decks import index_on_cluster  # noqa: PLC0415 - few runs use a cluster
 
             index_on_cluster(inputs, settings.of, update, scheduler, view)
         update.remove_gone(_folders(paths, listed=listed), everywhere=prune)

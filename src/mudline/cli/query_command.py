@@ -130,7 +130,7 @@ def _deliver(database: Database, reader: Arrow, form: str, target: Path | None, 
 
 
 def _list_questions(view: View) -> None:
-    from mudline.archive.questions import QUESTIONS  # noqa: PLC0415 - only here and where one is asked
+    from mudline.archive.tables import QUESTIONS  # noqa: PLC0415 - only here and where one is asked
 
     rows = [
         [one.name, one.answers, ", ".join(f"{name}={value:.6g}" for name, value in one.parameters.items())]
@@ -149,7 +149,7 @@ def _question(sql: str | None, ask: str | None, param: tuple[str, ...]) -> tuple
         return sql, given
     if sql is not None:
         raise click.UsageError("SQL and --ask exclude each other: give one of them")
-    from mudline.archive.questions import QUESTIONS  # noqa: PLC0415 - only here and where they are listed
+    from mudline.archive.tables import QUESTIONS  # noqa: PLC0415 - only here and where they are listed
 
     question = QUESTIONS.get(ask)
     if question is None:

@@ -6,7 +6,6 @@ A scheduler runs whatever code it is sent, and so do its workers: one that other
 from __future__ import annotations
 
 import logging
-import pydoc
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -116,7 +115,7 @@ def connected(scheduler: Scheduler) -> Iterator[Client]:
             raise ClusterError(f"{scheduler.given}: the scheduler does not answer: {why}") from error
         try:
             _wait_for_workers(client, scheduler)
-            _check_versions(client)
+            _check_versions(client, scheduler)
             yield client
         finally:
             client.close(timeout=2)
@@ -170,10 +169,19 @@ def _wait_for_workers(client: Client, scheduler: Scheduler) -> None:
         raise ClusterError(message) from error
 
 
-def _check_versions(client: Client) -> None:
-    """Refuse workers of another version, by a function of the standard library, which they all have."""
+def _check_versions(client: Client, scheduler: Scheduler) -> None:
+    """Refuse workers of another version, by a function of the standard library, which they all have.
+
+    A worker that ends meanwhile is left out: what it would do is done by the others.
+    """
+    import pydoc  # noqa: PLC0415 - few runs use a cluster
+
     versions = client.run(pydoc.locate, "mudline.__version__", on_error="return")
-    wrong = {worker: found for worker, found in sorted(versions.items()) if found != __version__}
+    present = {worker: found for worker, found in sorted(versions.items()) if not isinstance(found, OSError)}
+    if not present:
+        message = f"{scheduler.given}: all workers ended when they were asked for their version: see their logs"
+        raise ClusterError(message)
+    wrong = {worker: found for worker, found in present.items() if found != __version__}
     for worker, found in wrong.items():
         has = f"mudline {found}" if isinstance(found, str) else "no mudline that can be imported"
         more = f" ({len(wrong) - 1} more workers do not fit)" if len(wrong) > 1 else ""
