@@ -107,21 +107,20 @@ class OnCluster:
         plugins = [(path, storage.mark(path)) for path in plugin_files()]
         start = repr((program(), command, plugins)).encode("utf-8", "backslashreplace")
         names: list[str] = []
-        with _store(self.place) as store, _refusing(self.scheduler.given):
+        with _store(self.place) as store, _refusing(self.scheduler.given), ExitStack() as stack:
             items = (self._item(start, one, names) for one in decks)
-            with ExitStack() as stack:
-                job = Job(command, work, items, count, store, self.fresh)
-                run = Run(lambda: stack.enter_context(connected(self.scheduler)), job, self.scheduler.given)
-                try:
-                    with closing(run.rows()) as rows:
-                        for number, row in enumerate(rows):
-                            if row.failed:
-                                inputs.fail(f"{names[number]}: not done: {row.failed}")
-                            yield None if row.failed else row
-                except (KeyboardInterrupt, GeneratorExit):
-                    more = "the same command goes on from there" if self.place else "-o FOLDER would have kept them"
-                    notify(f"stopped: {run.done + run.taken} of {counted(count, 'deck')} done; {more}")
-                    raise
+            job = Job(command, work, items, count, store, self.fresh)
+            run = Run(lambda: stack.enter_context(connected(self.scheduler)), job, self.scheduler.given)
+            try:
+                with closing(run.rows()) as rows:
+                    for number, row in enumerate(rows):
+                        if row.failed:
+                            inputs.fail(f"{names[number]}: not done: {row.failed}")
+                        yield None if row.failed else row
+            except (KeyboardInterrupt, GeneratorExit):
+                more = "the same command goes on from there" if self.place else "-o FOLDER would have kept them"
+                notify(f"stopped: {run.done + run.taken} of {counted(count, 'deck')} done; {more}")
+                raise
             self.taken = run.taken
             if self.verbose:
                 notify(f"{self.scheduler.given}: {counted(run.done, 'deck')} done, {run.taken} from an earlier run")
