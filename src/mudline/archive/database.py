@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import os
+import sys
 import threading
 import warnings
 from collections.abc import Iterator, Mapping
@@ -31,8 +32,11 @@ _CONFIG = {
     "errors_as_json": "true",
     "temp_directory": "",
 }
-_PATIENCE = 5.0
-"""Seconds for a question to end that is interrupted."""
+_PATIENCE = 30.0
+"""Seconds for a question to end that is interrupted; a second Ctrl-C ends it at once."""
+_BESIDE = 1 << 28
+"""Bytes at least that a question may use besides what DuckDB counts."""
+_TOO_MUCH = "the question needs more memory than it may use: ask for less, or raise --memory-limit"
 _READING = ("SELECT", "EXPLAIN")
 _DISABLED = "file system operations are disabled"
 
@@ -107,8 +111,8 @@ class Database:
             done.set()
 
         done = threading.Event()  # a thread whose `join` is interrupted is taken for ended
-        threading.Thread(target=run, daemon=True).start()
         try:
+            threading.Thread(target=run, daemon=True).start()
             while not done.wait(0.1):
                 pass
         except KeyboardInterrupt:
@@ -117,6 +121,8 @@ class Database:
             raise
         if failed:
             error = failed[0]
+            if isinstance(error, MemoryError):
+                raise QueryError(_TOO_MUCH) from error
             if isinstance(error, duckdb.Error | OSError):
                 raise _explained(error, sql) from error
             raise error
@@ -128,6 +134,7 @@ def opened(archive: Archive, memory: str, threads: int) -> Iterator[Database]:
     """The archive's views in a database in memory that can read its files and nothing else, and write nothing.
 
     The working folder is the archive's until the block ends: the views name files from there, so that it may be moved.
+    On Linux this process may take about twice `memory` until then: MemoryError is raised for what needs more.
     Raises QueryError for a size of memory that DuckDB does not know.
     """
     before = Path.cwd()
@@ -148,12 +155,33 @@ def opened(archive: Archive, memory: str, threads: int) -> Iterator[Database]:
                 raise _explained(error, "") from error
             connection.execute("SET enable_external_access = false")
             connection.execute("SET lock_configuration = true")
-            yield Database(connection)
+            with _limited(connection):
+                yield Database(connection)
         finally:
             with suppress(duckdb.Error):  # it may still be busy with a question that was interrupted
                 connection.close()
     finally:
         os.chdir(before)
+
+
+@contextmanager
+def _limited(connection: duckdb.DuckDBPyConnection) -> Iterator[None]:
+    """Limit the memory of this process: DuckDB does not count long texts, nor the answer when it is handed over."""
+    if sys.platform != "linux":
+        yield
+        return
+    import resource  # noqa: PLC0415 - not on every system
+
+    (counted,) = connection.execute("SELECT parse_formatted_bytes(current_setting('memory_limit'))").fetchone() or (0,)
+    now = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[5]) * resource.getpagesize()
+    before, most = resource.getrlimit(resource.RLIMIT_DATA)
+    wanted = now + counted + max(counted, _BESIDE)
+    limits = [one for one in (wanted, before, most) if one != resource.RLIM_INFINITY]
+    resource.setrlimit(resource.RLIMIT_DATA, (min(limits), most))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_DATA, (before, most))
 
 
 def write_views(archive: Archive) -> None:
@@ -218,12 +246,13 @@ def _explained(error: BaseException, sql: str) -> QueryError:
     message = " ".join(str(found.get("exception_message", text)).split())
     kind = found.get("exception_type", "")
     if kind == "Out of Memory" or isinstance(error, duckdb.OutOfMemoryException):
-        return QueryError("the question needs more memory than it may use: ask for less, or raise --memory-limit")
+        return QueryError(_TOO_MUCH)
     if kind == "IO" and "No files found" in message:
         return MissingFileError(f"{message}: ask again")
     if _DISABLED in message:
         what = message.partition(" - ")[0]
         message = f"{what}: a question reads the tables of the archive and nothing else"
+    message = message.partition(' Use "SET ')[0]  # no setting may be changed
     position = str(found.get("position", ""))
     if sql and position.isdigit():
         before = sql.encode()[: int(position)].decode("utf-8", "replace")
