@@ -129,8 +129,48 @@ def test_damage_that_a_question_meets_is_an_error(archive: Path) -> None:
     path.write_bytes(b"x" * path.stat().st_size)
     outcome = run("query", archive, "SELECT count(name) FROM curves")
     assert outcome.code == 2
-    assert path.name in outcome.err
-    assert "Traceback" not in outcome.err
+    assert outcome.err == f"mudline: data/{path.name} is damaged: mudline index --check reads its decks again\n"
+
+
+def test_damage_that_an_index_meets_is_mended_by_check(archive: Path, decks: Path) -> None:
+    before = contents(archive)
+    path = some_file(archive, "files")
+    path.write_bytes(b"x" * path.stat().st_size)
+    outcome = index(decks, archive=archive)
+    assert outcome.code == 2
+    assert f"{path.as_posix()} is damaged: mudline index --check reads its decks again" in outcome.err
+    assert summary(index(decks, "--check", archive=archive)) == "2 decks: 2 new"
+    assert contents(archive) == before
+
+
+def test_a_folder_that_cannot_be_listed_is_not_an_empty_archive(archive: Path, decks: Path) -> None:
+    before = contents(archive)
+    shutil.rmtree(archive / "batches")
+    outcome = run("query", archive, "SELECT 1")
+    assert outcome.code == 2
+    assert f"{archive.as_posix()}/batches cannot be read: " in outcome.err
+    assert summary(index(decks, archive=archive)) == "2 decks: 2 new"
+    assert contents(archive) == before
+
+
+def test_a_manifest_that_cannot_be_read_is_not_dropped(archive: Path, decks: Path) -> None:
+    odd = archive / "batches" / f"{'0' * 32}.json"
+    odd.mkdir()
+    for outcome in (run("query", archive, "SELECT 1"), index(decks, archive=archive)):
+        assert outcome.code == 2
+        assert f"{odd.as_posix()} cannot be read: " in outcome.err
+    assert odd.exists()
+
+
+def test_files_of_others_are_left_alone(archive: Path, decks: Path) -> None:
+    others = [archive / "notes.txt", archive / "batches" / "notes.json", archive / "data" / "mine.parquet"]
+    for path in others:
+        path.write_text("x", encoding="utf-8")
+        os.utime(path, (1.0, 1.0))
+    write(decks, c=deck("c"))
+    assert summary(index(decks, "--check", archive=archive)) == "3 decks: 1 new, 2 unchanged"
+    assert len(contents(archive)["decks"]) == 3
+    assert all(path.exists() for path in others)
 
 
 def test_a_damaged_manifest_is_named(archive: Path, decks: Path) -> None:
@@ -152,6 +192,23 @@ def test_another_version_is_refused_and_stays(archive: Path, decks: Path) -> Non
         assert outcome.code == 2
         assert f"has the format 'mudline-archive/99', this mudline reads {FORMAT!r}" in outcome.err
     assert sorted(archive.rglob("*")) == before
+
+
+@pytest.mark.parametrize("text", ["", "[]", "{}", "\ufeff", "{" * 100_000])
+def test_a_damaged_marker_is_named(archive: Path, decks: Path, text: str) -> None:
+    (archive / "archive.json").write_text(text, encoding="utf-8")
+    for outcome in (run("query", archive, "SELECT 1"), index(decks, archive=archive)):
+        assert outcome.code == 2
+        assert f"{archive.as_posix()}/archive.json is damaged: index the decks into a new folder" in outcome.err
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="names of files are any bytes only there")
+def test_a_path_that_is_not_utf_8(decks: Path) -> None:
+    odd = decks.parent / os.fsdecode(b"archive-\xff")
+    for outcome in (run("query", odd, "SELECT 1"), index(decks, archive=odd)):
+        assert outcome.code == 2
+        assert outcome.err.endswith("archive-\\xff: the path of an archive must be UTF-8: rename the folder\n")
+    assert not odd.exists()
 
 
 def test_what_is_no_archive(tmp_path: Path, decks: Path) -> None:
@@ -178,14 +235,17 @@ def test_the_views_can_be_made_again(archive: Path, decks: Path) -> None:
 
 
 def test_the_views_work_in_the_folder_also_when_it_has_moved(
-    archive: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    archive: Path, decks: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     duckdb = pytest.importorskip("duckdb")
-    moved = tmp_path / "it's [moved] here"
+    moved = tmp_path / ("it's [moved] here" if sys.platform == "win32" else "it's [moved]? \n here*")
     shutil.move(archive, moved)
     monkeypatch.chdir(moved)
     with duckdb.connect("archive.duckdb", read_only=True) as connection:
         assert connection.execute("SELECT count(*), count(DISTINCT file) FROM curves").fetchall() == [(2, 2)]
+    (moved / "archive.duckdb").unlink()
+    index(decks, archive=moved)
+    assert (moved / "archive.duckdb").exists()
 
 
 def test_batches_replaced_by_a_killed_run_are_left_out(archive: Path, decks: Path) -> None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import sys
 import threading
 import warnings
@@ -14,12 +15,14 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import duckdb
 
-from mudline.archive.store import VIEWS, Archive
+from mudline.archive.store import DAMAGED, DATA, VIEWS, Archive
 from mudline.archive.tables import DECK, FILES, STORED, TABLES, Column, Table
+from mudline.files import write_atomically
 
 BATCH = 100_000
 """Rows of an answer that are fetched at once."""
@@ -37,6 +40,7 @@ _PATIENCE = 30.0
 _BESIDE = 1 << 28
 """Bytes at least that a question may use besides what DuckDB counts."""
 _TOO_MUCH = "the question needs more memory than it may use: ask for less, or raise --memory-limit"
+_DATA_FILE = re.compile(rf"(?<=['\"]){DATA}/[a-z]+-[0-9a-f]+\.parquet(?=['\"])")
 _READING = ("SELECT", "EXPLAIN")
 _DISABLED = "file system operations are disabled"
 
@@ -186,19 +190,18 @@ def _limited(connection: duckdb.DuckDBPyConnection) -> Iterator[None]:
 
 def write_views(archive: Archive) -> None:
     """Write the database of views again, for a shell of DuckDB that is started in the folder. Raises OSError."""
-    target = (archive.folder / VIEWS).absolute()
-    temporary = target.with_name(f".{VIEWS}.{os.urandom(8).hex()}.mudline")
     before = Path.cwd()
     os.chdir(archive.folder)
     try:
-        with duckdb.connect(str(temporary), config=dict(_CONFIG)) as connection:
-            _create_views(connection, archive)
-        temporary.replace(target)
+        # Not in the archive: DuckDB takes a question mark in the path of a database for the start of options.
+        with TemporaryDirectory(prefix="mudline-") as folder:
+            with duckdb.connect(str(Path(folder, VIEWS)), config=dict(_CONFIG)) as connection:
+                _create_views(connection, archive)
+            write_atomically(Path(VIEWS), Path(folder, VIEWS).read_bytes())
     except duckdb.Error as error:
         raise OSError(f"the views cannot be written: {str(error).splitlines()[0]}") from error
     finally:
         os.chdir(before)
-        temporary.unlink(missing_ok=True)
 
 
 def _create_views(connection: duckdb.DuckDBPyConnection, archive: Archive) -> None:
@@ -249,6 +252,8 @@ def _explained(error: BaseException, sql: str) -> QueryError:
         return QueryError(_TOO_MUCH)
     if kind == "IO" and "No files found" in message:
         return MissingFileError(f"{message}: ask again")
+    if (file := _DATA_FILE.search(message)) and "Cannot open" not in message:
+        return QueryError(f"{file[0]} {DAMAGED}")
     if _DISABLED in message:
         what = message.partition(" - ")[0]
         message = f"{what}: a question reads the tables of the archive and nothing else"

@@ -9,6 +9,8 @@ these are left out and removed. Small batches are made one, so that questions op
 from __future__ import annotations
 
 import json
+import os
+import re
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -36,9 +38,14 @@ MOST_SMALL = 8
 SMALL = 32_000_000
 """Bytes of a batch that is small."""
 
+DAMAGED = "is damaged: mudline index --check reads its decks again"
+"""What is wrong with a file whose content is not what it was written with, and what to do."""
+
 _ABOUT = "decks in Parquet: mudline query asks it, docs/archive.md describes it"
 _LEFT = 3600.0
 _DIGEST = 16
+_IS_MANIFEST = re.compile(f"[0-9a-f]{{{2 * _DIGEST}}}\\.json")
+_IS_DATA = re.compile(f"[a-z]+-[0-9a-f]{{{2 * _DIGEST}}}\\.parquet")
 _BY_NAME = {table.name: table for table in STORED}
 
 
@@ -81,6 +88,7 @@ class Archive:
     @classmethod
     def opened(cls, folder: Path) -> Archive:
         """The archive in a folder; raises ArchiveError where there is none, or one of another version."""
+        _check_name(folder)
         marker = folder / MARKER
         try:
             found = json.loads(marker.read_bytes())
@@ -90,9 +98,13 @@ class Archive:
         except NotADirectoryError:
             message = f"{folder.as_posix()} is a file, not an archive: give the folder that mudline index wrote"
             raise ArchiveError(message) from None
-        except (OSError, ValueError) as error:
-            raise ArchiveError(f"{marker.as_posix()} cannot be read: {error}") from error
+        except OSError as error:
+            raise ArchiveError(f"{marker.as_posix()} cannot be read: {error.strerror}") from error
+        except (ValueError, RecursionError):
+            found = None
         form = found.get("format") if isinstance(found, dict) else None
+        if form is None:
+            raise ArchiveError(f"{marker.as_posix()} is damaged: index the decks into a new folder")
         if form != FORMAT:
             message = f"{folder.as_posix()} has the format {cut(str(form), 40)!r}, this mudline reads {FORMAT!r}"
             raise ArchiveError(f"{message}: index the decks into a new folder")
@@ -103,6 +115,7 @@ class Archive:
     @classmethod
     def made(cls, folder: Path) -> Archive:
         """The archive in a folder, a new one where that is missing or empty; raises ArchiveError, OSError."""
+        _check_name(folder)
         if not (folder / MARKER).exists():
             if folder.exists() and not folder.is_dir():
                 raise ArchiveError(f"{folder.as_posix()} is a file: give a folder for the archive")
@@ -117,16 +130,18 @@ class Archive:
         return cls.opened(folder)
 
     def load(self) -> None:
-        """Read the manifests; those that are damaged, or whose files are, are left out."""
+        """Read the manifests; those that are damaged, or whose files are, are left out. Raises ArchiveError."""
         self.batches, self.damaged = {}, {}
-        for path in sorted((self.folder / BATCHES).glob("[!.]*.json")):
+        for path in sorted(self._manifests()):
             try:
                 batch = _batch(path)
                 self._check_files(batch)
             except FileNotFoundError:  # another run has just replaced it
                 continue
-            except (ArchiveError, OSError) as error:
+            except ArchiveError as error:
                 self.damaged[path.stem] = str(error)
+            except OSError as error:  # it may be sound: nothing is dropped
+                raise ArchiveError(f"{path.as_posix()} cannot be read: {error.strerror}") from error
             else:
                 self.batches[batch.name] = batch
         self._superseded = {name for batch in self.batches.values() for name in batch.replaces}
@@ -169,9 +184,13 @@ class Archive:
         for name in names:
             path = self.folder / DATA / name
             try:
-                parts.append(pq.read_table(path, memory_map=False, partitioning=None).cast(schema))
+                data = path.read_bytes()
+            except OSError as error:
+                raise ArchiveError(f"{path.as_posix()} cannot be read: {error.strerror}") from error
+            try:
+                parts.append(pq.read_table(pa.BufferReader(data), partitioning=None).cast(schema))
             except (OSError, ValueError) as error:
-                raise ArchiveError(_damaged(path, "cannot be read")) from error
+                raise ArchiveError(f"{path.as_posix()} {DAMAGED}") from error
         return pa.concat_tables(parts)
 
     def write(self, tables: Mapping[str, ArrowTable], links: ArrowTable, replaces: Sequence[str] = ()) -> None:
@@ -212,7 +231,8 @@ class Archive:
             with suppress(OSError):
                 (self.folder / BATCHES / f"{name}.json").unlink(missing_ok=True)
         named = {stored.file for batch in self._on_disk() for stored in batch.files.values()}
-        files = [*(self.folder / DATA).glob("[!.]*.parquet"), *self.folder.glob(f".{VIEWS}.*")]
+        data = (path for path in (self.folder / DATA).glob("*.parquet") if _IS_DATA.fullmatch(path.name))
+        files = [*data, *self.folder.glob(f".{VIEWS}.*")]
         for path in files:
             with suppress(OSError):
                 if path.name not in named and time.time() - path.stat().st_mtime > _LEFT:
@@ -224,10 +244,28 @@ class Archive:
             with suppress(OSError):
                 (self.folder / BATCHES / f"{name}.json").unlink(missing_ok=True)
 
+    def _manifests(self) -> Iterator[Path]:
+        """The manifests; other files that somebody has put there are left alone. Raises ArchiveError."""
+        folder = self.folder / BATCHES
+        try:
+            names = os.listdir(folder)  # noqa: PTH208 - glob finds nothing where it may not look
+        except OSError as error:
+            raise ArchiveError(f"{folder.as_posix()} cannot be read: {error.strerror}") from error
+        return (folder / name for name in names if _IS_MANIFEST.fullmatch(name))
+
     def _on_disk(self) -> Iterator[Batch]:
-        for path in (self.folder / BATCHES).glob("[!.]*.json"):
+        for path in self._manifests():
             with suppress(ArchiveError, OSError):
                 yield _batch(path)
+
+
+def _check_name(folder: Path) -> None:
+    """Raise ArchiveError for a folder that DuckDB cannot open."""
+    try:
+        str(folder.absolute()).encode()
+    except UnicodeEncodeError as error:
+        name = os.fsencode(folder).decode(errors="backslashreplace")
+        raise ArchiveError(f"{name}: the path of an archive must be UTF-8: rename the folder") from error
 
 
 def _damaged(path: Path, how: str) -> str:
