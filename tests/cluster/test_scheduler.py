@@ -33,8 +33,21 @@ def test_schedulers_that_are_used(given: str, insecure: bool) -> None:
     Scheduler(given, insecure=insecure).check()
 
 
+ODD = (
+    "tcp://127.0.0.1:1#@example.org:2",
+    "tcp://127.0.0.1:1?x",
+    "tcp://example.org:2@127.0.0.1:1",
+    "tcp://127.0.0.1:1/",
+    "TCP://127.0.0.1:1",
+    "tcp://127.0.0.1 :1",
+    "tcp://[::1:1",
+)
+"""What others may take apart in another way than we do."""
+
+
 @pytest.mark.parametrize(
-    "given", ["8786", "host:8786", "tcp://host", "tcp://:8786", "tcp://h:port", "ws://h:1", "local:0", "local:x", ""]
+    "given",
+    ["8786", "host:8786", "tcp://host", "tcp://:8786", "tcp://h:port", "ws://h:1", "local:0", "local:x", "", *ODD],
 )
 def test_what_is_no_address_is_refused(given: str) -> None:
     done = run("lint", "decks", "--scheduler", given, "--insecure")
@@ -42,7 +55,19 @@ def test_what_is_no_address_is_refused(given: str) -> None:
     assert f"--scheduler {given}: expected tcp://HOST:PORT, tls://HOST:PORT or local[:WORKERS]" in done.err
 
 
-@pytest.mark.parametrize("host", ["10.0.0.7", "example.org", "192.168.1.2", "localhost.example.org", "[2001:db8::1]"])
+@pytest.mark.parametrize(
+    "host",
+    [
+        "10.0.0.7",
+        "0.0.0." + "0",
+        "127.1",
+        "[::]",
+        "example.org",
+        "192.168.1.2",
+        "localhost.example.org",
+        "[2001:db8::1]",
+    ],
+)
 @pytest.mark.parametrize("command", ["lint", "validate", "evaluate"])
 def test_another_machine_without_tls_is_refused(command: str, host: str) -> None:
     done = run(command, "decks", "--scheduler", f"tcp://{host}:8786")
