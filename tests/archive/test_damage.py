@@ -33,15 +33,29 @@ sys.exit(main(sys.argv[1:]))
 """
 
 
-@pytest.fixture
-def decks(tmp_path: Path) -> Path:
-    return write(tmp_path / "decks", a=deck("a"), b=deck("b", depth=600.0))
+@pytest.fixture(scope="module")
+def original(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with two decks and their archive, which each test has a copy of."""
+    folder = tmp_path_factory.mktemp("original")
+    decks = write(folder / "decks", a=deck("a"), b=deck("b", depth=600.0))
+    index(decks, archive=folder / "archive")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def before(original: Path) -> dict[str, list[str]]:
+    return contents(original / "archive")
 
 
 @pytest.fixture
-def archive(decks: Path, tmp_path: Path) -> Path:
-    index(decks, archive=tmp_path / "archive")
-    return tmp_path / "archive"
+def decks(original: Path, tmp_path: Path) -> Path:
+    shutil.copytree(original, tmp_path, dirs_exist_ok=True)
+    return tmp_path / "decks"
+
+
+@pytest.fixture
+def archive(decks: Path) -> Path:
+    return decks.parent / "archive"
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
@@ -86,8 +100,9 @@ def some_file(archive: Path, table: str) -> Path:
 
 
 @pytest.mark.parametrize("table", ["decks", "files", "points"])
-def test_a_file_cut_short_is_named_and_its_decks_are_read_again(archive: Path, decks: Path, table: str) -> None:
-    before = contents(archive)
+def test_a_file_cut_short_is_named_and_its_decks_are_read_again(
+    archive: Path, decks: Path, table: str, before: dict[str, list[str]]
+) -> None:
     path = some_file(archive, table)
     path.write_bytes(path.read_bytes()[:-50])
     outcome = run("query", archive, "SELECT 1")
@@ -100,8 +115,7 @@ def test_a_file_cut_short_is_named_and_its_decks_are_read_again(archive: Path, d
     assert contents(archive) == before
 
 
-def test_a_missing_file_is_named(archive: Path, decks: Path) -> None:
-    before = contents(archive)
+def test_a_missing_file_is_named(archive: Path, decks: Path, before: dict[str, list[str]]) -> None:
     path = some_file(archive, "laws")
     path.unlink()
     outcome = run("query", archive, "SELECT 1")
@@ -111,8 +125,9 @@ def test_a_missing_file_is_named(archive: Path, decks: Path) -> None:
     assert contents(archive) == before
 
 
-def test_a_file_that_changed_without_its_size_is_found_by_check(archive: Path, decks: Path) -> None:
-    before = contents(archive)
+def test_a_file_that_changed_without_its_size_is_found_by_check(
+    archive: Path, decks: Path, before: dict[str, list[str]]
+) -> None:
     path = some_file(archive, "elements")
     data = bytearray(path.read_bytes())
     data[40] ^= 255
@@ -132,8 +147,9 @@ def test_damage_that_a_question_meets_is_an_error(archive: Path) -> None:
     assert outcome.err == f"mudline: data/{path.name} is damaged: mudline index --check reads its decks again\n"
 
 
-def test_damage_that_an_index_meets_is_mended_by_check(archive: Path, decks: Path) -> None:
-    before = contents(archive)
+def test_damage_that_an_index_meets_is_mended_by_check(
+    archive: Path, decks: Path, before: dict[str, list[str]]
+) -> None:
     path = some_file(archive, "files")
     path.write_bytes(b"x" * path.stat().st_size)
     outcome = index(decks, archive=archive)
@@ -143,8 +159,9 @@ def test_damage_that_an_index_meets_is_mended_by_check(archive: Path, decks: Pat
     assert contents(archive) == before
 
 
-def test_a_folder_that_cannot_be_listed_is_not_an_empty_archive(archive: Path, decks: Path) -> None:
-    before = contents(archive)
+def test_a_folder_that_cannot_be_listed_is_not_an_empty_archive(
+    archive: Path, decks: Path, before: dict[str, list[str]]
+) -> None:
     shutil.rmtree(archive / "batches")
     outcome = run("query", archive, "SELECT 1")
     assert outcome.code == 2
@@ -173,8 +190,7 @@ def test_files_of_others_are_left_alone(archive: Path, decks: Path) -> None:
     assert all(path.exists() for path in others)
 
 
-def test_a_damaged_manifest_is_named(archive: Path, decks: Path) -> None:
-    before = contents(archive)
+def test_a_damaged_manifest_is_named(archive: Path, decks: Path, before: dict[str, list[str]]) -> None:
     (path,) = archive.glob("batches/*.json")
     path.write_bytes(path.read_bytes()[:-5])
     outcome = run("query", archive, "SELECT 1")
@@ -248,8 +264,9 @@ def test_the_views_work_in_the_folder_also_when_it_has_moved(
     assert (moved / "archive.duckdb").exists()
 
 
-def test_batches_replaced_by_a_killed_run_are_left_out(archive: Path, decks: Path) -> None:
-    before = contents(archive)
+def test_batches_replaced_by_a_killed_run_are_left_out(
+    archive: Path, decks: Path, before: dict[str, list[str]]
+) -> None:
     saved = {path: path.read_bytes() for path in archive.rglob("*.json")}
     opened = Archive.opened(archive)
     with pytest.MonkeyPatch.context() as patch:
