@@ -224,10 +224,10 @@ def test_json_and_what_is_no_deck_at_all(decks: Path, archive: Path) -> None:
     assert same == [{"n": 1}]
 
 
-def test_standard_input_has_no_place(archive: Path) -> None:
+def test_standard_input_is_refused(archive: Path) -> None:
     outcome = index("-", archive=archive)
     assert outcome.code == 2
-    assert "standard input has no place in an archive" in outcome.err
+    assert "standard input cannot be archived" in outcome.err
 
 
 def test_many_small_batches_become_one(decks: Path, archive: Path, tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""`--scheduler`: output and archive of a run without it, whatever becomes of a worker, from files or an object store."""
+"""`--scheduler`: output and archive are those of a run without it, whatever becomes of a worker, also at URLs."""
 
 from __future__ import annotations
 

@@ -50,7 +50,7 @@ _BY_NAME = {table.name: table for table in STORED}
 
 
 class ArchiveError(Exception):
-    """A folder that is no archive, is of another version, or is damaged; the message names it."""
+    """A folder is not an archive, is of another version, is damaged or cannot be read; the message names it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -279,7 +279,7 @@ def _batch(path: Path) -> Batch:
         raise ArchiveError(_damaged(path, "is damaged"))
     content: Any = json.loads(data)
     if content["format"] != FORMAT:
-        raise ArchiveError(f"{path.as_posix()} is of another version, {cut(str(content['format']), 40)!r}")
+        raise ArchiveError(_damaged(path, f"has the format {cut(str(content['format']), 40)!r}"))
     return Batch(
         path.stem, {name: Stored(*row) for name, row in content["files"].items()}, frozenset(content["replaces"])
     )

@@ -90,7 +90,7 @@ def command(
     if lacks_libraries("index"):
         return WRONG_USAGE
     if "-" in paths:
-        raise click.UsageError("standard input has no place in an archive: give files or directories")
+        raise click.UsageError("standard input cannot be archived: give files or directories")
     output = _folder(output)
     inputs = collect_any_form(paths, "", gitignore=not every_file, urls=True)
     listed = inputs.code == 0

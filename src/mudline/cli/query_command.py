@@ -189,7 +189,7 @@ def _form(output: str | None, output_format: str) -> str:
     """The format of the answer; raises click.UsageError."""
     if output is None:
         if output_format == "parquet":
-            raise click.UsageError("Parquet is no text: give -o OUT.parquet")
+            raise click.UsageError("Parquet is a binary format: give -o OUT.parquet")
         return output_format
     found = suffix_of(output)
     if found not in _FORMATS[1:]:
