@@ -177,8 +177,8 @@ def _why(error: BaseException) -> str:
         cause = cause.__cause__ or cause.__context__
     if cause is not None:
         return f"its certificate is not trusted ({cause.verify_message}): give --tls-ca the CA that signed it"
-    if "<TLS (closed)" in text:  # by the scheduler, if its alert comes in time with a reason
-        found = re.search(r"\[SSL: (\w+)\]", text)
+    found = re.search(r"\[SSL: (\w+)\]", text)
+    if found or "<TLS (closed)" in text:  # by the scheduler, whose reason may come too late
         how = found[1] if found else "closed"
         return f"no TLS connection ({how}): give --tls-cert a certificate that the CA of the scheduler signed"
     if "ConnectionResetError" in text:
