@@ -74,7 +74,7 @@ $(LOWEST)/.installed: pyproject.toml tests/lowest.py
 	$(LOWEST)/bin/python -m pip --disable-pip-version-check --quiet install "pip>=25.1"
 	$(LOWEST)/bin/python tests/lowest.py > $(LOWEST)/constraints.txt
 	$(LOWEST)/bin/python -m pip --disable-pip-version-check --quiet install \
-		--constraint $(LOWEST)/constraints.txt --group test --editable ".[all]"
+		--constraint $(LOWEST)/constraints.txt --group test --editable ".[all,archive]"
 	@touch $@
 
 lint: $(VENV)/.developer ## style, layout of the code, and the order of the layers

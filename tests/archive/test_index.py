@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from mudline.archive import compaction, updating
+from mudline.archive import store, updating
 from mudline.archive.known import looked
 from mudline.archive.store import Archive
 from mudline.archive.updating import Update, read_decks
@@ -224,19 +224,19 @@ def test_json_and_what_is_no_deck_at_all(decks: Path, archive: Path) -> None:
     assert same == [{"n": 1}]
 
 
-def test_standard_input_has_no_place(archive: Path) -> None:
+def test_standard_input_is_refused(archive: Path) -> None:
     outcome = index("-", archive=archive)
     assert outcome.code == 2
-    assert "standard input has no place in an archive" in outcome.err
+    assert "standard input cannot be archived" in outcome.err
 
 
 def test_many_small_batches_become_one(decks: Path, archive: Path, tmp_path: Path) -> None:
-    for number in range(compaction.MOST_SMALL + 2):
+    for number in range(store.MOST_SMALL + 2):
         write(decks, a=deck("a", depth=100.0 + number))
         if number == 3:
             (decks / "c.keyxm").unlink()
         index(decks, archive=archive)
-    assert len(list((archive / "batches").glob("*.json"))) < compaction.MOST_SMALL
+    assert len(list((archive / "batches").glob("*.json"))) < store.MOST_SMALL
     fresh = tmp_path / "fresh"
     index(decks, archive=fresh)
     assert contents(archive) == contents(fresh)
@@ -252,8 +252,8 @@ def test_a_copy_whose_original_moves_to_another_batch_stays(
     link = max((archive / "batches").glob("*.json"), key=lambda path: path.stat().st_mtime_ns)
     sizes = {path.stem: json.loads(path.read_bytes())["files"] for path in (archive / "batches").glob("*.json")}
     large = sum(row[2] for row in sizes[link.stem].values())
-    monkeypatch.setattr(compaction, "MOST_SMALL", 1)
-    monkeypatch.setattr(compaction, "SMALL", large + 1)
+    monkeypatch.setattr(store, "MOST_SMALL", 1)
+    monkeypatch.setattr(store, "SMALL", large + 1)
     write(decks, b=deck("b", depth=601.0))
     index(decks, archive=archive)
     assert files(archive) == ["decks/a.keyxm", "decks/b.keyxm", "decks/c.keyxm", "decks/copy.keyxm"]

@@ -11,6 +11,9 @@ from pathlib import Path
 
 import pytest
 
+if sys.platform == "linux":
+    import resource
+
 from mudline.archive import database
 from tests.archive.trial import ask, deck, index, write
 from tests.cli.runner import assert_fits, run
@@ -172,6 +175,52 @@ def test_a_question_that_needs_too_much_memory_ends(archive: Path) -> None:
     outcome = run("query", archive, sql, "--memory-limit", "60MB")
     assert outcome.code == 2
     assert "raise --memory-limit" in outcome.err
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux holds a process to so much memory")
+@pytest.mark.parametrize(
+    "sql",
+    [
+        "SELECT repeat('x', 3000000000)",
+        "SELECT string_agg(repeat('x', 1000000), '') FROM range(3000)",
+        "WITH RECURSIVE r AS (SELECT repeat('x', 1000) AS t UNION ALL SELECT t || t FROM r) SELECT length(t) FROM r",
+    ],
+)
+def test_memory_is_limited_also_where_duckdb_does_not_count_it(archive: Path, sql: str) -> None:
+    limits = resource.getrlimit(resource.RLIMIT_DATA)
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    outcome = run("query", archive, sql, "--memory-limit", "60MB")
+    assert outcome.code == 2
+    assert "needs more memory than it may use" in outcome.err
+    assert resource.getrlimit(resource.RLIMIT_DATA) == limits
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss < before + 700_000
+
+
+def test_a_question_that_is_too_deep_ends(archive: Path) -> None:
+    outcome = run("query", archive, f"SELECT {'(' * 5000}1{')' * 5000}")
+    assert outcome.code == 2
+    assert outcome.err == "mudline: Max expression depth limit of 1000 exceeded.\n"
+
+
+@pytest.mark.parametrize(
+    ("sql", "words", "why"),
+    [
+        ("SELECT 1 AS a, 2 AS a", "--output-format json", "several columns of the answer are called 'a': name them"),
+        ("SELECT 1 AS a, 2 AS a", "-o a.parquet", "several columns of the answer are called 'a': name them with AS"),
+        ("SELECT 'infinity'::DATE AS d", "", "column d: days=2147483647; must have magnitude <= 999999999: cast it"),
+        ("SELECT '290309-12-22'::DATE AS d", "--output-format json", "column d: date value out of range: cast it to V"),
+        ("SELECT INTERVAL '1 month' AS i", "-o a.parquet", "Parquet has no such type: cast the column in the SQL: "),
+    ],
+)
+def test_values_that_a_form_cannot_hold(archive: Path, tmp_path: Path, sql: str, words: str, why: str) -> None:
+    outcome = run("query", archive, sql, *words.replace("a.parquet", str(tmp_path / "a.parquet")).split())
+    assert outcome.code == 2
+    assert why in outcome.err
+    assert not list(tmp_path.iterdir())
+
+
+def test_columns_of_one_name_are_shown(archive: Path) -> None:
+    assert run("query", archive, "SELECT 1 AS a, 2 AS a", "--output-format", "csv").out.splitlines() == ["a,a", "1,2"]
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from mudline.archive.questions import QUESTIONS
 from mudline.archive.store import Archive
+from mudline.archive.tables import QUESTIONS
 from tests.archive.trial import deck, index, write
 from tests.builders.decks import CLEAN
 from tests.cli.runner import run

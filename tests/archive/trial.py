@@ -5,8 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from mudline.archive.database import opened
-from mudline.archive.store import Archive
 from mudline.archive.tables import TABLES
 from tests.cli.runner import Outcome, run
 
@@ -77,6 +75,9 @@ def ask(archive: Path, sql: str, *more: str) -> list[dict[str, Any]]:
 
 def contents(archive: Path) -> dict[str, list[str]]:
     """Every row of every table without the numbers of contents and the dates of files."""
+    from mudline.archive.database import opened  # noqa: PLC0415 - an extra
+    from mudline.archive.store import Archive  # noqa: PLC0415 - an extra
+
     found = {}
     with opened(Archive.opened(archive), "1GB", 1) as database:
         for table in TABLES:

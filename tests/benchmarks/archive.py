@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 from dataclasses import replace
 
-from mudline.archive.questions import QUESTIONS
+from mudline.archive.tables import QUESTIONS
 from tests.benchmarks.bench import Bench
 from tests.benchmarks.decks import MANY, folder_of
 from tests.benchmarks.runner import cpu, figure, ratio

@@ -1,8 +1,8 @@
 """Runs on a cluster of two workers on loopback: python -m tests.benchmarks.cluster [--decks N] [--cases N]
 
-10^4 decks and 10^3 load cases of one deck with positions, one of the workers killed half-way, compared with a run
-without a cluster; strong and weak scaling; what a chunk costs beside its work. Writes docs/scaling.json, from which
-`python -m tests.benchmarks.scaling` makes docs/scaling.md. Takes some minutes.
+10^4 decks and 10^3 load cases of one deck with positions, one of the workers killed half-way, and an archive of 10^4
+decks, compared with a run without a cluster; strong and weak scaling; what a chunk costs beside its work. Writes
+docs/scaling.json, from which `python -m tests.benchmarks.scaling` makes docs/scaling.md. Takes some minutes.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from statistics import median
 
 import numpy as np
 
-from mudline.cluster.running import Job, Run
+from mudline.cluster.running import Item, Job, Made, Run, Store
 from mudline.cluster.scheduler import Scheduler, connected
-from mudline.cluster.work import Item, Made, Store
+from tests.archive.trial import contents
 from tests.benchmarks.decks import apart
 from tests.cluster.processes import ROOT, Processes, running, wait_until
 
@@ -122,7 +122,7 @@ def overhead(folder: Path) -> dict[str, float]:
             bare = (time.perf_counter() - futures_start) / _CHUNKS
             start = time.perf_counter()
             items = [Item(f"{round_} {number}", None) for number in range(_CHUNKS)]
-            run = Run(client, Job("empty", nothing, items, len(items), store, fresh=True), cluster.address)
+            run = Run(lambda: client, Job("empty", nothing, items, len(items), store, fresh=True), cluster.address)
             run._pace.took(1, 1e6)  # one item makes a chunk
             run._pace.took = lambda *_: None  # type: ignore[method-assign]
             assert len(list(run.rows())) == _CHUNKS
@@ -196,6 +196,21 @@ def evaluated(folder: Path, count: int) -> dict[str, float | int]:
     return {"cases": count, "node steps": steps, **times, "killed at": at, "chunks": len(list(chunks.iterdir()))}
 
 
+def indexed(folder: Path, count: int) -> dict[str, float | int]:
+    """The decks into an archive, again with nothing to do, and without a cluster; all rows of all tables are equal."""
+    write_decks(folder / "decks", count)
+    (folder / "logs").mkdir()
+    words = ("index", "decks", "--isolated", "-o")
+    with running(folder / "logs", 2) as cluster:
+        alone = Timed(folder, *words, "alone", "--jobs", "1")
+        both = Timed(folder, *words, "both", "--scheduler", cluster.address)
+        again = Timed(folder, *words, "both", "--scheduler", cluster.address)
+    assert both.err == alone.err.replace("alone", "both"), "index reports something else"
+    assert f"{count} unchanged" in again.err, again.err
+    assert contents(folder / "both") == contents(folder / "alone"), "the archive holds something else"
+    return {"decks": count, "alone": alone.seconds, "cluster": both.seconds, "again": again.seconds}
+
+
 def main() -> None:
     """Measure and write the figures; parts that are left out keep theirs."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -205,6 +220,7 @@ def main() -> None:
     parts: dict[str, Callable[[Path], object]] = {
         "lint": lambda folder: linted(folder, given.decks),
         "evaluate": lambda folder: evaluated(folder, given.cases),
+        "index": lambda folder: indexed(folder, given.decks),
         "overhead": overhead,
         "series": series,
         "scaling": lambda folder: scaling(folder, max(given.decks // 5, 10)),

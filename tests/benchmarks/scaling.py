@@ -97,7 +97,7 @@ without a cluster.
         )
     }
 
-The whole command, its start and that of the connection included, the best of two rounds:
+{archived(figures)}The whole command, its start and that of the connection included, the best of two rounds:
 
 {
         table(
@@ -112,6 +112,16 @@ The whole command, its start and that of the connection included, the best of tw
 Strong scaling, {base} decks on one worker and on two: {one / two:.2f} times as fast, {one / two / 2:.0%} of two.
 Weak scaling, {base} decks on one worker and {double} on two: {one / weak:.0%} of the ideal, equal time.
 """  # fmt: skip
+
+
+def archived(figures: dict[str, Any]) -> str:
+    """What was measured of archives, if it was."""
+    found = figures.get("index")
+    if found is None:
+        return ""
+    head = ["archive", "without a cluster, s", "two workers, s", "again, nothing changed, s"]
+    row = [f"index, {found['decks']} decks", *(number(found[name]) for name in ("alone", "cluster", "again"))]
+    return f"{table(head, [row])}\n\nAll rows of all tables were equal to those of the run without a cluster.\n\n"
 
 
 def extrapolated(figures: dict[str, Any]) -> str:

@@ -29,10 +29,14 @@ def wait_until(condition: Callable[[], object], what: str, seconds: float = TIME
 
 @dataclass
 class Processes:
-    """The processes of a cluster; `folder` has their logs, `environment` what differs from that of this process."""
+    """The processes of a cluster; `folder` has their logs, `environment` what differs from that of this process.
+
+    `options` are those of both commands, such as --tls-*.
+    """
 
     folder: Path
     environment: dict[str, str]
+    options: tuple[str, ...] = ()
     address: str = ""
     scheduler: subprocess.Popen[bytes] | None = None
     workers: list[subprocess.Popen[bytes]] = field(default_factory=list)
@@ -42,14 +46,15 @@ class Processes:
         self._started += 1
         log = self.folder / f"{self._started}.log"
         with log.open("wb") as stream:
-            command = [sys.executable, "-m", "dask", *words]
+            command = [sys.executable, "-m", "dask", *words, *self.options]
             environment = {**os.environ, **self.environment}
             process = subprocess.Popen(command, stdout=stream, stderr=stream, env=environment, start_new_session=True)
         return process, log
 
     def start_scheduler(self) -> None:
         """Start a scheduler at a free port."""
-        self.scheduler, log = self._start("scheduler", *_LOOPBACK, "--port", "0")
+        protocol = ("--protocol", "tls") if self.options else ()
+        self.scheduler, log = self._start("scheduler", *_LOOPBACK, "--port", "0", *protocol)
         mark = "Scheduler at:"
         wait_until(partial(_says, log, mark), f"no scheduler: {log}")
         line = next(line for line in log.read_text(encoding="utf-8").splitlines() if mark in line)
@@ -84,10 +89,12 @@ def _says(log: Path, text: str) -> bool:
 
 
 @contextmanager
-def running(folder: Path, workers: int, environment: dict[str, str] | None = None) -> Iterator[Processes]:
+def running(
+    folder: Path, workers: int, environment: dict[str, str] | None = None, options: tuple[str, ...] = ()
+) -> Iterator[Processes]:
     """A scheduler with workers, which end with the block."""
     path = os.pathsep.join([str(ROOT / "src"), str(ROOT)])
-    processes = Processes(folder, {"PYTHONPATH": path, "OPENBLAS_NUM_THREADS": "1", **(environment or {})})
+    processes = Processes(folder, {"PYTHONPATH": path, "OPENBLAS_NUM_THREADS": "1", **(environment or {})}, options)
     try:
         processes.start_scheduler()
         processes.start_workers(workers)

@@ -1,16 +1,19 @@
-"""`--scheduler`: the output of a run without it, whatever becomes of a worker, from files and from an object store."""
+"""`--scheduler`: output and archive are those of a run without it, whatever becomes of a worker, also at URLs."""
 
 from __future__ import annotations
 
 import json
+import os
 import signal
 import sys
 import threading
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from tests.archive.trial import contents, deck, summary, write
 from tests.builders.decks import BAD_NUMBER, CLEAN, UNSORTED
 from tests.cli.runner import Outcome, run
 from tests.cluster.processes import ROOT, Processes, wait_until
@@ -26,7 +29,14 @@ pytestmark = [
     pytest.mark.filterwarnings("ignore::ResourceWarning", "ignore::pytest.PytestUnraisableExceptionWarning"),
 ]
 
+NOTHING = "tcp://127.0.0.1:9"
+"""The address of no scheduler."""
 LARGE = (ROOT / "samples" / "legacy-flowline.keyxm").read_text(encoding="utf-8")
+
+
+RESTART = "$LOAD CASE\n*RESTART\n LAST=d000\n*NO FRICTION\n"
+
+needs_archive = pytest.mark.skipif(not (find_spec("duckdb") and find_spec("pyarrow")), reason="needs mudline[archive]")
 
 
 def write_decks(folder: Path, count: int, *texts: str) -> str:
@@ -78,6 +88,7 @@ def test_a_second_run_takes_over_what_still_holds(cluster: Processes, folder: Pa
     (folder / "decks" / "003.keyxm").write_text(CLEAN, encoding="utf-8")
     assert counts() == "1 deck done, 8 from an earlier run"
     assert run(*words, "--no-cache").err.endswith("9 decks done, 0 from an earlier run\n")
+    assert run(*words[:-1], NOTHING).err.endswith(f"{NOTHING}: 0 decks done, 9 from an earlier run\n")
 
 
 def test_a_killed_worker_loses_nothing_and_nothing_is_done_twice(cluster: Processes, folder: Path) -> None:
@@ -144,6 +155,19 @@ def test_decks_are_evaluated_at_their_positions(positions: str, cluster: Process
         assert (folder / "both" / name).read_bytes() == (folder / "alone" / name).read_bytes()
 
 
+def test_results_that_a_deck_no_longer_gives_are_removed(cluster: Processes, folder: Path) -> None:
+    write_cases(folder / "decks", 4)
+    words = ("decks", "--positions", "decks", "-o", "both", "--scheduler", cluster.address)
+    evaluated(*words)
+    for name in ("001", "002"):
+        (folder / "decks" / f"{name}.keyxm").write_text(BAD_NUMBER, encoding="utf-8")
+    (folder / "both" / "002.npz").write_bytes(b"changed by somebody")
+    (folder / "decks" / "003.npz").unlink()
+    rows = {row["deck"].split("/")[-1]: row["verdict"] for row in evaluated(*words).json()}
+    assert set(rows.values()) == {"failed"}
+    assert sorted(path.name for path in (folder / "both").glob("*.npz")) == ["002.npz", "003.npz"]
+
+
 def test_decks_and_results_at_an_object_store(cluster: Processes, folder: Path) -> None:
     system = s3fs.S3FileSystem()
     system.mkdir("bucket")
@@ -176,6 +200,104 @@ def test_decks_and_results_at_an_object_store(cluster: Processes, folder: Path) 
     assert missing.code == 2
     assert "mudline: s3://bucket/nowhere: nothing is at this url\n" in missing.err
     assert "mudline: s3://other/deck.keyxm: " in missing.err
+
+
+# ------------------------------------------------------------------------------------------------------------- archives
+
+
+def index(cluster: Processes | None, archive: str, *words: str) -> Outcome:
+    scheduler = ("--jobs", "1") if cluster is None else ("--scheduler", cluster.address)
+    return run("index", *words, "-o", archive, "--isolated", *scheduler)
+
+
+def settled(folder: Path) -> None:
+    """The decks are old enough for their dates to be trusted."""
+    for path in folder.rglob("*.*"):
+        os.utime(path, ns=(10**18, 10**18))
+
+
+def files_of(archive: str) -> list[str]:
+    return sorted(path.relative_to(archive).parts[0] for path in Path(archive).iterdir())
+
+
+@needs_archive
+def test_the_archive_is_that_of_a_run_without_a_cluster(cluster: Processes, folder: Path) -> None:
+    decks = write(folder / "decks", **{f"d{i:03}": f"C {i:05}\n{deck()}" for i in range(6)})
+    write(decks, bad=BAD_NUMBER, restart=RESTART, copy=f"C {0:05}\n{deck()}")
+    settled(decks)
+    alone = index(None, "alone", "decks", "missing.keyxm")
+    both = index(cluster, "both", "decks", "missing.keyxm")
+    assert (both.code, both.out, both.err) == (2, alone.out, alone.err.replace("alone", "both"))
+    assert contents(folder / "both") == contents(folder / "alone")
+    assert files_of("both") == files_of("alone")
+
+    nowhere = ("--isolated", "--scheduler", NOTHING)
+    assert summary(run("index", "decks", "-o", "both", *nowhere)) == "9 decks: 9 unchanged"
+    (decks / "d001.keyxm").rename(decks / "moved.keyxm")
+    write(decks, d000=f"C {7:05}\n{deck()}", d003=f"C a longer line\n{deck()}", new=CLEAN)
+    (decks / "d004.keyxm").unlink()
+    words = "9 decks: 1 new, 3 changed, 1 moved, 4 unchanged, 1 gone"
+    assert summary(index(cluster, "both", "decks")) == summary(index(None, "alone", "decks")) == words
+    assert contents(folder / "both") == contents(folder / "alone")
+
+
+@needs_archive
+def test_a_killed_worker_loses_nothing_and_an_interrupted_run_goes_on(cluster: Processes, folder: Path) -> None:
+    decks = write(folder / "decks", **{f"d{i:03}": f"C {i}\n{LARGE}" for i in range(32)})
+    settled(decks)
+    assert summary(index(None, "alone", "decks")) == "32 decks: 32 new"
+
+    def chunks() -> int:
+        """Those of the run that has not ended; workers may finish one after it."""
+        return sum((path.parent / "running").exists() for path in folder.glob("both/.chunks-*/index-*.jsonl"))
+
+    words = ("index", "decks", "-o", "both", "--isolated", "--scheduler", cluster.address)
+    with started("-m", "mudline", *words) as running:
+        wait_until(lambda: chunks() >= 2, "nothing is done")
+        running.process.send_signal(signal.SIGINT)
+        notes = running.err.read().decode()
+        assert running.process.wait(TIMEOUT) == 130
+    assert "of 32 decks done; the same command goes on from there" in notes
+    assert not [*folder.glob("both/.chunks-*/running")]
+
+    def kill() -> None:
+        wait_until(lambda: chunks() >= 2, "nothing is done")
+        assert cluster.kill_worker() == -signal.SIGKILL
+
+    killer = threading.Thread(target=kill)
+    killer.start()
+    done = summary(index(cluster, "both", "decks"))
+    killer.join(TIMEOUT)
+    assert len(cluster.workers) == 1
+    known = int(done.partition(" unchanged")[0].split()[-1])
+    assert 2 <= known < 32
+    assert done == f"32 decks: {32 - known} new, {known} unchanged"
+    assert files_of("both") == files_of("alone")
+    assert contents(folder / "both") == contents(folder / "alone")
+
+
+@needs_archive
+def test_decks_at_an_object_store(cluster: Processes, folder: Path) -> None:
+    system = s3fs.S3FileSystem()
+    system.mkdir("archived")
+    write(folder / "decks", a=deck("a"), b=deck("b", depth=600.0))
+    system.put(str(folder / "decks"), "archived/decks", recursive=True)
+    url = "s3://archived/decks"
+    assert summary(index(cluster, "both", url)) == "2 decks: 2 new"
+    assert summary(index(None, "alone", url, "decks")) == "4 decks: 4 new"
+    both, alone = contents(folder / "both"), contents(folder / "alone")
+    assert both["curves"] == [row for row in alone["curves"] if url in row] != []
+    system.rm(f"{url}/b.keyxm")
+    assert summary(index(cluster, "both", url)) == "1 deck: 1 unchanged, 1 gone"
+    assert index(cluster, "both", "s3://nowhere/decks", "--prune").code == 2
+    assert len(contents(folder / "both")["decks"]) == 1
+
+
+def test_an_archive_at_a_url_is_refused() -> None:
+    assert "-o s3://b/archive: an archive is a folder, not a URL" in run("index", "decks", "-o", "s3://b/archive").err
+
+
+# ----------------------------------------------------------------------------------------------------------- schedulers
 
 
 def test_local_starts_scheduler_and_workers(folder: Path) -> None:

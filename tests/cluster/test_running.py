@@ -9,10 +9,22 @@ from typing import Any, cast
 
 import pytest
 
-from mudline.cluster import running, storage, work
-from mudline.cluster.running import Job, Pace, Run
+from mudline.cluster import running, storage
+from mudline.cluster.running import (
+    Chunk,
+    Finished,
+    Item,
+    Job,
+    Made,
+    Pace,
+    Row,
+    Run,
+    Store,
+    WrongVersionError,
+    run_chunk,
+    still_holds,
+)
 from mudline.cluster.scheduler import ClusterError
-from mudline.cluster.work import Chunk, Finished, Item, Made, Row, Store, WrongVersionError, run_chunk, still_holds
 
 distributed = pytest.importorskip("distributed", reason="distributed is not installed")
 
@@ -73,7 +85,7 @@ def double(given: object) -> Made:
 
 def run_of(client: Client, store: str, count: int, **others: Any) -> Run:  # noqa: ANN401 - as Job takes them
     items = [Item(f"key {number}", number) for number in range(count)]
-    return Run(cast("Any", client), Job("double", double, items, count, Store(store), **others), "tcp://a")
+    return Run(lambda: cast("Any", client), Job("double", double, items, count, Store(store), **others), "tcp://a")
 
 
 def test_rows_come_in_order_and_are_taken_over(folder: Path) -> None:
@@ -85,6 +97,13 @@ def test_rows_come_in_order_and_are_taken_over(folder: Path) -> None:
     assert (again.taken, again.done) == (10, 2)
     fresh = run_of(Client(), str(folder), 10, fresh=True)
     assert len(list(fresh.rows())) == fresh.done == 10
+
+
+def test_nothing_is_connected_when_all_is_done(folder: Path) -> None:
+    list(run_of(Client(), str(folder), 5).rows())
+    again = run_of(Client(), str(folder), 5)
+    again.connect = lambda: pytest.fail("connected")
+    assert len(list(again.rows())) == again.taken == 5
 
 
 def test_a_fault_in_one_deck_is_its_result(folder: Path) -> None:
@@ -181,7 +200,7 @@ def test_a_row_holds_while_its_files_do(folder: Path) -> None:
 
 
 def test_paths_are_found_from_another_working_folder(folder: Path) -> None:
-    assert work.resolved("a/deck.keyxm", str(folder)) == "a/deck.keyxm"
-    assert work.resolved("a/deck.keyxm", "/elsewhere") == "/elsewhere/a/deck.keyxm"
-    assert work.resolved("/a/deck.keyxm", "/elsewhere") == "/a/deck.keyxm"
-    assert work.resolved("s3://a/deck.keyxm", "/elsewhere") == "s3://a/deck.keyxm"
+    assert storage.resolved("a/deck.keyxm", str(folder)) == "a/deck.keyxm"
+    assert storage.resolved("a/deck.keyxm", "/elsewhere") == "/elsewhere/a/deck.keyxm"
+    assert storage.resolved("/a/deck.keyxm", "/elsewhere") == "/a/deck.keyxm"
+    assert storage.resolved("s3://a/deck.keyxm", "/elsewhere") == "s3://a/deck.keyxm"

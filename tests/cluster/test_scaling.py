@@ -22,6 +22,14 @@ def test_the_page_is_made_from_its_figures() -> None:
     assert figures["evaluate"]["cases"] == 1000
 
 
+def test_what_was_measured_of_archives_is_shown() -> None:
+    from tests.benchmarks.scaling import archived  # noqa: PLC0415 - imports dask
+
+    found = archived({"index": {"decks": 500, "alone": 4.0, "cluster": 3.25, "again": 0.5}})
+    assert "| index, 500 decks | 4 | 3.25 | 0.5 |\n\nAll rows of all tables were equal" in found
+    assert archived({}) == ""
+
+
 def test_ideal_workers_share_all_work() -> None:
     found = simulate(1000.0, 1.0, IDEAL)
     assert found.seconds == pytest.approx(100.0)

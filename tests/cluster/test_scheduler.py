@@ -33,8 +33,21 @@ def test_schedulers_that_are_used(given: str, insecure: bool) -> None:
     Scheduler(given, insecure=insecure).check()
 
 
+ODD = (
+    "tcp://127.0.0.1:1#@example.org:2",
+    "tcp://127.0.0.1:1?x",
+    "tcp://example.org:2@127.0.0.1:1",
+    "tcp://127.0.0.1:1/",
+    "TCP://127.0.0.1:1",
+    "tcp://127.0.0.1 :1",
+    "tcp://[::1:1",
+)
+"""What others may take apart in another way than we do."""
+
+
 @pytest.mark.parametrize(
-    "given", ["8786", "host:8786", "tcp://host", "tcp://:8786", "tcp://h:port", "ws://h:1", "local:0", "local:x", ""]
+    "given",
+    ["8786", "host:8786", "tcp://host", "tcp://:8786", "tcp://h:port", "ws://h:1", "local:0", "local:x", "", *ODD],
 )
 def test_what_is_no_address_is_refused(given: str) -> None:
     done = run("lint", "decks", "--scheduler", given, "--insecure")
@@ -42,7 +55,19 @@ def test_what_is_no_address_is_refused(given: str) -> None:
     assert f"--scheduler {given}: expected tcp://HOST:PORT, tls://HOST:PORT or local[:WORKERS]" in done.err
 
 
-@pytest.mark.parametrize("host", ["10.0.0.7", "example.org", "192.168.1.2", "localhost.example.org", "[2001:db8::1]"])
+@pytest.mark.parametrize(
+    "host",
+    [
+        "10.0.0.7",
+        "0.0.0." + "0",
+        "127.1",
+        "[::]",
+        "example.org",
+        "192.168.1.2",
+        "localhost.example.org",
+        "[2001:db8::1]",
+    ],
+)
 @pytest.mark.parametrize("command", ["lint", "validate", "evaluate"])
 def test_another_machine_without_tls_is_refused(command: str, host: str) -> None:
     done = run(command, "decks", "--scheduler", f"tcp://{host}:8786")
@@ -78,6 +103,15 @@ def test_what_changes_decks_here_is_refused(option: str) -> None:
     assert f"{option} does not go with --scheduler" in done.err
 
 
+@pytest.mark.parametrize(
+    "words", [("lint", "d"), ("evaluate", "d"), ("index", "d", "-o", "a")], ids=lambda words: words[0]
+)
+def test_jobs_are_refused(words: tuple[str, ...]) -> None:
+    done = run(*words, "--jobs", "2", "--scheduler", "local:2")
+    assert done.code == 2
+    assert "--jobs is for processes without --scheduler: leave it out, or give local:WORKERS" in done.err
+
+
 def test_standard_input_and_folders_without_a_cluster_are_refused() -> None:
     assert "- is standard input, which workers cannot read" in run("validate", "-", "--scheduler", "local").err
     assert "-o is for --scheduler" in run("validate", "decks", "-o", "out").err
@@ -108,12 +142,19 @@ def client(found: dict[str, object]) -> SimpleNamespace:
     ],
 )
 def test_workers_of_another_version_are_named(found: dict[str, object], has: str) -> None:
-    check: Callable[[object], None] = module._check_versions  # type: ignore[assignment]
+    check: Callable[[object, Scheduler], None] = module._check_versions  # type: ignore[assignment]
     with pytest.raises(ClusterError, match=has) as raised:
-        check(client(found))
+        check(client(found), Scheduler("tcp://s:1"))
     assert f", this command {__version__}: install the same version" in str(raised.value)
 
 
+def test_a_worker_that_ends_meanwhile_is_left_out() -> None:
+    check: Callable[[object, Scheduler], None] = module._check_versions  # type: ignore[assignment]
+    check(client({"tcp://a:1": __version__, "tcp://b:2": ConnectionResetError()}), Scheduler("tcp://s:1"))
+    with pytest.raises(ClusterError, match="tcp://s:1: all workers ended when they were asked for their version"):
+        check(client({"tcp://b:2": TimeoutError()}), Scheduler("tcp://s:1"))
+
+
 def test_workers_of_this_version_fit() -> None:
-    check: Callable[[object], None] = module._check_versions  # type: ignore[assignment]
-    check(client({"tcp://a:1": __version__}))
+    check: Callable[[object, Scheduler], None] = module._check_versions  # type: ignore[assignment]
+    check(client({"tcp://a:1": __version__}), Scheduler("tcp://s:1"))

@@ -6,8 +6,7 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
-from mudline.archive.questions import QUESTIONS
-from mudline.archive.tables import TABLES, Table
+from mudline.archive.tables import QUESTIONS, TABLES, Table
 from mudline.linting.output import TEXT, TEXT_SUMMARY, form_module, form_names
 from mudline.quantities import CASES, ELEMENTS, LINES, NODES, Quantity
 from mudline.results.forms import form_module as result_module

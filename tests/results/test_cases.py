@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -10,7 +11,7 @@ import pytest
 import mudline
 from mudline.contact.result import Part
 from mudline.contact.touchdown import line_summaries
-from mudline.results.cases import CaseSummary, CaseWatch, worst_first
+from mudline.results.cases import CaseSummary, CaseWatch, worst_first, write_parquet
 from mudline.results.evaluation import Evaluation, evaluate_scene
 from mudline.scene.positions import read_positions
 from tests.samples import SAMPLES
@@ -62,6 +63,13 @@ def test_row_does_not_depend_on_how_many_steps_come_at_a_time() -> None:
     found, single = (watch.summary("deck", [], None) for watch in watches)
     assert found.ratio == pytest.approx(single.ratio, rel=1e-14)  # numpy adds up weights in another order
     assert replace(found, ratio=None) == replace(single, ratio=None)
+
+
+def test_a_name_that_is_not_utf_8_is_escaped_in_parquet() -> None:
+    parquet = pytest.importorskip("pyarrow.parquet", reason="pyarrow is not installed")
+    stream = io.BytesIO()
+    write_parquet([CaseSummary("odd\udcff.keyxm", "failed", "no such file")], stream)
+    assert parquet.read_table(stream).column("deck").to_pylist() == ["odd\\udcff.keyxm"]
 
 
 def test_order_of_rows() -> None:

@@ -7,18 +7,22 @@ from __future__ import annotations
 
 import json
 import os
+import re
+import sys
 import threading
 import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import duckdb
 
-from mudline.archive.store import VIEWS, Archive
+from mudline.archive.store import DAMAGED, DATA, VIEWS, Archive
 from mudline.archive.tables import DECK, FILES, STORED, TABLES, Column, Table
+from mudline.files import write_atomically
 
 BATCH = 100_000
 """Rows of an answer that are fetched at once."""
@@ -31,8 +35,12 @@ _CONFIG = {
     "errors_as_json": "true",
     "temp_directory": "",
 }
-_PATIENCE = 5.0
-"""Seconds for a question to end that is interrupted."""
+_PATIENCE = 30.0
+"""Seconds for a question to end that is interrupted; a second Ctrl-C ends it at once."""
+_BESIDE = 1 << 28
+"""Bytes at least that a question may use besides what DuckDB counts."""
+_TOO_MUCH = "the question needs more memory than it may use: ask for less, or raise --memory-limit"
+_DATA_FILE = re.compile(rf"(?<=['\"]){DATA}/[a-z]+-[0-9a-f]+\.parquet(?=['\"])")
 _READING = ("SELECT", "EXPLAIN")
 _DISABLED = "file system operations are disabled"
 
@@ -107,8 +115,8 @@ class Database:
             done.set()
 
         done = threading.Event()  # a thread whose `join` is interrupted is taken for ended
-        threading.Thread(target=run, daemon=True).start()
         try:
+            threading.Thread(target=run, daemon=True).start()
             while not done.wait(0.1):
                 pass
         except KeyboardInterrupt:
@@ -117,6 +125,8 @@ class Database:
             raise
         if failed:
             error = failed[0]
+            if isinstance(error, MemoryError):
+                raise QueryError(_TOO_MUCH) from error
             if isinstance(error, duckdb.Error | OSError):
                 raise _explained(error, sql) from error
             raise error
@@ -128,6 +138,7 @@ def opened(archive: Archive, memory: str, threads: int) -> Iterator[Database]:
     """The archive's views in a database in memory that can read its files and nothing else, and write nothing.
 
     The working folder is the archive's until the block ends: the views name files from there, so that it may be moved.
+    On Linux this process may take about twice `memory` until then: MemoryError is raised for what needs more.
     Raises QueryError for a size of memory that DuckDB does not know.
     """
     before = Path.cwd()
@@ -148,7 +159,8 @@ def opened(archive: Archive, memory: str, threads: int) -> Iterator[Database]:
                 raise _explained(error, "") from error
             connection.execute("SET enable_external_access = false")
             connection.execute("SET lock_configuration = true")
-            yield Database(connection)
+            with _limited(connection):
+                yield Database(connection)
         finally:
             with suppress(duckdb.Error):  # it may still be busy with a question that was interrupted
                 connection.close()
@@ -156,21 +168,40 @@ def opened(archive: Archive, memory: str, threads: int) -> Iterator[Database]:
         os.chdir(before)
 
 
+@contextmanager
+def _limited(connection: duckdb.DuckDBPyConnection) -> Iterator[None]:
+    """Limit the memory of this process: DuckDB does not count long texts, nor the answer when it is handed over."""
+    if sys.platform != "linux":
+        yield
+        return
+    import resource  # noqa: PLC0415 - not on every system
+
+    (counted,) = connection.execute("SELECT parse_formatted_bytes(current_setting('memory_limit'))").fetchone() or (0,)
+    now = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[5]) * resource.getpagesize()
+    before, most = resource.getrlimit(resource.RLIMIT_DATA)
+    wanted = now + counted + max(counted, _BESIDE)
+    limits = [one for one in (wanted, before, most) if one != resource.RLIM_INFINITY]
+    resource.setrlimit(resource.RLIMIT_DATA, (min(limits), most))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_DATA, (before, most))
+
+
 def write_views(archive: Archive) -> None:
     """Write the database of views again, for a shell of DuckDB that is started in the folder. Raises OSError."""
-    target = (archive.folder / VIEWS).absolute()
-    temporary = target.with_name(f".{VIEWS}.{os.urandom(8).hex()}.mudline")
     before = Path.cwd()
     os.chdir(archive.folder)
     try:
-        with duckdb.connect(str(temporary), config=dict(_CONFIG)) as connection:
-            _create_views(connection, archive)
-        temporary.replace(target)
+        # Not in the archive: DuckDB takes a question mark in the path of a database for the start of options.
+        with TemporaryDirectory(prefix="mudline-") as folder:
+            with duckdb.connect(str(Path(folder, VIEWS)), config=dict(_CONFIG)) as connection:
+                _create_views(connection, archive)
+            write_atomically(Path(VIEWS), Path(folder, VIEWS).read_bytes())
     except duckdb.Error as error:
         raise OSError(f"the views cannot be written: {str(error).splitlines()[0]}") from error
     finally:
         os.chdir(before)
-        temporary.unlink(missing_ok=True)
 
 
 def _create_views(connection: duckdb.DuckDBPyConnection, archive: Archive) -> None:
@@ -218,12 +249,15 @@ def _explained(error: BaseException, sql: str) -> QueryError:
     message = " ".join(str(found.get("exception_message", text)).split())
     kind = found.get("exception_type", "")
     if kind == "Out of Memory" or isinstance(error, duckdb.OutOfMemoryException):
-        return QueryError("the question needs more memory than it may use: ask for less, or raise --memory-limit")
+        return QueryError(_TOO_MUCH)
     if kind == "IO" and "No files found" in message:
         return MissingFileError(f"{message}: ask again")
+    if (file := _DATA_FILE.search(message)) and "Cannot open" not in message:
+        return QueryError(f"{file[0]} {DAMAGED}")
     if _DISABLED in message:
         what = message.partition(" - ")[0]
         message = f"{what}: a question reads the tables of the archive and nothing else"
+    message = message.partition(' Use "SET ')[0]  # no setting may be changed
     position = str(found.get("position", ""))
     if sql and position.isdigit():
         before = sql.encode()[: int(position)].decode("utf-8", "replace")

@@ -3,12 +3,14 @@
 A batch exists once its manifest does, which names its files. Everything is written beside its place and renamed, so
 that a run may be killed at any moment; runs at the same time write different files. Nothing is ever changed: a newer
 row of `files` holds before an older one, and a batch that has the rows of others names them in its manifest, so that
-these are left out and removed.
+these are left out and removed. Small batches are made one, so that questions open few files.
 """
 
 from __future__ import annotations
 
 import json
+import os
+import re
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -20,8 +22,8 @@ from typing import Any
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from mudline.archive.chunk import ArrowTable, numbered, schema_of
-from mudline.archive.tables import FILES, STORED
+from mudline.archive.chunk import MOST_DECKS, ArrowTable, numbered, renumbered, schema_of
+from mudline.archive.tables import FILES, STORED, TABLES
 from mudline.files import write_atomically
 from mudline.short_repr import cut
 
@@ -31,14 +33,24 @@ DATA = "data"
 BATCHES = "batches"
 VIEWS = "archive.duckdb"
 
+MOST_SMALL = 8
+"""Small batches from which on they are made one."""
+SMALL = 32_000_000
+"""Bytes of a batch that is small."""
+
+DAMAGED = "is damaged: mudline index --check reads its decks again"
+"""What is wrong with a file whose content is not what it was written with, and what to do."""
+
 _ABOUT = "decks in Parquet: mudline query asks it, docs/archive.md describes it"
 _LEFT = 3600.0
 _DIGEST = 16
+_IS_MANIFEST = re.compile(f"[0-9a-f]{{{2 * _DIGEST}}}\\.json")
+_IS_DATA = re.compile(f"[a-z]+-[0-9a-f]{{{2 * _DIGEST}}}\\.parquet")
 _BY_NAME = {table.name: table for table in STORED}
 
 
 class ArchiveError(Exception):
-    """A folder that is no archive, is of another version, or is damaged; the message names it."""
+    """A folder is not an archive, is of another version, is damaged or cannot be read; the message names it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,6 +88,7 @@ class Archive:
     @classmethod
     def opened(cls, folder: Path) -> Archive:
         """The archive in a folder; raises ArchiveError where there is none, or one of another version."""
+        _check_name(folder)
         marker = folder / MARKER
         try:
             found = json.loads(marker.read_bytes())
@@ -85,9 +98,13 @@ class Archive:
         except NotADirectoryError:
             message = f"{folder.as_posix()} is a file, not an archive: give the folder that mudline index wrote"
             raise ArchiveError(message) from None
-        except (OSError, ValueError) as error:
-            raise ArchiveError(f"{marker.as_posix()} cannot be read: {error}") from error
+        except OSError as error:
+            raise ArchiveError(f"{marker.as_posix()} cannot be read: {error.strerror}") from error
+        except (ValueError, RecursionError):
+            found = None
         form = found.get("format") if isinstance(found, dict) else None
+        if form is None:
+            raise ArchiveError(f"{marker.as_posix()} is damaged: index the decks into a new folder")
         if form != FORMAT:
             message = f"{folder.as_posix()} has the format {cut(str(form), 40)!r}, this mudline reads {FORMAT!r}"
             raise ArchiveError(f"{message}: index the decks into a new folder")
@@ -98,6 +115,7 @@ class Archive:
     @classmethod
     def made(cls, folder: Path) -> Archive:
         """The archive in a folder, a new one where that is missing or empty; raises ArchiveError, OSError."""
+        _check_name(folder)
         if not (folder / MARKER).exists():
             if folder.exists() and not folder.is_dir():
                 raise ArchiveError(f"{folder.as_posix()} is a file: give a folder for the archive")
@@ -112,16 +130,18 @@ class Archive:
         return cls.opened(folder)
 
     def load(self) -> None:
-        """Read the manifests; those that are damaged, or whose files are, are left out."""
+        """Read the manifests; those that are damaged, or whose files are, are left out. Raises ArchiveError."""
         self.batches, self.damaged = {}, {}
-        for path in sorted((self.folder / BATCHES).glob("[!.]*.json")):
+        for path in sorted(self._manifests()):
             try:
                 batch = _batch(path)
                 self._check_files(batch)
             except FileNotFoundError:  # another run has just replaced it
                 continue
-            except (ArchiveError, OSError) as error:
+            except ArchiveError as error:
                 self.damaged[path.stem] = str(error)
+            except OSError as error:  # it may be sound: nothing is dropped
+                raise ArchiveError(f"{path.as_posix()} cannot be read: {error.strerror}") from error
             else:
                 self.batches[batch.name] = batch
         self._superseded = {name for batch in self.batches.values() for name in batch.replaces}
@@ -164,9 +184,13 @@ class Archive:
         for name in names:
             path = self.folder / DATA / name
             try:
-                parts.append(pq.read_table(path, memory_map=False, partitioning=None).cast(schema))
+                data = path.read_bytes()
+            except OSError as error:
+                raise ArchiveError(f"{path.as_posix()} cannot be read: {error.strerror}") from error
+            try:
+                parts.append(pq.read_table(pa.BufferReader(data), partitioning=None).cast(schema))
             except (OSError, ValueError) as error:
-                raise ArchiveError(_damaged(path, "cannot be read")) from error
+                raise ArchiveError(f"{path.as_posix()} {DAMAGED}") from error
         return pa.concat_tables(parts)
 
     def write(self, tables: Mapping[str, ArrowTable], links: ArrowTable, replaces: Sequence[str] = ()) -> None:
@@ -207,7 +231,8 @@ class Archive:
             with suppress(OSError):
                 (self.folder / BATCHES / f"{name}.json").unlink(missing_ok=True)
         named = {stored.file for batch in self._on_disk() for stored in batch.files.values()}
-        files = [*(self.folder / DATA).glob("[!.]*.parquet"), *self.folder.glob(f".{VIEWS}.*")]
+        data = (path for path in (self.folder / DATA).glob("*.parquet") if _IS_DATA.fullmatch(path.name))
+        files = [*data, *self.folder.glob(f".{VIEWS}.*")]
         for path in files:
             with suppress(OSError):
                 if path.name not in named and time.time() - path.stat().st_mtime > _LEFT:
@@ -219,10 +244,28 @@ class Archive:
             with suppress(OSError):
                 (self.folder / BATCHES / f"{name}.json").unlink(missing_ok=True)
 
+    def _manifests(self) -> Iterator[Path]:
+        """The manifests; other files that somebody has put there are left alone. Raises ArchiveError."""
+        folder = self.folder / BATCHES
+        try:
+            names = os.listdir(folder)  # noqa: PTH208 - glob finds nothing where it may not look
+        except OSError as error:
+            raise ArchiveError(f"{folder.as_posix()} cannot be read: {error.strerror}") from error
+        return (folder / name for name in names if _IS_MANIFEST.fullmatch(name))
+
     def _on_disk(self) -> Iterator[Batch]:
-        for path in (self.folder / BATCHES).glob("[!.]*.json"):
+        for path in self._manifests():
             with suppress(ArchiveError, OSError):
                 yield _batch(path)
+
+
+def _check_name(folder: Path) -> None:
+    """Raise ArchiveError for a folder that DuckDB cannot open."""
+    try:
+        str(folder.absolute()).encode()
+    except UnicodeEncodeError as error:
+        name = os.fsencode(folder).decode(errors="backslashreplace")
+        raise ArchiveError(f"{name}: the path of an archive must be UTF-8: rename the folder") from error
 
 
 def _damaged(path: Path, how: str) -> str:
@@ -236,7 +279,7 @@ def _batch(path: Path) -> Batch:
         raise ArchiveError(_damaged(path, "is damaged"))
     content: Any = json.loads(data)
     if content["format"] != FORMAT:
-        raise ArchiveError(f"{path.as_posix()} is of another version, {cut(str(content['format']), 40)!r}")
+        raise ArchiveError(_damaged(path, f"has the format {cut(str(content['format']), 40)!r}"))
     return Batch(
         path.stem, {name: Stored(*row) for name, row in content["files"].items()}, frozenset(content["replaces"])
     )
@@ -255,3 +298,50 @@ def newest(files: ArrowTable) -> ArrowTable:
     order = files.sort_by([(FILES.columns[-1].name, "ascending"), ("deck", "ascending")])
     index = {file: at for at, file in enumerate(order.column("file").to_pylist())}
     return order.take(pa.array(index.values(), pa.int64()))
+
+
+# -------------------------------------------------------------------------------------------------------- small batches
+
+
+def compact(archive: Archive) -> None:
+    """Make one batch of the small ones, where there are many; raises ArchiveError, OSError.
+
+    The decks get new numbers, so that two runs that do this at the same time write no row twice: the rows of files that
+    name them are written again, newer by a nanosecond.
+    """
+    import pyarrow.compute as pc  # noqa: PLC0415 - slow to import, and questions are asked without it
+
+    small = [batch for batch in archive.batches.values() if batch.bytes < SMALL]
+    if len(small) < MOST_SMALL:
+        return
+    files, given = newest(archive.read(FILES.name)), archive.read(FILES.name, small)
+    decks = archive.read(TABLES[0].name, small)
+    moving = pc.fill_null(pc.is_in(files.column("deck"), _unique(decks.column("deck"))), fill_value=False)
+    moved, others = files.filter(moving), files.filter(pc.invert(moving))
+    links = others.filter(pc.is_in(_row_names(others), _unique(_row_names(given))))
+    if len(small) == len(archive.batches):  # no other batch has an older row of a file that is gone
+        links = links.filter(pc.is_valid(links.column("deck")))
+    live = _unique(moved.column("deck"))
+    if len(live) >= MOST_DECKS:
+        return
+    at = FILES.columns[-1].name
+    newer = pc.add(moved.column(at), 1)
+    tables = {FILES.name: moved.set_column(moved.schema.get_field_index(at), moved.schema.field(at), newer)}
+    for table in TABLES:
+        rows = archive.read(table.name, small)
+        tables[table.name] = rows.filter(pc.is_in(rows.column("deck"), live))
+    archive.write(renumbered(tables), links, [batch.name for batch in small])
+
+
+def _unique(column: ArrowTable) -> ArrowTable:
+    import pyarrow.compute as pc  # noqa: PLC0415 - as above
+
+    found = pc.unique(column)
+    return found.combine_chunks() if isinstance(found, pa.ChunkedArray) else found
+
+
+def _row_names(files: ArrowTable) -> ArrowTable:
+    """What a row of files is known by: the file and the time of the row."""
+    import pyarrow.compute as pc  # noqa: PLC0415 - as above
+
+    return pc.binary_join_element_wise(files.column("file"), pc.cast(files.column("written"), pa.string()), "\n")

@@ -15,11 +15,10 @@ from typing import NamedTuple
 import pyarrow as pa
 
 from mudline.archive.chunk import ArrowTable, Chunk, schema_of, together
-from mudline.archive.compaction import compact
 from mudline.archive.contents import add_deck
 from mudline.archive.database import write_views
 from mudline.archive.known import Known, Looked, depends_on, digest_of, key_of, start_of
-from mudline.archive.store import VIEWS, Archive
+from mudline.archive.store import VIEWS, Archive, compact
 from mudline.archive.tables import FILES
 from mudline.files import is_url, recording_looks
 from mudline.linting.engine import LintSettings

@@ -20,8 +20,7 @@ from mudline.cli.known_results import Kept
 from mudline.cli.result_files import behind, beside, line_watch, result_files
 from mudline.cli.streams import counted, reason
 from mudline.cli.view import View
-from mudline.cluster.storage import exists, is_folder, join
-from mudline.cluster.work import resolved
+from mudline.cluster.storage import exists, is_folder, join, resolved
 from mudline.contact.result import Part
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Diagnostic

@@ -1,4 +1,4 @@
-"""Decks linted, validated and evaluated by the workers of a cluster: what each is sent, and its results in order.
+"""Decks linted, validated, evaluated and indexed by the workers of a cluster: what each is sent, its results in order.
 
 The workers do what the processes of `--jobs` do, with the same functions; they read the decks themselves.
 """
@@ -6,12 +6,15 @@ The workers do what the processes of `--jobs` do, with the same functions; they 
 from __future__ import annotations
 
 import os
-from collections.abc import Generator, Iterator, Sequence
-from contextlib import closing, contextmanager
+import shutil
+import time
+from collections import deque
+from collections.abc import Generator, Iterator, Mapping, Sequence
+from contextlib import closing, contextmanager, suppress
 from dataclasses import asdict, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mudline.cli import lint_run
 from mudline.cli.cases import Case, MissingPositionsError, Order, PositionFiles, evaluate_case, failed
@@ -20,19 +23,31 @@ from mudline.cli.inputs import Input, Inputs
 from mudline.cli.known_results import Kept
 from mudline.cli.lint_run import Linted, Sendable, SettingsOf, Task, lint_orders, order_of
 from mudline.cli.on_cluster import Keyed, OnCluster
+from mudline.cli.result_files import beside
 from mudline.cli.streams import reason
 from mudline.cli.verdicts import Judged, Verdict, judge
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.cluster import storage
-from mudline.cluster.storage import local_copy
-from mudline.cluster.work import Made, Work, resolved
+from mudline.cluster.running import Made, Store, Work, row_of
+from mudline.cluster.storage import local_copy, resolved
 from mudline.diagnostics import Diagnostic
 from mudline.files import is_url, recording_looks
 from mudline.linting.cache import packed, unpacked
 from mudline.linting.fixing import FileReport
 from mudline.results.cases import CaseSummary
 
+if TYPE_CHECKING:
+    from mudline.archive.updating import Order as IndexOrder
+    from mudline.archive.updating import Read, Update
+    from mudline.cluster.scheduler import Scheduler
+
 _UNREADABLE = "unreadable"
+_OUTDATED = "outdated"
+_CHUNKS = ".chunks-"
+_RUNNING = "running"
+"""A file in the folder of chunks of a run that has not ended."""
+_LEFT = 86400.0
+"""Seconds after which the chunks of a run are those of a killed one."""
 
 
 def _as_worker_finds(file: Input, folder: str) -> Input:
@@ -195,7 +210,8 @@ def evaluate_deck(given: EvaluateGiven) -> Made:
         if given.output and is_url(given.output) and output is not None:
             written = [_uploaded(path, output, given.output) for path in written]
     if done.kept.row.failed:
-        return Made(_row(failed(file.name, _as_given(done.kept.row.reason or "", given))), lasting=False)
+        row = _row(failed(file.name, _as_given(done.kept.row.reason or "", given)))
+        return Made({**row, _OUTDATED: _files_of(case, given.output)}, lasting=False)
     return Made(_row(done.kept), (*read, *written))
 
 
@@ -222,6 +238,14 @@ def _uploaded(path: str, folder: str, url: str) -> str:
     return target
 
 
+def _files_of(case: Case, output: str | None) -> list[str]:
+    """The files of results that a deck has if it does not fail."""
+    if output is None:
+        return []
+    path = Path(case.result)
+    return [storage.join(output, one.as_posix()) for one in (path, *beside(path).values())]
+
+
 def _row(kept: Kept) -> dict[str, Any]:
     return {"row": kept.row.row(), "warnings": kept.warnings}
 
@@ -229,7 +253,11 @@ def _row(kept: Kept) -> dict[str, Any]:
 def evaluated_on_cluster(
     decks: Inputs, cases: Sequence[Case], given: EvaluateGiven, words: str, cluster: OnCluster
 ) -> Generator[Kept, None, None]:
-    """The row of each case in order, as `given` says of the first; `words` are the options that results depend on."""
+    """The row of each case in order, as `given` says of the first; `words` are the options that results depend on.
+
+    Files of results that a deck no longer gives are removed, unless they were changed.
+    """
+    before: dict[str, set[str]] | None = None
     keyed = ((case.file, f"{words} {case.result}", given._replace(case=case)) for case in cases)
     with closing(cluster.rows("evaluate", evaluate_deck, keyed, len(cases), decks)) as rows:
         for case, row in zip(cases, rows, strict=True):
@@ -239,5 +267,136 @@ def evaluated_on_cluster(
                 decks.fail(f"{case.file.name}: {why}")
                 yield failed(case.file.name, why)
             else:
+                if outdated := row.result.get(_OUTDATED):
+                    before = cluster.files_before("evaluate") if before is None else before
+                    _remove_unchanged(outdated, before)
                 warnings = tuple((code, text) for code, text in row.result["warnings"])
                 yield Kept(CaseSummary.of_row(row.result["row"]), warnings)
+
+
+def _remove_unchanged(paths: Sequence[str], before: Mapping[str, set[str]]) -> None:
+    for path in paths:
+        marks = before.get(path) or before.get(path if is_url(path) else os.path.abspath(path), set())  # noqa: PTH100 - links stay
+        if storage.mark(path) in marks - {""}:
+            with suppress(OSError):
+                storage.remove(path)
+
+
+# ---------------------------------------------------------------------------------------------------------------- index
+
+
+class IndexGiven(NamedTuple):
+    """A deck for `index_deck`, without its content; `folder` is the working folder of the command."""
+
+    file: Input
+    order: IndexOrder
+    folder: str
+
+
+def index_deck(given: IndexGiven) -> Made:
+    """Read a deck and give its tables, or why it cannot be read; run by a worker."""
+    from mudline.archive.known import looked  # noqa: PLC0415 - an extra
+    from mudline.archive.updating import read_decks  # noqa: PLC0415 - an extra
+
+    path = resolved(given.order.path, given.folder)
+    try:
+        file = Input(given.file.name, path)
+        now, data = looked(*file.size_and_date()), file.read()
+    except OSError as error:
+        return Made({_UNREADABLE: reason(error)}, lasting=False)
+    return Made({"place": given.order.place, "tables": read_decks([given.order.having(path, data, now)]).packed()})
+
+
+def index_on_cluster(inputs: Inputs, settings_of: SettingsOf, update: Update, scheduler: Scheduler, view: View) -> None:
+    """Read the decks that have changed; what has come back is written, also when the run is interrupted.
+
+    Workers leave what they read as chunks in a folder beside the batches of the archive. The command alone writes
+    batches, as without a cluster, so that a chunk that is done twice is in the archive once.
+    """
+    from mudline.archive.updating import Read  # noqa: PLC0415 - an extra
+
+    sent: deque[IndexGiven] = deque()
+    taken: set[str] = set()
+    with Progress(len(inputs.files), view, shown=wants_bar(view)) as progress, _chunks(update.archive.folder) as place:
+        decks = _index_decks(inputs, settings_of, update, progress, sent)
+        cluster = OnCluster(scheduler, place, verbose=view.verbose)
+        try:
+            with closing(cluster.rows("index", index_deck, decks, len(inputs.files), inputs)) as rows:
+                for row in rows:
+                    file, order, _ = sent.popleft()
+                    if row is None:
+                        update.not_read(order)
+                    elif (why := row.result.get(_UNREADABLE)) is not None:
+                        progress.hide()
+                        inputs.fail(f"{file.name}: {why}")
+                        update.not_read(order)
+                    else:
+                        taken.add(order.place)
+                        update.take(Read.of_packed(row.result["tables"], 1))
+                    progress.advance()
+        except BaseException:
+            for read in _rest(place, taken):
+                update.take(read)
+            update.flush()
+            raise
+
+
+def _rest(place: str, taken: set[str]) -> Iterator[Read]:
+    """What workers have left that has not been taken: later decks may be done before earlier ones."""
+    from mudline.archive.updating import Read  # noqa: PLC0415 - an extra
+
+    for lines in Store(place).known("index").values():
+        result = row_of(lines[0]).result
+        if "tables" in result and result["place"] not in taken:
+            yield Read.of_packed(result["tables"], 1)
+
+
+def _index_decks(
+    inputs: Inputs, settings_of: SettingsOf, update: Update, progress: Progress, sent: deque[IndexGiven]
+) -> Iterator[Keyed]:
+    """The decks that workers are to read. Only one whose size the archive knows is opened here, to compare it."""
+    from mudline.archive.known import looked  # noqa: PLC0415 - an extra
+
+    folder = os.getcwd()  # noqa: PTH109 - sent as text
+    for file in inputs.files:
+        path = file.path or file.name
+        settings = settings_of(file)
+        order = None
+        try:
+            now = looked(*file.size_and_date())
+            if not update.is_unchanged(path, now, settings):
+                if update.may_know(now):
+                    order = update.order(path, file.read(), now, settings)
+                else:
+                    order = update.unread_order(path, now, settings)
+        except OSError as error:
+            progress.hide()
+            inputs.fail(f"{file.name}: {reason(error)}")
+        if order is None:
+            progress.advance()
+            continue
+        sent.append(IndexGiven(file, order._replace(data=b""), folder))
+        yield file, order.start, sent[-1]
+
+
+@contextmanager
+def _chunks(archive: Path) -> Iterator[str]:
+    """A folder of the archive for the chunks of this run; it is removed with the block, and so are those left over."""
+    _remove_left(archive)
+    place = archive / f"{_CHUNKS}{os.urandom(8).hex()}"
+    place.mkdir()  # not that of tempfile, which lets in no workers of other users
+    (place / _RUNNING).touch()
+    try:
+        yield str(place)
+    finally:
+        shutil.rmtree(place, ignore_errors=True)
+        _remove_left(archive)
+
+
+def _remove_left(archive: Path) -> None:
+    """Remove the chunks of runs that were killed, and those that a worker finished after its run had ended."""
+    for folder in archive.glob(f"{_CHUNKS}*"):
+        with suppress(OSError):
+            is_late = not (folder / _RUNNING).exists() and any(folder.iterdir())
+            if is_late or time.time() - folder.stat().st_mtime > _LEFT:
+                shutil.rmtree(folder, ignore_errors=True)

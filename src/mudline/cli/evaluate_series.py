@@ -33,8 +33,7 @@ from mudline.linting.cache import program, state
 from mudline.results.checkpoint import About, Checkpoint, CheckpointError, FileMark, Reached, sampled_digest
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import Tables, form_module, plan_rows, table_path, tables_as_text
-from mudline.results.series import SeriesSummary
-from mudline.results.series_tables import series_tables
+from mudline.results.series import SeriesSummary, series_tables
 from mudline.scene.positions import StepFile
 
 if TYPE_CHECKING:

@@ -90,7 +90,7 @@ def command(
     if lacks_libraries("index"):
         return WRONG_USAGE
     if "-" in paths:
-        raise click.UsageError("standard input has no place in an archive: give files or directories")
+        raise click.UsageError("standard input cannot be archived: give files or directories")
     output = _folder(output)
     inputs = collect_any_form(paths, "", gitignore=not every_file, urls=True)
     listed = inputs.code == 0
@@ -106,7 +106,7 @@ def command(
         if scheduler is None:
             _index(inputs, settings.of, update, Effort(jobs), view)
         else:
-            from mudline.cli.cluster_index import index_on_cluster  # noqa: PLC0415 - few runs use a cluster
+            from mudline.cli.cluster_decks import index_on_cluster  # noqa: PLC0415 - few runs use a cluster
 
             index_on_cluster(inputs, settings.of, update, scheduler, view)
         update.remove_gone(_folders(paths, listed=listed), everywhere=prune)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Generator, Iterable, Iterator
-from contextlib import closing, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, field
 from functools import wraps
 from hashlib import blake2b
 from typing import TYPE_CHECKING
 
 import click
+from click.core import ParameterSource
 
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.options import Command
@@ -19,8 +20,8 @@ from mudline.cluster import storage
 from mudline.files import is_url
 
 if TYPE_CHECKING:
+    from mudline.cluster.running import Item, Row, Store, Work
     from mudline.cluster.scheduler import Scheduler
-    from mudline.cluster.work import Item, Row, Store, Work
 
 _HELP = "Do the work on a cluster: tcp://HOST:PORT, tls://HOST:PORT, or local[:WORKERS] (needs mudline[cluster])."
 
@@ -50,6 +51,8 @@ def options(command: Command) -> Command:
             if tls_ca or tls_cert or tls_key or insecure:
                 raise click.UsageError("--tls-* and --insecure are for --scheduler: give it too")
             return command(scheduler=None, **others)
+        if click.get_current_context().get_parameter_source("jobs") not in (None, ParameterSource.DEFAULT):
+            raise click.UsageError("--jobs is for processes without --scheduler: leave it out, or give local:WORKERS")
         from mudline.cluster.scheduler import Scheduler  # noqa: PLC0415 - few runs use a cluster
 
         found = Scheduler(scheduler, tls_ca, tls_cert, tls_key, insecure)
@@ -93,6 +96,7 @@ class OnCluster:
     ) -> Generator[Row | None, None, None]:
         """The row of each deck in order; None for one that was not done, which is reported.
 
+        The cluster is connected, or started, when the first deck is sent: not where an earlier run has done all.
         Ends the command where the cluster cannot be used; what is done stays in `place`.
         """
         from mudline.cluster.running import Job, Run  # noqa: PLC0415 - few runs use a cluster
@@ -103,27 +107,34 @@ class OnCluster:
         plugins = [(path, storage.mark(path)) for path in plugin_files()]
         start = repr((program(), command, plugins)).encode("utf-8", "backslashreplace")
         names: list[str] = []
-        with _store(self.place) as store, _refusing(self.scheduler.given):
+        with _store(self.place) as store, _refusing(self.scheduler.given), ExitStack() as stack:
             items = (self._item(start, one, names) for one in decks)
-            with connected(self.scheduler) as client:
-                run = Run(client, Job(command, work, items, count, store, self.fresh), self.scheduler.given)
-                try:
-                    with closing(run.rows()) as rows:
-                        for number, row in enumerate(rows):
-                            if row.failed:
-                                inputs.fail(f"{names[number]}: not done: {row.failed}")
-                            yield None if row.failed else row
-                except (KeyboardInterrupt, GeneratorExit):
-                    more = "the same command goes on from there" if self.place else "-o FOLDER would have kept them"
-                    notify(f"stopped: {run.done + run.taken} of {counted(count, 'deck')} done; {more}")
-                    raise
+            job = Job(command, work, items, count, store, self.fresh)
+            run = Run(lambda: stack.enter_context(connected(self.scheduler)), job, self.scheduler.given)
+            try:
+                with closing(run.rows()) as rows:
+                    for number, row in enumerate(rows):
+                        if row.failed:
+                            inputs.fail(f"{names[number]}: not done: {row.failed}")
+                        yield None if row.failed else row
+            except (KeyboardInterrupt, GeneratorExit):
+                more = "the same command goes on from there" if self.place else "-o FOLDER would have kept them"
+                notify(f"stopped: {run.done + run.taken} of {counted(count, 'deck')} done; {more}")
+                raise
             self.taken = run.taken
             if self.verbose:
                 notify(f"{self.scheduler.given}: {counted(run.done, 'deck')} done, {run.taken} from an earlier run")
 
+    def files_before(self, command: str) -> dict[str, set[str]]:
+        """The files that earlier runs of a command have read or written, with the marks that they had then."""
+        if self.place is None:
+            return {}
+        with _store(self.place) as store, _refusing(self.scheduler.given):
+            return store.files(command)
+
     @staticmethod
     def _item(start: bytes, deck: Keyed, names: list[str]) -> Item:
-        from mudline.cluster.work import Item  # noqa: PLC0415 - as above
+        from mudline.cluster.running import Item  # noqa: PLC0415 - as above
 
         file, words, given = deck
         names.append(file.name)
@@ -136,7 +147,7 @@ class OnCluster:
 @contextmanager
 def _store(place: str | None) -> Iterator[Store]:
     """The place of finished chunks; a temporary folder is removed when the run ends."""
-    from mudline.cluster.work import Store  # noqa: PLC0415 - as above
+    from mudline.cluster.running import Store  # noqa: PLC0415 - as above
 
     if place is None:
         from tempfile import TemporaryDirectory  # noqa: PLC0415 - few runs use a cluster

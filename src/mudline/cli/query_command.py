@@ -7,6 +7,7 @@ import decimal
 import json
 import math
 import re
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, nullcontext
 from functools import partial
@@ -113,6 +114,8 @@ def _answer(
         with opened(archive, *limits) as database:
             reader = database.ask(question, values)
             deliver(database, reader)
+    except MemoryError as error:
+        raise click.ClickException("the answer needs more memory than it may use: raise --memory-limit") from error
     except MissingFileError:
         if tries <= 1 or reader is not None:
             raise
@@ -120,6 +123,9 @@ def _answer(
 
 
 def _deliver(database: Database, reader: Arrow, form: str, target: Path | None, view: View) -> None:
+    twice = [name for name, count in Counter(reader.schema.names).items() if count > 1]
+    if twice and form in {"json", "parquet"}:
+        raise click.ClickException(f"several columns of the answer are called {twice[0]!r}: name them with AS")
     if target is not None:
         _write(database, reader, form, target)
     elif form == "text":
@@ -130,7 +136,7 @@ def _deliver(database: Database, reader: Arrow, form: str, target: Path | None, 
 
 
 def _list_questions(view: View) -> None:
-    from mudline.archive.questions import QUESTIONS  # noqa: PLC0415 - only here and where one is asked
+    from mudline.archive.tables import QUESTIONS  # noqa: PLC0415 - only here and where one is asked
 
     rows = [
         [one.name, one.answers, ", ".join(f"{name}={value:.6g}" for name, value in one.parameters.items())]
@@ -149,7 +155,7 @@ def _question(sql: str | None, ask: str | None, param: tuple[str, ...]) -> tuple
         return sql, given
     if sql is not None:
         raise click.UsageError("SQL and --ask exclude each other: give one of them")
-    from mudline.archive.questions import QUESTIONS  # noqa: PLC0415 - only here and where they are listed
+    from mudline.archive.tables import QUESTIONS  # noqa: PLC0415 - only here and where they are listed
 
     question = QUESTIONS.get(ask)
     if question is None:
@@ -183,7 +189,7 @@ def _form(output: str | None, output_format: str) -> str:
     """The format of the answer; raises click.UsageError."""
     if output is None:
         if output_format == "parquet":
-            raise click.UsageError("Parquet is no text: give -o OUT.parquet")
+            raise click.UsageError("Parquet is a binary format: give -o OUT.parquet")
         return output_format
     found = suffix_of(output)
     if found not in _FORMATS[1:]:
@@ -199,6 +205,18 @@ def _batches(database: Database, reader: Arrow) -> Iterator[Arrow]:
         yield batch
 
 
+def _values(batch: Arrow) -> list[list[Arrow]]:
+    """The values of each column; raises click.ClickException for those that Python lacks, such as infinite dates."""
+    found = []
+    for name, column in zip(batch.schema.names, batch.columns, strict=True):
+        try:
+            found.append(column.to_pylist())
+        except (OverflowError, ValueError) as error:
+            message = f"column {name}: {error}: cast it to VARCHAR in the SQL, or give -o OUT.parquet"
+            raise click.ClickException(message) from error
+    return found
+
+
 def _print_table(database: Database, reader: Arrow, view: View) -> None:
     """Print the first rows, all of them with -v."""
     columns = tuple(reader.schema.names)
@@ -207,7 +225,7 @@ def _print_table(database: Database, reader: Arrow, view: View) -> None:
     for batch in _batches(database, reader):
         count += batch.num_rows
         part = batch if view.verbose else batch.slice(0, max(MOST_ROWS - len(rows), 0))
-        rows += zip(*(column.to_pylist() for column in part.columns), strict=True)
+        rows += zip(*_values(part), strict=True)
     left = [name for name, kind in zip(columns, reader.schema.types, strict=True) if not _is_number(kind)]
     note = f"{counted(count - len(rows), 'more row')}: -v shows all" if count > len(rows) else counted(count, "row")
     cells = [[_cell(value) for value in row] for row in rows]
@@ -255,13 +273,11 @@ def _pieces(database: Database, reader: Arrow, form: str) -> Iterator[str]:
     if form == "csv":
         yield from csv_lines([columns])
         for batch in _batches(database, reader):
-            values = [column.to_pylist() for column in batch.columns]
-            yield from csv_lines([_cell(value) for value in row] for row in zip(*values, strict=True))
+            yield from csv_lines([_cell(value) for value in row] for row in zip(*_values(batch), strict=True))
         return
     mark = "["
     for batch in _batches(database, reader):
-        values = [column.to_pylist() for column in batch.columns]
-        for row in zip(*values, strict=True):
+        for row in zip(*_values(batch), strict=True):
             content = dict(zip(columns, map(_plain, row), strict=True))
             yield f"{mark}\n {json.dumps(content, ensure_ascii=False, allow_nan=False)}"
             mark = ","
@@ -283,5 +299,8 @@ def _parquet(reader: Arrow, stream: BinaryIO, form: str) -> AbstractContextManag
         return nullcontext()
     import pyarrow.parquet as pq  # noqa: PLC0415 - an extra
 
-    writer: AbstractContextManager[Any] = pq.ParquetWriter(stream, reader.schema)
+    try:
+        writer: AbstractContextManager[Any] = pq.ParquetWriter(stream, reader.schema)
+    except NotImplementedError as error:
+        raise click.ClickException(f"Parquet has no such type: cast the column in the SQL: {error}") from error
     return writer

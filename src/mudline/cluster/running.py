@@ -1,19 +1,27 @@
-"""A run over many items: sent to workers in chunks of about a second, handed back in order; what is done stays done."""
+"""A run over many items: sent to workers in chunks of about a second, handed back in order; what is done stays done.
+
+A worker leaves the results of a chunk as a file, a row of JSON for each item. The file is named by a digest of its
+content: a chunk that is done twice is there once, and a damaged file is none.
+"""
 
 from __future__ import annotations
 
 import errno
+import json
 import math
 import time
 from collections import deque
-from collections.abc import Generator, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import CancelledError
 from dataclasses import dataclass, field
+from functools import cached_property
+from hashlib import blake2b
 from queue import Empty, SimpleQueue
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+from mudline import __version__
+from mudline.cluster import storage
 from mudline.cluster.scheduler import ClusterError, workers_of
-from mudline.cluster.work import Chunk, Finished, Item, Row, Store, Work, row_of, run_chunk, still_holds
 
 if TYPE_CHECKING:
     from distributed import Client, Future
@@ -32,6 +40,159 @@ _LARGEST = 2000
 _GROWTH = 4
 _AHEAD = 3
 """Chunks for each thread of a worker that are sent ahead."""
+_SUFFIX = ".jsonl"
+_DIGEST = 20
+
+
+# --------------------------------------------------------------------------------------------------- what a worker does
+
+
+class Made(NamedTuple):
+    """What work gave: anything that JSON holds, and the files on which it depends or that it has written.
+
+    What is not `lasting`, such as that a file could not be read, is not taken over by a later run.
+    """
+
+    result: Any
+    files: tuple[str, ...] = ()
+    lasting: bool = True
+
+
+Work = Callable[[Any], Made]
+"""A function of a module, by whose name a worker finds it, of anything that can be pickled."""
+
+
+class Item(NamedTuple):
+    """What is to be done: its key, which two items share only if their results are equal, and what `Work` takes."""
+
+    key: str
+    given: object
+
+
+class Chunk(NamedTuple):
+    """Items for one worker, what to do with each, and where the results go."""
+
+    command: str
+    work: Work
+    items: tuple[Item, ...]
+    store: str
+    version: str = __version__
+
+
+class Finished(NamedTuple):
+    """What travels back from a worker: the name of the file with the results, how many, and the seconds they took."""
+
+    file: str
+    rows: int
+    failed: int
+    seconds: float
+
+
+class WrongVersionError(Exception):
+    """The worker has another version of mudline than the command."""
+
+
+def run_chunk(chunk: Chunk) -> Finished:
+    """Do a chunk and write its results; run by a worker.
+
+    A fault in one item is its result. Raises OSError where the results cannot be written, and WrongVersionError.
+    """
+    if chunk.version != __version__:
+        raise WrongVersionError(f"a worker has mudline {__version__}, the command {chunk.version}")
+    start = time.perf_counter()
+    rows = [_row(chunk.work, item) for item in chunk.items]
+    body = b"".join(json.dumps(row, separators=(",", ":")).encode("ascii") + b"\n" for row in rows)
+    name = f"{chunk.command}-{_digest(body)}{_SUFFIX}"
+    storage.write(storage.join(chunk.store, name), body)
+    failed = sum("failed" in row for row in rows)
+    return Finished(name, len(rows), failed, time.perf_counter() - start)
+
+
+def _row(work: Work, item: Item) -> dict[str, object]:
+    try:
+        made = work(item.given)
+    except Exception as error:  # noqa: BLE001 - reported as the result; the other decks of the chunk are still done
+        return {"key": item.key, "failed": f"{type(error).__name__}: {error}"}
+    row: dict[str, object] = {"key": item.key, "result": made.result}
+    if made.files:
+        row["files"] = {path: storage.mark(path) for path in made.files}
+    return row if made.lasting else {**row, "once": True}
+
+
+def _digest(body: bytes) -> str:
+    return blake2b(body, digest_size=_DIGEST).hexdigest()
+
+
+# ------------------------------------------------------------------------------------------------------------ results
+
+
+class Row(NamedTuple):
+    """The result of an item, or why it has none."""
+
+    result: Any
+    failed: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Store:
+    """The folder or URL with the files of results."""
+
+    place: str
+
+    def rows_of(self, name: str) -> list[bytes]:
+        """The rows of a file; raises OSError, and ValueError for a file whose content is not what it was written with.
+
+        OSError is also raised for a file that is not there.
+        """
+        body = storage.read(storage.join(self.place, name))
+        if not name.endswith(f"-{_digest(body)}{_SUFFIX}"):
+            raise ValueError(f"{storage.join(self.place, name)}: damaged: its name is not the digest of its content")
+        return body.splitlines()
+
+    def known(self, command: str) -> dict[str, tuple[bytes, ...]]:
+        """The rows that earlier runs of a command left, by their keys; damaged files are passed over. Raises OSError.
+
+        Only what still holds is worth taking over: `still_holds` says so of a row.
+        """
+        found: dict[str, tuple[bytes, ...]] = {}
+        for name in storage.names_in(self.place):
+            if name.startswith(f"{command}-") and name.endswith(_SUFFIX):
+                for key, line in self._keyed(name):
+                    found[key] = (*found.get(key, ()), line)
+        return found
+
+    def files(self, command: str) -> dict[str, set[str]]:
+        """The files that these rows depend on or name as written, with the marks that they had then. Raises OSError."""
+        found: dict[str, set[str]] = {}
+        for line in (line for lines in self.known(command).values() for line in lines):
+            for path, mark in json.loads(line).get("files", {}).items():
+                found.setdefault(path, set()).add(mark)
+        return found
+
+    def _keyed(self, name: str) -> Iterator[tuple[str, bytes]]:
+        try:
+            rows = self.rows_of(name)
+        except ValueError:
+            return
+        for line in rows:
+            row = json.loads(line)
+            if "failed" not in row and "once" not in row:
+                yield row["key"], line
+
+
+def still_holds(line: bytes) -> bool:
+    """Whether the files that a row depends on or names as written are what they were."""
+    files = json.loads(line).get("files", {})
+    return all(storage.mark(path) == was for path, was in files.items())
+
+
+def row_of(line: bytes) -> Row:
+    """A row as it was written."""
+    row = json.loads(line)
+    return Row(row.get("result"), row.get("failed", ""))
+
+
+# -------------------------------------------------------------------------------------------------------------- the run
 
 
 @dataclass
@@ -97,9 +258,12 @@ class _Piece:
 
 @dataclass
 class Run:
-    """One job on a cluster; `taken` counts the rows of an earlier run, `done` all that are finished."""
+    """One job on a cluster, to which `connect` gives a client; it is called when there is something to send.
 
-    client: Client
+    `taken` counts the rows of an earlier run, `done` all that are finished.
+    """
+
+    connect: Callable[[], Client]
     job: Job
     address: str
     taken: int = 0
@@ -111,10 +275,16 @@ class Run:
     _threads: int = 1
     _alone_since: float | None = None
 
+    @cached_property
+    def client(self) -> Client:
+        """The client of the cluster, which is connected when this is first asked for."""
+        client = self.connect()
+        self._threads = max(1, sum(workers_of(client).values()))
+        return client
+
     def rows(self) -> Generator[Row, None, None]:
         """The row of each item, in order. Ends with what is in flight cancelled; raises ClusterError, OSError."""
         known = {} if self.job.fresh else self.job.store.known(self.job.command)
-        self._threads = max(1, sum(workers_of(self.client).values()))
         try:
             for piece in self._pieces(known):
                 self._waiting.append(piece)

@@ -6,14 +6,14 @@ A scheduler runs whatever code it is sent, and so do its workers: one that other
 from __future__ import annotations
 
 import logging
-import pydoc
+import re
+import ssl
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from ipaddress import ip_address
 from pathlib import Path
 from typing import TYPE_CHECKING
-from urllib.parse import urlsplit
 
 from mudline import __version__
 
@@ -25,6 +25,8 @@ CONNECTING = 10.0
 """Seconds to wait for a scheduler, and for its first worker."""
 
 _LOCAL = "local"
+_ADDRESS = re.compile(r"(?P<protocol>tcp|tls)://(?P<host>\[[0-9A-Fa-f:.]+\]|[A-Za-z0-9._-]+):(?P<port>[0-9]{1,5})")
+"""Strict: what dask takes apart in another way would not be checked."""
 _FORMS = "tcp://HOST:PORT, tls://HOST:PORT or local[:WORKERS]"
 
 
@@ -75,13 +77,11 @@ class Scheduler:
             )
 
     def _parts(self) -> tuple[str, str]:
-        try:
-            parts = urlsplit(self.given)
-            if parts.scheme in ("tcp", "tls") and parts.hostname and parts.port and not parts.path:
-                return parts.scheme, parts.hostname
-        except ValueError:  # a port that is not a number
-            pass
-        raise ValueError(f"--scheduler {self.given}: expected {_FORMS}")
+        """Protocol and host."""
+        found = _ADDRESS.fullmatch(self.given)
+        if found is None or not 0 < int(found["port"]) < 1 << 16:
+            raise ValueError(f"--scheduler {self.given}: expected {_FORMS}")
+        return found["protocol"], found["host"].strip("[]")
 
 
 def _is_loopback(host: str) -> bool:
@@ -112,11 +112,10 @@ def connected(scheduler: Scheduler) -> Iterator[Client]:
         try:
             client = Client(address, security=security, timeout=CONNECTING, set_as_default=False)
         except (OSError, TimeoutError, ValueError, RuntimeError, TypeError) as error:
-            why = " ".join(str(error).split())[:200]
-            raise ClusterError(f"{scheduler.given}: the scheduler does not answer: {why}") from error
+            raise ClusterError(f"{scheduler.given}: {_why(error)}") from error
         try:
             _wait_for_workers(client, scheduler)
-            _check_versions(client)
+            _check_versions(client, scheduler)
             yield client
         finally:
             client.close(timeout=2)
@@ -126,7 +125,10 @@ def connected(scheduler: Scheduler) -> Iterator[Client]:
 def _address(scheduler: Scheduler) -> Iterator[tuple[str | LocalCluster, Security | None]]:
     count = scheduler.local_workers
     if count is None:
-        yield scheduler.given, _security(scheduler)
+        security = _security(scheduler)
+        if security is not None:
+            _check_certificates(security, scheduler)
+        yield scheduler.given, security
         return
     from distributed import LocalCluster  # noqa: PLC0415 - few runs use a cluster
 
@@ -156,6 +158,34 @@ def _security(scheduler: Scheduler) -> Security | None:
     return Security(require_encryption=True, **{name: path for name, path in given.items() if path is not None})
 
 
+def _check_certificates(security: Security, scheduler: Scheduler) -> None:
+    """Raise ClusterError where there are no certificates, or none that can be used."""
+    try:
+        context = security.get_connection_args("client").get("ssl_context")
+    except OSError as error:
+        message = f"{scheduler.given}: the files of --tls-* cannot be used: {error.strerror or error}"
+        raise ClusterError(message) from error
+    if context is None:
+        raise ClusterError(f"{scheduler.given}: no certificates: give --tls-ca, --tls-cert and --tls-key")
+
+
+def _why(error: BaseException) -> str:
+    """Why there is no connection, and what to do."""
+    text = " ".join(str(error).split())[:200]
+    cause: BaseException | None = error
+    while cause is not None and not isinstance(cause, ssl.SSLCertVerificationError):
+        cause = cause.__cause__ or cause.__context__
+    if cause is not None:
+        return f"its certificate is not trusted ({cause.verify_message}): give --tls-ca the CA that signed it"
+    found = re.search(r"\[SSL: (\w+)\]", text)
+    if found or "<TLS (closed)" in text:  # by the scheduler, whose reason may come too late
+        how = found[1] if found else "closed"
+        return f"no TLS connection ({how}): give --tls-cert a certificate that the CA of the scheduler signed"
+    if "ConnectionResetError" in text:
+        return "the scheduler closes the connection: give tls:// if it uses TLS"
+    return f"the scheduler does not answer: {text}"
+
+
 def workers_of(client: Client) -> dict[str, int]:
     """The threads of each worker by its address."""
     found: dict[str, int] = client.nthreads()
@@ -170,10 +200,19 @@ def _wait_for_workers(client: Client, scheduler: Scheduler) -> None:
         raise ClusterError(message) from error
 
 
-def _check_versions(client: Client) -> None:
-    """Refuse workers of another version, by a function of the standard library, which they all have."""
+def _check_versions(client: Client, scheduler: Scheduler) -> None:
+    """Refuse workers of another version, by a function of the standard library, which they all have.
+
+    A worker that ends meanwhile is left out: what it would do is done by the others.
+    """
+    import pydoc  # noqa: PLC0415 - few runs use a cluster
+
     versions = client.run(pydoc.locate, "mudline.__version__", on_error="return")
-    wrong = {worker: found for worker, found in sorted(versions.items()) if found != __version__}
+    present = {worker: found for worker, found in sorted(versions.items()) if not isinstance(found, OSError)}
+    if not present:
+        message = f"{scheduler.given}: all workers ended when they were asked for their version: see their logs"
+        raise ClusterError(message)
+    wrong = {worker: found for worker, found in present.items() if found != __version__}
     for worker, found in wrong.items():
         has = f"mudline {found}" if isinstance(found, str) else "no mudline that can be imported"
         more = f" ({len(wrong) - 1} more workers do not fit)" if len(wrong) > 1 else ""

@@ -61,6 +61,13 @@ def join(folder: str, name: str) -> str:
     return f"{folder.rstrip('/')}/{name}" if is_url(folder) else str(Path(folder, name))
 
 
+def resolved(path: str, folder: str) -> str:
+    """A path that was given in a working folder, as a worker can open it: unchanged where the worker is in it too."""
+    if is_url(path) or os.getcwd() == folder:  # noqa: PTH109 - compared as text
+        return path
+    return os.path.join(folder, path)  # noqa: PTH118 - the text stays what was given
+
+
 # --------------------------------------------------------------------------------------------------------- reading
 
 
@@ -198,6 +205,16 @@ def write(path: str, data: bytes) -> None:
         beside = f"{inside}.{os.urandom(8).hex()}.part"
         system.pipe_file(beside, data)
         system.mv(beside, inside)
+
+
+def remove(path: str) -> None:
+    """Remove a file; raises OSError."""
+    if not is_url(path):
+        Path(path).unlink()
+        return
+    with _naming(path):
+        system, inside = _opened(path)
+        system.rm_file(inside)
 
 
 @contextmanager

@@ -1,4 +1,7 @@
-"""An input as the drivers want it, made once for each model, and what a scene with history remembers between steps."""
+"""An input as the drivers want it, made once for each model, and what a scene with history remembers between steps.
+
+That state can be saved as plain arrays, and a run goes on from it with the same bits as without a stop.
+"""
 
 from __future__ import annotations
 

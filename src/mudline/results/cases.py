@@ -167,7 +167,10 @@ class CaseWatch:
 
 
 def write_parquet(rows: Sequence[CaseSummary], stream: BinaryIO) -> None:
-    """Write rows as a table in Parquet. Raises OSError, ImportError without pyarrow."""
+    """Write rows as a table in Parquet. Raises OSError, ImportError without pyarrow.
+
+    What UTF-8 cannot hold, as file names may, is escaped.
+    """
     import pyarrow as pa  # noqa: PLC0415 - the extra `parquet`
     import pyarrow.parquet as pq  # noqa: PLC0415 - as above
 
@@ -175,4 +178,9 @@ def write_parquet(rows: Sequence[CaseSummary], stream: BinaryIO) -> None:
     schema = pa.schema(
         [(field.name, types.get(str(field.type).partition(" ")[0], pa.string())) for field in fields(CaseSummary)]
     )
-    pq.write_table(pa.Table.from_pylist([row.row() for row in rows], schema), stream)
+    plain = [{name: _escaped(value) for name, value in row.row().items()} for row in rows]
+    pq.write_table(pa.Table.from_pylist(plain, schema), stream)
+
+
+def _escaped(value: object) -> object:
+    return value.encode("utf-8", "backslashreplace").decode() if isinstance(value, str) else value
