@@ -14,7 +14,7 @@ from mudline.study.report import StudyOptions
 from mudline.study.stability import ladder, own_laws
 from mudline.study.stability.families import RANDOM, all_cells, judge
 from mudline.study.stability.judging import Judgement, Verdict
-from mudline.study.stability.ladder_page import ladder_part
+from mudline.study.stability.ladder import ladder_part
 from mudline.study.stability.own_laws import is_own, own_cells, times
 from mudline.study.stability.paths import PathCell
 from mudline.study.stability.pull_out import SuctionCell, suction_cells

@@ -19,9 +19,10 @@ from mudline.study.pages import (
     time,
 )
 from mudline.study.schemes import SCHEMES
-from mudline.study.stability import critical, landings
+from mudline.study.stability.critical import FAR, GROWTH, STEPS, STEPS_DAMPED
 from mudline.study.stability.deck_steps import FARTHEST, advice
-from mudline.study.stability.ladder_page import ladder_part
+from mudline.study.stability.ladder import ladder_part
+from mudline.study.stability.landings import FEW_PHASES, NEVER, PHASES, TRIED
 
 _OF_TABLE = ("0.1", "0.5", "1", "10")
 _BETWEEN = ("1.1", "1.5", "1.9", "1.99")
@@ -47,15 +48,15 @@ def page(tables: Tables) -> str:
         "advice": sentence(tables),
         "short": _short(tables),
         "contacts": _contacts(tables),
-        "steps": str(critical.STEPS),
-        "steps_damped": str(critical.STEPS_DAMPED),
-        "growth": f"{critical.GROWTH:g}",
+        "steps": str(STEPS),
+        "steps_damped": str(STEPS_DAMPED),
+        "growth": f"{GROWTH:g}",
         "measured": _measured(tables),
         "deck_steps": _deck_steps(tables),
         "segments": _segments(tables),
         "farthest": f"{FARTHEST:g}",
-        "few_phases": str(len(landings.FEW_PHASES)),
-        "phases": str(len(landings.PHASES)),
+        "few_phases": str(len(FEW_PHASES)),
+        "phases": str(len(PHASES)),
         "landings": _landings(tables, _WORTH_SHOWING, _OF_TABLE),
         "explicit_landings": _landings(tables, _EXPLICIT, _BETWEEN),
         "agreement": _agreement(tables),
@@ -113,7 +114,7 @@ def _short(tables: Tables) -> str:
         up to {rounded(most)} times as fast as it landed.
         """,
         f"""
-        Of the implicit schemes tried only {never} never land with more than {landings.NEVER:g} of their speed gained.
+        Of the implicit schemes tried only {never} never land with more than {NEVER:g} of their speed gained.
         They pay for it with damping: at `omega dt` = {ADVISED_OMEGA_DT:g} a landing leaves {left}.
         """,
         f"""
@@ -137,7 +138,7 @@ def _gentle(tables: Tables) -> dict[str, str]:
         name = one.text("scheme")
         values = [row.number("largest [-]") for row in tables.rows("landings", scheme=name)]
         most = max([one.number("largest at any step [-]"), *(value for value in values if not math.isnan(value))])
-        if math.isnan(one.number("critical omega dt [-]")) and most <= 1.0 + landings.NEVER:
+        if math.isnan(one.number("critical omega dt [-]")) and most <= 1.0 + NEVER:
             found[name] = f"{most:.5f}"
     return found
 
@@ -201,7 +202,7 @@ def _measured(tables: Tables) -> str:
     return (
         f"{good} of {len(rows)} runs did as predicted: bounded at 0.99 of the critical step, growing at 1.01; the step "
         f"at which growth begins is within {percent(max(off, 0.0025))} of the predicted one. Implicit schemes stayed "
-        f"bounded at `omega dt` = {critical.FAR:g}, the linear half of the truth."
+        f"bounded at `omega dt` = {FAR:g}, the linear half of the truth."
     )
 
 
@@ -306,8 +307,8 @@ def _limits(tables: Tables) -> str:
 def _never(tables: Tables) -> str:
     gentle = _gentle(tables)
     return (
-        f"{listed(gentle)} never gain more than {landings.NEVER:g} of the speed of a landing at any step tried, from "
-        f"`omega dt` = {landings.TRIED[0]:g} to {landings.TRIED[-1]:g}."
+        f"{listed(gentle)} never gain more than {NEVER:g} of the speed of a landing at any step tried, from "
+        f"`omega dt` = {TRIED[0]:g} to {TRIED[-1]:g}."
     )
 
 
