@@ -10,7 +10,7 @@ from __future__ import annotations
 import csv
 import io
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from string import Formatter
@@ -135,6 +135,16 @@ def markdown_table(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> st
     """A table without the line end of its last row; what would end a cell is escaped."""
     lines = [headings, ["---"] * len(headings), *rows]
     return "\n".join(f"| {' | '.join(map(_cell, line))} |".replace("|  |", "| |") for line in lines)
+
+
+def table_of(rows: Iterable[Record], columns: Mapping[str, Callable[[Record], str]]) -> str:
+    """A Markdown table of records: by heading, what fills a cell."""
+    return markdown_table(list(columns), ([cell(row) for cell in columns.values()] for row in rows))
+
+
+def bullets(sentences: Iterable[str]) -> str:
+    """A list, one sentence or more to an item; line breaks within an item are joined."""
+    return "\n".join(f"* {' '.join(sentence.split())}" for sentence in sentences)
 
 
 def _cell(text: str) -> str:

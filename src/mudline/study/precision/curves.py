@@ -27,6 +27,9 @@ from mudline.study.timing import timed
 if TYPE_CHECKING:  # only who draws loads matplotlib
     from matplotlib.figure import Figure
 
+FORCE_ERROR, BEYOND_ERROR = "error [of largest force]", "error beyond the points [of largest force]"
+LINE_ERROR, PCHIP_ERROR = "error of straight lines [of largest force]", "error of PCHIP [of largest force]"
+"""Headings of the tables."""
 Evaluation = Callable[[FloatArray], NDArray[np.floating]]
 TABLES = tuple(4**power for power in range(2, 9))
 """Entries of the uniform tables: 16 to 65536."""
@@ -47,8 +50,8 @@ class CurveRow(NamedTuple):
     curve: Annotated[str, "curve"]
     method: Annotated[str, "method"]
     family: str
-    error: Annotated[float, "error [of largest force]"]
-    beyond: Annotated[float, "error beyond the points [of largest force]"]
+    error: Annotated[float, FORCE_ERROR]
+    beyond: Annotated[float, BEYOND_ERROR]
     nanoseconds: Annotated[float, "best time [ns/point]"]
     median: Annotated[float, "median time [ns/point]"]
 
@@ -235,8 +238,8 @@ class BackboneRow(NamedTuple):
     backbone: Annotated[str, "backbone"]
     spacing: Annotated[str, "points at distances"]
     points: Annotated[int, "points"]
-    linear: Annotated[float, "error of straight lines [of largest force]"]
-    pchip: Annotated[float, "error of PCHIP [of largest force]"]
+    linear: Annotated[float, LINE_ERROR]
+    pchip: Annotated[float, PCHIP_ERROR]
 
 
 SAMPLES = Layout("backbones", "Closed forms sampled at points", columns_of(BackboneRow), brief=False)
