@@ -5,9 +5,8 @@ from __future__ import annotations
 from mudline.scene.model import Scene
 from mudline.study.precision.contacts import all_cases, contacts_of
 from mudline.study.precision.curves import study_backbones, study_curves
-from mudline.study.precision.goals import study_goals
+from mudline.study.precision.goals import motion_pictures, study_goals
 from mudline.study.precision.integration import REPEATS, RUNS, study_motions
-from mudline.study.precision.motion_pictures import motion_pictures
 from mudline.study.precision.page import advice, page
 from mudline.study.precision.smoothing import study_smoothing
 from mudline.study.report import Omission, Section, StudyOptions, paragraphs

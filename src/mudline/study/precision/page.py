@@ -22,7 +22,7 @@ from mudline.study.pages import (
     time,
 )
 from mudline.study.precision.curves import BEYOND_ERROR, FORCE_ERROR, LINE_ERROR, PCHIP_ERROR
-from mudline.study.precision.goals import ADVISED_GOALS, ORDER_STEPS
+from mudline.study.precision.goals import ADVISED_GOALS, ORDER_STEPS, QUARTILE, STEP, TIME, WORK
 from mudline.study.precision.smoothing import PUBLISHED, WIDTHS
 from mudline.study.report import grouped
 from mudline.study.running import RUN_TIME
@@ -36,9 +36,6 @@ _LIES = 1e-6
 _FLOATING = WIDTHS[3]
 _GOALS = tuple(f"{goal:g}" for goal in ADVISED_GOALS)
 """As the headings of the table of goals have them."""
-_STEP, _WORK = "omega dt for {}", "force evaluations per period for {} [-]"
-_TIME = "run time for {} [s/s]"
-_QUARTILE = "lower quartile of run time for {} [s/s]"
 _ERRORS = (
     "error of penetration, suction or way [relative]",
     "error of speed [relative]",
@@ -132,12 +129,12 @@ def _in_short(tables: Tables) -> list[str]:
             f"{percent(max(off['graded']))}, ten even ones are off by {_percents(off['even'])}."
         )
     for goal in _GOALS:
-        steps = [row for row in tables.rows("goals", scheme="velocity Verlet") if row.text(_STEP.format(goal))]
+        steps = [row for row in tables.rows("goals", scheme="velocity Verlet") if row.text(STEP.format(goal))]
         if steps:
             found.append(
                 f"For {percent(float(goal))} velocity Verlet needs omega dt = "
-                f"{span(row.number(_STEP.format(goal)) for row in steps)}, "
-                f"{span((row.number(_WORK.format(goal)) for row in steps), 3)} force evaluations per period."
+                f"{span(row.number(STEP.format(goal)) for row in steps)}, "
+                f"{span((row.number(WORK.format(goal)) for row in steps), 3)} force evaluations per period."
             )
     found.append("Leave SMOOTHING=AUTO: it moves nothing at rest. A wide zone lifts the pipe off the seabed.")
     return found
@@ -274,7 +271,7 @@ def _by_scheme(tables: Tables, cases: Sequence[str], cell: Callable[[Record], st
 def _needed(row: Record) -> str:
     found = []
     for goal in _GOALS:
-        step, work = row.number(_STEP.format(goal)), row.number(_WORK.format(goal))
+        step, work = row.number(STEP.format(goal)), row.number(WORK.format(goal))
         found.append(f"{rounded(step)} ({rounded(work, 3)})" if step > 0.0 else "none")
     return "; ".join(found)
 
@@ -296,7 +293,7 @@ def _findings(tables: Tables) -> list[str]:
     found = [
         f"For {percent(float(goal))}, {words} the force evaluations of {_VERLET}, each at its step of the ladder."
         for goal in _GOALS
-        if (words := _times(tables, _WORK.format(goal)))
+        if (words := _times(tables, WORK.format(goal)))
     ]
     near = [row for row in tables.rows("steps") if abs(row.number("omega dt") / _COMPARED_STEP - 1.0) < 1e-2]
     drops = grouped((row for row in near if row.text("case").startswith("drop")), lambda row: row.text("scheme"))
@@ -380,7 +377,7 @@ def _kind(row: Record) -> str:
 
 def _run_time_ratio(tables: Tables) -> str:
     goal = _GOALS[0]
-    words = _times(tables, _TIME.format(goal), _QUARTILE.format(goal))
+    words = _times(tables, TIME.format(goal), QUARTILE.format(goal))
     return f"For {percent(float(goal))}, {words} the run time of {_VERLET}." if words else ""
 
 
