@@ -10,7 +10,7 @@ from mudline.study import SAMPLE_TEXT, sample_scene
 from mudline.study.motion import Scheme
 from mudline.study.precision import integration
 from mudline.study.precision.contacts import all_cases, contacts_of, stiffest_drop
-from mudline.study.precision.drop import drop_case, reference_drop
+from mudline.study.precision.exact_motions import drop_case, reference_drop
 from mudline.study.precision.goals import advised, largest_step, needed, order, order_of
 from mudline.study.precision.integration import TRIED, StepRow, ladder_rows, measured
 from tests.builders.scenes import legal_scene

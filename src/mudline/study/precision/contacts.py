@@ -18,10 +18,9 @@ from mudline.scene.deck_values import DEFAULT_GRAVITY, FOOT, POUND
 from mudline.scene.model import Scene
 from mudline.scene.resolved import LawArrays
 from mudline.scene.sections import surroundings
-from mudline.study.laws import CurveLaw, ElasticContact, Law, LinearLaw
-from mudline.study.precision.drop import drop_case, drop_to, reference_drop
+from mudline.study.laws import CurveLaw, ElasticContact, Law, LinearLaw, SuctionNumbers
+from mudline.study.precision.exact_motions import Drag, Pull, drag_case, drop_case, drop_to, pull_case, reference_drop
 from mudline.study.precision.integration import Case
-from mudline.study.precision.pull import Drag, Pull, SuctionNumbers, drag_case, pull_case
 from mudline.study.report import Omission, StudyError
 
 _DIAMETER = 0.3

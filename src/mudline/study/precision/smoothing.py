@@ -16,7 +16,7 @@ from mudline.scene.model import Scene
 from mudline.study.laws import ElasticContact, LinearLaw, smoothed_spring
 from mudline.study.newton import Newton
 from mudline.study.pictures import LineStyle, Picture, Points, drawn, label, line_style, zero_place, zero_tick
-from mudline.study.precision.drop import Drop, drop_case, reference_drop
+from mudline.study.precision.exact_motions import Drop, drop_case, reference_drop
 from mudline.study.precision.integration import TRIED, row
 from mudline.study.report import Layout, Section, StudyOptions, columns_of, grouped
 from mudline.study.schemes import SCHEMES, STYLES
