@@ -9,15 +9,19 @@ import pytest
 from mudline.study import SAMPLE_TEXT, sample_scene
 from mudline.study.motion import Scheme
 from mudline.study.precision import integration
-from mudline.study.precision.contacts import all_cases, contacts_of, stiffest_drop
+from mudline.study.precision.contacts import all_cases, contacts_of
 from mudline.study.precision.exact_motions import drop_case, reference_drop
-from mudline.study.precision.goals import advised, largest_step, needed, order, order_of
-from mudline.study.precision.integration import TRIED, StepRow, ladder_rows, measured
+from mudline.study.precision.goals import advised, largest_step, order, order_of
+from mudline.study.precision.integration import TRIED, Case, StepRow, ladder_rows, measured
 from tests.builders.scenes import legal_scene
 
 JUMPING = SAMPLE_TEXT.replace(" 0.00,    0.0\n", " 0.00,  300.0\n")
 """The curve begins with a force at ratio 0 (CRV007)."""
 PUBLISHED = drop_case("published", "", reference_drop())
+
+
+def drops_on(text: str) -> dict[str, Case]:
+    return {case.name: case for case in all_cases(contacts_of(legal_scene(text)), []) if case.name.startswith("drop")}
 
 
 def made(omega_dt: float, error: float | None, case: str = "c", scheme: str = "rk4") -> StepRow:
@@ -42,8 +46,7 @@ def test_orders_are_slopes() -> None:
 
 @pytest.mark.parametrize("scheme", [name for name in TRIED if name != "generalised-alpha-1"])
 def test_a_jump_of_the_force_makes_every_scheme_one_of_first_order(scheme: str) -> None:
-    case = stiffest_drop(legal_scene(JUMPING))
-    assert case is not None
+    case = drops_on(JUMPING)["drop-curve"]
     rows = [measured(case, [TRIED[scheme]], step, 0)[0] for step in (0.1, 0.03, 0.01)]
     assert not any(row.reason for row in rows)
     assert order_of(rows) == pytest.approx(1.0, abs=0.15)
@@ -52,31 +55,33 @@ def test_a_jump_of_the_force_makes_every_scheme_one_of_first_order(scheme: str) 
 
 
 def test_the_steps_that_a_jump_needs() -> None:
-    case = stiffest_drop(legal_scene(JUMPING))
-    assert case is not None
-    found = needed(case, ["velocity-verlet"])
-    assert [(one.goal, one.omega_dt) for one in found] == [(0.01, 0.03), (0.001, 0.003)]
-    assert [one.evaluations for one in found] == pytest.approx([209.44, 2094.4], rel=1e-4)
-    assert found[0].order == pytest.approx(1.0, abs=0.1)
+    rows = ladder_rows(drops_on(JUMPING)["drop-curve"], {"velocity-verlet": TRIED["velocity-verlet"]}, full=False)
+    found = [step for goal in (1e-2, 1e-3) if (step := largest_step(rows, goal))]
+    assert [step.omega_dt for step in found] == [0.03, 0.003]
+    assert [step.work for step in found] == pytest.approx([209.44, 2094.4], rel=1e-4)
+    assert order_of(rows) == pytest.approx(1.0, abs=0.1)
 
 
 def test_the_published_case_needs_three_hundredths() -> None:
-    found = needed(PUBLISHED, ["velocity-verlet", "backward-euler"], (1e-2,))
-    assert [one.omega_dt for one in found] == [0.03, None]
-    assert found[1].evaluations is None
-
-
-def test_the_stiffest_contact_of_a_deck() -> None:
-    case = stiffest_drop(sample_scene())
-    assert case is not None
-    assert (case.name, case.line) == ("drop-curve", 30)
-    stiff = stiffest_drop(legal_scene(SAMPLE_TEXT.replace("STIFFNESS=50.0E3", "STIFFNESS=500.0E3")))
-    assert stiff is not None
-    assert (stiff.name, stiff.line) == ("drop-linear", 27)
-    assert stiff.omega == pytest.approx((5e5 / 169.5) ** 0.5, rel=1e-3)
-    assert (
-        stiffest_drop(legal_scene("$MODEL\n*NODE\n 1, 0.0, 0.0, 0.0\n 2, 0.0, 1.0, 0.0\n*ELEMENT\n 1, 1, 2\n")) is None
+    rows = ladder_rows(PUBLISHED, {name: TRIED[name] for name in ("velocity-verlet", "backward-euler")}, full=False)
+    verlet, euler = (
+        largest_step((row for row in rows if row.scheme == name), 1e-2)
+        for name in ("velocity-verlet", "backward-euler")
     )
+    assert verlet is not None
+    assert verlet.omega_dt == 0.03
+    assert euler is None
+
+
+def test_the_drops_on_a_deck() -> None:
+    drops = drops_on(SAMPLE_TEXT)
+    assert [(name, case.line) for name, case in drops.items()][1:] == [("drop-curve", 30), ("drop-linear", 27)]
+    assert drops["drop-curve"].omega > drops["drop-linear"].omega
+    stiff = drops_on(SAMPLE_TEXT.replace("STIFFNESS=50.0E3", "STIFFNESS=500.0E3"))["drop-linear"]
+    assert stiff.omega == pytest.approx((5e5 / 169.5) ** 0.5, rel=1e-3)
+    assert stiff.line == 27
+    bare = "$MODEL\n*NODE\n 1, 0.0, 0.0, 0.0\n 2, 0.0, 1.0, 0.0\n*ELEMENT\n 1, 1, 2\n"
+    assert list(drops_on(bare)) == ["drop-reference"]
 
 
 def test_cases_have_the_lines_of_their_laws() -> None:

@@ -42,10 +42,6 @@ def _motions(scene: Scene, options: StudyOptions) -> Section:
     )
 
 
-def _smoothing(scene: Scene, options: StudyOptions) -> Section:
-    return study_smoothing(scene, contacts_of(scene).contacts, options)
-
-
 STUDY = Study(
     "precision",
     "Precision: {deck}",
@@ -53,7 +49,7 @@ STUDY = Study(
         Part("curves", study_curves, 2.0),
         Part("backbones", study_backbones, 0.5),
         Part("motions", _motions, 25.0),
-        Part("smoothing", _smoothing, 1.0),
+        Part("smoothing", study_smoothing, 1.0),
     ),
     page,
     advice,

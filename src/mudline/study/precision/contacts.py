@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -170,18 +169,6 @@ def all_cases(studied: StudiedContacts, omissions: list[Omission]) -> list[Case]
 
 _Motion = Callable[[StudiedContacts, ElasticContact], Case]
 _Line = Callable[[StudiedContacts, ElasticContact], int | None]
-
-
-def stiffest_drop(scene: Scene) -> Case | None:
-    """The drop on the contact of a scene whose mass oscillates fastest; None where there is none to fall on.
-
-    Raises DeckError where the scene cannot be evaluated.
-    """
-    studied = contacts_of(scene)
-    for contact in sorted(studied.contacts, key=_fastest_first):
-        with suppress(StudyError, ArithmeticError, ValueError):
-            return replace(_drop(studied, contact), line=line_of_law(studied, contact))
-    return None
 
 
 def line_of_law(studied: StudiedContacts, contact: ElasticContact) -> int | None:

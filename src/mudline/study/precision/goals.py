@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 import numpy as np
 
 from mudline.study.pictures import Picture, Points, draw_lines, label, legend_below, panels, shortened
-from mudline.study.precision.integration import GOALS, LADDER, TRIED, Case, Ladders, StepRow, measured, meets
+from mudline.study.precision.integration import GOALS, TRIED, Case, Ladders, StepRow, meets
 from mudline.study.report import Cell, Layout, StudyTable, columns_of
-from mudline.study.schemes import SCHEMES, STYLES, bracketed
+from mudline.study.schemes import SCHEMES, STYLES
 
 if TYPE_CHECKING:  # only drawing needs matplotlib
     from matplotlib.axes import Axes
@@ -175,40 +175,6 @@ def _advice(goal: float, scheme: str, own: Sequence[tuple[Case, Sequence[StepRow
         below = [one for one in rows if one.dt <= dt * (1.0 + 1e-9) and one.worst is not None]
         errors += [one.worst or 0.0 for one in sorted(below, key=lambda one: one.dt)[-1:]]
     return Advice(goal, title, dt, row.omega_dt, case.name, case.line, row.evaluations, max(errors))
-
-
-class Needed(NamedTuple):
-    """What a scheme needs on a motion for an error.
-
-    omega_dt, evaluations: the largest step, and its force evaluations per period 2 pi / omega; None where even the
-    smallest step of the ladder is not enough.
-    order: with which the largest error falls, where it was measured.
-    """
-
-    scheme: str
-    goal: float
-    omega_dt: float | None
-    evaluations: float | None
-    order: float | None
-
-
-def needed(case: Case, schemes: Iterable[str], goals: Sequence[float] = ADVISED_GOALS) -> list[Needed]:
-    """Measure the steps that schemes need on one motion, as quickly as possible: some tenths of a second for each.
-
-    The steps of the ladder are tried from the largest on, until two of them in a row meet the smallest goal.
-    """
-    found = []
-    for name in schemes:
-        rows: list[StepRow] = []
-        for tried in sorted(LADDER, reverse=True):
-            rows += measured(case, [bracketed(SCHEMES[name])], tried, 0)
-            if len(rows) > 1 and all(meets(row, min(goals)) for row in rows[-2:]):
-                break
-        for goal in goals:
-            step = largest_step(rows, goal)
-            omega_dt, work = (None, None) if step is None else (step.omega_dt, step.work)
-            found.append(Needed(name, goal, omega_dt, work, order_of(rows)))
-    return found
 
 
 # ------------------------------------------------------------------------------------------------------------- pictures

@@ -13,9 +13,10 @@ import numpy as np
 from mudline.contact.arrays import FloatArray
 from mudline.scene.deck_values import FOOT
 from mudline.scene.model import Scene
-from mudline.study.laws import ElasticContact, LinearLaw, smoothed_spring
+from mudline.study.laws import LinearLaw, smoothed_spring
 from mudline.study.newton import Newton
 from mudline.study.pictures import LineStyle, Picture, Points, drawn, label, line_style, zero_place, zero_tick
+from mudline.study.precision.contacts import contacts_of
 from mudline.study.precision.exact_motions import Drop, drop_case, reference_drop
 from mudline.study.precision.integration import TRIED, row
 from mudline.study.report import Layout, Section, StudyOptions, columns_of, grouped
@@ -86,7 +87,7 @@ SMOOTHING = Layout("smoothing", "Smoothing at rest: Newton iterations and error"
 IMPACTS = Layout("impacts", "Smoothing at an impact", columns_of(ImpactRow), brief=False)
 
 
-def study_smoothing(scene: Scene, contacts: Sequence[ElasticContact], options: StudyOptions) -> Section:
+def study_smoothing(scene: Scene, options: StudyOptions) -> Section:
     """At rest on the published case and on the scene's stiffest law as if it were linear; and the published impact."""
     options.progress("smoothing")
     widths = np.unique([float(f"{width:.4g}") for width in (*WIDTHS, *(share * 1e-5 for share in SHARES))])
@@ -95,7 +96,7 @@ def study_smoothing(scene: Scene, contacts: Sequence[ElasticContact], options: S
         row._replace(half_width=row.half_width / unit, penetration=row.penetration / unit)
         for row in at_rest(PUBLISHED, widths)
     ]
-    for contact in contacts[:1]:
+    for contact in contacts_of(scene).contacts[:1]:
         stiffness, start = contact.stiffness, 0.7 * contact.diameter
         own = Rest(contact.law.name, stiffness, 2e-5 * stiffness, contact.weight, start)
         rest += at_rest(own, np.array(SHARES) * own.kinked)
