@@ -14,7 +14,8 @@ from mudline.study.motion import Scheme
 from mudline.study.report import StudyOptions, StudyReport
 from mudline.study.schemes import SCHEMES
 from mudline.study.stability import deck_steps, ladder, landings, own_laws, run, statics
-from mudline.study.stability.critical import Contact, Measured
+from mudline.study.stability.contacts import Contact
+from mudline.study.stability.critical import Measured
 from mudline.study.stability.families import AnyCell, all_cells, judge
 from mudline.study.stability.judging import Judgement, Verdict
 from mudline.study.stability.landings import Landing

@@ -1,124 +1,19 @@
-"""Critical steps, predicted and measured: each scheme really steps a mass on each contact of the scene.
-
-The contacts of a scene are those of `mudline.scene.oscillation`: normal laws, unloading, friction that sticks, lateral
-springs, and suction with its damping, each with the mass that its node carries.
-"""
+"""Critical steps, predicted and measured: each scheme steps a mass on each contact of the scene."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Annotated, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from mudline.contact import ContactInput
 from mudline.contact.arrays import FloatArray
-from mudline.contact.stiffest import ADVISED_OMEGA_DT, critical_step
 from mudline.scene.model import Scene
-from mudline.scene.oscillation import Oscillation, line_of, oscillations
 from mudline.study.motion import Motion, Scheme, march
 from mudline.study.newton import Newton
-from mudline.study.report import Layout, Omission, columns_of
+from mudline.study.report import Layout
 from mudline.study.schemes import OneStep, RungeKutta
-from mudline.study.stability.oscillator import LoadedContact, Setting, setting_of
-
-
-class Contact(NamedTuple):
-    """One kind of contact.
-
-    name: its law, and the set through which its elements have it.
-    element: index of an element at the node that asks for the smallest step.
-    elements: how many elements share it; of laws of nodes how many nodes.
-    stiffness: the largest tangent stiffness that its law can reach, per unit length.
-    mass: that the node carries, per unit length.
-    omega: root of stiffness over mass, radians per unit of time.
-    damping: the largest derivative of its force by velocity, per unit length.
-    rate: damping over mass.
-    node: number of the node.
-    line: of the deck, that sets it; 0 for none.
-    oscillation: the same as the scene has it.
-    setting: how copies of it are set up.
-    """
-
-    name: Annotated[str, "contact"]
-    element: int
-    elements: Annotated[int, "elements"]
-    stiffness: Annotated[float, "largest stiffness [{force}/{length}2]"]
-    mass: Annotated[float, "mass [{mass}/{length}]"]
-    omega: Annotated[float, "omega [rad/s]"]
-    damping: float
-    rate: float
-    node: int
-    line: int
-    oscillation: Oscillation
-    setting: Setting
-
-    @property
-    def depth(self) -> float:
-        """A penetration in the middle of where the law has this stiffness."""
-        return self.setting.depth
-
-    @property
-    def reach(self) -> float:
-        """How far to both sides it has it."""
-        return self.setting.reach
-
-    def critical_step(self, scheme: str) -> float:
-        """The largest step of a scheme, by its name, at which a small motion does not grow."""
-        return critical_step(scheme, self.omega, self.rate)
-
-    @property
-    def advised_step(self) -> float:
-        """The step at which omega dt is `ADVISED_OMEGA_DT`; infinite for damping alone."""
-        return ADVISED_OMEGA_DT / self.omega if self.omega > 0.0 else np.inf
-
-    @property
-    def place(self) -> str:
-        """Name and line of the deck, for sentences."""
-        return f"{self.name} (deck line {self.line})" if self.line else self.name
-
-
-CONTACTS = Layout[Contact](
-    "contacts",
-    "Frequencies of the contacts, the smallest step first",
-    {
-        **columns_of(Contact),
-        "advised step, implicit [s]": lambda one: one.advised_step,
-        "critical step, central-difference [s]": lambda one: one.critical_step("central-difference"),
-        "critical step, rk4 [s]": lambda one: one.critical_step("rk4"),
-        "critical step, velocity-verlet [s]": lambda one: one.critical_step("velocity-verlet"),
-        "damping [{force} s/{length}2]": lambda one: one.damping,
-        "damping rate [1/s]": lambda one: one.rate,
-        "kind": lambda one: one.oscillation.kind,
-        "node": lambda one: one.node,
-        "deck line": lambda one: one.line,
-    },
-)
-
-
-def find_contacts(scene: Scene) -> tuple[list[Contact], list[Omission]]:
-    """The contacts that oscillate, the smallest step first, and those of which no frequency is known."""
-    given = scene.contact_input("cut")
-    found, unknown = oscillations(scene, given)
-    return [_contact(scene, given, one) for one in found], [Omission(*each) for each in unknown]
-
-
-def _contact(scene: Scene, given: ContactInput, one: Oscillation) -> Contact:
-    return Contact(
-        one.name,
-        one.element,
-        one.shared,
-        one.stiffness,
-        one.mass,
-        one.omega,
-        one.damping,
-        one.rate,
-        int(scene.node_ids[one.node]),
-        line_of(scene, one.where),
-        one,
-        setting_of(scene, given, one),
-    )
-
+from mudline.study.stability.contacts import Contact, LoadedContact
 
 STEPS = 200
 """On springs; Runge-Kutta schemes grow slowest, by half a percent in a step at 1.005 of the critical one."""
@@ -138,11 +33,6 @@ ALWAYS = 1.0
 """The same for those that grow at every step."""
 
 BOUNDED, GROWS, NO_CONVERGENCE, NOT_TRIED = "bounded", "grows", "no convergence", "-"
-
-_NARROWEST = 1e-5
-_SOFTEST = 1e-280
-_SLOWEST = 1e-140
-"""And the fastest the other way round: the square of a step must be a number."""
 
 
 class Measured(NamedTuple):
@@ -183,16 +73,6 @@ CRITICAL_STEPS = Layout[Measured](
         "as predicted": lambda one: "yes" if one.as_predicted else "NO",
     },
 )
-
-
-def can_oscillate(contact: Contact) -> bool:
-    """Whether a small oscillation is more than the rounding of depths and forces."""
-    setting = contact.setting
-    wide = _NARROWEST * setting.scale < setting.reach < np.inf
-    felt = contact.omega == 0.0 or (
-        _SOFTEST < contact.stiffness * setting.reach < np.inf and _SLOWEST < contact.omega < 1.0 / _SLOWEST
-    )
-    return wide and felt and contact.rate < 1.0 / _SLOWEST
 
 
 def measure(scene: Scene, contact: Contact, scheme: Scheme) -> Measured:

@@ -18,15 +18,8 @@ from mudline.study.pages import Tables
 from mudline.study.pictures import Picture, drawn, label, legend_below
 from mudline.study.report import Layout, Omission, Section, StudyOptions, columns_of
 from mudline.study.schemes import SCHEMES, STYLES
-from mudline.study.stability.critical import (
-    CONTACTS,
-    CRITICAL_STEPS,
-    Contact,
-    Measured,
-    can_oscillate,
-    find_contacts,
-    measure,
-)
+from mudline.study.stability.contacts import CONTACTS, Contact, can_oscillate, find_contacts
+from mudline.study.stability.critical import CRITICAL_STEPS, Measured, measure
 from mudline.study.stability.landings import ALLOWED, LANDING_SCHEMES, TRIED, Fall, envelope
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
