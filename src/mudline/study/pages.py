@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from string import Formatter
+from typing import TypeAlias
 
 NONE = "none"
 """What stands on a page where a table has no number."""
@@ -137,9 +138,17 @@ def markdown_table(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> st
     return "\n".join(f"| {' | '.join(map(_cell, line))} |".replace("|  |", "| |") for line in lines)
 
 
-def table_of(rows: Iterable[Record], columns: Mapping[str, Callable[[Record], str]]) -> str:
-    """A Markdown table of records: by heading, what fills a cell."""
-    return markdown_table(list(columns), ([cell(row) for cell in columns.values()] for row in rows))
+Columns: TypeAlias = Mapping[str, str | Callable[[Record], str]]
+"""By heading of a table on the page: the heading of the records whose text fills its cells, or what computes them."""
+
+
+def table_of(rows: Iterable[Record], columns: Columns) -> str:
+    """A Markdown table with a line for each record; raises MissingTableError for a heading that is not there."""
+    return markdown_table(list(columns), ([_filling(row, cell) for cell in columns.values()] for row in rows))
+
+
+def _filling(row: Record, cell: str | Callable[[Record], str]) -> str:
+    return row.text(cell) if isinstance(cell, str) else cell(row)
 
 
 def bullets(sentences: Iterable[str]) -> str:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from mudline.contact.stiffest import rounded_down
 from mudline.study.pages import (
+    Columns,
     Record,
     Tables,
     bullets,
@@ -185,8 +186,8 @@ def _curves(tables: Tables) -> str:
     curves = _of_first_curve(tables)
     if not curves:
         return "The deck has no curve."
-    columns: dict[str, Callable[[Record], str]] = {
-        "method": lambda row: row.text("method"),
+    columns: Columns = {
+        "method": "method",
         "largest error": lambda row: rounded(row.number(FORCE_ERROR)),
         "beyond the last point": lambda row: rounded(row.number(BEYOND_ERROR)),
         "time per point": lambda row: f"{rounded(row.number('best time [ns/point]'))} ns",
@@ -250,12 +251,12 @@ def _cases(cases: Sequence[Record]) -> str:
     return table_of(
         cases,
         {
-            "motion": lambda case: case.text("case"),
-            "what": lambda case: case.text("what"),
-            "deck line": lambda case: case.text("deck line"),
+            "motion": "case",
+            "what": "what",
+            "deck line": "deck line",
             "omega": lambda case: f"{rounded(case.number('omega [1/s]'), 3)}/s",
             "duration": lambda case: time(case.number("duration [s]"), 3),
-            "exact outcome": lambda case: case.text("reference"),
+            "exact outcome": "reference",
         },
     )
 
@@ -278,12 +279,12 @@ def _needed(row: Record) -> str:
 
 def _advice_table(tables: Tables) -> list[str]:
     rows = [row for row in tables.rows("advice") if row.text("step [s]")]
-    columns: dict[str, Callable[[Record], str]] = {
+    columns: Columns = {
         "all errors up to": lambda row: percent(row.number("goal [relative]")),
-        "scheme": lambda row: row.text("scheme"),
+        "scheme": "scheme",
         "step": lambda row: time(row.number("step [s]"), 3),
-        "set by": lambda row: row.text("set by"),
-        "deck line": lambda row: row.text("deck line"),
+        "set by": "set by",
+        "deck line": "deck line",
         "force evaluations per simulated second": lambda row: rounded(row.number("force evaluations [1/s]"), 3),
     }
     return ["On all laws of this deck together, the least work first:", table_of(rows, columns)] if rows else []

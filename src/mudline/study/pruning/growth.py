@@ -28,6 +28,8 @@ NODES = 10_001
 FEW_NODES = 1001
 ELEMENTS = 2048
 _DEEPEST = 0.5
+UPPER_EXPONENT, ONE_MORE = "exponent, upper half", "time of one more [us]"
+"""Headings of the table."""
 
 
 Call: TypeAlias = Callable[[], object]
@@ -63,13 +65,13 @@ class Fit(NamedTuple):
     least: Annotated[int, "from"]
     largest: Annotated[int, "to"]
     exponent: Annotated[float, "exponent"]
-    upper: Annotated[float, "exponent, upper half"]
+    upper: Annotated[float, UPPER_EXPONENT]
     factor: Annotated[float, "time, largest / smallest"]
     unit: float
     largest_seconds: Annotated[float, "time of the largest [s]"]
 
 
-FITS = Layout[Fit]("growth", "How time grows", {**columns_of(Fit), "time of one more [us]": lambda fit: 1e6 * fit.unit})
+FITS = Layout[Fit]("growth", "How time grows", {**columns_of(Fit), ONE_MORE: lambda fit: 1e6 * fit.unit})
 SIZES = Layout("sizes", "Time against size", columns_of(GrowthRow), brief=False)
 
 

@@ -10,6 +10,7 @@ from mudline.study import timing
 from mudline.study.pages import (
     Record,
     Tables,
+    bullets,
     filled,
     grouped_digits,
     listed,
@@ -17,12 +18,15 @@ from mudline.study.pages import (
     percent,
     rounded,
     span,
+    table_of,
     time,
 )
 from mudline.study.pruning.calls import ALONG, EVALUATE, IN_ORDER, STEP, STREAM
 from mudline.study.pruning.features import advice
+from mudline.study.pruning.growth import ONE_MORE, UPPER_EXPONENT
 from mudline.study.pruning.imports import NODES as IMPORT_NODES
 from mudline.study.pruning.scenes import AS_IT_IS, CURVE, EVERYTHING, PLAIN
+from mudline.study.report import grouped
 from mudline.study.running import RUN_TIME
 
 _SHORT = (PLAIN, CURVE, "curve, unloading", "curve, suction", "curve, friction", AS_IT_IS, EVERYTHING)
@@ -30,7 +34,6 @@ _SCATTERED = "curve, scattered points"
 _STEP_TIME, _RATIO, _PLAIN = "time [ns/node/step]", "times the curve's", "times plain numpy"
 _MEMORY, _BARE_MEMORY = "memory [bytes/node]", "memory of plain numpy [bytes/node]"
 _MEDIAN = "median time [ns/node/step]"
-_UPPER = "exponent, upper half"
 _LEVEL = 1.15
 """The largest exponent that is called proportional: the fit of a few noisy times."""
 
@@ -45,7 +48,7 @@ def page(tables: Tables) -> str:
         "run_time": time(float(machine[RUN_TIME])),
         "machine": ", ".join([machine["processor"], f"{machine['cores']} cores", *_versions(machine)]),
         "repeats": str(timing.REPEATS),
-        "summary": "\n".join(f"* {line}" for line in _summary(tables)),
+        "summary": bullets(_summary(tables)),
         "level": _level(tables),
         "touching": _touching(tables),
         "short_table": _short_table(tables),
@@ -63,7 +66,7 @@ def page(tables: Tables) -> str:
         "import_nodes": str(IMPORT_NODES),
         "growth_table": _growth_table(tables),
         "growth_text": _growth_text(tables),
-        "conclusions": "\n".join(f"* {line}" for line in _conclusions(tables)),
+        "conclusions": bullets(_conclusions(tables)),
     }
     return filled(Path(__file__).with_name("page.md"), fields)
 
@@ -172,31 +175,27 @@ def _decade(row: Record) -> int:
 
 
 def _stages_table(tables: Tables) -> str:
-    rows = sorted(tables.rows("stages"), key=lambda row: row.number(_RATIO))
-    headings = (
-        "scene",
-        "nodes",
-        "steps",
-        "time per node and step",
-        "times the curve's",
-        "memory per node",
-        "to prepare",
+    return table_of(
+        sorted(tables.rows("stages"), key=lambda row: row.number(_RATIO)),
+        {
+            "scene": lambda row: _marked(row, CURVE, AS_IT_IS),
+            "nodes": _nodes,
+            "steps": "steps",
+            "time per node and step": lambda row: _ns(row, _STEP_TIME),
+            "times the curve's": lambda row: rounded(row.number(_RATIO)),
+            "memory per node": lambda row: _bytes(row, _MEMORY),
+            "to prepare": lambda row: _ns(row, "to prepare [ns/node]"),
+        },
     )
-    return markdown_table(
-        headings,
-        [
-            (
-                f"**{row.text('scene')}**" if row.text("scene") in {CURVE, AS_IT_IS} else row.text("scene"),
-                _nodes(row),
-                row.text("steps"),
-                _ns(row, _STEP_TIME),
-                rounded(row.number(_RATIO)),
-                f"{rounded(row.number(_MEMORY), 3)} B",
-                _ns(row, "to prepare [ns/node]"),
-            )
-            for row in rows
-        ],
-    )
+
+
+def _marked(row: Record, *scenes: str) -> str:
+    """The name of a scene, in bold letters where it is one of these."""
+    return f"**{row.text('scene')}**" if row.text("scene") in scenes else row.text("scene")
+
+
+def _bytes(row: Record, heading: str) -> str:
+    return f"{rounded(row.number(heading), 3)} B"
 
 
 # --------------------------------------------------------------------------------------------------------------- calls
@@ -219,29 +218,24 @@ def _equal(tables: Tables) -> str:
 
 def _calls_table(tables: Tables) -> str:
     """One step and the most steps, of the line that is nearest to a thousand nodes."""
-    rows = tables.rows("calls")
-    lines = []
-    for scene in dict.fromkeys(row.text("scene") for row in rows):
-        own = [row for row in rows if row.text("scene") == scene]
+    shown: list[Record] = []
+    for own in grouped(tables.rows("calls"), lambda row: row.text("scene")).values():
         nodes = min((row.number("nodes") for row in own), key=lambda count: abs(count - 1000.0))
         near = [row for row in own if row.number("nodes") == nodes]
         steps = [row.number("steps") for row in near]
-        lines += [_call_line(row) for row in near if row.number("steps") in {min(steps), max(steps)}]
-    headings = ("scene", "call", "nodes", "steps", "per node and step", _PLAIN, "memory per node", "of plain numpy")
-    return markdown_table(headings, lines)
-
-
-def _call_line(row: Record) -> tuple[str, ...]:
-    has_plain = bool(row.text("same results"))
-    return (
-        row.text("scene"),
-        f"`{row.text('call')}`",
-        _nodes(row),
-        row.text("steps"),
-        _ns(row, _MEDIAN),
-        rounded(row.number(_PLAIN)) if has_plain else "",
-        f"{rounded(row.number(_MEMORY), 3)} B",
-        f"{rounded(row.number(_BARE_MEMORY), 3)} B" if has_plain else "",
+        shown += [row for row in near if row.number("steps") in {min(steps), max(steps)}]
+    return table_of(
+        shown,
+        {
+            "scene": "scene",
+            "call": lambda row: f"`{row.text('call')}`",
+            "nodes": _nodes,
+            "steps": "steps",
+            "per node and step": lambda row: _ns(row, _MEDIAN),
+            _PLAIN: lambda row: rounded(row.number(_PLAIN)) if row.text("same results") else "",
+            "memory per node": lambda row: _bytes(row, _MEMORY),
+            "of plain numpy": lambda row: _bytes(row, _BARE_MEMORY) if row.text("same results") else "",
+        },
     )
 
 
@@ -269,20 +263,18 @@ def _calls_text(tables: Tables) -> str:
 
 
 def _curve_table(tables: Tables) -> str:
-    headings = ("nodes", "curve alone", "plain numpy", "scene", "scene / curve", "scene / plain numpy", "quartiles")
     ratio = "scene / plain numpy"
-    return markdown_table(
-        headings,
-        [
-            (
-                _nodes(row),
-                *(_ns(row, f"{name} [ns/node]") for name in ("curve alone", "plain numpy", "scene")),
-                rounded(row.number("scene / curve alone")),
-                rounded(row.number(ratio)),
-                span(row.number(f"{ratio}, {which} quartile") for which in ("lower", "upper")),
-            )
-            for row in tables.rows("curve")
-        ],
+    return table_of(
+        tables.rows("curve"),
+        {
+            "nodes": _nodes,
+            "curve alone": lambda row: _ns(row, "curve alone [ns/node]"),
+            "plain numpy": lambda row: _ns(row, "plain numpy [ns/node]"),
+            "scene": lambda row: _ns(row, "scene [ns/node]"),
+            "scene / curve": lambda row: rounded(row.number("scene / curve alone")),
+            ratio: lambda row: rounded(row.number(ratio)),
+            "quartiles": lambda row: span(row.number(f"{ratio}, {which} quartile") for which in ("lower", "upper")),
+        },
     )
 
 
@@ -304,55 +296,40 @@ def _curve_text(tables: Tables) -> str:
 
 
 def _imports_table(tables: Tables) -> str:
-    headings = (
-        "scene",
-        "time to load",
-        "quartiles",
-        "modules of mudline",
-        "other modules",
-        "beyond those of the curve",
-    )
-    return markdown_table(
-        headings,
-        [
-            (
-                f"**{row.text('scene')}**" if row.text("scene") == CURVE else row.text("scene"),
-                time(1e-3 * row.number("median [ms]")),
-                span((row.number("lower quartile [ms]"), row.number("upper quartile [ms]")), 3, "ms"),
-                row.text("modules of mudline"),
-                row.text("other modules"),
-                row.text("beyond those of the curve"),
-            )
-            for row in tables.rows("imports")
-        ],
+    return table_of(
+        tables.rows("imports"),
+        {
+            "scene": lambda row: _marked(row, CURVE),
+            "time to load": lambda row: time(1e-3 * row.number("median [ms]")),
+            "quartiles": lambda row: span((row.number(f"{end} quartile [ms]") for end in ("lower", "upper")), 3, "ms"),
+            "modules of mudline": "modules of mudline",
+            "other modules": "other modules",
+            "beyond those of the curve": "beyond those of the curve",
+        },
     )
 
 
 def _growth_table(tables: Tables) -> str:
-    headings = ("number of", "from", "to", "exponent", "of the larger half", "the largest", "one more costs")
-    return markdown_table(
-        headings,
-        [
-            (
-                row.text("number of"),
-                row.text("from"),
-                row.text("to"),
-                f"{row.number('exponent'):.2f}",
-                f"{row.number(_UPPER):.2f}",
-                time(row.number("time of the largest [s]")),
-                time(1e-6 * row.number("time of one more [us]")) if _grows(row) else "not measurable",
-            )
-            for row in tables.rows("growth")
-        ],
+    return table_of(
+        tables.rows("growth"),
+        {
+            "number of": "number of",
+            "from": "from",
+            "to": "to",
+            "exponent": lambda row: f"{row.number('exponent'):.2f}",
+            "of the larger half": lambda row: f"{row.number(UPPER_EXPONENT):.2f}",
+            "the largest": lambda row: time(row.number("time of the largest [s]")),
+            "one more costs": lambda row: time(1e-6 * row.number(ONE_MORE)) if _grows(row) else "not measurable",
+        },
     )
 
 
 def _grows(row: Record) -> bool:
-    return row.number(_UPPER) > 1.0 - 1.0 / _LEVEL
+    return row.number(UPPER_EXPONENT) > 1.0 - 1.0 / _LEVEL
 
 
 def _growth_text(tables: Tables) -> str:
-    faster = [row.text("number of") for row in tables.rows("growth") if row.number(_UPPER) > _LEVEL]
+    faster = [row.text("number of") for row in tables.rows("growth") if row.number(UPPER_EXPONENT) > _LEVEL]
     level = [row.text("number of") for row in tables.rows("growth") if not _grows(row)]
     words = ["**Nothing grows faster than in proportion.**"]
     if faster:
