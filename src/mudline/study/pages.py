@@ -12,12 +12,14 @@ import io
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Context, Decimal
 from pathlib import Path
 from string import Formatter
 from typing import TypeAlias
 
 NONE = "none"
 """What stands on a page where a table has no number."""
+DOWN, UP = ROUND_FLOOR, ROUND_CEILING
 
 
 class MissingTableError(Exception):
@@ -40,6 +42,14 @@ class Record:
     def number(self, heading: str) -> float:
         """The number in the cell; NaN where there is none."""
         return float(self.text(heading) or math.nan)
+
+    def place(self, prefix: str = "") -> str:
+        """Where the deck says it: "deck line 32", or "line 32 of base.keyxm" in a deck that it continues.
+
+        The columns are "deck line" and "deck file", behind the prefix.
+        """
+        line, file = (self.text(f"{prefix}deck {what}") for what in ("line", "file"))
+        return f"line {line} of {file}" if file else f"deck line {line}"
 
     def flag(self, heading: str) -> bool:
         """Whether the cell says true."""
@@ -83,11 +93,15 @@ class Tables:
 # ------------------------------------------------------------------------------------------------------------- numbers
 
 
-def rounded(value: float, digits: int = 2) -> str:
-    """A number with so many significant digits: 0.035, 1.4e-16, 1300, 100 000; "none" for NaN."""
+def rounded(value: float, digits: int = 2, rounding: str = ROUND_HALF_EVEN) -> str:
+    """A number with so many significant digits: 0.035, 1.4e-16, 1300, 100 000; "none" for NaN.
+
+    A limit that something has to stay below is rounded `DOWN`, a bound that holds everything found is rounded `UP`.
+    """
     if math.isnan(value):
         return NONE
-    text = f"{value:.{digits}g}"
+    number = Decimal(f"{value:.12g}")  # what is a round number but for its last bits stays one
+    text = f"{float(Context(digits, rounding).plus(number)):.{digits}g}"
     if math.isinf(value) or not 1e-4 <= abs(float(text)) < 1e7:
         mantissa, mark, power = text.partition("e")
         return f"{mantissa}e{int(power)}" if mark else mantissa
@@ -101,9 +115,9 @@ def grouped_digits(value: float) -> str:
     return f"{value:.0f}" if abs(value) < 10_000 else f"{value:,.0f}".replace(",", " ")
 
 
-def percent(share: float, digits: int = 2) -> str:
-    """A share in percent: "0.7 %"; "none" for NaN."""
-    return NONE if math.isnan(share) else f"{rounded(100.0 * share, digits)} %"
+def percent(share: float, digits: int = 2, rounding: str = ROUND_HALF_EVEN) -> str:
+    """A share in percent, rounded as in `rounded`: "0.7 %"; "none" for NaN."""
+    return NONE if math.isnan(share) else f"{rounded(100.0 * share, digits, rounding)} %"
 
 
 def time(seconds: float, digits: int = 2) -> str:
@@ -127,6 +141,11 @@ def listed(words: Iterable[str], last: str = "and") -> str:
     """Return "a, b and c"; "none" without words."""
     *first, end = list(words) or [NONE]
     return f"{', '.join(first)} {last} {end}" if first else end
+
+
+def line_cell(row: Record) -> str:
+    """The cell of a page's column "deck line": 32, or "32 of base.keyxm" in a deck that is continued."""
+    return row.place().removeprefix("deck ").removeprefix("line ")
 
 
 # ------------------------------------------------------------------------------------------------------------ Markdown

@@ -23,6 +23,7 @@ from mudline.contact.stiffest import ADVISED_OMEGA_DT, critical_step, static_nor
 from mudline.contact.tables import Tables
 from mudline.scene.model import Scene
 from mudline.scene.oscillation import Oscillation, line_of, oscillations, steepest_segment
+from mudline.study import file_of
 from mudline.study.motion import Forces, History
 from mudline.study.report import Layout, Omission, columns_of
 
@@ -80,6 +81,7 @@ class Contact(NamedTuple):
     rate: damping over mass.
     node: number of the node.
     line: of the deck, that sets it; 0 for none.
+    file: of that line, where it is in a deck that this one continues; "" for this deck.
     oscillation: the same as the scene has it.
     setting: how copies of it are set up.
     """
@@ -94,6 +96,7 @@ class Contact(NamedTuple):
     rate: float
     node: int
     line: int
+    file: str
     oscillation: Oscillation
     setting: Setting
 
@@ -116,11 +119,6 @@ class Contact(NamedTuple):
         """The step at which omega dt is `ADVISED_OMEGA_DT`; infinite for damping alone."""
         return ADVISED_OMEGA_DT / self.omega if self.omega > 0.0 else np.inf
 
-    @property
-    def place(self) -> str:
-        """Name and line of the deck, for sentences."""
-        return f"{self.name} (deck line {self.line})" if self.line else self.name
-
 
 CONTACTS = Layout[Contact](
     "contacts",
@@ -136,6 +134,7 @@ CONTACTS = Layout[Contact](
         "kind": lambda one: one.oscillation.kind,
         "node": lambda one: one.node,
         "deck line": lambda one: one.line,
+        "deck file": lambda one: one.file,
     },
 )
 
@@ -159,6 +158,7 @@ def _contact(scene: Scene, given: ContactInput, one: Oscillation) -> Contact:
         one.rate,
         int(scene.node_ids[one.node]),
         line_of(scene, one.where),
+        file_of(scene, one.where),
         one,
         setting_of(scene, given, one),
     )

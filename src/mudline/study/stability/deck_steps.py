@@ -12,6 +12,7 @@ import numpy as np
 from mudline.contact.stiffest import ADVISED_OMEGA_DT, rounded_down
 from mudline.scene.model import Scene
 from mudline.scene.oscillation import Segment, line_of, steepest_segment
+from mudline.study import file_of
 from mudline.study.laws import CurveLaw, LinearLaw
 from mudline.study.motion import Scheme
 from mudline.study.pages import Tables
@@ -96,6 +97,7 @@ DECK_STEPS = Layout[DeckStep](
         "landings below 1.01 [s]": lambda one: one.below,
         "landings within 1 % [s]": lambda one: one.within,
         "landing on": lambda one: one.lands_on.name if one.lands_on else "",
+        "deck file": lambda one: one.by.file if math.isfinite(one.critical) else "",
     },
 )
 
@@ -112,6 +114,8 @@ class Advice(NamedTuple):
     explicit_step: Annotated[float, "explicit step [s]"]
     explicit_contact: Annotated[str, "explicit because of"]
     explicit_line: Annotated[int, "explicit deck line"]
+    file: Annotated[str, "deck file"]
+    explicit_file: Annotated[str, "explicit deck file"]
 
 
 ADVICE = Layout[Advice]("advice", "Which step to take", columns_of(Advice), brief=False)
@@ -132,6 +136,7 @@ class NarrowSegment(NamedTuple):
     diameter: float
     line: int
     removed_line: int
+    file: str
 
     @property
     def step(self) -> float:
@@ -153,6 +158,7 @@ SEGMENTS = Layout[NarrowSegment](
         "stiffness without it [{force}/{length}2]": lambda one: one.segment.secant / one.diameter,
         "advised step without it [s]": lambda one: one.step,
         "largest change of force [{force}/{length}]": lambda one: one.segment.difference,
+        "deck file": lambda one: one.file,
     },
 )
 
@@ -212,7 +218,8 @@ def narrow_segments(scene: Scene, found: Sequence[Contact]) -> list[NarrowSegmen
         segment = None if law is None or law.curve < 0 else steepest_segment(scene.laws.curves[law.curve])
         if segment is not None and segment.narrow and segment.removed is not None and segment.secant > 0.0:
             lines = line_of(scene, segment.where), line_of(scene, segment.removed)
-            rows.append(NarrowSegment(one, segment, float(scene.diameter[one.element]), *lines))
+            file = file_of(scene, segment.where)
+            rows.append(NarrowSegment(one, segment, float(scene.diameter[one.element]), *lines, file))
     return rows
 
 
@@ -286,15 +293,15 @@ def _advice(found: Sequence[Contact], landed: Sequence[DeckLanding]) -> Advice:
         rounded_down(by.critical_step(_EXPLICIT)),
         by.name,
         by.line,
+        contact.file,
+        by.file,
     )
 
 
 def advice(tables: Tables) -> str:
     """The sentence about the deck; raises MissingTableError for a deck without a frequency."""
     row = tables.row("advice")
-    place, explicit = (
-        f"{row.text(f'{start}because of')} (deck line {row.text(f'{start}deck line')})" for start in ("", "explicit ")
-    )
+    place, explicit = (f"{row.text(f'{start}because of')} ({row.place(start)})" for start in ("", "explicit "))
     return (
         f"Use {row.text('scheme')} with a step of {row.number('step [s]'):.3g} s or less, because of {place}: "
         f"{_WHY[row.text('why')]}; {row.text('explicit scheme')} would need less than "
@@ -348,10 +355,12 @@ def _draw(
         text = f"{one.scheme}: {one.step:.3g} s"
         axes.axvline(one.step, color=STYLES[one.scheme]["color"], linewidth=1.5, label=f"advised, {text}")
     _mark_limit(axes, rows)
-    axes.set_yticks(range(len(rows)), [f"{drawn(one.name)}\ndeck line {one.line}" for one in rows], fontsize="small")
+    places = [f"line {one.line} of {drawn(one.file)}" if one.file else f"deck line {one.line}" for one in rows]
+    names = [f"{drawn(one.name)}\n{place}" for one, place in zip(rows, places, strict=True)]
+    axes.set_yticks(range(len(rows)), names, fontsize="small")
     axes.set_ylim(len(rows) - 0.4, -0.6)
     by = min(rows, key=lambda one: one.critical_step(_EXPLICIT))
-    step = by.critical_step(_EXPLICIT)
+    step = rounded_down(by.critical_step(_EXPLICIT))
     title = f"This deck: central difference below {step:.3g} s, because of {drawn(by.name)}"
     title += "".join(f"\n{one.scheme} up to {one.step:.3g} s, because of {drawn(one.contact)}" for one in advised)
     label(axes, title, "time step [s]", "")

@@ -154,6 +154,10 @@ RATIOS = (1.0, 9.0, 99.0, 1e4, 1e6)
 FORCES = (0.1, 0.5, 0.9, 1.5)
 
 
+SPRING_OVER_STRUCTURE, FORCE_OVER_LIMIT = "spring / structure [-]", "force / limit [-]"
+"""Headings of the tables: kt / kb and F / mu N."""
+
+
 class FrictionProblem(NamedTuple):
     """kb, kt, mu N and F, in any one system of units."""
 
@@ -223,8 +227,8 @@ class CycleCount(NamedTuple):
     most: of the slowest.
     """
 
-    ratio: Annotated[float, "spring / structure [-]"]
-    share: Annotated[float, "force / limit [-]"]
+    ratio: Annotated[float, SPRING_OVER_STRUCTURE]
+    share: Annotated[float, FORCE_OVER_LIMIT]
     starts: Annotated[int, "starts"]
     plain: Annotated[int, "lost: plain"]
     halved: Annotated[int, "lost: halved corrections"]
@@ -312,8 +316,8 @@ class HalvingCount(NamedTuple):
     least: the smallest cap from which on, up to `needed`, none of the starts is lost.
     """
 
-    ratio: Annotated[float, "spring / structure [-]"]
-    share: Annotated[float, "force / limit [-]"]
+    ratio: Annotated[float, SPRING_OVER_STRUCTURE]
+    share: Annotated[float, FORCE_OVER_LIMIT]
     starts: Annotated[int, "starts"]
     lost: tuple[int, ...]
     needed: int
