@@ -43,7 +43,7 @@ class LinearLaw:
         return smoothed_spring(z, self.stiffness, self.top)
 
     def work(self, z: FloatArray) -> FloatArray:
-        """Work from the mudline, or from the begin of the zone, to z, exactly; 0 above the seabed."""
+        """Work from the mudline, or from the start of the zone, to z, exactly; 0 above the seabed."""
         k, h = self.stiffness, self.top
         zone = np.zeros(z.shape) if h == 0.0 else k * np.clip(z + h, 0.0, 2.0 * h) ** 3 / (12.0 * h)
         below = np.maximum(z, h)

@@ -120,20 +120,20 @@ def percent(share: float, digits: int = 2, rounding: str = ROUND_HALF_EVEN) -> s
     return NONE if math.isnan(share) else f"{rounded(100.0 * share, digits, rounding)} %"
 
 
-def time(seconds: float, digits: int = 2) -> str:
-    """A time in the unit that suits it: "74 s", "0.3 ms" is "300 us"; "none" for NaN."""
+def time(seconds: float, digits: int = 2, rounding: str = ROUND_HALF_EVEN) -> str:
+    """A time in the unit that suits it, rounded as in `rounded`: "74 s", "0.3 ms" is "300 us"; "none" for NaN."""
     if math.isnan(seconds):
         return NONE
     for unit, size in (("s", 1.0), ("ms", 1e-3), ("us", 1e-6)):
         if abs(seconds) >= size:
-            return f"{rounded(seconds / size, digits)} {unit}"
-    return f"{rounded(seconds / 1e-9, digits)} ns"
+            return f"{rounded(seconds / size, digits, rounding)} {unit}"
+    return f"{rounded(seconds / 1e-9, digits, rounding)} ns"
 
 
-def span(values: Iterable[float], digits: int = 2, unit: str = "") -> str:
+def span(values: Iterable[float], digits: int = 2, unit: str = "", rounding: str = ROUND_HALF_EVEN) -> str:
     """From the least to the largest, "1.7 to 3.4 ns"; one number where both read alike; NaN is left out."""
     known = [value for value in values if not math.isnan(value)]
-    ends = [rounded(end, digits) for end in (min(known), max(known))] if known else [NONE]
+    ends = [rounded(end, digits, rounding) for end in (min(known), max(known))] if known else [NONE]
     return " to ".join(dict.fromkeys(ends)) + (f" {unit}" if unit else "")
 
 

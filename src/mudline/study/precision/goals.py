@@ -12,8 +12,11 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 
+from mudline.scene.model import Scene
+from mudline.scene.oscillation import Oscillation, line_of, oscillations
+from mudline.study import file_of
 from mudline.study.pictures import Picture, Points, draw_lines, label, legend_below, panels, shortened
-from mudline.study.precision.integration import GOALS, TRIED, Case, Ladders, StepRow, meets
+from mudline.study.precision.integration import ADVISED_GOALS, GOALS, TRIED, Case, Ladders, StepRow, largest_step
 from mudline.study.report import Cell, Layout, StudyTable, columns_of
 from mudline.study.schemes import SCHEMES, STYLES
 
@@ -22,11 +25,11 @@ if TYPE_CHECKING:  # only drawing needs matplotlib
     from matplotlib.figure import Figure
 
 
-ADVISED_GOALS = GOALS[:2]
-"""Errors that a step is advised for."""
 STEP, WORK = "omega dt for {}", "force evaluations per period for {} [-]"
 TIME, QUARTILE = "run time for {} [s/s]", "lower quartile of run time for {} [s/s]"
 """Headings of the table of goals, the goal in braces."""
+ACCURACY, STABILITY = "accuracy", "stability"
+"""What sets a step that is advised."""
 ORDER_STEPS = 0.1
 """Orders are measured at this omega dt and below."""
 _FLOOR = 1e-11
@@ -34,16 +37,6 @@ _FLOOR = 1e-11
 _LEAST = 1e-9
 """Smaller errors are drawn here."""
 _ERROR = "largest relative error [-]"
-
-
-def largest_step(ladder: Iterable[StepRow], goal: float) -> StepRow | None:
-    """The largest step of a ladder up to which every error is at or below a goal."""
-    best = None
-    for row in sorted(ladder, key=lambda row: row.omega_dt):
-        if not meets(row, goal):
-            break
-        best = row
-    return best
 
 
 def order(points: Iterable[tuple[float, float | None]]) -> float | None:
@@ -102,12 +95,16 @@ ORDERS = Layout("orders", "Measured orders of the errors", columns_of(OrderRow),
 
 
 class Advice(NamedTuple):
-    """The step with which a scheme keeps every error on every contact of the deck at or below a goal.
+    """The step with which a scheme is stable on every contact of the deck and keeps every error at or below a goal.
 
-    dt: seconds; None where the ladder has no such step.
-    case: the motion that asks for the smallest step, and the line of the deck where its law stands.
+    dt: seconds; None where no step of the ladder meets the goal.
+    omega_dt: of the motion that sets the step; None where stability sets it.
+    case: the motion or, where stability sets the step, the contact that asks for the smallest one.
+    line: of the deck, where its law stands.
     evaluations: of the forces, per simulated second.
-    error: the largest on all contacts at this step, or at the next smaller one that was run.
+    error: the largest on all contacts at this step, or at the next one that was run.
+    limited: whether "accuracy" or "stability" sets the step.
+    file: of the line, in a deck that is continued.
     """
 
     goal: Annotated[float, "goal [relative]"]
@@ -118,6 +115,8 @@ class Advice(NamedTuple):
     line: Annotated[int | None, "deck line"]
     evaluations: Annotated[float | None, "force evaluations [1/s]"]
     error: Annotated[float | None, "largest error found [relative]"]
+    limited: Annotated[str, "limited by"] = ACCURACY
+    file: Annotated[str, "deck file"] = ""
 
     @property
     def effort(self) -> tuple[float, float]:
@@ -129,10 +128,12 @@ class Advice(NamedTuple):
 ADVICE = Layout("advice", "Steps for this deck, the least work first", columns_of(Advice))
 
 
-def study_goals(ladders: Ladders, cases: Sequence[Case]) -> list[StudyTable]:
+def study_goals(ladders: Ladders, cases: Sequence[Case], scene: Scene) -> list[StudyTable]:
     """Orders and needed steps of all schemes, and what follows for the deck."""
+    contacts, _ = oscillations(scene, scene.contact_input("cut"))
+    limits = [Limit(one, line_of(scene, one.where), file_of(scene, one.where)) for one in contacts]
     return [
-        ADVICE.table(advised(ladders, cases)),
+        ADVICE.table(advised(ladders, cases, limits)),
         REACHED.table(ladders.values()),
         ORDERS.table(_orders(ladders, cases)),
     ]
@@ -149,32 +150,54 @@ def _orders(ladders: Ladders, cases: Sequence[Case]) -> Iterator[OrderRow]:
             yield OrderRow(case, *found)
 
 
-def advised(ladders: Ladders, cases: Sequence[Case]) -> list[Advice]:
-    """For each goal the schemes by their work on the laws of the deck, then those that do not reach it."""
+class Limit(NamedTuple):
+    """A contact of the deck that limits explicit steps, with its deck line and the file of a deck that is continued."""
+
+    contact: Oscillation
+    line: int
+    file: str
+
+
+def advised(ladders: Ladders, cases: Sequence[Case], limits: Sequence[Limit] = ()) -> list[Advice]:
+    """For each goal the schemes by their work on the laws of the deck, then those that do not reach it.
+
+    No step is above the critical step of the scheme on any contact, damping included: the motions of the study reach
+    neither the slow pull-out of suction nor all contacts.
+    """
     own = [case for case in cases if case.line is not None]
     # Without velocities in the forces the central difference is velocity Verlet, which is advised then.
     schemes = sorted(dict.fromkeys(scheme for _, scheme in ladders), key=lambda scheme: scheme == "central-difference")
     found = []
     for goal in ADVISED_GOALS if own else ():
-        rows = [_advice(goal, scheme, [(case, ladders[case.name, scheme]) for case in own]) for scheme in schemes]
+        rows = [
+            _advice(goal, scheme, [(case, ladders[case.name, scheme]) for case in own], limits) for scheme in schemes
+        ]
         found += sorted(rows, key=lambda row: row.effort)
     return found
 
 
-def _advice(goal: float, scheme: str, own: Sequence[tuple[Case, Sequence[StepRow]]]) -> Advice:
+def _advice(goal: float, scheme: str, own: Sequence[tuple[Case, Sequence[StepRow]]], limits: Sequence[Limit]) -> Advice:
     title = SCHEMES[scheme].title
     found: list[tuple[float, Case, StepRow]] = []
     for case, rows in own:
         row = largest_step(rows, goal)
         if row is None:
-            return Advice(goal, title, None, None, case.name, case.line, None, None)
+            return Advice(goal, title, None, None, case.name, case.line, None, None, file=case.file)
         found.append((row.dt, case, row))
     dt, case, row = min(found, key=lambda one: one[0])
-    errors = [row.worst or 0.0]
+    limit = min(limits, key=lambda one: one.contact.critical_step(scheme), default=None)
+    stable = math.inf if limit is None else limit.contact.critical_step(scheme)
+    step = min(dt, stable)
+    errors = []
     for _, rows in own:
-        below = [one for one in rows if one.dt <= dt * (1.0 + 1e-9) and one.worst is not None]
-        errors += [one.worst or 0.0 for one in sorted(below, key=lambda one: one.dt)[-1:]]
-    return Advice(goal, title, dt, row.omega_dt, case.name, case.line, row.evaluations, max(errors))
+        run = sorted((one for one in rows if one.worst is not None), key=lambda one: one.dt)
+        below = [one for one in run if one.dt <= step * (1.0 + 1e-9)]
+        errors += [one.worst or 0.0 for one in (below[-1:] or run[:1])]
+    if limit is not None and stable < dt:
+        work = row.evaluations * row.dt / stable
+        by = limit.contact.name, limit.line, work, max(errors), STABILITY, limit.file
+        return Advice(goal, title, stable, None, *by)
+    return Advice(goal, title, dt, row.omega_dt, case.name, case.line, row.evaluations, max(errors), file=case.file)
 
 
 # ------------------------------------------------------------------------------------------------------------- pictures

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
+from itertools import pairwise
 from pathlib import Path
 
-from mudline.contact.stiffest import rounded_down
 from mudline.study.pages import (
+    DOWN,
+    UP,
     Columns,
     Record,
     Tables,
     bullets,
     filled,
     grouped_digits,
+    line_cell,
     listed,
     markdown_table,
     percent,
@@ -23,7 +26,8 @@ from mudline.study.pages import (
     time,
 )
 from mudline.study.precision.curves import BEYOND_ERROR, FORCE_ERROR, LINE_ERROR, PCHIP_ERROR
-from mudline.study.precision.goals import ADVISED_GOALS, ORDER_STEPS, QUARTILE, STEP, TIME, WORK
+from mudline.study.precision.goals import ACCURACY, ORDER_STEPS, QUARTILE, STEP, TIME, WORK
+from mudline.study.precision.integration import ADVISED_GOALS, LADDER, PARTS
 from mudline.study.precision.smoothing import PUBLISHED, WIDTHS
 from mudline.study.report import grouped
 from mudline.study.running import RUN_TIME
@@ -46,6 +50,12 @@ _BRACKETED = "steps that needed the bracket"
 _VERLET, _NEWMARK, _RK4 = (SCHEMES[name].title for name in ("velocity-verlet", "newmark", "rk4"))
 _COMPARED = ("newmark", "hht-0.3", "generalised-alpha-0.5", "generalised-alpha-0", "backward-euler")
 _COMPARED_STEP = 0.1
+_RESOLUTION = max(b / a for a, b in pairwise(LADDER)) ** (1.0 / PARTS) - 1.0
+"""How much larger than the largest step for a goal the next one tried may be."""
+_DECK_STEPS = (
+    "On all laws of this deck together, the least work first; the step of an explicit scheme is also below the "
+    "critical step of every contact, which [stability](stability.md) lists:"
+)
 _WRONG = 0.1
 """An error from which on a result is of no use."""
 _KINDS = {
@@ -53,12 +63,6 @@ _KINDS = {
     "left a residual": "Newton's method does not converge",
     "it would take": "it would take too many steps",
 }
-
-
-_STABILITY = (
-    "Explicit schemes also have to keep below the critical step of every contact, suction damping included, "
-    "which can be much smaller: `mudline study stability`."
-)
 
 
 def advice(tables: Tables) -> str:
@@ -73,28 +77,36 @@ def advice(tables: Tables) -> str:
             parts.append(f"for errors of {percent(float(goal))} no step of the ladder is small enough{because}")
             continue
         explicit = reached[0].text("scheme") in _EXPLICIT
-        other = [_use(row) for row in reached if (row.text("scheme") in _EXPLICIT) != explicit][:1]
-        besides = f" ({'implicit' if explicit else 'explicit'}: {other[0]})" if other else ""
+        other = [row for row in reached if (row.text("scheme") in _EXPLICIT) != explicit][:1]
+        besides = ""
+        for row in other:
+            cause = _cause(tables, row)
+            own = "" if cause in causes else f", because of {cause}"
+            causes.insert(0, cause)
+            besides = f" ({'implicit' if explicit else 'explicit'}: {_use(row)}{own})"
         parts.append(f"for errors of {percent(float(goal))} use {_use(reached[0])}{besides}{because}")
-    return f"On this deck, {'; '.join(parts)}. {_STABILITY}" if parts else ""
+    return f"On this deck, {'; '.join(parts)}." if parts else ""
 
 
 def _use(row: Record) -> str:
-    return f"{row.text('scheme')} with a step of {_step(row.number('step [s]'))}"
+    return f"{row.text('scheme')} with a step of {_step(row)}"
 
 
-def _step(seconds: float) -> str:
+def _step(row: Record) -> str:
     """A step with three digits that are not above it."""
-    return time(rounded_down(seconds), 3)
+    return time(row.number("step [s]"), 3, DOWN)
 
 
 def _cause(tables: Tables, row: Record) -> str:
-    case = tables.row("cases", case=row.text("set by"))
-    return f"the mass {case.text('what')} (deck line {row.text('deck line')})"
+    """The motion or the contact that sets a step, with its line."""
+    name = row.text("set by")
+    if row.text("limited by") == ACCURACY:
+        name = f"the mass {tables.row('cases', case=name).text('what')}"
+    return f"{name} ({row.place()})"
 
 
 def page(tables: Tables) -> str:
-    """Fill the page."""
+    """The page in Markdown; raises MissingTableError where a part was not run."""
     fields = {
         "advice": advice(tables) or "The deck has no law to fall on: only the published case was run.",
         "deck": f"`{tables.row('machine', what='deck').text('value')}`",
@@ -116,8 +128,8 @@ def _in_short(tables: Tables) -> list[str]:
         entries, worse = grouped_digits(_entries(table)), rounded(table.number(FORCE_ERROR))
         slower = table.number("best time [ns/point]") / own.number("best time [ns/point]")
         found.append(
-            f"The evaluator of curves is exact to {rounded(own.number(FORCE_ERROR))} of the largest force. An even "
-            f"table of {entries} entries is off by {worse} and takes {rounded(slower)} times as long."
+            f"Curves are evaluated exactly to {rounded(own.number(FORCE_ERROR), rounding=UP)} of the largest force. "
+            f"An even table of {entries} entries is off by {worse} and takes {rounded(slower)} times as long."
         )
     ten = tables.rows("backbones", points="10")
     if ten:
@@ -127,14 +139,14 @@ def _in_short(tables: Tables) -> list[str]:
         }
         found.append(
             f"Sample a published curve with points that crowd towards the mudline: ten graded points are within "
-            f"{percent(max(off['graded']))}, ten even ones are off by {_percents(off['even'])}."
+            f"{percent(max(off['graded']), rounding=UP)}, ten even ones are off by {_percents(off['even'])}."
         )
     for goal in _GOALS:
         steps = [row for row in tables.rows("goals", scheme="velocity Verlet") if row.text(STEP.format(goal))]
         if steps:
             found.append(
                 f"For {percent(float(goal))} velocity Verlet needs omega dt = "
-                f"{span(row.number(STEP.format(goal)) for row in steps)}, "
+                f"{span((row.number(STEP.format(goal)) for row in steps), rounding=DOWN)}, "
                 f"{span((row.number(WORK.format(goal)) for row in steps), 3)} force evaluations per period."
             )
     found.append("Leave SMOOTHING=AUTO: it moves nothing at rest. A wide zone lifts the pipe off the seabed.")
@@ -203,8 +215,9 @@ def _curves(tables: Tables) -> str:
             bullets(
                 [
                     (
-                        "`np.interp` holds the last force beyond the points: within a tenth of their range it is up to "
-                        f"{percent(held.number(BEYOND_ERROR))} off. The deck's language continues the last segment."
+                        "`np.interp` keeps the last force beyond the points: within a tenth of their range it is up to "
+                        f"{percent(held.number(BEYOND_ERROR), rounding=UP)} off. A curve of a deck continues its last "
+                        "segment."
                     ),
                     (
                         f"PCHIP is another curve: it rounds the corners that the deck gives, and is off by "
@@ -239,6 +252,7 @@ def motion_fields(tables: Tables) -> dict[str, str]:
         "goals": _by_scheme(tables, names, _needed),
         "findings": "\n\n".join([*_advice_table(tables), "What follows from it:", bullets(_findings(tables))]),
         "goal_names": ", then for ".join(percent(goal) for goal in ADVISED_GOALS),
+        "resolution": percent(_RESOLUTION, rounding=UP),
         "order_steps": f"{ORDER_STEPS:g} and below",
         "orders": _by_scheme(tables, names, lambda row: rounded(row.number("order"))),
         "failures": _failures(tables),
@@ -253,7 +267,7 @@ def _cases(cases: Sequence[Record]) -> str:
         {
             "motion": "case",
             "what": "what",
-            "deck line": "deck line",
+            "deck line": line_cell,
             "omega": lambda case: f"{rounded(case.number('omega [1/s]'), 3)}/s",
             "duration": lambda case: time(case.number("duration [s]"), 3),
             "exact outcome": "reference",
@@ -273,7 +287,7 @@ def _needed(row: Record) -> str:
     found = []
     for goal in _GOALS:
         step, work = row.number(STEP.format(goal)), row.number(WORK.format(goal))
-        found.append(f"{rounded(step)} ({rounded(work, 3)})" if step > 0.0 else "none")
+        found.append(f"{rounded(step, 2, DOWN)} ({rounded(work, 3)})" if step > 0.0 else "none")
     return "; ".join(found)
 
 
@@ -282,17 +296,17 @@ def _advice_table(tables: Tables) -> list[str]:
     columns: Columns = {
         "all errors up to": lambda row: percent(row.number("goal [relative]")),
         "scheme": "scheme",
-        "step": lambda row: time(row.number("step [s]"), 3),
+        "step": _step,
         "set by": "set by",
-        "deck line": "deck line",
+        "deck line": line_cell,
         "force evaluations per simulated second": lambda row: rounded(row.number("force evaluations [1/s]"), 3),
     }
-    return ["On all laws of this deck together, the least work first:", table_of(rows, columns)] if rows else []
+    return [_DECK_STEPS, table_of(rows, columns)] if rows else []
 
 
 def _findings(tables: Tables) -> list[str]:
     found = [
-        f"For {percent(float(goal))}, {words} the force evaluations of {_VERLET}, each at its step of the ladder."
+        f"For {percent(float(goal))}, {words} the force evaluations of {_VERLET}, each at its largest step."
         for goal in _GOALS
         if (words := _times(tables, WORK.format(goal)))
     ]
@@ -401,8 +415,8 @@ def _smoothing_fields(tables: Tables) -> dict[str, str]:
         "smoothing": markdown_table((f"h [{unit}]", "iterations from above / below", f"penetration [{unit}]"), rows),
         "kinked": _tries(rest[0]),
         "widest": _tries(rest[-1]),
-        "safe": percent(_share(exact[-1])),
-        "safe_error": rounded(max(row.number(_DEPTH_ERROR) for row in exact)),
+        "safe": percent(_share(exact[-1]), rounding=DOWN),
+        "safe_error": rounded(max(row.number(_DEPTH_ERROR) for row in exact), rounding=UP),
         "floating": f"{rounded(floating.number(width))} {unit}",
         "height": f"{rounded(-floating.number(depth))} {unit}",
         "impact_step": hits[0].text("omega dt"),
