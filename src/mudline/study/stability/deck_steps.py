@@ -40,6 +40,8 @@ _FINER = np.geomspace(0.001, 0.02, 14)
 _PREFERRED = ("generalised-alpha-0.5", "hht-0.3", "newmark", "generalised-alpha-1", "generalised-alpha-0")
 """Implicit schemes of second order to choose from; of equal ones the first, which damps what is not resolved."""
 _EXPLICIT = "central-difference"
+_LIKE_EXPLICIT = "velocity-verlet"
+"""The scheme of `LANDING_SCHEMES` with the same positions."""
 _SHALLOW = 0.05
 """Of the diameter: how deep a pipe falls whose static penetration is not known."""
 
@@ -103,7 +105,7 @@ DECK_STEPS = Layout[DeckStep](
 
 
 class Advice(NamedTuple):
-    """One sentence: which scheme, which step, because of what; and what an explicit scheme would need instead."""
+    """Which scheme with which step, because of what; and what an explicit scheme needs instead."""
 
     scheme: Annotated[str, "scheme"]
     step: Annotated[float, "step [s]"]
@@ -114,17 +116,19 @@ class Advice(NamedTuple):
     explicit_step: Annotated[float, "explicit step [s]"]
     explicit_contact: Annotated[str, "explicit because of"]
     explicit_line: Annotated[int, "explicit deck line"]
+    explicit_why: Annotated[str, "explicit why"]
     file: Annotated[str, "deck file"]
     explicit_file: Annotated[str, "explicit deck file"]
 
 
-ADVICE = Layout[Advice]("advice", "Which step to take", columns_of(Advice), brief=False)
+ADVICE = Layout[Advice]("advice", "Advised step", columns_of(Advice), brief=False)
 
-LANDS, OSCILLATES, MISSES = "landings", "omega dt", "no step"
+LANDS, OSCILLATES, MISSES, GROWS = "landings", "omega dt", "no step", "stability"
 _WHY = {
     LANDS: "above it landings there gain or lose more than 1 % of their speed",
     OSCILLATES: f"omega dt is {ADVISED_OMEGA_DT:g} there",
     MISSES: "even there landings gain or lose more than 1 % of their speed, as at every larger step tried",
+    GROWS: "above it a small motion there grows",
 }
 
 
@@ -204,7 +208,7 @@ def _notes(found: Sequence[Contact], measured: Sequence[Measured]) -> list[str]:
         return ["No contact of this deck has a frequency: laws with a stiffness and sections with a mass are needed."]
     return [
         (
-            f"{sum(one.as_predicted for one in measured)} of {len(measured)} runs of a scheme on a contact did as "
+            f"{sum(one.as_predicted for one in measured)} of {len(measured)} runs of a scheme on a contact behaved as "
             "predicted: bounded below the critical step, growing above it."
         )
     ]
@@ -252,7 +256,7 @@ def _fall(scene: Scene, contact: Contact) -> Fall:
 
 def _deck_step(scheme: Scheme, found: Sequence[Contact], landed: Sequence[DeckLanding]) -> DeckStep:
     by = min(found, key=lambda one: one.critical_step(scheme.name))
-    name = "velocity-verlet" if scheme.name == _EXPLICIT else scheme.name
+    name = _LIKE_EXPLICIT if scheme.name == _EXPLICIT else scheme.name
     own = [one for one in landed if one.scheme.name == name]
     lands_on = min(own, key=_least, default=None)
     below, within = (min((getattr(one, which) for one in own), default=math.nan) for which in ("below", "within"))
@@ -263,38 +267,51 @@ def _least(one: DeckLanding) -> float:
     return 0.0 if math.isnan(one.within) else one.within
 
 
-def _advice(found: Sequence[Contact], landed: Sequence[DeckLanding]) -> Advice:
-    """The implicit scheme of second order that lands within 1 % at the largest step, and that step.
+class _Allowed(NamedTuple):
+    """A step that is advised, the contact that asks for it, and why."""
 
-    It is less where a spring of the deck, one that does not lift off included, is not resolved by it.
+    step: float
+    contact: Contact
+    why: str
+
+
+def _allowed(scheme: str, found: Sequence[Contact], landed: Sequence[DeckLanding]) -> _Allowed:
+    """The largest step with which every spring of the deck is resolved and landings keep within 1 %.
+
+    A spring that never lifts off counts too.
     """
     fastest = max(found, key=lambda one: one.omega)
-    step, contact, why, scheme = fastest.advised_step, fastest, OSCILLATES, SCHEMES[_PREFERRED[0]]
-    limits = [
-        min((one for one in landed if one.scheme.name == name), key=_least)
-        for name in _PREFERRED
-        if any(one.scheme.name == name for one in landed)
-    ]
-    if limits:
-        limit = max(limits, key=_least)
-        scheme = limit.scheme
-        if _least(limit) == 0.0:
-            step, contact, why = float(_FINER[0]) / limit.contact.omega, limit.contact, MISSES
-        elif limit.within < step:
-            step, contact, why = limit.within, limit.contact, LANDS
+    resolved = _Allowed(fastest.advised_step, fastest, OSCILLATES)
+    limit = min((one for one in landed if one.scheme.name == scheme), key=_least, default=None)
+    if limit is None:
+        return resolved
+    if math.isnan(limit.within):
+        return _Allowed(float(_FINER[0]) / limit.contact.omega, limit.contact, MISSES)
+    return min(resolved, _Allowed(limit.within, limit.contact, LANDS), key=lambda one: one.step)
+
+
+def _advice(found: Sequence[Contact], landed: Sequence[DeckLanding]) -> Advice:
+    """The implicit scheme of second order that is allowed the largest step, and what central difference is allowed."""
+    names = [name for name in _PREFERRED if any(one.scheme.name == name for one in landed)] or _PREFERRED[:1]
+    allowed = {name: _allowed(name, found, landed) for name in names}
+    best = max(names, key=lambda name: (allowed[name].why != MISSES, allowed[name].step))
+    own = allowed[best]
     by = min(found, key=lambda one: one.critical_step(_EXPLICIT))
+    stable = _Allowed(by.critical_step(_EXPLICIT), by, GROWS)
+    other = min(stable, _allowed(_LIKE_EXPLICIT, found, landed), key=lambda one: one.step)
     return Advice(
-        scheme.title,
-        rounded_down(step),
-        contact.name,
-        contact.line,
-        why,
+        SCHEMES[best].title,
+        rounded_down(own.step),
+        own.contact.name,
+        own.contact.line,
+        own.why,
         SCHEMES[_EXPLICIT].title,
-        rounded_down(by.critical_step(_EXPLICIT)),
-        by.name,
-        by.line,
-        contact.file,
-        by.file,
+        rounded_down(other.step),
+        other.contact.name,
+        other.contact.line,
+        other.why,
+        own.contact.file,
+        other.contact.file,
     )
 
 
@@ -304,8 +321,8 @@ def advice(tables: Tables) -> str:
     place, explicit = (f"{row.text(f'{start}because of')} ({row.place(start)})" for start in ("", "explicit "))
     return (
         f"Use {row.text('scheme')} with a step of {row.number('step [s]'):.3g} s or less, because of {place}: "
-        f"{_WHY[row.text('why')]}; {row.text('explicit scheme')} would need less than "
-        f"{row.number('explicit step [s]'):.3g} s, because of {explicit}."
+        f"{_WHY[row.text('why')]}; {row.text('explicit scheme')} needs {row.number('explicit step [s]'):.3g} s or "
+        f"less, because of {explicit}: {_WHY[row.text('explicit why')]}."
     )
 
 

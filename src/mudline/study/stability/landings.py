@@ -143,7 +143,7 @@ def _draw(figure: Figure) -> None:
             axes.plot(PHASES, speeds, label=scheme.title, **STYLES[scheme.title], markevery=(6 * index, 50))
         axes.axhline(1.0, color="0.4", linewidth=0.8, zorder=0)
         axes.set_ylim(low, high)
-        label(axes, f"ω dt = {omega_dt:g}{_off(omega_dt, low)}", "", "speed after / before landing [-]")
+        label(axes, f"omega dt = {omega_dt:g}{_off(omega_dt, low)}", "", "speed after / before landing [-]")
     for axes in panels[1]:
         axes.set_xlabel("landing phase, share of the step left at the seabed [-]")
     legend_below(figure, panels.flat[0])

@@ -27,7 +27,7 @@ from mudline.study.pages import (
     time,
 )
 from mudline.study.schemes import SCHEMES
-from mudline.study.stability.critical import FAR, GROWTH, STEPS, STEPS_DAMPED
+from mudline.study.stability.critical import ALWAYS, FAR, GROWTH, STEPS, STEPS_DAMPED
 from mudline.study.stability.deck_steps import FARTHEST, advice
 from mudline.study.stability.ladder import ladder_part
 from mudline.study.stability.landings import FEW_PHASES, NEVER, PHASES, TRIED
@@ -107,28 +107,29 @@ def _short(tables: Tables) -> str:
     never = listed(f"{name} (at most {value})" for name, value in gentle.items())
     points = (
         """
-        The smallest of the steps below counts, with whatever it comes from: rule `STB002` reads the same numbers and
+        The contact that asks for the smallest step sets the step of the model. Rule `STB002` uses the same numbers and
         reports a deck whose step is larger.
         """,
         f"""
         At `omega dt` = {ADVISED_OMEGA_DT:g} a landing with {newmark}'s scheme gains up to {gain} of its speed; one
-        percent needs `omega dt` = {within} on a linear seabed, and what the table below says on this deck.
+        percent needs `omega dt` = {within} on a linear seabed; the table of steps below has the limits of this deck.
         """,
         """
-        Central difference fails above `omega dt` = 2 on springs, RK4 above 2.83; on dampers they fail above `2 m / c`
-        and `2.785 m / c`, velocity Verlet above `m / c`. Forward Euler and RK2 grow on every spring without damping.
+        Central difference is unstable above `omega dt` = 2 on springs, RK4 above 2.83; on dampers they are unstable
+        above `2 m / c` and `2.785 m / c`, and velocity Verlet, whose force sees the velocity predicted to the whole
+        step, above `m / c`. Forward Euler and RK2 grow on every spring without damping.
         """,
         f"""
         "Unconditionally stable" is a property of linear systems. With contact that opens and closes, a pipe rebounds
         up to {rounded(most, rounding=UP)} times as fast as it landed.
         """,
         f"""
-        Of the implicit schemes tried only {never} never land with more than {NEVER:g} of their speed gained.
+        Of the implicit schemes tried only {never} never gain more than {NEVER:g} of the speed of a landing.
         They pay for it with damping: at `omega dt` = {ADVISED_OMEGA_DT:g} a landing leaves {left}.
         """,
         f"""
-        Let a solver keep a bracket around the root where friction or suction has a limit. Plain Newton cycles where
-        `kt / kb > 1 / (1 - F / (mu N))`; halved corrections need `log2(kt / kb) - 1` halvings, {halvings:.0f} for
+        Keep a bracket around the root where friction or suction has a limit. Newton's method alone cycles where
+        `kt / kb > 1 / (1 - F / (mu N))`; halved corrections need about `log2(kt / kb) - 1` halvings, {halvings:.0f} for
         `kt / kb` = {grouped_digits(stiffest)}.
         """,
         _ladder_in_short(tables),
@@ -202,16 +203,22 @@ def _limit(row: Record, heading: str) -> str:
 
 def _measured(tables: Tables) -> str:
     rows = tables.rows("critical-steps")
-    good = sum(one.text("as predicted") == "yes" for one in rows)
+    wrong = sum(one.text("as predicted") != "yes" for one in rows)
+    limited, growing = (
+        sum(bool(one.text("predicted [s]")) and (one.number("predicted [s]") > 0.0) is own for one in rows)
+        for own in (True, False)
+    )
     ratios = [
         one.number("measured [s]") / one.number("predicted [s]") for one in rows if one.number("predicted [s]") > 0.0
     ]
     off = max((abs(ratio - 1.0) for ratio in ratios if not math.isnan(ratio)), default=math.nan)
     within = percent(max(off, 0.0025), rounding=UP)
+    behaved = f"{len(rows) - wrong} of {len(rows)} runs behaved" if wrong else f"All {len(rows)} runs behaved"
     return (
-        f"{good} of {len(rows)} runs did as predicted: bounded at 0.99 of the critical step, growing at 1.01; the step "
-        f"at which growth begins is within {within} of the predicted one. Implicit schemes stayed "
-        f"bounded at `omega dt` = {FAR:g}, the linear half of the truth."
+        f"{behaved} as predicted: {limited} of a scheme with a critical step are bounded at 0.99 of it and grow at "
+        f"1.01, {growing} of schemes that grow at any step grow at `omega dt` = {ALWAYS:g}, and "
+        f"{len(rows) - limited - growing} of implicit schemes stay bounded at `omega dt` = {FAR:g}, which says nothing "
+        f"about contact that opens and closes. Growth begins within {within} of the predicted step."
     )
 
 
@@ -261,7 +268,7 @@ def _segment(row: Record) -> str:
         f"{row.text('point to remove, deck line')} has {grouped_digits(row.number(without))}, and with it "
         f"`omega dt` = {ADVISED_OMEGA_DT:g} is at {_limit(row, 'advised step without it [s]')} s instead of "
         f"{_limit(row, 'advised step [s]')} s; the force changes by {_number(row, change, UP)} "
-        f"{_unit(change)[1:-1]} at most. Look at whether that segment is what you mean."
+        f"{_unit(change)[1:-1]} at most. Check that segment."
     )
 
 
@@ -344,7 +351,7 @@ def _newton(tables: Tables) -> dict[str, str]:
         for name, heading in (("kb", "kb"), ("kt", "kt"), ("mu N", "mu N"), ("F", "F"))
     )
     example = (
-        f"With {numbers} the guesses are {plain} and so on; with corrections that are halved until the residual falls "
+        f"With {numbers} the iterates are {plain} and so on; with corrections that are halved until the residual falls "
         f"they are {cured}: the root."
     )
     return {

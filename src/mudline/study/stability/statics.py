@@ -247,7 +247,7 @@ def study_cycles(_: Scene, options: StudyOptions) -> Section:
         newton_path(EXAMPLE, 1.0, Newton(most=most, halving=halving)) for most, halving in ((6, False), (50, True))
     )
     note = (
-        "Newton's method on friction (kb = 1, kt = 99, mu N = 10, F = 5, from 1) goes "
+        "Newton's method on friction (kb = 1, kt = 99, mu N = 10, F = 5, from 1) has the iterates "
         f"{_points(plain.iterates)}, ... without end; with halved corrections {_points(halved.iterates)}: "
         f"{halved.iterations} iterations."
     )
@@ -330,7 +330,7 @@ def _lost(index: int) -> Callable[[HalvingCount], int]:
 
 HALVINGS = Layout[HalvingCount](
     "newton-halvings",
-    "Newton's method with halved corrections: solutions lost to a cap on the halvings",
+    "Newton's method with halved corrections: starts that do not converge with a cap on the halvings",
     {
         **columns_of(HalvingCount),
         **{f"lost: at most {cap} halvings": _lost(index) for index, cap in enumerate(CAPS)},
