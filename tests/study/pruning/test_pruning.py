@@ -162,7 +162,7 @@ def test_features_have_their_lines() -> None:
         "smoothing or nodal springs": "SET=Sand",
         "suction": "SET=Clay",
     }
-    assert [row[2:] for row in rows] == [(10, True), (3, False), (7, True)]
+    assert [row[2:] for row in rows] == [(10, True, ""), (3, False, ""), (7, True, "")]
 
 
 def test_imports_are_distinguished(monkeypatch: pytest.MonkeyPatch) -> None:

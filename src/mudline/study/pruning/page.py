@@ -112,7 +112,7 @@ def _summary(tables: Tables) -> Iterator[str]:
     )
     yield (
         f"The evaluator takes {_over(tables)} times as long as plain numpy that is written by hand for a curve and "
-        "nothing else, and gives the same bits; which where, see below."
+        "nothing else, and gives the same bits; the tables below say where."
     )
     points = tables.row("growth", **{"number of": "points on the curve"})
     yield (
@@ -158,7 +158,7 @@ def _touching(tables: Tables) -> str:
 
 
 def _order(tables: Tables) -> str:
-    """How much dearer the order of the deck is."""
+    """How much more the order of the deck costs."""
     along = {_call(row): row.number(_MEDIAN) for row in tables.rows("calls", scene=ALONG)}
     rows = [row for row in tables.rows("calls", scene=IN_ORDER) if _call(row) in along]
     over = span(row.number(_MEDIAN) / along[_call(row)] for row in rows)
@@ -170,7 +170,7 @@ def _call(row: Record) -> tuple[str, str, int]:
 
 
 def _decade(row: Record) -> int:
-    """Numbers of nodes that are about the same power of ten: whole copies of a deck seldom have exactly one."""
+    """The power of ten of the number of nodes: whole copies of a deck seldom have exactly one."""
     return round(math.log10(row.number("nodes")))
 
 
@@ -252,9 +252,9 @@ def _calls_text(tables: Tables) -> str:
     )
     return (
         f"In times of plain numpy, over all sizes and series: {'; '.join(spans)}. A call of `step` on {_nodes(few)} "
-        f"nodes costs {_whole(few, _MEDIAN)}, most of it the calls of numpy in it: a series that is known before "
-        f"belongs into `stream`. On {_nodes(kept)} nodes and {kept.text('steps')} steps `evaluate` holds "
-        f"{rounded(kept.number(_MEMORY), 3)} bytes a node, `stream` {rounded(passed.number(_MEMORY), 3)}. All sizes "
+        f"nodes costs {_whole(few, _MEDIAN)}: use `stream` for a series that is known beforehand. On {_nodes(kept)} "
+        f"nodes and {kept.text('steps')} steps `evaluate` holds {rounded(kept.number(_MEMORY), 3)} bytes a node, "
+        f"`stream` {rounded(passed.number(_MEMORY), 3)}. All sizes "
         "and numbers of steps are in [`pruning-calls.csv`](pruning-calls.csv)."
     )
 
@@ -287,8 +287,8 @@ def _curve_text(tables: Tables) -> str:
         "numpy, which reads positions and writes gaps, depths, ratios, forces, slopes and reactions, takes "
         f"{span(bare)} times as long as the curve alone. The scene takes "
         f"{span(row.number('scene / plain numpy') for row in rows)} times as long as plain numpy: the rest goes into "
-        "finding the elements that touch, into checks that name the element at fault, and into blocks small enough for "
-        "the cache. Nothing of it goes into a stage that the scene does not have: its module is not loaded, see below."
+        "finding the elements in contact, into checks that name the element at fault, and into blocks small enough for "
+        f"the cache. {_not_loaded(tables).capitalize()}, see [imports](#imports)."
     )
 
 
@@ -307,6 +307,12 @@ def _imports_table(tables: Tables) -> str:
             "beyond those of the curve": "beyond those of the curve",
         },
     )
+
+
+def _not_loaded(tables: Tables) -> str:
+    """What everything loads and a scene with a curve does not."""
+    modules = tables.row("imports", scene=EVERYTHING).text("beyond those of the curve")
+    return f"a scene with a curve loads no module of {listed(modules.split(', '), 'or')}"
 
 
 def _growth_table(tables: Tables) -> str:
@@ -330,20 +336,22 @@ def _grows(row: Record) -> bool:
 
 def _growth_text(tables: Tables) -> str:
     faster = [row.text("number of") for row in tables.rows("growth") if row.number(UPPER_EXPONENT) > _LEVEL]
-    level = [row.text("number of") for row in tables.rows("growth") if not _grows(row)]
+    level = [
+        f"{row.text('number of')} ({rounded(row.number('time, largest / smallest'))} times from {row.text('from')} to "
+        f"{row.text('to')})"
+        for row in tables.rows("growth")
+        if not _grows(row)
+    ]
     words = ["**Nothing grows faster than in proportion.**"]
     if faster:
         words = [f"The time grows faster than in proportion with the number of {listed(faster)}."]
     if level:
-        words.append(f"The number of {listed(level)} does not count.")
+        words.append(f"The number of {listed(level)} hardly counts.")
     return " ".join(words)
 
 
 def _conclusions(tables: Tables) -> Iterator[str]:
-    yield (
-        "Do not leave out a feature for fear of its price elsewhere: a scene with a curve loads no module of any other "
-        "stage than its own."
-    )
+    yield (f"Do not leave out a feature because of its cost for other decks: {_not_loaded(tables)}.")
     costliest = sorted(tables.rows("stages", steps="one by one"), key=lambda row: -row.number(_RATIO))
     named = [f"{row.text('scene')} ({rounded(row.number(_RATIO))} times the curve)" for row in costliest[:3]]
     yield (
