@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from mudline.codes.references import REF015
 from mudline.deck.forms.json import to_json
 from mudline.deck.reading import TextOrigin
 from mudline.scene.model import Scene
@@ -29,6 +30,7 @@ from mudline.study.report import (
     Layout,
     Omission,
     Section,
+    StudyError,
     StudyOptions,
     StudyReport,
     StudyTable,
@@ -96,8 +98,9 @@ class Study:
         """Run the parts that are wanted; finished ones are written into the folder of the options at once.
 
         Raises DeckError where the scene cannot be evaluated, ImportError without the extra, OSError where the folder
-        cannot be written, and StudyError.
+        cannot be written, and StudyError, also for a scene without elements.
         """
+        require_elements(scene)
         folder, key = options.folder, digest(self.name, scene, options)
         if folder:  # before anything is measured
             folder.mkdir(parents=True, exist_ok=True)
@@ -135,6 +138,14 @@ class Study:
         tables = Tables({table.name: "".join(table.csv()) for table in ordered})
         page, advice = (_made(words, tables) for words in (self.page, self.advice))
         return replace(report, tables=ordered, page=page, advice=advice, key=key, parts=tuple(parts))
+
+
+def require_elements(scene: Scene) -> None:
+    """Raise StudyError for a scene without elements, with the file that is missing where it would have them."""
+    if not len(scene.element_ids):
+        missing = [problem.message for problem in scene.noticed if problem.code is REF015]
+        cause = missing[0] if missing else "give one with *ELEMENT"
+        raise StudyError(f"the deck has no elements of its own, so there is nothing to study: {cause}")
 
 
 def _ahead(advance: Callable[[float], None], start: float, width: float, share: float) -> None:

@@ -13,6 +13,7 @@ from mudline.study.pages import Tables
 from mudline.study.report import StudyOptions
 from mudline.study.stability import deck_steps, run
 from mudline.study.stability.page import page
+from tests.builders.scenes import legal_scene
 
 DOCS = Path(__file__).parents[3] / "docs" / "studies"
 
@@ -75,3 +76,28 @@ def test_the_end_of_the_search_is_no_limit(tables: Tables) -> None:
     text = page(tables)
     assert cells_of(text, "generalised-alpha (0)")[-1][1:4] == ["-", "all tried", "0.179"]
     assert cells_of(text, "backward Euler")[0][4] == "all tried (0.096)"
+
+
+def test_what_is_left_out_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(deck_steps, "STEPPED", ())
+    monkeypatch.setattr(deck_steps, "LANDING_SCHEMES", ("newmark",))
+    monkeypatch.setattr(deck_steps, "_MOST_STEPS", 380)  # a landing on the clay takes 401 steps, on the sand 346
+    springs = "*P-Y\n TYPE=USER\n SET=Clay\n DEPTH=0.0\n 0.0, 0.0\n 4000.0, 0.01\n$LOAD CASE"
+    report = run(legal_scene(SAMPLE_TEXT.replace("$LOAD CASE", springs)), StudyOptions(only=("steps",)))
+    assert [tuple(one) for one in report.omissions] == [
+        ("curve:Soft Clay on Clay", "no landings: one would take more than 380 steps, its stiffest part is so narrow"),
+        ("*P-Y", "left out of all steps: the evaluator has no springs of this keyword"),
+    ]
+    assert "because of friction on Sand (deck line 28): omega dt is 0.5 there" in report.advice
+
+
+def test_the_explicit_step_resolves_springs_and_landings_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without suction the critical step of friction, 0.065 s, is four times the step that resolves it."""
+    monkeypatch.setattr(deck_steps, "STEPPED", ())
+    monkeypatch.setattr(deck_steps, "LANDING_SCHEMES", ("newmark", "velocity-verlet"))
+    text = SAMPLE_TEXT.replace("*SEABED SUCTION\n SET=Clay\n COHESION=5.0E3\n", "")
+    text = text.replace(" STIFFNESS=Soft Clay\n", " STIFFNESS=1.0E4\n").partition("*SEABED STIFFNESS")[0]
+    report = run(legal_scene(f"{text}$LOAD CASE\n*ANALYSIS TYPE\n TYPE=STATIC\n"), StudyOptions(only=("steps",)))
+    assert report.advice.startswith("Use Newmark with a step of 0.0163 s or less, because of friction on Sand")
+    assert "central difference needs 0.0163 s or less, because of friction on Sand" in report.advice
+    assert report.advice.endswith("omega dt is 0.5 there.")

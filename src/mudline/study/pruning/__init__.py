@@ -11,7 +11,7 @@ from mudline.study.pruning.growth import study_growth
 from mudline.study.pruning.imports import study_imports
 from mudline.study.pruning.page import page
 from mudline.study.pruning.scenes import Pipe, pipe_of, variants
-from mudline.study.report import Omission, Section, StudyError, StudyOptions, paragraphs
+from mudline.study.report import Omission, Section, StudyOptions, paragraphs
 from mudline.study.running import Part, Study
 
 _NOTES = """
@@ -38,13 +38,8 @@ constant number of elements. Points, curves, planes: one evaluation of one step,
 
 
 def _given(scene: Scene) -> tuple[ContactInput, Pipe]:
-    """The deck's own input, and what the forced laws are made for.
-
-    Raises DeckError where the scene cannot be evaluated, and StudyError where it has no elements.
-    """
+    """The deck's own input, and what the forced laws are made for; raises DeckError where it cannot be evaluated."""
     inputs = scene.contact_input()
-    if not len(inputs.element_ids):
-        raise StudyError("the deck has no elements of its own, so there is nothing to time: give one with *ELEMENT")
     return inputs, pipe_of(inputs, next(iter(sample_scene().curves.values())))
 
 

@@ -21,7 +21,7 @@ from mudline.study.report import Layout, Omission, Section, StudyOptions, column
 from mudline.study.schemes import SCHEMES, STYLES
 from mudline.study.stability.contacts import CONTACTS, Contact, can_oscillate, find_contacts
 from mudline.study.stability.critical import CRITICAL_STEPS, Measured, measure
-from mudline.study.stability.landings import ALLOWED, LANDING_SCHEMES, TRIED, Fall, envelope
+from mudline.study.stability.landings import ALLOWED, LANDING_SCHEMES, TRIED, Fall, contact_steps, envelope
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
     from matplotlib.axes import Axes
@@ -42,6 +42,10 @@ _PREFERRED = ("generalised-alpha-0.5", "hht-0.3", "newmark", "generalised-alpha-
 _EXPLICIT = "central-difference"
 _LIKE_EXPLICIT = "velocity-verlet"
 """The scheme of `LANDING_SCHEMES` with the same positions."""
+_MOST_STEPS, _MOST_FINER = 5000, 20_000
+"""Steps of a landing at the smallest omega dt of `TRIED`, and of `_FINER`."""
+_NOT_EVALUATED = ("P-Y", "T-Z")
+"""Keywords of soil springs that the evaluator does not have."""
 _SHALLOW = 0.05
 """Of the diameter: how deep a pipe falls whose static penetration is not known."""
 
@@ -52,6 +56,7 @@ class DeckLanding(NamedTuple):
     below: the largest step tried up to which no landing gains more than 1 % of its speed; NaN where all do.
     within: the same for gain and loss.
     speed: of the landing.
+    least: the smallest omega dt tried.
     """
 
     contact: Contact
@@ -59,6 +64,7 @@ class DeckLanding(NamedTuple):
     below: float
     within: float
     speed: float
+    least: float
 
 
 DECK_LANDINGS = Layout[DeckLanding](
@@ -184,10 +190,17 @@ def study_steps(scene: Scene, options: StudyOptions) -> Section:
     for contact in options.each(stepped, lambda contact: f"steps on {contact.name}"):
         measured += [measure(scene, contact, SCHEMES[name]) for name in STEPPED]
     seabeds = [one for one in wide if one.oscillation.kind == "normal"]
-    landed = [
-        deck_landing(scene, contact, SCHEMES[name])
-        for contact in (seabeds if options.full else seabeds[:MOST_LANDINGS])
-        for name in LANDING_SCHEMES
+    landed: list[DeckLanding] = []
+    for contact in seabeds if options.full else seabeds[:MOST_LANDINGS]:
+        if contact_steps(fall := fall_on(scene, contact), float(TRIED[0])) > _MOST_STEPS:
+            reason = f"no landings: one would take more than {_MOST_STEPS} steps, its stiffest part is so narrow"
+            omissions.append(Omission(contact.name, reason))
+            continue
+        landed += [deck_landing(contact, SCHEMES[name], fall) for name in LANDING_SCHEMES]
+    omissions += [
+        Omission(f"*{keyword}", "left out of all steps: the evaluator has no springs of this keyword")
+        for keyword in _NOT_EVALUATED
+        if keyword in scene.deck.keywords()
     ]
     steps = [_deck_step(scheme, found, landed) for scheme in SCHEMES.values()] if found else []
     advised = [_advice(found, landed)] if any(one.omega > 0.0 for one in found) else []
@@ -227,16 +240,20 @@ def narrow_segments(scene: Scene, found: Sequence[Contact]) -> list[NarrowSegmen
     return rows
 
 
-def deck_landing(scene: Scene, contact: Contact, scheme: Scheme) -> DeckLanding:
-    """Land on the law of a contact as fast as a fall to its static penetration needs."""
-    fall = _fall(scene, contact)
-    found = envelope(scheme, fall, TRIED[TRIED <= FARTHEST])
-    if math.isnan(found.within) and scheme.name in (*_PREFERRED, "velocity-verlet", "rk4"):
-        found = envelope(scheme, fall, _FINER)
-    return DeckLanding(contact, scheme, found.below / contact.omega, found.within / contact.omega, fall.speed)
+def deck_landing(contact: Contact, scheme: Scheme, fall: Fall) -> DeckLanding:
+    """Land on the law of a contact over the ladder of omega dt."""
+    tried = TRIED[TRIED <= FARTHEST]
+    found = envelope(scheme, fall, tried)
+    finer = scheme.name in (*_PREFERRED, "velocity-verlet", "rk4") and contact_steps(fall, _FINER[0]) <= _MOST_FINER
+    if math.isnan(found.within) and finer:
+        tried = _FINER
+        found = envelope(scheme, fall, tried)
+    limits = found.below / contact.omega, found.within / contact.omega
+    return DeckLanding(contact, scheme, *limits, fall.speed, float(tried[0]))
 
 
-def _fall(scene: Scene, contact: Contact) -> Fall:
+def fall_on(scene: Scene, contact: Contact) -> Fall:
+    """A fall on the law of a contact, fast enough to reach its static penetration."""
     arrays, element = scene.law_arrays(), contact.element
     weight, diameter = float(scene.submerged_weight[element]), float(scene.diameter[element])
     law: CurveLaw | LinearLaw
@@ -286,7 +303,7 @@ def _allowed(scheme: str, found: Sequence[Contact], landed: Sequence[DeckLanding
     if limit is None:
         return resolved
     if math.isnan(limit.within):
-        return _Allowed(float(_FINER[0]) / limit.contact.omega, limit.contact, MISSES)
+        return _Allowed(limit.least / limit.contact.omega, limit.contact, MISSES)
     return min(resolved, _Allowed(limit.within, limit.contact, LANDS), key=lambda one: one.step)
 
 

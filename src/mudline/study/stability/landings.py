@@ -9,6 +9,7 @@ digits that stand here. HHT and generalised-alpha average the forces of both end
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, NamedTuple
@@ -256,6 +257,11 @@ def envelope(scheme: Scheme, fall: Fall, tried: FloatArray | None = None) -> Env
     return Envelope(scheme, omega_dt, speeds.min(axis=1), speeds.max(axis=1))
 
 
+def contact_steps(fall: Fall, omega_dt: float) -> int:
+    """About how many steps a landing takes; many where the stiffest part of a law is far stiffer than the rest."""
+    return math.ceil(2.0 * math.pi * fall.depth / fall.speed * fall.omega / omega_dt)
+
+
 def rebounds(scheme: Scheme, fall: Fall, omega_dt: FloatArray, phases: FloatArray) -> FloatArray:
     """Speed after over speed before contact (k, p) for steps (k,) and landing phases (p,) in (0, 1).
 
@@ -265,7 +271,7 @@ def rebounds(scheme: Scheme, fall: Fall, omega_dt: FloatArray, phases: FloatArra
     system = Falling(np.full(len(dt), fall.mass), fall.law, weight=0.0)
     high = fall.law.top + np.tile(phases, len(omega_dt)) * dt * fall.speed
     start = Motion.start(system, high, np.full(len(dt), -fall.speed))
-    steps = int(np.ceil(2.0 * np.pi * fall.depth / fall.speed / dt.min())) + _SETTLING
+    steps = contact_steps(fall, float(omega_dt.min())) + _SETTLING
     run = march(bracketed(scheme), system, start, dt, steps)
     left = (run.position[-1] > fall.law.top) & (run.velocity[-1] > 0.0)
     return np.where(left, run.velocity[-1] / fall.speed, np.nan).reshape(len(omega_dt), -1)
