@@ -1,8 +1,8 @@
 """Pages of studies: Markdown whose numbers come from the tables of the study, as their CSV files have them.
 
-The prose of a page stands in `page.md` beside the module of its study, with a field in braces for everything that was
-measured; `page.py` there computes the fields from `Tables` and returns `filled(...)`. The page of a report and the page
-made from the CSV files of a folder are the same bytes, because both read the texts of the CSV.
+The prose of a page is in `page.md` beside the module of its study, with a field in braces for everything measured;
+`page.py` there computes the fields from `Tables` and returns `filled(...)`. The page of a report and the page made from
+the CSV files of a folder have the same bytes, because both read the texts of the CSV.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from string import Formatter
 from typing import TypeAlias
 
 NONE = "none"
-"""What stands on a page where a table has no number."""
+"""The text on a page where a table has no number."""
 DOWN, UP = ROUND_FLOOR, ROUND_CEILING
 
 
@@ -67,7 +67,7 @@ class Tables:
 
     @classmethod
     def read(cls, folder: Path, study: str) -> Tables:
-        """Those that `mudline study STUDY -o FOLDER` has written; raises OSError and UnicodeDecodeError."""
+        """The tables that `mudline study STUDY -o FOLDER` has written; raises OSError and UnicodeDecodeError."""
         start = f"{study}-"
         files = sorted(folder.glob(f"{start}*.csv"))
         return cls({path.stem.removeprefix(start): path.read_bytes().decode() for path in files})
@@ -121,7 +121,7 @@ def percent(share: float, digits: int = 2, rounding: str = ROUND_HALF_EVEN) -> s
 
 
 def time(seconds: float, digits: int = 2, rounding: str = ROUND_HALF_EVEN) -> str:
-    """A time in the unit that suits it, rounded as in `rounded`: "74 s", "0.3 ms" is "300 us"; "none" for NaN."""
+    """A time in s, ms, us or ns, rounded as in `rounded`: "74 s", "0.3 ms" is "300 us"; "none" for NaN."""
     if math.isnan(seconds):
         return NONE
     for unit, size in (("s", 1.0), ("ms", 1e-3), ("us", 1e-6)):
@@ -152,7 +152,7 @@ def line_cell(row: Record) -> str:
 
 
 def markdown_table(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table without the line end of its last row; what would end a cell is escaped."""
+    """A Markdown table without a final line end; cells are escaped."""
     lines = [headings, ["---"] * len(headings), *rows]
     return "\n".join(f"| {' | '.join(map(_cell, line))} |".replace("|  |", "| |") for line in lines)
 

@@ -117,7 +117,7 @@ def drawn(name: str) -> str:
 
 
 def shortened(name: str) -> str:
-    """A name of the deck that fits above a panel, as it is drawn."""
+    """A name of the deck as it is drawn, cut to fit above a panel."""
     return drawn(cut(name, _LONGEST))
 
 

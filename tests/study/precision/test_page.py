@@ -42,7 +42,7 @@ def test_the_page_of_a_deck_without_a_law() -> None:
     text = "$MODEL\n*NODE\n 1, 0.0, 0.0, 0.0\n 2, 0.0, 1.0, 0.0\n*ELEMENT\n 1, 1, 2\n"
     report = precision.run(legal_scene(text), StudyOptions())
     assert report.advice == ""
-    assert "The deck has no law to fall on" in report.page
+    assert "The deck has no normal law with a stiffness" in report.page
     assert "The deck has no curve." in report.page
     assert "pull-drag.png" not in report.page
 

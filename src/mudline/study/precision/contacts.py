@@ -1,4 +1,4 @@
-"""The contacts of a scene that are studied: its stiffest laws with mass, suction and friction; the motions on them."""
+"""The contacts of a scene that masses are moved on: its stiffest laws with mass, suction and friction."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ _COHESION = 5000.0
 _FRICTION = 0.5
 _MOBILISATION = 0.01
 _UNITS = {"imperial": (FOOT, POUND)}
-"""Metres and newtons of a deck's units."""
+"""Units of length and force of a deck, in m and N."""
 _REACH = 0.25
 """Of the diameter: how deep the masses fall."""
 
 
 class StudiedContacts(NamedTuple):
-    """A scene and its contacts that are studied; the notes grow with every value that is assumed."""
+    """A scene and its contacts that are studied; each value that is assumed adds a note."""
 
     scene: Scene
     inputs: ContactInput
@@ -54,7 +54,7 @@ def contacts_of(scene: Scene) -> StudiedContacts:
         stiff = [contact for contact in found if contact.stiffness > 0.0]
         studied.contacts.extend(sorted(stiff, key=_fastest_first)[:1])
     if not studied.contacts:
-        studied.notes.append("The deck has no curve and no linear law to fall on: only the reference case was run.")
+        studied.notes.append("The deck has no curve and no linear law: only the reference case was run.")
     return studied
 
 

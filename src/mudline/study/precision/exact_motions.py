@@ -37,7 +37,7 @@ Event = Callable[[float, FloatArray], float]
 _MOST_PHASES = 1000
 _MOST_EVALUATIONS = 200_000
 _MOST_BREAKS = 200
-"""A curve of more points is smooth enough to do without stops."""
+"""A curve of more points is smooth enough to be integrated without stops."""
 _DOUBLINGS = 12
 _MARGIN = 3.0
 """The pull over the largest suction at the usual velocity."""
@@ -45,7 +45,7 @@ _STOPS = 20
 _SLIDING_SPEED = 3.0
 """Of omega Th: most of the displacement is slip."""
 _FINEST = 1e-2
-"""Of omega dt: laws that remember take ten times the time of a spring."""
+"""Smallest omega dt: laws with a history take ten times the time of a spring."""
 
 
 class Stop(NamedTuple):
@@ -95,7 +95,7 @@ def _terminal(event: Event) -> Event:
 
 
 class Flight(NamedTuple):
-    """A bounce: how long it took, how deep it went, how fast it left."""
+    """A bounce: its duration, deepest penetration and rebound speed."""
 
     time: float
     deepest: float
@@ -129,7 +129,7 @@ def bounce(law: Law, mass: float, weight: float, speed: float) -> Flight:
 
 @dataclass(frozen=True, slots=True)
 class Drop:
-    """What falls on what: SI or the deck's units, per unit length.
+    """A drop, in SI or the deck's units, per unit length.
 
     Attributes:
         law: of the seabed.
@@ -241,7 +241,7 @@ def reference_drop() -> Drop:
 
 @dataclass(frozen=True, slots=True)
 class Pull:
-    """What is pulled off what: per unit length.
+    """A pull, per unit length.
 
     Attributes:
         embedment: penetration at the start.
@@ -257,7 +257,7 @@ class Pull:
 
     @property
     def pull(self) -> float:
-        """Force upwards, besides what carries the weight."""
+        """Force upwards, in addition to the force that carries the weight."""
         usual = math.pow(self.velocity, self.suction.force_exponent)
         return _MARGIN * self.suction.largest * usual
 
@@ -310,7 +310,7 @@ def breakout(pull: Pull) -> Breakout:
 
 
 class _Risen(NamedTuple):
-    """What suction remembers, and the largest suction so far."""
+    """History of the suction, and the largest suction so far."""
 
     suction: SuctionHistory
     largest: FloatArray
@@ -359,7 +359,7 @@ def pull_case(pull: Pull) -> Case:
 
 
 def _pull_errors(pull: Pull, exact: Breakout, run: Trajectory) -> FloatArray:
-    """Behind breakout only the pull acts: the speed at the exact uplift follows from where a run ended."""
+    """After breakout only the pull acts: the speed at the exact uplift follows from the end of a run."""
     memory: _Risen = run.end.history
     x, v = run.end.position, run.end.velocity
     squared = v * v - 2.0 * pull.pull / pull.mass * (x - exact.uplift)
@@ -385,7 +385,7 @@ class Drag:
 
 
 class _Slid(NamedTuple):
-    """What friction remembers, and the work done against slipping so far."""
+    """History of the friction, and the energy dissipated by slip so far."""
 
     friction: FrictionHistory
     dissipated: FloatArray

@@ -1,6 +1,6 @@
-"""What follows for a deck: measured orders, the step and the work that a scheme needs for an error, and their pictures.
+"""Measured orders, the step and the work that a scheme needs for an error, advice for a deck, and pictures of them.
 
-Nothing of it is known before: contact that begins with a jump of the force makes every scheme one of first order.
+They have to be measured: contact that begins with a jump of the force reduces every scheme to first order.
 """
 
 from __future__ import annotations
@@ -120,7 +120,7 @@ class Advice(NamedTuple):
 
     @property
     def effort(self) -> tuple[float, float]:
-        """What the schemes of a goal are sorted by: work, and where that is the same the error."""
+        """The key by which the schemes of a goal are sorted: work, then error."""
         work, error = (math.inf if value is None else value for value in (self.evaluations, self.error))
         return (float(f"{work:.3g}"), float(f"{error:.3g}"))
 
@@ -290,7 +290,7 @@ def _mark_goals(axes: Axes) -> None:
 
 
 def _draw_times(ladders: Ladders, cases: Sequence[Case], figure: Figure) -> None:
-    """Where the run time was measured once there is no point: a single run may have waited for other programs."""
+    """Run times that were measured once are left out: a single run may have waited for other programs."""
     found = panels(figure, len(cases), 3)
     for axes, case in zip(found, cases, strict=True):
         y = "run time [s per simulated s]"

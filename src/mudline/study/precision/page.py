@@ -37,7 +37,7 @@ _EXPLICIT = {scheme.title for scheme in SCHEMES.values() if scheme.explicit}
 _DEPTH_ERROR, _DEEPEST = "error of penetration [relative]", "h / deepest penetration"
 _ITERATIONS = "Newton iterations per step"
 _LIES = 1e-6
-"""Below this error a pipe lies where it lay."""
+"""Below this error the penetration is that without smoothing."""
 _FLOATING = WIDTHS[3]
 _GOALS = tuple(f"{goal:g}" for goal in ADVISED_GOALS)
 """As the headings of the table of goals have them."""
@@ -57,7 +57,7 @@ _DECK_STEPS = (
     "critical step of every contact, which [stability](stability.md) lists:"
 )
 _WRONG = 0.1
-"""An error from which on a result is of no use."""
+"""Results with larger errors are useless."""
 _KINDS = {
     "grew without bound": "the motion grows without bound",
     "left a residual": "Newton's method does not converge",
@@ -108,7 +108,7 @@ def _cause(tables: Tables, row: Record) -> str:
 def page(tables: Tables) -> str:
     """The page in Markdown; raises MissingTableError where a part was not run."""
     fields = {
-        "advice": advice(tables) or "The deck has no law to fall on: only the published case was run.",
+        "advice": advice(tables) or "The deck has no normal law with a stiffness: only the published case was run.",
         "deck": f"`{tables.row('machine', what='deck').text('value')}`",
         "run_time": time(tables.row("machine", what=RUN_TIME).number("value")),
         "processor": tables.row("machine", what="processor").text("value"),
@@ -276,7 +276,7 @@ def _cases(cases: Sequence[Record]) -> str:
 
 
 def _by_scheme(tables: Tables, cases: Sequence[str], cell: Callable[[Record], str]) -> str:
-    """A line for each scheme, a column for each motion; schemes that are alike in all of them share a line."""
+    """A line for each scheme, a column for each motion; schemes with the same cells share a line."""
     by_scheme = grouped(tables.rows("goals"), lambda row: row.text("scheme"))
     lines = {scheme: tuple(cell(row) for row in rows) for scheme, rows in by_scheme.items()}
     alike = grouped(lines, lambda scheme: lines[scheme])

@@ -1,4 +1,4 @@
-"""The quadratic zone around the mudline: what its half width h costs in error and saves, or costs, in iterations."""
+"""The quadratic zone around the mudline: error and iterations against its half width h."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from mudline.study.precision.integration import TRIED, row
 from mudline.study.report import Layout, Section, StudyOptions, columns_of, grouped
 from mudline.study.schemes import SCHEMES, STYLES
 
-if TYPE_CHECKING:  # only who draws loads matplotlib
+if TYPE_CHECKING:  # only drawing needs matplotlib
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -38,7 +38,7 @@ _IMPACT_STEPS = (0.1, 0.5)
 _EXACT = 1e-15
 """Smaller errors at rest are drawn here."""
 _COLORS = ("#332288", "#999933")
-"""Of the cases at rest; those of pictures with schemes are the schemes'."""
+"""Of the cases at rest; schemes have their own."""
 
 
 class Rest(NamedTuple):
@@ -137,7 +137,7 @@ def _draw(rest: Sequence[RestRow], hits: Sequence[ImpactRow], figure: Figure) ->
 
 
 def _through(axes: Axes, points: Points, look: LineStyle, name: str) -> None:
-    """A line through points; that of h = 0 stands apart."""
+    """A line through points; the point at h = 0 is drawn separately."""
     above = [point for point in points if point[0] > 0.0]
     axes.plot([x for x, _ in above], [y for _, y in above], label=name, **look)
     at_zero = [y for x, y in points if x == 0.0]
@@ -163,7 +163,7 @@ def at_rest(rest: Rest, widths: FloatArray) -> Iterator[RestRow]:
 
 
 def impacts(drop: Drop) -> Iterator[ImpactRow]:
-    """The same fall on seabeds of growing zones: how fast the mass leaves, and how many iterations a step takes."""
+    """The same drop on seabeds with wider and wider zones: rebound speed, and iterations of a step."""
     stiffness = drop.law.steepest(0.0)
     for share in _IMPACT_SHARES:
         width = share * drop.deepest
@@ -176,6 +176,6 @@ def impacts(drop: Drop) -> Iterator[ImpactRow]:
 
 
 def weightless(drop: Drop) -> Drop:
-    """The same without gravity, so that nothing but the impact is seen."""
+    """The same drop without gravity, for the impact alone."""
     deepest = drop.speed * math.sqrt(drop.mass / drop.law.steepest(0.0))
     return replace(drop, weight=0.0, deepest=deepest)

@@ -1,4 +1,4 @@
-"""What the deck has besides the normal law of its elements, with the line that asks for it, and what that advises."""
+"""Features of a deck other than the normal law of its elements, with their lines, and the advice that follows."""
 
 from __future__ import annotations
 

@@ -28,11 +28,11 @@ from mudline.study.motion import Forces, History
 from mudline.study.report import Layout, Omission, columns_of
 
 _BEYOND = 10.0
-"""Times the reach of a contact: a motion that comes so far has grown, and has no force any more."""
+"""Times the reach of a contact: a motion that gets this far has grown, and has no force."""
 _SLOW = 1e-3
-"""Of v_r: at rest suction has no derivative, so its damping is looked at in a motion as slow as that."""
+"""Of v_r: at rest suction has no derivative, so its damping is evaluated in a motion this slow."""
 _BELOW = 1e-4
-"""How far below the end of the rise of suction, and below v_r, its mobilisation is looked at."""
+"""How far below the end of the rise of suction, and below v_r, its mobilisation is evaluated."""
 _PRESSED = 0.01
 """Depth on the seabed below friction, lateral springs and suction."""
 _NARROWEST = 1e-5
@@ -46,15 +46,15 @@ Parameters = dict[str, float]
 
 
 class Setting(NamedTuple):
-    """How copies of a contact are set up, and where the small motion takes place.
+    """The copies of a contact, and the small motion that is studied.
 
     laws: name and parameters of the laws of each copy, of its element or its two nodes.
     direction: of the motion: 0 up, 1 along the element, 2 across it.
     depth: of the motion's centre; below 0 it is above the mudline.
-    before: depth of the step before, where the laws remember one.
+    before: depth of the step before, where the laws have a history.
     speed: upwards, of the motion's centre.
     reach: how far to both sides the law has this stiffness, or damping.
-    scale: the largest distance that the law computes with there: an oscillation below its rounding is not resolved.
+    scale: the largest distance that the law computes with there; an oscillation below its rounding is not resolved.
     factor: stiffness and mass of a copy over those per unit length.
     """
 
@@ -239,7 +239,7 @@ def _parameters(given: ContactInput, law: str, row: int) -> Parameters:
 
 
 def _small(scene: Scene, element: int) -> float:
-    """A distance that is small for a linear law."""
+    """A small distance for a linear law."""
     diameter = float(scene.diameter[element])
     return 0.01 * diameter if np.isfinite(diameter) else 0.01
 
@@ -297,7 +297,7 @@ def _suction(given: ContactInput, one: Oscillation) -> Setting:
 
 
 def _copies(given: ContactInput, element: int, laws: dict[str, Parameters], runs: int) -> ContactInput:
-    """So many elements of one unit of length, apart from each other, with these laws."""
+    """Separate elements of one unit of length with these laws."""
     of_nodes = {name for name in laws if name in {"nodal", "friction"}}
     return ContactInput(
         node_ids=np.arange(1, 2 * runs + 1),
@@ -324,8 +324,8 @@ def _points(runs: int, depth: float) -> FloatArray:
 class LoadedContact:
     """`runs` copies of a contact, under a load that holds them at the centre of the motion.
 
-    Positions are distances from there, velocities those beside that of the centre; forces are those of the evaluator
-    along the motion, less the load. What the laws remember stays as it is.
+    Positions are distances from the centre, velocities are relative to that of the centre; forces are those of the
+    evaluator along the motion, less the load. The history of the laws does not change.
 
     Attributes:
         mass: (k,) of the copies.

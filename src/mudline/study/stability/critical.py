@@ -16,15 +16,15 @@ from mudline.study.schemes import OneStep, RungeKutta
 from mudline.study.stability.contacts import Contact, LoadedContact
 
 STEPS = 200
-"""On springs; Runge-Kutta schemes grow slowest, by half a percent in a step at 1.005 of the critical one."""
+"""On springs; Runge-Kutta schemes grow slowest, by half a percent in a step at 1.005 of the critical step."""
 STEPS_DAMPED = 1000
 """With damping the growth at 1.01 is no more than 1 to 2 percent in a step."""
 GROWTH = 100.0
-"""A motion that leaves so many times its first amplitude behind grows."""
+"""A motion that exceeds its first amplitude by this factor grows."""
 AMPLITUDE = 1e-6
 """Of the reach of the segment: implicit schemes guess (omega dt)^2 times as far, and still the law is linear."""
 _SHARE_OF_SPEED = 1e-7
-"""Of the pull-out velocity, for motions beside a steady one."""
+"""Of the pull-out velocity, for motions added to a steady one."""
 SHARES = np.array([*np.arange(180, 200), *np.arange(201, 221)]) / 200.0
 """Of the predicted critical step, from 0.9 to 1.1 and without 1: at the critical step itself growth has no rate."""
 FAR = 100.0
@@ -41,9 +41,9 @@ class Measured(NamedTuple):
     predicted: critical step; inf for none, 0 for a scheme that grows at every step.
     measured: the middle between the largest step that stayed bounded and the smallest that grew; NaN where there is
         only one try.
-    below: what the motion did at 0.99 of the predicted step; at omega dt = FAR where there is none.
-    above: what it did at 1.01 of it; at omega dt = ALWAYS where it is 0.
-    tried: what it did at each of `SHARES`; empty without a critical step above 0.
+    below: outcome at 0.99 of the predicted step; at omega dt = FAR where there is none.
+    above: outcome at 1.01 of it; at omega dt = ALWAYS where it is 0.
+    tried: outcome at each of `SHARES`; empty without a critical step above 0.
     """
 
     contact: Contact
@@ -88,7 +88,7 @@ def measure(scene: Scene, contact: Contact, scheme: Scheme) -> Measured:
 
 
 def _change(words: list[str]) -> float:
-    """The share between the last that stayed bounded and the first that grew; NaN where there is none such."""
+    """The share between the last that stayed bounded and the first that grew; NaN where there is none."""
     first = words.index(GROWS) if GROWS in words else 0
     if not first or set(words[:first]) != {BOUNDED} or set(words[first:]) != {GROWS}:
         return float("nan")
@@ -96,7 +96,7 @@ def _change(words: list[str]) -> float:
 
 
 def _outcomes(scene: Scene, contact: Contact, scheme: Scheme, dt: FloatArray) -> list[str]:
-    """What a small motion does, for steps (k,)."""
+    """The outcome of a small motion, for steps (k,)."""
     setting = contact.setting
     system = LoadedContact(scene.contact_input("cut"), contact.oscillation, setting, len(dt))
     if isinstance(scheme, OneStep):
@@ -105,7 +105,7 @@ def _outcomes(scene: Scene, contact: Contact, scheme: Scheme, dt: FloatArray) ->
         scheme = scheme.solved_by(replace(Newton(), tolerance=enough))
     start = AMPLITUDE * setting.reach
     speed = min(_SHARE_OF_SPEED * setting.speed, start * max(contact.omega, contact.rate))
-    if speed:  # a motion without the acceleration of its force: at the critical step that would take all of its speed
+    if speed:  # start without the acceleration of the force: at the critical step it would take all of the speed
         start = 0.0
     motion = Motion.start(system, np.full(len(dt), start), np.full(len(dt), speed))
     if speed:

@@ -1,4 +1,4 @@
-"""The step that a deck allows: what its contacts ask of each scheme, how it lands on them, and one sentence."""
+"""The step that a deck allows each scheme: critical steps of its contacts, landings on them, and the advice."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from mudline.study.stability.contacts import CONTACTS, Contact, can_oscillate, f
 from mudline.study.stability.critical import CRITICAL_STEPS, Measured, measure
 from mudline.study.stability.landings import ALLOWED, LANDING_SCHEMES, TRIED, Fall, contact_steps, envelope
 
-if TYPE_CHECKING:  # only who draws loads matplotlib
+if TYPE_CHECKING:  # only drawing needs matplotlib
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -32,13 +32,13 @@ MOST_CONTACTS = 8
 STEPPED = tuple(SCHEMES)
 """The schemes that are stepped on each contact."""
 MOST_LANDINGS = 2
-"""Seabeds on which landings are looked at by default, the stiffest."""
+"""Seabeds on which landings are tried by default, the stiffest."""
 FARTHEST = 3.0
 """Largest omega dt of landings on a deck's own laws."""
 _FINER = np.geomspace(0.001, 0.02, 14)
 """omega dt that are tried where all larger ones are too large: where the force jumps at the mudline."""
 _PREFERRED = ("generalised-alpha-0.5", "hht-0.3", "newmark", "generalised-alpha-1", "generalised-alpha-0")
-"""Implicit schemes of second order to choose from; of equal ones the first, which damps what is not resolved."""
+"""Implicit schemes of second order to choose from; of equal ones the first, which damps unresolved frequencies."""
 _EXPLICIT = "central-difference"
 _LIKE_EXPLICIT = "velocity-verlet"
 """The scheme of `LANDING_SCHEMES` with the same positions."""
@@ -47,7 +47,7 @@ _MOST_STEPS, _MOST_FINER = 5000, 20_000
 _NOT_EVALUATED = ("P-Y", "T-Z")
 """Keywords of soil springs that the evaluator does not have."""
 _SHALLOW = 0.05
-"""Of the diameter: how deep a pipe falls whose static penetration is not known."""
+"""Of the diameter: depth of the fall of a pipe whose static penetration is not known."""
 
 
 class DeckLanding(NamedTuple):
@@ -84,7 +84,7 @@ DECK_LANDINGS = Layout[DeckLanding](
 
 
 class DeckStep(NamedTuple):
-    """What a deck allows a scheme: the least of all contacts, and which contact asks for it; NaN where not known."""
+    """The step that a deck allows a scheme: the smallest of all contacts, and the contact; NaN where not known."""
 
     scheme: Scheme
     critical: float
@@ -139,7 +139,7 @@ _WHY = {
 
 
 class NarrowSegment(NamedTuple):
-    """A segment of a curve that sets the step of a contact alone, and the curve without one of its points."""
+    """A segment of a curve that alone sets the step of a contact, and the curve without one of its points."""
 
     contact: Contact
     segment: Segment
@@ -174,7 +174,7 @@ SEGMENTS = Layout[NarrowSegment](
 
 
 def study_steps(scene: Scene, options: StudyOptions) -> Section:
-    """Every scheme on the contacts that ask for the smallest steps, or in a full run on all of them."""
+    """Every scheme on the contacts with the smallest critical steps, or in a full run on all of them."""
     found, omissions = find_contacts(scene)
     wide = [one for one in found if can_oscillate(one)]
     omissions += [
@@ -285,7 +285,7 @@ def _least(one: DeckLanding) -> float:
 
 
 class _Allowed(NamedTuple):
-    """A step that is advised, the contact that asks for it, and why."""
+    """A step that is advised, the contact that sets it, and why."""
 
     step: float
     contact: Contact

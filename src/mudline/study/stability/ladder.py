@@ -1,8 +1,8 @@
-"""A ladder of extremes: small decks with the largest and smallest numbers, against exact arithmetic; its page section.
+"""The ladder of extremes: small decks with the largest and smallest numbers, against exact arithmetic.
 
 Every deck is text, and goes through the whole program: read, resolved, evaluated. A result is right, within a stated
 bound, or it is refused with a diagnostic that names a line of the deck; nothing else is accepted. There is a family of
-cells for each thing that is taken to its ends.
+cells for each number that is set to extreme values. The section of the page about it is made here too.
 """
 
 from __future__ import annotations
@@ -107,8 +107,8 @@ def _pictures(judgements: Sequence[Judgement]) -> list[Picture]:
 
 
 def _draw(families: Mapping[str, Sequence[Judgement]], half: int, figure: Figure) -> None:
-    """Draw so many families in a column, the rest in a second one."""
-    from matplotlib.patches import Patch  # noqa: PLC0415 - only who draws loads it
+    """Draw the first `half` families in a column, the rest in a second one."""
+    from matplotlib.patches import Patch  # noqa: PLC0415 - only drawing needs it
 
     names = list(families)
     columns = [names[:half], names[half:]] if half < len(names) else [names]
@@ -120,11 +120,11 @@ def _draw(families: Mapping[str, Sequence[Judgement]], half: int, figure: Figure
     counts = {verdict: sum(_count(part, verdict) for part in families.values()) for verdict in Verdict}
     named = [Patch(facecolor=_COLORS[one], label=f"{one.value}: {count}") for one, count in counts.items() if count]
     figure.legend(handles=named, loc="outside lower center", ncols=len(named), fontsize="medium")
-    figure.suptitle("What comes out of decks with the number in the cell; 9(4) are four nines", fontsize="large")
+    figure.suptitle("Verdicts on decks with the number in the cell; 9(4) stands for four nines", fontsize="large")
 
 
 def _draw_column(axes: Axes, families: Mapping[str, Sequence[Judgement]], rows: int) -> None:
-    from matplotlib.patches import Rectangle  # noqa: PLC0415 - only who draws loads it
+    from matplotlib.patches import Rectangle  # noqa: PLC0415 - only drawing needs it
 
     for row, judgements in enumerate(families.values()):
         for column, one in enumerate(judgements):
@@ -143,7 +143,7 @@ def _draw_column(axes: Axes, families: Mapping[str, Sequence[Judgement]], rows: 
 
 
 def _short(value: str) -> str:
-    """The value of a cell so that it fits: 9(14) are fourteen nines."""
+    """The value of a cell, shortened: 9(14) stands for fourteen nines."""
     text = _NINES.sub(lambda found: f"9({len(found[0])})", value)
     return text.replace("1.7976931348623157E308", "1.8E308")
 
@@ -205,7 +205,7 @@ def _codes(tables: Tables) -> list[str]:
 
 
 def _bounds(rows: Sequence[Record]) -> str:
-    """What is allowed, and how much of it is taken up."""
+    """The bounds, and the largest errors found."""
     lines = []
     for bound in sorted({row.number(_BOUND) for row in rows}):
         # of random decks each has its own bound
@@ -219,7 +219,7 @@ def _bounds(rows: Sequence[Record]) -> str:
 
 def _own(rows: Sequence[Record]) -> str:
     if not rows:
-        return "The deck has no law that could be scaled."
+        return "The deck has no law that can be scaled."
     lines = [
         (
             row.text("family"),

@@ -1,4 +1,4 @@
-"""Static solutions: where suction that lets go has several, and where Newton's method on friction finds none.
+"""Static solutions: several of them during the release of suction, and Newton's method on friction that finds none.
 
 On the release the suction falls with slope F_max / ((1 - xc2) Delta_B). A pipe suspended from a structure of
 stiffness ks (per unit length), whose far end is raised slowly, has one equilibrium at each height of that end only for
@@ -13,11 +13,11 @@ kt (mu N - F) / kb > mu N, that is
 
     kt / kb > 1 / (1 - F / (mu N));
 
-from there it is (F + mu N) / kb, which slips then too: the iterates jump between the two for ever. Two cures:
+from there it is (F + mu N) / kb, which slips too: the iterates alternate between the two without end. Two remedies:
 
 * corrections that are halved until the residual falls. Beside the limit, at u = mu N / kt, the correction is
-  (mu N - F) / kb, and the residual falls only down to 2 (mu N - F) / (kb + kt) below it: log2(kt / kb) - 1 halvings are
-  needed, and a cap on them that is lower loses solutions;
+  about (mu N - F) / kb, and the residual falls only within 2 (mu N - F) / (kb + kt) of it: about log2(kt / kb) - 1
+  halvings are needed, and with a lower cap some starts do not converge;
 * a bracket, which keeps the two nearest points between which the residual changes its sign, and is halved where
   Newton's method would leave it.
 
@@ -81,7 +81,7 @@ RELEASE = Layout[Release](
 
 
 def study_release(scene: Scene, options: StudyOptions) -> Section:
-    """What suction asks of a structure during its release, on the laws of a scene."""
+    """The stiffness that a structure needs during the release of suction, on the laws of a scene."""
     options.progress("release of suction")
     suction = scene.contact_input().assigned.get("suction")
     omissions = [] if suction is not None else [Omission("release of suction", "no element has *SEABED SUCTION")]
@@ -120,7 +120,7 @@ def _release(element: int, law: SuctionLaw, velocity: float) -> Release:
 
 
 def equilibria(law: SuctionLaw, velocity: float, structure: float) -> int:
-    """The most equilibria at any one height of the structure's end, in the uplift up to breakout and somewhat beyond.
+    """The largest number of equilibria at one height of the structure's end, up to 1.5 times the uplift at breakout.
 
     At uplift x the end stands at x + suction / ks: where that falls as x grows, a height belongs to several uplifts.
     """
@@ -224,7 +224,7 @@ class CycleCount(NamedTuple):
     ratio, share: kt / kb and F / mu N.
     threshold: kt / kb above which Newton's method alone cycles; inf where the pipe slides.
     plain, halved, bracketed: from how many of the starts the three methods do not converge.
-    most: of the slowest.
+    most: iterations of the slowest start.
     """
 
     ratio: Annotated[float, SPRING_OVER_STRUCTURE]
@@ -309,7 +309,7 @@ CAPS = (5, 10, 15, 20, 25)
 
 
 class HalvingCount(NamedTuple):
-    """What a cap on the halvings of a correction does.
+    """The effect of a cap on the halvings of a correction.
 
     lost: from how many starts no solution is found, for each of `CAPS`.
     needed: halvings that suffice by the closed form.
