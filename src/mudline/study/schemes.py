@@ -225,6 +225,9 @@ SCHEMES: dict[str, Scheme] = {scheme.name: scheme for scheme in _ALL}
 To add a scheme: its row here, its style below and, if it is explicit, its critical step in `mudline.contact.stiffest`.
 """
 
+PREFERRED = ("generalised-alpha-0.5", "hht-0.3", "newmark", "generalised-alpha-1", "generalised-alpha-0")
+"""Implicit schemes of second order in the order of advice; the first one damps frequencies that are not resolved."""
+
 STYLES: dict[str, LineStyle] = {
     SCHEMES[name].title: line_style(*look)
     for name, look in {

@@ -106,6 +106,11 @@ def test_cases_have_the_lines_of_their_laws() -> None:
     text = text.replace(" FRICTION=0.35, 0.60, 0.003, 0.150\n", "")
     lines = {case.name: case.line for case in all_cases(contacts_of(legal_scene(text)), [])}
     assert lines == {"drop-reference": None, "drop-curve": 29, "drop-linear": 26, "pull": None, "drag": None}
+    block = "*SEABED FRICTION\n SET=Clay\n COEFFICIENTS=0.4, 0.7\n STIFFNESS=4.0E4, 2.0E4\n$LOAD CASE"
+    text = text.replace("$LOAD CASE", block)
+    (line,) = (case.line for case in all_cases(contacts_of(legal_scene(text)), []) if case.name == "drag")
+    assert line is not None
+    assert text.splitlines()[line - 2] == "*SEABED FRICTION"
 
 
 def test_the_advice_takes_the_smallest_step_of_the_deck_and_the_least_work() -> None:

@@ -192,12 +192,13 @@ def _place_of_suction(studied: StudiedContacts, contact: ElasticContact) -> Wher
 
 
 def _place_of_friction(studied: StudiedContacts, contact: ElasticContact) -> Where | None:
-    """None where the deck has no friction along the contact."""
-    resistance = studied.scene.resistance
-    index = int(resistance.of_element[contact.element])
-    if index < 0 or _friction_row(studied, contact) is None:
+    """Where the friction of the contact stands, in *SEABED FRICTION first; None without friction along the line."""
+    if _friction_row(studied, contact) is None:
         return None
-    return resistance.places[index]
+    for given in (studied.scene.extensions.get("SEABED FRICTION"), studied.scene.resistance):
+        if given is not None and (index := int(given.of_element[contact.element])) >= 0:
+            return given.places[index]
+    return None
 
 
 def _drop(_: StudiedContacts, contact: ElasticContact) -> Case:

@@ -18,7 +18,7 @@ from mudline.study import file_of
 from mudline.study.pictures import Picture, Points, draw_lines, label, legend_below, panels, shortened
 from mudline.study.precision.integration import ADVISED_GOALS, GOALS, TRIED, Case, Ladders, StepRow, largest_step
 from mudline.study.report import Cell, Layout, StudyTable, columns_of
-from mudline.study.schemes import SCHEMES, STYLES
+from mudline.study.schemes import PREFERRED, SCHEMES, STYLES
 
 if TYPE_CHECKING:  # only drawing needs matplotlib
     from matplotlib.axes import Axes
@@ -119,10 +119,9 @@ class Advice(NamedTuple):
     file: Annotated[str, "deck file"] = ""
 
     @property
-    def effort(self) -> tuple[float, float]:
-        """The key by which the schemes of a goal are sorted: work, then error."""
-        work, error = (math.inf if value is None else value for value in (self.evaluations, self.error))
-        return (float(f"{work:.3g}"), float(f"{error:.3g}"))
+    def effort(self) -> float:
+        """The work, by which the schemes of a goal are sorted, with two digits: the rest is chance."""
+        return math.inf if self.evaluations is None else float(f"{self.evaluations:.2g}")
 
 
 ADVICE = Layout("advice", "Steps for this deck, the least work first", columns_of(Advice))
@@ -165,8 +164,12 @@ def advised(ladders: Ladders, cases: Sequence[Case], limits: Sequence[Limit] = (
     neither the slow pull-out of suction nor all contacts.
     """
     own = [case for case in cases if case.line is not None]
-    # Without velocities in the forces the central difference is velocity Verlet, which is advised then.
-    schemes = sorted(dict.fromkeys(scheme for _, scheme in ladders), key=lambda scheme: scheme == "central-difference")
+    # Of equal work the preferred one. Without velocities in the forces central difference is velocity Verlet.
+    order_ = ("velocity-verlet", *PREFERRED)
+    schemes = sorted(
+        dict.fromkeys(scheme for _, scheme in ladders),
+        key=lambda scheme: order_.index(scheme) if scheme in order_ else len(order_),
+    )
     found = []
     for goal in ADVISED_GOALS if own else ():
         rows = [

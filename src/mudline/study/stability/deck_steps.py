@@ -18,7 +18,7 @@ from mudline.study.motion import Scheme
 from mudline.study.pages import Tables
 from mudline.study.pictures import Picture, drawn, label, legend_below
 from mudline.study.report import Layout, Omission, Section, StudyOptions, columns_of
-from mudline.study.schemes import SCHEMES, STYLES
+from mudline.study.schemes import PREFERRED, SCHEMES, STYLES
 from mudline.study.stability.contacts import CONTACTS, Contact, can_oscillate, find_contacts
 from mudline.study.stability.critical import CRITICAL_STEPS, Measured, measure
 from mudline.study.stability.landings import ALLOWED, LANDING_SCHEMES, TRIED, Fall, contact_steps, envelope
@@ -37,8 +37,6 @@ FARTHEST = 3.0
 """Largest omega dt of landings on a deck's own laws."""
 _FINER = np.geomspace(0.001, 0.02, 14)
 """omega dt that are tried where all larger ones are too large: where the force jumps at the mudline."""
-_PREFERRED = ("generalised-alpha-0.5", "hht-0.3", "newmark", "generalised-alpha-1", "generalised-alpha-0")
-"""Implicit schemes of second order to choose from; of equal ones the first, which damps unresolved frequencies."""
 _EXPLICIT = "central-difference"
 _LIKE_EXPLICIT = "velocity-verlet"
 """The scheme of `LANDING_SCHEMES` with the same positions."""
@@ -244,7 +242,7 @@ def deck_landing(contact: Contact, scheme: Scheme, fall: Fall) -> DeckLanding:
     """Land on the law of a contact over the ladder of omega dt."""
     tried = TRIED[TRIED <= FARTHEST]
     found = envelope(scheme, fall, tried)
-    finer = scheme.name in (*_PREFERRED, "velocity-verlet", "rk4") and contact_steps(fall, _FINER[0]) <= _MOST_FINER
+    finer = scheme.name in (*PREFERRED, "velocity-verlet", "rk4") and contact_steps(fall, _FINER[0]) <= _MOST_FINER
     if math.isnan(found.within) and finer:
         tried = _FINER
         found = envelope(scheme, fall, tried)
@@ -309,7 +307,7 @@ def _allowed(scheme: str, found: Sequence[Contact], landed: Sequence[DeckLanding
 
 def _advice(found: Sequence[Contact], landed: Sequence[DeckLanding]) -> Advice:
     """The implicit scheme of second order that is allowed the largest step, and what central difference is allowed."""
-    names = [name for name in _PREFERRED if any(one.scheme.name == name for one in landed)] or _PREFERRED[:1]
+    names = [name for name in PREFERRED if any(one.scheme.name == name for one in landed)] or PREFERRED[:1]
     allowed = {name: _allowed(name, found, landed) for name in names}
     best = max(names, key=lambda name: (allowed[name].why != MISSES, allowed[name].step))
     own = allowed[best]
