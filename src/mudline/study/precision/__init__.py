@@ -54,7 +54,7 @@ STUDY = Study(
     (
         Part("curves", study_curves, 2.0),
         Part("backbones", study_backbones, 0.5),
-        Part("motions", _motions, 25.0),
+        Part("motions", _motions, 45.0),
         Part("smoothing", study_smoothing, 1.0),
     ),
     page,

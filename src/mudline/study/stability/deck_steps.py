@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 import numpy as np
 
 from mudline.contact.stiffest import ADVISED_OMEGA_DT, rounded_down
+from mudline.keywords.catalogue import holds_in_soil
 from mudline.scene.model import Scene
 from mudline.scene.oscillation import Segment, line_of, steepest_segment
 from mudline.study import file_of
@@ -42,8 +43,6 @@ _LIKE_EXPLICIT = "velocity-verlet"
 """The scheme of `LANDING_SCHEMES` with the same positions."""
 _MOST_STEPS, _MOST_FINER = 5000, 20_000
 """Steps of a landing at the smallest omega dt of `TRIED`, and of `_FINER`."""
-_NOT_EVALUATED = ("P-Y", "T-Z")
-"""Keywords of soil springs that the evaluator does not have."""
 _SHALLOW = 0.05
 """Of the diameter: depth of the fall of a pipe whose static penetration is not known."""
 
@@ -197,8 +196,8 @@ def study_steps(scene: Scene, options: StudyOptions) -> Section:
         landed += [deck_landing(contact, SCHEMES[name], fall) for name in LANDING_SCHEMES]
     omissions += [
         Omission(f"*{keyword}", "left out of all steps: the evaluator has no springs of this keyword")
-        for keyword in _NOT_EVALUATED
-        if keyword in scene.deck.keywords()
+        for keyword in sorted(scene.deck.keywords())
+        if holds_in_soil(keyword)
     ]
     steps = [_deck_step(scheme, found, landed) for scheme in SCHEMES.values()] if found else []
     advised = [_advice(found, landed)] if any(one.omega > 0.0 for one in found) else []
