@@ -29,7 +29,7 @@ from mudline.study.pruning.growth import (
 )
 from mudline.study.pruning.imports import import_rows
 from mudline.study.pruning.plain import Plain
-from mudline.study.pruning.scenes import CURVE, Pipe, Variant, line, repeated, variants, with_curve
+from mudline.study.pruning.scenes import CURVE, STEPS, Pipe, Variant, line, repeated, variants, with_curve
 from mudline.study.report import Omission, StudyOptions, StudyReport
 from mudline.study.timing import Spread, paired, ratios
 from tests.builders.contact import CLAY, everything
@@ -85,6 +85,10 @@ def test_fits_find_power_laws() -> None:
     assert found[3:] == pytest.approx((1.0, 1.0, 8.0, 1.0, 8.0))
 
 
+def test_one_more_costs_the_difference_of_the_last_two() -> None:
+    assert per_unit([1.0, 2.0, 4.0], [5.0, 6.0, 9.0]) == 1.5
+
+
 def test_a_fit_of_one_size_is_not_drawn() -> None:
     rows = [GrowthRow("planes", 2, 0.1, 0.1, 0.1, 0.1)]
     assert growth_picture(rows, list(fits(rows))).png().startswith(b"\x89PNG")
@@ -125,6 +129,15 @@ def test_cost_of_a_scene() -> None:
     bare = plain_cost(PLAIN.make(2000), PIPE)
     assert (bare.scene, bare.touching, bare.history) == ("plain numpy", 1.0, False)
     assert bare.peak < plain.peak
+
+
+def test_times_are_of_a_node_and_a_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A run through the series takes 6 us in all, 2 us to prepare."""
+    monkeypatch.setattr(costs, "paired", lambda timed: [[6e-6] * 3] * 2 if len(timed) > 1 else [[2e-6] * 3])
+    row = cost(PLAIN, PLAIN.make(20), PIPE)
+    assert row.median == pytest.approx(6e3 / (20 * STEPS))
+    assert row.prepare == pytest.approx(2e3 / 20)
+    assert row.ratio == 1.0
 
 
 def test_the_curve_is_a_part_of_the_scene(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ import pytest
 from mudline.scene.model import Scene
 from mudline.study import SAMPLE_TEXT, sample_scene
 from mudline.study.motion import Scheme
-from mudline.study.report import StudyOptions, StudyReport
+from mudline.study.report import Cell, StudyOptions, StudyReport
 from mudline.study.schemes import SCHEMES
 from mudline.study.stability import deck_steps, ladder, landings, own_laws, run, statics
 from mudline.study.stability.contacts import Contact
@@ -106,6 +106,26 @@ def test_one_sentence_says_what_to_do(report: StudyReport) -> None:
         "central difference needs 0.000309 s or less, because of suction damping on Clay (deck line 42): above it a "
         "small motion there grows."
     )
+
+
+def test_the_deck_has_the_least_step_of_its_contacts(report: StudyReport) -> None:
+    def rows(name: str) -> list[dict[str, Cell]]:
+        (table,) = (one for one in report.tables if one.name == name)
+        return [dict(zip((column.name for column in table.columns), row, strict=True)) for row in table.rows]
+
+    def least(values: Iterable[Cell]) -> float:
+        known = [float(value) for value in values if isinstance(value, float) and not np.isnan(value)]
+        return min(known, default=np.inf)
+
+    contacts, landed = rows("contacts"), rows("deck-landings")
+    for row in rows("deck-steps"):
+        scheme = next(one for one in SCHEMES.values() if one.title == row["scheme"])
+        if f"critical step, {scheme.name}" in contacts[0]:
+            assert row["critical step"] == least(one[f"critical step, {scheme.name}"] for one in contacts)
+        title = SCHEMES["velocity-verlet"].title if scheme.name == "central-difference" else scheme.title
+        for heading in ("landings below 1.01", "landings within 1 %"):
+            own = [one[heading] for one in landed if one["scheme"] == title]
+            assert least([row[heading]]) == least(own), (scheme.name, heading)
 
 
 def test_the_page_says_it_with_the_numbers_of_the_tables(report: StudyReport) -> None:
