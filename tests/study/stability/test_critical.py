@@ -180,7 +180,7 @@ def test_a_step_that_is_not_as_predicted_is_seen(monkeypatch: pytest.MonkeyPatch
 @pytest.mark.parametrize("share", [0.985, 1.015])
 def test_a_critical_step_that_is_a_little_off_is_seen(monkeypatch: pytest.MonkeyPatch, share: float) -> None:
     """At 0.99 and 1.01 of what is predicted, and no farther away from it."""
-    monkeypatch.setattr(critical, "critical_step", lambda _scheme, omega, _rate: share * 2.0 / omega)
+    monkeypatch.setattr(contacts, "critical_step", lambda _scheme, omega, _rate: share * 2.0 / omega)
     scene = sample_scene()
     contact = next(one for one in find_contacts(scene)[0] if one.oscillation.kind == "normal")
     assert not measure(scene, contact, SCHEMES["central-difference"]).as_predicted
