@@ -43,6 +43,10 @@ _LIKE_EXPLICIT = "velocity-verlet"
 """The scheme of `LANDING_SCHEMES` with the same positions."""
 _MOST_STEPS, _MOST_FINER = 5000, 20_000
 """Steps of a landing at the smallest omega dt of `TRIED`, and of `_FINER`."""
+NO_FREQUENCY = (
+    "No contact of this deck has a frequency: that takes a law with a stiffness, which a rigid seabed has not, and "
+    "sections with a mass."
+)
 _SHALLOW = 0.05
 """Of the diameter: depth of the fall of a pipe whose static penetration is not known."""
 
@@ -215,7 +219,7 @@ def study_steps(scene: Scene, options: StudyOptions) -> Section:
 
 def _notes(found: Sequence[Contact], measured: Sequence[Measured]) -> list[str]:
     if not found:
-        return ["No contact of this deck has a frequency: laws with a stiffness and sections with a mass are needed."]
+        return [NO_FREQUENCY]
     return [
         (
             f"{sum(one.as_predicted for one in measured)} of {len(measured)} runs of a scheme on a contact behaved as "

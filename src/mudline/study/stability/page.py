@@ -28,7 +28,7 @@ from mudline.study.pages import (
 )
 from mudline.study.schemes import SCHEMES
 from mudline.study.stability.critical import ALWAYS, FAR, GROWTH, STEPS, STEPS_DAMPED
-from mudline.study.stability.deck_steps import FARTHEST, advice
+from mudline.study.stability.deck_steps import FARTHEST, NO_FREQUENCY, advice
 from mudline.study.stability.ladder import ladder_part
 from mudline.study.stability.landings import FEW_PHASES, NEVER, PHASES, TRIED
 from mudline.study.stability.statics import FORCE_OVER_LIMIT, SPRING_OVER_STRUCTURE
@@ -81,7 +81,7 @@ def page(tables: Tables) -> str:
 def sentence(tables: Tables) -> str:
     """The advice, or why there is none."""
     if not tables.rows("advice"):
-        return "No contact of this deck has a frequency: laws with a stiffness and sections with a mass are needed."
+        return NO_FREQUENCY
     return advice(tables)
 
 
