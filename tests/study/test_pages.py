@@ -12,6 +12,8 @@ import pytest
 import mudline.study
 from mudline.cli.study_command import STUDIES
 from mudline.study.pages import (
+    DOWN,
+    UP,
     MissingTableError,
     Tables,
     filled,
@@ -69,6 +71,22 @@ def test_tables_are_read_as_csv_has_them(tmp_path: Path) -> None:
 )
 def test_numbers_are_rounded(value: float, text: str) -> None:
     assert rounded(value) == text
+
+
+def test_limits_are_rounded_down_and_bounds_up() -> None:
+    assert [rounded(value, 3, DOWN) for value in (0.29643, 0.000309616, 8.0**0.5, 0.3)] == [
+        "0.296",
+        "0.000309",
+        "2.82",
+        "0.3",
+    ]
+    assert [rounded(value, 2, UP) for value in (0.0100001, 0.01, 0.1 + 0.2, math.inf)] == [
+        "0.011",
+        "0.01",
+        "0.3",
+        "inf",
+    ]
+    assert [percent(value, 2, UP) for value in (0.015022, 0.004740, math.nan)] == ["1.6 %", "0.48 %", "none"]
 
 
 def test_numbers_have_their_units() -> None:

@@ -16,11 +16,12 @@ import pytest
 from mudline.scene.model import Scene
 from mudline.study import sample_scene
 from mudline.study.precision import contacts, curves, goals, integration, smoothing
-from mudline.study.precision.drop import reference_drop
+from mudline.study.precision.exact_motions import reference_drop
 from mudline.study.pruning import growth
 from mudline.study.report import StudyOptions, StudyTable
 from mudline.study.schemes import SCHEMES
-from mudline.study.stability import critical, deck_steps, landings, statics
+from mudline.study.stability import deck_steps, landings, statics
+from mudline.study.stability.contacts import CONTACTS, find_contacts
 from tests.study.published import read
 
 
@@ -58,17 +59,17 @@ def _alike(one: Iterable[float | str], other: Iterable[float | str]) -> bool:
 
 
 def test_contacts_and_narrow_segments(scene: Scene) -> None:
-    found, _ = critical.find_contacts(scene)
-    assert_published(critical.CONTACTS.table(found, scene.units), "stability-contacts")
+    found, _ = find_contacts(scene)
+    assert_published(CONTACTS.table(found, scene.units), "stability-contacts")
     segments = deck_steps.narrow_segments(scene, found)
     assert_published(deck_steps.SEGMENTS.table(segments, scene.units), "stability-steep-segments")
 
 
 @pytest.mark.parametrize("scheme", ["velocity-verlet", "newmark"])
 def test_landings_on_the_deck(scene: Scene, scheme: str) -> None:
-    found, _ = critical.find_contacts(scene)
+    found, _ = find_contacts(scene)
     seabeds = [one for one in found if one.oscillation.kind == "normal"]
-    landed = [deck_steps.deck_landing(scene, one, SCHEMES[scheme]) for one in seabeds]
+    landed = [deck_steps.deck_landing(one, SCHEMES[scheme], deck_steps.fall_on(scene, one)) for one in seabeds]
     assert_published(deck_steps.DECK_LANDINGS.table(landed, scene.units), "stability-deck-landings")
 
 

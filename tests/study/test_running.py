@@ -10,11 +10,12 @@ from pathlib import Path
 import pytest
 from matplotlib.figure import Figure
 
+import mudline as mudline_package
 from mudline.scene.model import Scene
 from mudline.study import SAMPLE_TEXT, precision, sample_scene
 from mudline.study.pages import Tables
 from mudline.study.pictures import Picture
-from mudline.study.report import Column, Omission, Section, StudyOptions, StudyReport, StudyTable
+from mudline.study.report import Column, Omission, Section, StudyError, StudyOptions, StudyReport, StudyTable
 from mudline.study.running import RUN_TIME, Part, Study, digest, known_parts
 from tests.builders.scenes import legal_scene
 from tests.cli.runner import assert_fits
@@ -117,6 +118,22 @@ def test_one_part_is_run_and_the_others_are_kept(tmp_path: Path) -> None:
     report = counter.run(tmp_path, "b")
     assert counter.ran == ["b", "a", "b", "c", "b"]
     assert (report.page, report.advice) == ("2 5 4\n", "use 5")
+
+
+@pytest.mark.parametrize(
+    ("text", "cause"),
+    [
+        ("$MODEL\n*NODE\n 1, 0.0, 0.0, 0.0\n", r"give one with \*ELEMENT"),
+        ("$LOAD CASE\n*RESTART\n LAST=nowhere\n*TIME\n STEP=FIXED\n 0.0, 9.0, 0.1, 2.0\n", "nowhere"),
+    ],
+)
+def test_a_deck_without_elements_is_refused(tmp_path: Path, text: str, cause: str) -> None:
+    path = tmp_path / "deck.keyxm"
+    path.write_text(text, encoding="utf-8")
+    counter = Counter()
+    with pytest.raises(StudyError, match=f"nothing to study: .*{cause}"):
+        counter.study.run(mudline_package.read(path).scene(), StudyOptions())
+    assert counter.ran == []
 
 
 def test_shares_rise_to_the_whole() -> None:

@@ -1,1 +1,1 @@
-"""What differs between the meanings of two decks."""
+"""Semantic comparison of two decks."""

@@ -1,4 +1,4 @@
-"""Blocks that the scene does not resolve as a whole: values by path, record by record, or else line by line."""
+"""Blocks that the scene does not resolve as a whole: values by path, record by record, other blocks line by line."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _KEYS = ("set", "name", "curve")
 
 
 class Entry(NamedTuple):
-    """A value, the form in which it compares, and its place."""
+    """A value, the form in which it is compared, and its place."""
 
     shown: Value
     compared: object
@@ -31,12 +31,12 @@ Flat: TypeAlias = dict[str, Entry]
 
 
 def flatten(side: Side, blocks: list[tuple[Where, Block]]) -> Flat:
-    """All values of the blocks of a keyword; records with a name are found by it, whatever block they are in."""
+    """All values of the blocks of a keyword; records with a name are found by it in any block."""
     return _Flattening(side, later_wins=any(block.facts.later_wins for _, block in blocks)).blocks(blocks)
 
 
 def record_values(side: Side, record: Record, where: Where) -> Flat:
-    """The values of one record that an element follows, without the name that it is found by."""
+    """The values of one record of an element, without the name of the record."""
     flattening = _Flattening(side, later_wins=True)
     key = key_slot(type(record))
     found: Flat = {}
@@ -52,7 +52,7 @@ def key_slot(record: type[Record]) -> FieldSpec | None:
 
 
 def _identity(record: Record) -> str | None:
-    """What tells a record without a name from others: the values that it must have. None where there are none."""
+    """The key of a record without a name: its required values. None without any."""
     slots = [slot for slot in record_schema(type(record)).slots if slot.required and not slot.record]
     values = [getattr(record, slot.name, None) for slot in slots]
     words = [field_text(value) for value in values if isinstance(value, float | int | str)]
@@ -156,7 +156,7 @@ class _Flattening:
         return title if count == 1 else f"{title}#{count}"
 
     def _apart(self, own: Flat) -> Flat:
-        """The values of a block without named records; those of a second block stand apart."""
+        """The values of a block without named records; those of a second block have a number."""
         count = self.counts[""] = self.counts.get("", 0) + 1
         return own if count == 1 else {f"#{count}/{path}": entry for path, entry in own.items()}
 
@@ -188,7 +188,7 @@ _ONE_IN_ALL = ("MODEL", "PREPROCESSOR")
 """Sections of which several make one."""
 _COMMENT = re.compile(r"[Cc](?:(?:[ \t]|[-*=#_.~+]{2}).*)?$")
 _MOST_MATCHED = 2000
-"""Lines of a block between which the longest common part is sought."""
+"""Lines of a block up to which the longest common part is searched."""
 
 _Name = tuple[str, str]
 
@@ -220,7 +220,7 @@ def flat_differences(group: str, before: Flat, after: Flat, pair: Pair) -> Itera
 
 
 def _around(path: str, before: Flat, after: Flat) -> Iterator[tuple[Where | None, Where | None]]:
-    """Where a value stands in both decks, all that it is in, and the record that a value of the whole block is for."""
+    """The places of a value in both decks, and those of its record and block."""
     record = path.partition("/")[0]
     yield before[record].where if record in before else None, after[record].where if record in after else None
     old, new = (flat[path].where if path in flat else None for flat in (before, after))
@@ -245,7 +245,7 @@ def _modelled(side: Side) -> dict[_Name, list[tuple[Where, Block]]]:
 
 
 def _titles(side: Side) -> list[str]:
-    """The sections by name; a second load case, which is another one than the first, with its number."""
+    """The sections by name; a second load case, which differs from the first, with its number."""
     counts: dict[str, int] = {}
     titles: list[str] = []
     for section in side.scene.deck.sections:
@@ -290,7 +290,7 @@ def _opaque(name: _Name, before: _Lines, after: _Lines, pair: Pair) -> Iterator[
 
 
 def _changes(one: list[str], other: list[str]) -> list[tuple[str, int, int, int, int]]:
-    """What to do with stretches of lines; long texts are compared between their equal ends only."""
+    """Edits of ranges of lines; long texts are compared only between their equal beginnings and ends."""
     if one == other:
         return []
     start = next((i for i, (a, b) in enumerate(zip(one, other, strict=False)) if a != b), min(len(one), len(other)))

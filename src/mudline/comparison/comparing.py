@@ -1,4 +1,4 @@
-"""The differences of two decks: what has a name or a number, and what each element follows of the blocks by set."""
+"""The differences of two decks: values by name or number, and laws and sections element by element."""
 
 from __future__ import annotations
 
@@ -26,15 +26,15 @@ from mudline.scene.seabed import SeabedShape
 
 
 def compare(before: Scene, after: Scene, tolerance: float = 0.0) -> list[Difference]:
-    """What differs between the meanings of two decks; an empty list when they mean the same.
+    """The semantic differences of two decks; an empty list where they mean the same.
 
-    `tolerance` is how far two numbers may be apart, relative to the larger one. Raises DeckError for a deck of which
+    `tolerance` is the allowed difference of two numbers over the larger one. Raises DeckError for a deck of which
     something could not be read, or in which an equation has no value.
     """
     pair = Pair(Side(before), Side(after), Tolerance(tolerance))
     pair.one.require()
     pair.other.require()
-    of_keywords = list(blocks(pair))  # before the elements, of which nothing is said twice
+    of_keywords = list(blocks(pair))  # first, so that differences of elements do not repeat them
     groups = (_units, _parameters, _nodes, _elements, _sets, _curves, _by_element, _floor)
     return [*(found for differences in groups for found in differences(pair)), *of_keywords]
 
@@ -46,7 +46,7 @@ def _units(pair: Pair) -> Iterator[Difference]:
 
 
 def _floor(pair: Pair) -> Iterator[Difference]:
-    """The points of the bed that files hold; what the deck itself says of it is among its blocks."""
+    """The points of the seabed from files; those in the deck are compared with its blocks."""
     if pair.one.scene.seabed.file or pair.other.scene.seabed.file:
         yield from seabed_points(pair)
 
@@ -74,7 +74,7 @@ def _nodes(pair: Pair) -> Iterator[Difference]:
 
 
 def _elements(pair: Pair) -> Iterator[Difference]:
-    """Nodes of the elements; numbers are names here, so no tolerance holds."""
+    """Nodes of the elements; numbers are names here, so the tolerance does not apply."""
     tables = pair.one.scene.table.numbered, pair.other.scene.table.numbered
     yield from _numbered("elements", *tables, replace(pair, tolerance=Tolerance()))
     yield from _labelled("ELEMENT", "elements", pair)
@@ -110,7 +110,7 @@ def _held(group: str, table: Numbered, index: int) -> tuple[Value, Where]:
 
 
 def _labelled(keyword: str, group: str, pair: Pair) -> Iterator[Difference]:
-    """Rows with a {label}, which have no place among the numbers."""
+    """Rows with a {label} instead of a number."""
     first, second = _label_rows(pair.one, keyword, group), _label_rows(pair.other, keyword, group)
     for key in sorted(first.keys() - second.keys()):
         yield pair.difference(group, f"{group}/{first[key][0][0]}", first[key], None)
@@ -155,7 +155,7 @@ _NO_MEMBERS = Members()
 
 
 def _sets(pair: Pair) -> Iterator[Difference]:
-    """Members of the element sets; ALL is what the elements are."""
+    """Members of the element sets; ALL has all elements."""
     first, second = pair.one.scene.set_table.named, pair.other.scene.set_table.named
     written, others = _written(pair.one), _written(pair.other)
     for name in dict.fromkeys([*first, *second]):
@@ -178,7 +178,7 @@ def _text(members: Members) -> str:
 
 
 def _written(side: Side) -> dict[str, Members]:
-    """What sets hold by their lines: for those with elements that the deck does not show."""
+    """Members of sets as their lines give them, for sets with elements that the deck does not define."""
     found: dict[str, Members] = {}
     for _, block in side.scene.deck.blocks("ELEMENT SETS"):
         for entry in block.sets:
@@ -204,7 +204,7 @@ def _generated(start: object, end: object, step: object) -> list[tuple[int, int,
 
 
 def _curves(pair: Pair) -> Iterator[Difference]:
-    """Points of the force-embedment curves; the later curve of a name holds."""
+    """Points of the force-embedment curves; of several of one name the last one counts."""
     first, second = _by_name(pair.one), _by_name(pair.other)
     for name in dict.fromkeys([*first, *second]):
         old, new = first.get(name), second.get(name)
@@ -266,7 +266,7 @@ Values = dict[str, object]
 
 @dataclass(frozen=True, slots=True)
 class Followed:
-    """The entries of one kind, the one that each element follows (-1 for none), and where they stand."""
+    """The entries of one kind, the entry of each element (-1 for none), and their places."""
 
     entries: Sequence[Values]
     places: Sequence[Where]
@@ -274,9 +274,9 @@ class Followed:
 
 
 def _by_element(pair: Pair) -> Iterator[Difference]:
-    """Elements that both decks have and that follow something else, as ranges of numbers.
+    """Elements of both decks whose laws, sections or resistance differ, as ranges of numbers.
 
-    Of elements that follow one record in both, or one that only one deck has, the record says what differs.
+    For elements with one record in both decks, or a record of one deck only, the difference of the record is reported.
     """
     yield from follow_differently("laws", _laws, pair)
     yield from follow_differently("sections", _sections, pair)
@@ -288,7 +288,7 @@ def _by_element(pair: Pair) -> Iterator[Difference]:
 def follow_differently(
     group: str, read: Callable[[Side], Followed], pair: Pair, descriptions: Mapping[int, str] | None = None
 ) -> Iterator[Difference]:
-    """What elements that both decks have follow in one and not in the other.
+    """Differences of the entries of elements that both decks have.
 
     `descriptions` are of the elements to compare, by their number, where they are not those of the decks.
     """
@@ -367,7 +367,7 @@ def _bed(side: Side) -> Followed:
 
 
 def numbers_given(given: Mapping[str, Any]) -> Values:
-    """Values that are given, without NaN; of pairs, longitudinal and transverse apart."""
+    """Given values, without NaN; pairs are split into longitudinal and transverse."""
     found: Values = {}
     for name, value in given.items():
         pair = zip(("longitudinal ", "transverse "), value, strict=True) if isinstance(value, tuple) else [("", value)]

@@ -1,4 +1,4 @@
-"""A difference between two decks, how values are compared, and the two decks; whole numbers as spans."""
+"""Differences between two decks, tolerances, the two decks that are compared, and spans of whole numbers."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ from mudline.scene.model import Scene
 from mudline.scene.numbering import Ids
 
 Value: TypeAlias = float | int | str | list["Value"] | None
-"""What is reported of a value; None where there is none."""
+"""A value as it is reported; None where there is none."""
 
 Kind = Literal["added", "removed", "changed"]
 
 
 @dataclass(frozen=True, slots=True)
 class Difference:
-    """One difference. `group` is what it belongs to, `where` a path with `/` between its steps.
+    """One difference: its group, and its path with `/` between the steps.
 
-    `before` and `after` are the values in the first and the second deck, None where there is none; the lines count from
-    1 and are None where the thing stands in no line of that file.
+    `before` and `after` are the values in the first and the second deck, None where there is none; lines are counted
+    from 1, None for what is not in a line of that file.
     """
 
     kind: Kind
@@ -45,7 +45,7 @@ class Difference:
 
 @dataclass(frozen=True, slots=True)
 class Tolerance:
-    """How far two numbers may be apart, relative to the larger one; NaN is equal to NaN."""
+    """Allowed difference of two numbers over the larger one; NaN is equal to NaN."""
 
     relative: float = 0.0
 
@@ -53,7 +53,7 @@ class Tolerance:
         """Where two arrays of one shape are equal."""
         same: NDArray[np.bool_] = (one == other) | (np.isnan(one) & np.isnan(other))
         if self.relative:
-            # Halves, because the difference of two large numbers may overflow; inf stays apart from everything.
+            # Halves, because the difference of two large numbers may overflow; inf differs from everything else.
             with np.errstate(invalid="ignore"):
                 apart = np.abs(one / 2 - other / 2)
                 near = apart <= self.relative * np.maximum(np.abs(one / 2), np.abs(other / 2))
@@ -76,7 +76,7 @@ def _is_number(value: object) -> bool:
 
 
 def plain(value: float | str | None) -> Value:
-    """A value as JSON can hold it; None for NaN, a text for an infinite number."""
+    """A value as in JSON: None for NaN, a text for an infinite number."""
     if value is None or isinstance(value, str) or math.isfinite(value):
         return value
     return None if math.isnan(value) else str(value)
@@ -135,7 +135,7 @@ def _joined(firsts: NDArray[np.int64], lasts: NDArray[np.int64]) -> Spans:
 
 
 def _pieces(spans: Spans) -> Iterator[str]:
-    """Pieces of the text; spans that are listed come many at once, as a text for each would take more memory."""
+    """Pieces of the text; listed spans are joined in large pieces, which takes less memory than a text for each."""
     written = 0
     for begin, end in _stepped(spans):
         first = max(begin, written)
@@ -175,10 +175,10 @@ def _listed(spans: Spans) -> Iterator[str]:
 
 @dataclass(slots=True)
 class Members:
-    """What a set holds: numbers, and words for what has none.
+    """Members of a set: numbers, and names for members without one.
 
     The numbers are those of several arrays and of ranges (first, last, step). They become spans only where two sets do
-    not hold the same arrays and ranges: most sets of two versions of a deck do.
+    not have the same arrays and ranges: most sets of two versions of a deck do.
     """
 
     arrays: list[Ids] = field(default_factory=list)
@@ -194,7 +194,7 @@ class Members:
         return self._spans
 
     def same(self, other: Members) -> bool:
-        """Whether another set holds the same."""
+        """Whether another set has the same members."""
         return self.words == other.words and (self._given_alike(other) or np.array_equal(self.spans, other.spans))
 
     def _given_alike(self, other: Members) -> bool:
@@ -213,10 +213,10 @@ class Side:
 
     scene: Scene
     names: dict[str, str] = field(default_factory=dict)
-    """Names as the deck writes them, by their folded form."""
+    """Names as in the deck, by their folded form."""
 
     def path(self, path: str) -> str:
-        """A path of folded names with the names as the deck writes them."""
+        """A path of folded names with the names as in the deck."""
         return "/".join(self.names.get(step, step) for step in path.split("/"))
 
     @cached_property
@@ -225,26 +225,26 @@ class Side:
         return Parameters(self.scene.deck)
 
     def comparable(self, block: Block, where: Where) -> Block:
-        """A block, or that block as written where one of its equations has no value: then their texts compare."""
+        """A block, or that block as written where one of its equations has no value: then their texts are compared."""
         if (where.section, where.block) not in self._valueless:
             return block
         return cast("Block", self.scene.context.as_written(where))
 
     @cached_property
     def _valueless(self) -> set[tuple[int, int]]:
-        """Section and block of what was noticed of equations."""
+        """Section and block of the problems of equations."""
         places = (problem.where for problem in self.scene.noticed if problem.code in _NO_VALUE)
         return {(where.section, where.block) for where in places if where is not None}
 
     def line(self, where: Where | None) -> int | None:
-        """The line of a place; None for what stands in no line of this file."""
+        """The line of a place; None for what is not in a line of this file."""
         deck = self.scene.deck
         if type(deck.origin) is Origin or where is None or not 0 <= where.section < len(deck.own_sections):
             return None
         return deck.origin.place(Problem(SYN002, "", where=where)).line
 
     def require(self) -> None:
-        """Raise DeckError for what could not be read, and for equations without a value."""
+        """Raise DeckError for parts that could not be read, and for equations without a value."""
         self.scene.deck.require()
         unknown = [
             problem
@@ -267,10 +267,10 @@ class Pair:
     other: Side
     tolerance: Tolerance
     said: set[tuple[Where | None, Where | None]] = field(default_factory=set)
-    """Places of the records and blocks whose differences are said under their keywords; None where a deck has none."""
+    """Places of the records and blocks whose differences are reported by keyword; None where a deck has none."""
 
     def difference(self, group: str, where: str, before: _Held, after: _Held) -> Difference:
-        """What only one of the decks has, or what is another value in the second."""
+        """The difference of a value that only one of the decks has, or that is another one in the second."""
         kind: Kind = "added" if before is None else "removed" if after is None else "changed"
         (old, place), (new, other_place) = before or (None, None), after or (None, None)
         return Difference(kind, group, where, old, new, self.one.line(place), self.other.line(other_place))

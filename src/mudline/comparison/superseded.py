@@ -1,4 +1,4 @@
-"""Two decks of which one has the superseded seabed keywords and the other the newer ones: spelling or meaning."""
+"""Decks with superseded and with newer seabed keywords: differences of spelling, and of meaning."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ from mudline.scene.representatives import representatives, shows_elements
 
 
 class Comparison(NamedTuple):
-    """What two decks mean differently, and the differences of spelling in superseded keywords beside it."""
+    """The semantic differences of two decks, and the differences of spelling in superseded keywords."""
 
     differences: list[Difference]
     spelling: list[Difference]
 
 
 def without_spelling(before: Scene, after: Scene, found: Sequence[Difference], tolerance: float = 0.0) -> Comparison:
-    """Replace differences of superseded and newer seabed keywords by what they mean differently, element by element.
+    """Replace differences of superseded and newer seabed keywords by semantic differences, element by element.
 
     `found` is what `compare` finds with the same tolerance. Decks that do not differ in the family of their keywords
     have no differences of spelling. Elements that a deck does not show are represented by some in every set.
@@ -53,7 +53,7 @@ def without_spelling(before: Scene, after: Scene, found: Sequence[Difference], t
 
 
 def _rewritten(old: Scene, new: Scene) -> bool:
-    """Whether a deck has newer keywords in the place of superseded ones of another."""
+    """Whether a deck has newer keywords where another has superseded ones."""
     before, after = ({keyword for keyword in scene.deck.keywords() if is_superseded(keyword)} for scene in (old, new))
     return after < before and any(law.family == "new" for law in new.laws.set_laws)
 
@@ -67,7 +67,7 @@ def _groups(pair: Pair) -> set[str]:
 
 
 def _is_whole_curve(one: Difference, pair: Pair) -> bool:
-    """Whether a curve that only one deck has is for a set, or a set names it: the elements show what it is then."""
+    """Whether a curve that only one deck has is for a set, or a set names it: then the elements are compared."""
     if one.kind == "changed" or not isinstance(one.before or one.after, list):
         return False
     side = pair.one if one.kind == "removed" else pair.other
@@ -76,7 +76,7 @@ def _is_whole_curve(one: Difference, pair: Pair) -> bool:
 
 
 def _meaning(pair: Pair, groups: set[str]) -> Iterator[Difference]:
-    """What elements follow, and the seabed, where they differ."""
+    """Differences of the laws of elements and of the seabed."""
     yield from _of_elements(pair)
     scenes = pair.one.scene, pair.other.scene
     if not all(map(shows_elements, scenes)):
@@ -100,7 +100,7 @@ def _laws(side: Side) -> Followed:
 
 
 def _law(scene: Scene, law: SetLaw) -> Values:
-    """A law by what it does: the name of a curve does not count, nor the keyword that gives it."""
+    """A law by its effect: the name of a curve does not count, nor the keyword that gives it."""
     match law.kind:
         case LawKind.CURVE if law.curve >= 0:
             return {"": "curve", "points": shown_points(scene.laws.curves[law.curve])}
@@ -118,7 +118,7 @@ def _resistance(side: Side) -> Followed:
 
 
 def _values(given: ResistanceValues, units: str) -> Values:
-    """What is given and has an effect: no coefficient, resistance or suction of 0, no length that is the default."""
+    """Values that have an effect: no coefficient, resistance or suction of 0, no default length."""
     default = LARGEST_MOBILISATION.get(units, np.nan)
     slips = np.array(given.friction) > 0.0
     bounded = slips & np.isnan(given.mobilisation) & (np.array(given.characteristic) != default)

@@ -7,7 +7,10 @@ with suction and friction, all values made up for this purpose.
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from mudline.deck.loading import load_bytes
+from mudline.diagnostics import Where
 from mudline.scene.model import Scene, resolve
 
 SAMPLE_NAME = "built-in-sample.keyxm"
@@ -65,6 +68,12 @@ $LOAD CASE
 def scene_of(text: str, name: str) -> Scene:
     """The scene of a deck; raises DeckError."""
     return resolve(load_bytes(text.encode(), name)).require()
+
+
+def file_of(scene: Scene, where: Where | None) -> str:
+    """Name of the file of a place that a deck continues (*RESTART); "" for a place in the deck itself."""
+    base = scene.deck.base_of(where)
+    return Path(base[0].file).name if base else ""
 
 
 def sample_scene() -> Scene:

@@ -1,4 +1,4 @@
-"""Laws in exact rational arithmetic, on the numbers as a float64 holds them, and results compared with them."""
+"""Laws in exact rational arithmetic, with the values of float64 numbers, and results compared with them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from typing import NamedTuple, TypeAlias
 ROUNDING = Fraction(1, 2**53)
 """Largest relative error of one operation on float64."""
 SMALLEST = Fraction(1, 2**1074)
-"""Smallest float64 above 0: what cannot be said more closely near 0."""
+"""Smallest float64 above 0: the resolution of results near 0."""
 BOUND = 8.0
 """Roundings of the largest term. A slope is three (two differences and their quotient), a force between points has one
 for the distance to the point, one for the product and one for the sum besides: six to first order; two are left for a
@@ -54,12 +54,12 @@ class ExactLinear:
         return Fraction(self.stiffness)
 
     def ratios(self) -> list[float]:
-        """Where its value matters: embedment ratios at, between, beside and beyond all corners."""
+        """Embedment ratios to compare at: at, between, beside and beyond all corners."""
         return [1e-300, 1e-12, 1e-3, 0.1, 1.0, 1e3]
 
 
 class ExactCurve:
-    """Linear between points, the end segments continued; at a point the segment behind it holds."""
+    """Linear between points, the end segments continued; at a point the next segment applies."""
 
     def __init__(self, points: Sequence[tuple[float, float]], diameter: float) -> None:
         self.diameter = diameter
@@ -142,7 +142,7 @@ ExactLaw: TypeAlias = ExactLinear | ExactCurve
 
 
 class Compared(NamedTuple):
-    """A number that came out, what it should be, and what its error is measured by."""
+    """A result, its exact value, and the term that its error is relative to."""
 
     found: float
     exact: Fraction
@@ -151,14 +151,14 @@ class Compared(NamedTuple):
 
 @dataclass(slots=True)
 class Tally:
-    """Numbers compared so far; the worst of them in roundings of its largest term."""
+    """Numbers compared so far, and the largest error, in roundings of the largest term."""
 
     results: int = 0
     error: float = 0.0
     fault: str = ""
 
     def add(self, what: str, compared: Compared, bound: float = BOUND, floor: Fraction = 2 * SMALLEST) -> None:
-        """Compare one more; an error up to `floor` is none: results near 0 have no more digits."""
+        """Compare one more; errors up to `floor` are ignored, as results near 0 have no more digits."""
         self.results += 1
         if not isfinite(compared.found):
             self.error, self.fault = inf, f"{what} is {compared.found}"

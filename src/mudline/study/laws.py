@@ -1,7 +1,8 @@
-"""Elastic normal laws of a mass on the seabed, with the work they store, which the reference of a drop needs."""
+"""Laws of a mass on the seabed: elastic normal laws with the work that they store, and suction as numbers."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple, TypeAlias
 
@@ -9,6 +10,7 @@ import numpy as np
 
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.linear import smoothed_reaction, zone_onset
+from mudline.contact.laws.suction import SuctionLaw
 from mudline.curves import ForceCurve
 from mudline.study.motion import Forces, History
 
@@ -41,7 +43,7 @@ class LinearLaw:
         return smoothed_spring(z, self.stiffness, self.top)
 
     def work(self, z: FloatArray) -> FloatArray:
-        """Work from the mudline, or from the begin of the zone, to z, exactly; 0 above the seabed."""
+        """Work from the mudline, or from the start of the zone, to z, exactly; 0 above the seabed."""
         k, h = self.stiffness, self.top
         zone = np.zeros(z.shape) if h == 0.0 else k * np.clip(z + h, 0.0, 2.0 * h) ** 3 / (12.0 * h)
         below = np.maximum(z, h)
@@ -128,3 +130,40 @@ class ElasticContact(NamedTuple):
     def stiffness(self) -> float:
         """The law's slope at the mudline."""
         return self.law.steepest(0.0)
+
+
+class SuctionNumbers(NamedTuple):
+    """The suction law of one element, as numbers; the fields are those of `SuctionLaw`.
+
+    An implementation of its own, to compare the evaluator with.
+    """
+
+    force_factor: float
+    force_exponent: float
+    depth_factor: float
+    depth_exponent: float
+    first_corner: float
+    second_corner: float
+    cyclic: float
+    regularisation: float
+    cyclic_floor: float = math.nan
+
+    def rows(self, count: int) -> SuctionLaw:
+        """The law of so many elements."""
+        return SuctionLaw(*(np.full(count, value) for value in self))
+
+    @property
+    def largest(self) -> float:
+        """The factor of the largest suction before an uplift cycle is completed."""
+        return self.force_factor * (self.cyclic if math.isnan(self.cyclic_floor) else 1.0)
+
+    def depth(self, v: float) -> float:
+        """Uplift at breakout at a velocity that never fell."""
+        return self.depth_factor * math.pow(max(v, self.regularisation, 5e-324), self.depth_exponent)
+
+    def force(self, x: float, v: float) -> float:
+        """Suction at an uplift and a velocity > 0 that never fell."""
+        n, share = self.force_exponent, x / self.depth(v)
+        slow = v / self.regularisation if self.regularisation > v and n < 2.0 else 1.0
+        most = self.largest * math.pow(v / slow, n) * slow * (2.0 - n + (n - 1.0) * slow)
+        return most * max(0.0, min(share / self.first_corner, 1.0, (1.0 - share) / (1.0 - self.second_corner)))

@@ -1,4 +1,4 @@
-"""What the schemes integrate, m a = f(x, v) with a force that may remember, and stepping to the end of a run.
+"""The equation m a = f(x, v) that the schemes integrate, with a force that may have a history, and runs of many steps.
 
 k systems of one degree of freedom are stepped side by side, so that an ensemble costs little more than one run.
 """
@@ -19,11 +19,11 @@ _clock = thread_time if get_clock_info("thread_time").resolution < 1e-5 else per
 """The processor time of this thread where that clock is fine enough: other programs and threads do not count in it."""
 
 History = Any
-"""What a system remembers between steps; only the system itself looks at it."""
+"""The state of a system between steps; only the system itself reads it."""
 
 
 class Forces(NamedTuple):
-    """Forces f of k systems, arrays (k,), their consistent tangents, and the history behind this moment.
+    """Forces f of k systems, arrays (k,), their consistent tangents, and the history after this moment.
 
     force: in the direction of the position.
     by_position: d f / d x, negative for a spring.
@@ -51,7 +51,7 @@ class System(Protocol):
 
 
 class Motion(NamedTuple):
-    """Where k systems are: arrays (k,), and what they remember.
+    """Positions and velocities of k systems, arrays (k,), and their history.
 
     acceleration: as the scheme carries it along; only for some schemes it is force over mass.
     force: at this moment.
@@ -65,7 +65,7 @@ class Motion(NamedTuple):
 
     @classmethod
     def start(cls, system: System, position: FloatArray, velocity: FloatArray, history: History = None) -> Motion:
-        """At rest or not: the acceleration is that of the forces at this moment."""
+        """The start of a run; the acceleration follows from the forces."""
         forces = system.forces(position, velocity, history)
         return cls(position, velocity, forces.force / system.mass, forces.force, forces.history)
 
@@ -73,8 +73,8 @@ class Motion(NamedTuple):
 class Step(NamedTuple):
     """One step made.
 
-    motion: behind the step.
-    evaluations: (k,) how often the force of each was needed; alone each would evaluate it as often.
+    motion: after the step.
+    evaluations: (k,) how often the force of each was needed, as many as in a run of its own.
     iterations: (k,) Newton iterations; 0 for explicit schemes.
     residual: (k,) what was left of the balance of forces; 0 for explicit schemes, and where it converged.
     bisections: (k,) iterations in which Newton's method alone would have left its bracket.
@@ -89,11 +89,11 @@ class Step(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Scheme(ABC):
-    """A way to step.
+    """A time integration scheme.
 
     Attributes:
-        name: a word for tables, "central-difference".
-        title: what people call it.
+        name: identifier in tables, "central-difference".
+        title: its usual name.
         explicit: whether it takes no Newton iterations.
     """
 
@@ -105,7 +105,7 @@ class Scheme(ABC):
     def limit(self) -> float:
         """Largest omega dt at which an undamped oscillator does not grow; inf for implicit schemes.
 
-        That says nothing of contact that opens and closes.
+        It says nothing about contact that opens and closes.
         """
         return CRITICAL_OMEGA_DT.get(self.name, np.inf)
 
@@ -116,7 +116,7 @@ class Scheme(ABC):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Trajectory:
-    """What k systems did at n + 1 moments.
+    """The motion of k systems at n + 1 moments.
 
     Attributes:
         time: (n + 1, k) seconds.
@@ -125,7 +125,7 @@ class Trajectory:
         iterations: (n, k) Newton iterations.
         failures: why a run ended early, by its index.
         evaluations: (k,) of the forces, without the one of the start.
-        bisected: (k,) steps that Newton's method alone might not have solved.
+        bisected: (k,) steps in which the bracket replaced a correction of Newton's method.
         seconds: run time of all steps together.
         end: where the runs ended.
     """
@@ -144,10 +144,10 @@ class Trajectory:
 def march(
     scheme: Scheme, system: System, start: Motion, dt: float | FloatArray, steps: int, bound: float = np.inf
 ) -> Trajectory:
-    """Make so many steps of dt (one number, or one for each run).
+    """Make `steps` steps of dt (one number, or one for each run).
 
-    A run has failed where Newton's method did not converge or a position is not finite or beyond +-`bound`: then it
-    stands still.
+    A run has failed where Newton's method did not converge or a position is not finite or beyond +-`bound`; it is kept
+    at rest from then on.
     """
     shape = (steps + 1, *start.position.shape)
     position, velocity = np.empty(shape), np.empty(shape)
@@ -179,7 +179,7 @@ def march(
 
 
 def _held(motion: Motion, before: FloatArray, sound: BoolArray) -> Motion:
-    """The runs that failed stand where they were."""
+    """Keep the failed runs where they were."""
     return Motion(
         np.where(sound, motion.position, before),
         np.where(sound, motion.velocity, 0.0),

@@ -45,7 +45,7 @@ class Solution(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Newton:
-    """How to iterate.
+    """Settings of the iteration.
 
     An equation has converged where |residual| < `tolerance`, or is no more than round-off of its largest term.
 
@@ -54,9 +54,9 @@ class Newton:
         most: corrections after which an equation has failed.
         halving: whether a correction that does not lessen the residual is halved, up to `halvings` times (line search).
         least: corrections that are made in any case. A time step makes one: accelerations below the tolerance would
-            else stay for ever.
-        bracketed: whether the two nearest points between which a residual that rises in the large changes its sign are
-            kept, and their middle is taken where a correction leads out of them. So no iterates alternate.
+            otherwise never change.
+        bracketed: whether the two nearest points are kept between which the residual changes its sign, from negative to
+            positive, and their middle is taken where a correction leads out of them. So no iterates alternate.
     """
 
     tolerance: float = TOLERANCE

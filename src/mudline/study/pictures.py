@@ -1,6 +1,6 @@
-"""Pictures of studies: one style for all of them, PNG from matplotlib when it is wanted.
+"""Pictures of studies: one style for all of them, drawn by matplotlib on demand.
 
-Colours that colour-blind readers tell apart, and a marker for each line besides. Lines of time integration schemes
+Colours that colour-blind readers can distinguish, and a marker for each line. Lines of time integration schemes
 have the styles of `mudline.study.schemes.STYLES`, the same in every picture.
 """
 
@@ -14,11 +14,12 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from mudline.short_repr import cut
 
-if TYPE_CHECKING:  # only who draws loads matplotlib
+if TYPE_CHECKING:  # only drawing needs matplotlib
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9", "#8c6d31", "#7a7a7a", "#b2182b")
+_COLORS = ("#332288", "#cc6677", "#117733", "#999933", "#882255", "#88ccee", "#44aa99", "#aa4499", "#ddcc77", "#777777")
+"""Other colours than those of the schemes, so that no line of a picture without schemes looks like one of them."""
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "*")
 _LINES = ("-", "--", "-.", ":")
 _LONGEST = 34
@@ -34,10 +35,10 @@ def _nothing(figure: Figure) -> None:
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """A picture that is drawn when it is wanted.
+    """A picture that is drawn on demand.
 
     Attributes:
-        name: a word for its file.
+        name: of its file.
         caption: what it shows.
         draw: draws it on an empty figure.
         size: width and height in inches; 100 points to the inch.
@@ -70,7 +71,7 @@ class Picture:
 
 
 def style(index: int) -> LineStyle:
-    """The style of the line of this number, from 0; so many lines as these differ."""
+    """The style of the line of this number, from 0."""
     return line_style(
         _COLORS[index % len(_COLORS)],
         _MARKERS[(index + index // len(_COLORS)) % len(_MARKERS)],
@@ -102,7 +103,7 @@ def draw_lines(
 
 
 def panels(figure: Figure, count: int, across: int, *, sharey: bool = False) -> list[Axes]:
-    """So many axes, `across` of them in a row."""
+    """Return `count` axes, `across` of them in a row."""
     found: list[Axes] = list(figure.subplots(-(-count // across), across, squeeze=False, sharey=sharey).flat)
     for axes in found[count:]:
         axes.remove()
@@ -116,7 +117,7 @@ def drawn(name: str) -> str:
 
 
 def shortened(name: str) -> str:
-    """A name of the deck that fits above a panel, as it is drawn."""
+    """A name of the deck as it is drawn, cut to fit above a panel."""
     return drawn(cut(name, _LONGEST))
 
 

@@ -1,4 +1,4 @@
-"""What a study found: tables, pictures, words; and the files they become.
+"""The results of a study: tables, pictures, notes, and the files that are written of them.
 
 How to write a study, or a part of one:
 
@@ -6,15 +6,15 @@ How to write a study, or a part of one:
   `mudline.study.running`, and `run = STUDY.run`. A `Part(name, run, weight)` has a function `(scene, options) ->
   Section`; `mudline study NAME --only PART` runs it alone, and `-o DIR` writes its files as soon as it is finished.
 * A part declares the columns of its tables once (`Layout`), returns them with pictures, notes and omissions as a
-  `Section`, and says how far it is: `for case in options.each(cases, lambda case: case.title): ...`.
+  `Section`, and reports its progress: `for case in options.each(cases, lambda case: case.title): ...`.
 * `page(tables) -> str` fills the template `page.md` beside it: `filled(Path(__file__).with_name("page.md"), fields)`.
   All numbers come from `tables` (`mudline.study.pages.Tables`): `tables.rows("steps", scheme="newmark")`,
-  `row.number("step [s]")`, `row.text("case")`; they are written by `rounded`, `percent`, `time`, `span` and
-  `markdown_table` there. A template has no digit of its own but in code, names, links and years, which a test holds;
-  another one makes the pages of docs/studies again from their CSV files. The page is written for any deck: what a deck
-  may change is a field, or stands under an `if` of `page.py`.
-* `advice(tables) -> str` is the one sentence about the deck: the first line of the text, `advice` in JSON; a page has
-  it where its template says {advice}.
+  `row.number("step [s]")`, `row.text("case")`; they are formatted by `rounded`, `percent`, `time`, `span` and
+  `table_of` there, limits rounded `DOWN` and bounds `UP`. A template has digits only in code, names, links and years,
+  which a test checks; another test makes the pages of docs/studies from their CSV files. The page is written for any
+  deck: what depends on the deck is a field, or is chosen by an `if` of `page.py`.
+* `advice(tables) -> str` is the one sentence about the deck: the first line of the printed report, `advice` in JSON,
+  and the field {advice} of a page. `row.place()` names a deck line, with the file of a deck that is continued.
 * The table `machine` (`what`, `value`) is added to each study: deck, processor, versions, run time of all parts.
 * Pictures (`mudline.study.pictures`): `STYLES` of `mudline.study.schemes` has the style of each scheme by its title,
   also for `draw_lines(..., styles=STYLES)`; `zero_place` and `zero_tick` give 0 a tick on a logarithmic axis; an error
@@ -44,7 +44,7 @@ Cell: TypeAlias = str | bool | int | float | None
 
 
 class StudyError(Exception):
-    """The scene has nothing that this study could measure, or something that it cannot; the message says what."""
+    """The scene has nothing that the study can measure, or something that it cannot measure; the message says what."""
 
 
 def silent(message: str) -> None:
@@ -59,14 +59,15 @@ def still(share: float) -> None:
 
 @dataclass(frozen=True, slots=True)
 class StudyOptions:
-    """What the user chose.
+    """Options of a run.
 
     Attributes:
         full: a longer run, with finer ladders and more repeats.
-        progress: is called with a few words on what is done next.
+        progress: is called with a short text on what is done next.
         advance: is called with the share that is done, 0 to 1; of the part, where a part calls it.
         only: the parts that are run; empty for all.
-        folder: where the files of finished parts are written, and where an interrupted study goes on; None for nowhere.
+        folder: where the files of finished parts are written, and from where an interrupted study is resumed; None for
+            no files.
     """
 
     full: bool = False
@@ -76,7 +77,7 @@ class StudyOptions:
     folder: Path | None = None
 
     def each(self, items: Sequence[Row], words: Callable[[Row], str]) -> Iterator[Row]:
-        """The items one after the other, with words on each and the share of them that is done."""
+        """Yield the items, and report each and the share of them that is done."""
         for done, item in enumerate(items):
             self.progress(words(item))
             self.advance(done / len(items))
@@ -98,11 +99,11 @@ class StudyTable:
     """Rows of numbers and texts.
 
     Attributes:
-        name: a word for its file.
-        title: what it shows, for people.
+        name: of its file.
+        title: what it shows, for readers.
         columns: one for each cell of a row.
         rows: the cells; None where there is no value.
-        brief: whether it is short enough to be printed where nobody asked for everything.
+        brief: whether it is short enough for the printed report.
     """
 
     name: str
@@ -135,8 +136,8 @@ class Layout(Generic[Row]):
     """A table before it has rows: the one place to add a column.
 
     Attributes:
-        name: a word for its file.
-        title: what it shows, for people; may have words in braces, which the study fills in.
+        name: of its file.
+        title: what it shows, for readers; may have fields in braces, which the study fills in.
         columns: what fills each column, by its heading, the name with the unit in brackets: "step [s]". In a heading
             {force}, {length} and {mass} are the units of the deck. `columns_of` has those that are fields of a row.
         brief: see `StudyTable`.
@@ -148,7 +149,7 @@ class Layout(Generic[Row]):
     brief: bool = True
 
     def table(self, rows: Iterable[Row], units: str = "", **words: object) -> StudyTable:
-        """The table of these rows, in the "metric" or other units of a deck; `words` are those in braces."""
+        """The table of these rows, in the "metric" or other units of a deck; `words` are the fields in braces."""
         names = ("force", "length", "mass")
         words.update(zip(names, _UNITS.get(units, names), strict=True))
         parts = (heading.format(**words).removesuffix("]").partition(" [") for heading in self.columns)
@@ -175,14 +176,14 @@ def grouped(rows: Iterable[Row], key: Callable[[Row], Key]) -> dict[Key, list[Ro
 
 
 class Omission(NamedTuple):
-    """Something that a study tried, or would have tried, and has no result for."""
+    """Something that has no result, and why."""
 
     what: str
     reason: str
 
 
 class Section(NamedTuple):
-    """What one part of a study found; the fields are those of `StudyReport`."""
+    """The results of one part of a study; the fields are those of `StudyReport`."""
 
     tables: Sequence[StudyTable] = ()
     pictures: Sequence[Picture] = ()
@@ -205,16 +206,16 @@ class Finished(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class StudyReport:
-    """All that a study found.
+    """All results of a study.
 
     Attributes:
         name: "precision", "stability" or "pruning"; the files begin with it.
-        title: what was studied, for people.
+        title: what was studied, for readers.
         tables: the numbers.
         pictures: drawn when they are written.
-        notes: what a reader of the numbers must know.
+        notes: how the numbers are measured and what follows from them.
         omissions: failures and what was left out, each with its reason.
-        machine: what the study was run on.
+        machine: processor, system and versions of the run.
         advice: one sentence about the deck; "" for none.
         page: the page in Markdown; "" for none.
         key: a digest of what the numbers depend on.

@@ -1,7 +1,7 @@
-"""A study is run part by part; what is finished is written at once, and an interrupted study goes on from there.
+"""Run a study part by part: finished parts are written at once, and an interrupted study is resumed from them.
 
-`STUDY.json` says which parts are finished, of which deck, options, machine and versions: their digest is its `key`. A
-run takes from it the parts that it wants and that are finished, as long as not all of them are: then it begins afresh.
+`STUDY.json` has the finished parts, and as `key` the digest of deck, options, machine and versions. A run takes from it
+the finished ones of its parts; if all of them are finished, it starts again.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from mudline.codes.references import REF015
 from mudline.deck.forms.json import to_json
 from mudline.deck.reading import TextOrigin
 from mudline.scene.model import Scene
@@ -29,6 +30,7 @@ from mudline.study.report import (
     Layout,
     Omission,
     Section,
+    StudyError,
     StudyOptions,
     StudyReport,
     StudyTable,
@@ -50,8 +52,8 @@ RUN_TIME = "run time [s]"
 class Part(NamedTuple):
     """A part of a study.
 
-    name: a word for `--only`.
-    run: measures; what needs the scene only is computed in each part again.
+    name: as in `--only`.
+    run: measures; what depends on the scene alone is computed again in each part.
     weight: about how many seconds it takes; only the ratios of the parts count, for the time that is left.
     """
 
@@ -70,8 +72,8 @@ class Study:
     """What `mudline study NAME` runs.
 
     Attributes:
-        name: a word; the files begin with it.
-        title: what is studied, for people; {deck} is the name of the file.
+        name: of the command; the files begin with it.
+        title: what is studied, for readers; {deck} is the name of the file.
         parts: in the order in which they run.
         page: the Markdown page from the tables; "" for none. May raise MissingTableError.
         advice: one sentence about the deck, "use scheme X with step Y, because of Z (deck line n)"; "" for none. May
@@ -96,8 +98,9 @@ class Study:
         """Run the parts that are wanted; finished ones are written into the folder of the options at once.
 
         Raises DeckError where the scene cannot be evaluated, ImportError without the extra, OSError where the folder
-        cannot be written, and StudyError.
+        cannot be written, and StudyError, also for a scene without elements.
         """
+        require_elements(scene)
         folder, key = options.folder, digest(self.name, scene, options)
         if folder:  # before anything is measured
             folder.mkdir(parents=True, exist_ok=True)
@@ -137,6 +140,14 @@ class Study:
         return replace(report, tables=ordered, page=page, advice=advice, key=key, parts=tuple(parts))
 
 
+def require_elements(scene: Scene) -> None:
+    """Raise StudyError for a scene without elements, with the file that is missing where it would have them."""
+    if not len(scene.element_ids):
+        missing = [problem.message for problem in scene.noticed if problem.code is REF015]
+        cause = missing[0] if missing else "give one with *ELEMENT"
+        raise StudyError(f"the deck has no elements of its own, so there is nothing to study: {cause}")
+
+
 def _ahead(advance: Callable[[float], None], start: float, width: float, share: float) -> None:
     advance(start + width * share)
 
@@ -168,7 +179,7 @@ def digest(study: str, scene: Scene, options: StudyOptions) -> str:
 
 
 def known_parts(folder: Path, study: str, key: str) -> dict[str, Finished]:
-    """The parts that `STUDY.json` of a folder has under this key, and whose pictures are there."""
+    """The finished parts of a folder's `STUDY.json` with this key and with all of their pictures."""
     found: dict[str, Finished] = {}
     try:
         whole = json.loads((folder / f"{study}.json").read_bytes())

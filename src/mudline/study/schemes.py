@@ -1,4 +1,4 @@
-"""Time integration schemes: all coefficients in one table, and one way to step for each family.
+"""Time integration schemes: all coefficients in one table, and one class for each family.
 
 Explicit:
 
@@ -146,7 +146,7 @@ class OneStep(Scheme):
 
 
 class _Balance:
-    """The balance of forces at the end of a step, over the acceleration there; keeps the forces it saw last."""
+    """The equation of motion at the end of a step as a function of the acceleration; keeps the last forces."""
 
     forces: Forces
 
@@ -225,6 +225,9 @@ SCHEMES: dict[str, Scheme] = {scheme.name: scheme for scheme in _ALL}
 To add a scheme: its row here, its style below and, if it is explicit, its critical step in `mudline.contact.stiffest`.
 """
 
+PREFERRED = ("generalised-alpha-0.5", "hht-0.3", "newmark", "generalised-alpha-1", "generalised-alpha-0")
+"""Implicit schemes of second order in the order of advice; the first one damps frequencies that are not resolved."""
+
 STYLES: dict[str, LineStyle] = {
     SCHEMES[name].title: line_style(*look)
     for name, look in {
@@ -244,9 +247,9 @@ STYLES: dict[str, LineStyle] = {
 """Colour, marker and dash of each scheme in all pictures, by its title. Two that often coincide differ in the dash."""
 
 BRACKETED = Newton(most=100, least=1, bracketed=True)
-"""For steps that are to show what a scheme does and not what its solver does."""
+"""For steps that show the scheme and not its solver."""
 
 
 def bracketed(scheme: Scheme) -> Scheme:
-    """The scheme with Newton's method in a bracket; an explicit scheme is what it was."""
+    """The scheme with Newton's method in a bracket; an explicit scheme unchanged."""
     return scheme.solved_by(BRACKETED) if isinstance(scheme, OneStep) else scheme

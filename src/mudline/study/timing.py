@@ -20,10 +20,10 @@ _PROCESSORS = Path("/proc/cpuinfo")
 
 
 class Timing(NamedTuple):
-    """Seconds of one run, of so many that were made.
+    """Seconds of one run, out of `runs`.
 
-    best: what the machine does when it is left alone.
-    median: what it did this time.
+    best: without disturbance by other programs.
+    median: of this measurement.
     """
 
     best: float
@@ -72,9 +72,9 @@ class Spread(NamedTuple):
 def paired(calls: Sequence[Callable[[], object]], repeats: int | None = None) -> list[list[float]]:
     """Processor seconds of each call in each repeat (default `REPEATS`), after one to warm up.
 
-    The calls are made turn by turn, every other time the other way round: a machine that gets busy slows all of them,
-    and the ratios of one repeat are of the same moment. Short calls are repeated within a turn until the clock is fine
-    enough; other programs do not count.
+    The calls take turns, in reverse order every other time: a busy machine slows all of them, and the ratios of one
+    repeat are of the same moment. Short calls are repeated within a turn until the clock is fine enough. The time of
+    other programs is not counted.
     """
     once = [timed(call, runs=1, clock=process_time).best for call in calls]
     fine = max(_LEAST, _TICKS * get_clock_info("process_time").resolution)
@@ -88,7 +88,7 @@ def paired(calls: Sequence[Callable[[], object]], repeats: int | None = None) ->
 
 
 def ratios(over: Sequence[float], under: Sequence[float]) -> Spread:
-    """The spread of the ratios of two calls that were paired."""
+    """The spread of the ratios of two paired calls."""
     return Spread.of([one / other for one, other in zip(over, under, strict=True)])
 
 
@@ -111,7 +111,7 @@ def _version(package: str) -> str:
 
 
 def _processor(listing: Path = _PROCESSORS) -> str:
-    """The model name as the system tells it; Python alone knows it on few systems."""
+    """The model name that the system reports; Python alone knows it on few systems only."""
     try:
         lines = listing.read_text(encoding="utf-8", errors="replace").splitlines()
     except OSError:

@@ -13,19 +13,26 @@ from mudline.contact import LawAssignment
 from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, from_cohesion, step
 from mudline.curves import ForceCurve
 from mudline.study import SAMPLE_TEXT, sample_scene
-from mudline.study.laws import CurveLaw, LinearLaw, smoothed_spring
-from mudline.study.precision import drop as drop_module
-from mudline.study.precision import integration
-from mudline.study.precision import pull as pull_module
+from mudline.study.laws import CurveLaw, LinearLaw, SuctionNumbers, smoothed_spring
+from mudline.study.precision import exact_motions, integration
 from mudline.study.precision.contacts import (
     all_cases,
     contacts_of,
     friction_of,
     suction_of,
 )
-from mudline.study.precision.drop import bounce, drop_case, drop_to, reference_drop
+from mudline.study.precision.exact_motions import (
+    Drag,
+    Pull,
+    bounce,
+    breakout,
+    drag_case,
+    drop_case,
+    drop_to,
+    pull_case,
+    reference_drop,
+)
 from mudline.study.precision.integration import Case, row
-from mudline.study.precision.pull import Drag, Pull, SuctionNumbers, breakout, drag_case, pull_case
 from mudline.study.report import Omission, StudyError
 from mudline.study.schemes import SCHEMES
 from tests.builders.contact import changed
@@ -103,11 +110,11 @@ def test_seabed_that_never_carries_is_refused() -> None:
 
 
 def test_endless_search_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(drop_module, "_MOST_EVALUATIONS", 20)
+    monkeypatch.setattr(exact_motions, "_MOST_EVALUATIONS", 20)
     with pytest.raises(StudyError, match="takes too long to find"):
         bounce(LinearLaw("contact", 1.0), 1.0, 0.0, 1.0)
-    monkeypatch.setattr(drop_module, "_MOST_EVALUATIONS", 100_000)
-    monkeypatch.setattr(drop_module, "_MOST_PHASES", 1)
+    monkeypatch.setattr(exact_motions, "_MOST_EVALUATIONS", 100_000)
+    monkeypatch.setattr(exact_motions, "_MOST_PHASES", 1)
     with pytest.raises(StudyError, match="does not release"):
         bounce(LinearLaw("contact", 1.0), 1.0, 0.0, 1.0)
 
@@ -143,7 +150,7 @@ def test_breakout(monkeypatch: pytest.MonkeyPatch) -> None:
     assert kinetic == pytest.approx(pull.pull * exact.uplift - exact.work, rel=1e-9)
     with pytest.raises(StudyError, match="without slowing down"):
         breakout(Pull("clay", LinearLaw("contact", 1e7), suction(), 170.0, 0.01, 1e-5))
-    monkeypatch.setattr(pull_module, "_STOPS", 1)
+    monkeypatch.setattr(exact_motions, "_STOPS", 1)
     with pytest.raises(StudyError, match="repeatedly"):
         breakout(pull)
 
@@ -241,7 +248,7 @@ def test_case_that_overflows_is_reported() -> None:
 def test_curve_of_many_points_does_without_stops(monkeypatch: pytest.MonkeyPatch) -> None:
     drop = drop_to(CLAY, 170.0, 900.0, 0.075)
     stopping = bounce(CLAY, drop.mass, drop.weight, drop.speed)
-    monkeypatch.setattr(drop_module, "_MOST_BREAKS", 0)
+    monkeypatch.setattr(exact_motions, "_MOST_BREAKS", 0)
     assert bounce(CLAY, drop.mass, drop.weight, drop.speed).time == pytest.approx(stopping.time, rel=1e-6)
 
 

@@ -31,9 +31,7 @@ def read(name: str) -> list[dict[str, str]]:
 def test_the_page_of_the_sample_with_a_short_ladder(sample_report: StudyReport) -> None:
     assert sample_report.advice == (
         "On this deck, for errors of 1 % no step of the ladder is small enough, because of the mass dropped on Soft "
-        "Clay (deck line 30); for errors of 0.1 % no step of the ladder is small enough. Explicit schemes also have to "
-        "keep below the critical step of every contact, suction damping included, which can be much smaller: "
-        "`mudline study stability`."
+        "Clay (deck line 30); for errors of 0.1 % no step of the ladder is small enough."
     )
     assert "| drop-curve | dropped on Soft Clay | 30 |" in sample_report.page
     assert "64 runs meet the seabed" in sample_report.page
@@ -44,7 +42,7 @@ def test_the_page_of_a_deck_without_a_law() -> None:
     text = "$MODEL\n*NODE\n 1, 0.0, 0.0, 0.0\n 2, 0.0, 1.0, 0.0\n*ELEMENT\n 1, 1, 2\n"
     report = precision.run(legal_scene(text), StudyOptions())
     assert report.advice == ""
-    assert "The deck has no law to fall on" in report.page
+    assert "The deck has no normal law with a stiffness" in report.page
     assert "The deck has no curve." in report.page
     assert "pull-drag.png" not in report.page
 
@@ -56,6 +54,25 @@ def test_the_advice_names_scheme_step_and_line() -> None:
     assert f"(deck line {first['deck line']})" in words
     step = float(words.split("with a step of ")[1].split(" ms")[0]) / 1e3
     assert 0.99 * float(first["step [s]"]) < step <= float(first["step [s]"])
+
+
+def test_no_advised_step_is_above_the_critical_one_of_the_stability_study() -> None:
+    """Both pages of the documentation are on the same deck."""
+    with (DOCS / "stability-contacts.csv").open(encoding="utf-8", newline="") as file:
+        contacts = list(csv.DictReader(file))
+    names = {"central-difference": "central difference", "velocity-verlet": "velocity Verlet", "rk4": "RK4"}
+    rows = {(row["goal [relative]"], row["scheme"]): row for row in read("advice")}
+    for scheme, title in names.items():
+        critical = min(float(row[f"critical step, {scheme} [s]"]) for row in contacts)
+        for goal in ("0.01", "0.001"):
+            row = rows[goal, title]
+            assert float(row["step [s]"]) <= critical * (1.0 + 1e-12)
+            assert (row["limited by"], row["set by"]) == ("stability", "suction damping on Clay")
+    words = advice(Tables.read(DOCS, "precision"))
+    assert (
+        "(explicit: central difference with a step of 309 us, because of suction damping on Clay (deck line 42))"
+        in words
+    )
 
 
 def test_goals_are_those_of_the_steps() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mudline.study.precision.drop import reference_drop
+from mudline.study.precision.exact_motions import reference_drop
 from mudline.study.precision.smoothing import PUBLISHED, at_rest, impacts, weightless
 
 

@@ -175,7 +175,7 @@ def test_features_have_their_lines() -> None:
         "smoothing or nodal springs": "SET=Sand",
         "suction": "SET=Clay",
     }
-    assert [row[2:] for row in rows] == [(10, True), (3, False), (7, True)]
+    assert [row[2:] for row in rows] == [(10, True, ""), (3, False, ""), (7, True, "")]
 
 
 def test_imports_are_distinguished(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -261,7 +261,7 @@ def test_a_deck_without_curves_is_studied_with_the_usual_one() -> None:
 def test_a_deck_without_elements_has_nothing_to_time() -> None:
     outcome = run("study", "pruning", SAMPLES / "lines-deck.keyxm", "-q")
     assert outcome.code == 1
-    assert "lines-deck.keyxm: the deck has no elements of its own, so there is nothing to time" in outcome.err
+    assert "lines-deck.keyxm: the deck has no elements of its own, so there is nothing to study" in outcome.err
 
 
 @pytest.mark.usefixtures("hasty", "without_interpreters")

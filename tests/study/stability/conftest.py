@@ -7,7 +7,8 @@ import pytest
 from mudline.study import sample_scene
 from mudline.study.schemes import SCHEMES
 from mudline.study.stability import critical, landings, statics
-from mudline.study.stability.critical import Measured, find_contacts
+from mudline.study.stability.contacts import find_contacts
+from mudline.study.stability.critical import Measured
 from mudline.study.stability.families import all_cells, judge
 from mudline.study.stability.judging import Judgement
 from mudline.study.stability.landings import Landing

@@ -13,8 +13,9 @@ from mudline.linting.registry import select
 from mudline.scene.model import Scene
 from mudline.study import SAMPLE_TEXT, sample_scene
 from mudline.study.schemes import SCHEMES
-from mudline.study.stability import critical
-from mudline.study.stability.critical import BOUNDED, GROWS, SHARES, Measured, can_oscillate, find_contacts, measure
+from mudline.study.stability import contacts
+from mudline.study.stability.contacts import can_oscillate, find_contacts
+from mudline.study.stability.critical import BOUNDED, GROWS, SHARES, Measured, measure
 from mudline.study.stability.families import all_cells
 from mudline.study.stability.judging import Judgement
 from tests.builders.scenes import legal_scene
@@ -165,7 +166,7 @@ def test_contacts_of_extreme_decks_are_stepped_as_predicted_or_left_out(
 
 def test_a_step_that_is_not_as_predicted_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     wrong = {"central-difference": 2.2, "rk4": 1.0}
-    monkeypatch.setattr(critical, "critical_step", lambda scheme, omega, _: wrong[scheme] / omega)
+    monkeypatch.setattr(contacts, "critical_step", lambda scheme, omega, _: wrong[scheme] / omega)
     scene = sample_scene()
     contact = next(one for one in find_contacts(scene)[0] if one.oscillation.kind == "normal")
     early = measure(scene, contact, SCHEMES["central-difference"])
@@ -179,7 +180,7 @@ def test_a_step_that_is_not_as_predicted_is_seen(monkeypatch: pytest.MonkeyPatch
 @pytest.mark.parametrize("share", [0.985, 1.015])
 def test_a_critical_step_that_is_a_little_off_is_seen(monkeypatch: pytest.MonkeyPatch, share: float) -> None:
     """At 0.99 and 1.01 of what is predicted, and no farther away from it."""
-    monkeypatch.setattr(critical, "critical_step", lambda _scheme, omega, _rate: share * 2.0 / omega)
+    monkeypatch.setattr(contacts, "critical_step", lambda _scheme, omega, _rate: share * 2.0 / omega)
     scene = sample_scene()
     contact = next(one for one in find_contacts(scene)[0] if one.oscillation.kind == "normal")
     assert not measure(scene, contact, SCHEMES["central-difference"]).as_predicted

@@ -18,7 +18,8 @@ from mudline.scene.model import Scene
 from mudline.study import SAMPLE_TEXT, sample_scene
 from mudline.study.motion import Forces, History, Motion
 from mudline.study.schemes import SCHEMES
-from mudline.study.stability.critical import BOUNDED, GROWS, Contact, find_contacts, measure
+from mudline.study.stability.contacts import Contact, find_contacts
+from mudline.study.stability.critical import BOUNDED, GROWS, measure
 from tests.builders.scenes import legal_scene
 
 MASS = 7850.0 * 0.25 * np.pi * (0.3**2 - 0.25**2)

@@ -166,7 +166,7 @@ def test_a_deck_without_a_law_that_is_taken_is_wrong() -> None:
 def test_a_refusal_without_reason_or_line_is_reported() -> None:
     deck = linear_deck("1E308")
     judged = judge(Cell("refused", "1", deck, LINEAR))  # this law has values where the deck has none
-    assert (judged.verdict, judged.message) == (Verdict.NO_LINE, "a value was refused that a float64 can hold")
+    assert (judged.verdict, judged.message) == (Verdict.NO_LINE, "a value that fits a float64 was refused")
     nowhere = DeckError([Diagnostic("deck", "RUN001", "cannot-evaluate", Severity.ERROR, "no", 1, 1, 1, 1)])
 
     def refuse() -> Judgement:

@@ -14,7 +14,7 @@ from mudline.study.report import StudyOptions
 from mudline.study.stability import ladder, own_laws
 from mudline.study.stability.families import RANDOM, all_cells, judge
 from mudline.study.stability.judging import Judgement, Verdict
-from mudline.study.stability.ladder_page import ladder_part
+from mudline.study.stability.ladder import ladder_part
 from mudline.study.stability.own_laws import is_own, own_cells, times
 from mudline.study.stability.paths import PathCell
 from mudline.study.stability.pull_out import SuctionCell, suction_cells
@@ -98,7 +98,7 @@ def test_the_page_names_what_is_wrong() -> None:
     made = {one.name: "".join(one.csv()) for one in (ladder.BY_FAMILY.table([rows]), ladder.BY_CELL.table(rows))}
     text = ladder_part(Tables(made))
     assert "**1 decks are neither right nor refused with a line: softness 1E9.**" in text
-    assert "The deck has no law that could be scaled." in text
+    assert "The deck has no law that can be scaled." in text
     assert "`--full` adds 4000 random decks" in text
 
 

@@ -89,7 +89,7 @@ def test_what_is_refused_without_reason_is_reported(monkeypatch: pytest.MonkeyPa
     assert judge_path(cell).verdict is Verdict.RIGHT_UNTIL_REFUSED
     monkeypatch.setattr(paths, "exact_element", lambda _: exact_element(SmallDeck()))
     judged = judge_path(cell)  # this law has values where the deck has none
-    assert (judged.verdict, judged.message) == (Verdict.NO_LINE, "a value was refused that a float64 can hold")
+    assert (judged.verdict, judged.message) == (Verdict.NO_LINE, "a value that fits a float64 was refused")
 
 
 def test_explicit_suction_is_pulled_out() -> None:

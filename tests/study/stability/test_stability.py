@@ -14,7 +14,8 @@ from mudline.study.motion import Scheme
 from mudline.study.report import Cell, StudyOptions, StudyReport
 from mudline.study.schemes import SCHEMES
 from mudline.study.stability import deck_steps, ladder, landings, own_laws, run, statics
-from mudline.study.stability.critical import Contact, Measured
+from mudline.study.stability.contacts import Contact
+from mudline.study.stability.critical import Measured
 from mudline.study.stability.families import AnyCell, all_cells, judge
 from mudline.study.stability.judging import Judgement, Verdict
 from mudline.study.stability.landings import Landing
@@ -91,7 +92,7 @@ def test_the_notes_say_what_follows(report: StudyReport) -> None:
     assert runs.startswith("30 of 30 runs")
     assert agree.startswith("33 of 33 landings")
     assert f"{SCHEMES['generalised-alpha-0'].title} (1.0000755 at most), backward Euler (0.9" in never
-    assert "goes 1, -5, 15, -5, 15, -5, 15, ... without end" in cycles
+    assert "has the iterates 1, -5, 15, -5, 15, -5, 15, ... without end" in cycles
     assert cycles.endswith("0.05: 3 iterations.")
 
 
@@ -102,7 +103,8 @@ def test_one_sentence_says_what_to_do(report: StudyReport) -> None:
     )
     assert report.advice.startswith(start)
     assert report.advice.endswith(
-        "central difference would need less than 0.000309 s, because of suction damping on Clay (deck line 42)."
+        "central difference needs 0.000309 s or less, because of suction damping on Clay (deck line 42): above it a "
+        "small motion there grows."
     )
 
 
@@ -130,7 +132,7 @@ def test_the_page_says_it_with_the_numbers_of_the_tables(report: StudyReport) ->
     assert f"**{report.advice}**" in report.page
     assert "1.1653" in report.page
     assert "The secant without the point in line 32 has 106 667" in report.page
-    assert "30 of 30 runs did as predicted" in report.page
+    assert "All 30 runs behaved as predicted: 14 of a scheme with a critical step" in report.page
 
 
 def test_rows_are_as_wide_as_their_tables(report: StudyReport) -> None:

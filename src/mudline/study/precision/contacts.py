@@ -1,10 +1,9 @@
-"""The contacts of a scene that are studied: its stiffest laws with mass, suction and friction; the motions on them."""
+"""The contacts of a scene that masses are moved on: its stiffest laws with mass, suction and friction."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -13,15 +12,16 @@ import numpy as np
 from mudline.contact import ContactInput, LawKind
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.suction import from_cohesion
+from mudline.diagnostics import Where
 from mudline.results.laws_in_use import line_of
 from mudline.scene.deck_values import DEFAULT_GRAVITY, FOOT, POUND
 from mudline.scene.model import Scene
 from mudline.scene.resolved import LawArrays
 from mudline.scene.sections import surroundings
-from mudline.study.laws import CurveLaw, ElasticContact, Law, LinearLaw
-from mudline.study.precision.drop import drop_case, drop_to, reference_drop
+from mudline.study import file_of
+from mudline.study.laws import CurveLaw, ElasticContact, Law, LinearLaw, SuctionNumbers
+from mudline.study.precision.exact_motions import Drag, Pull, drag_case, drop_case, drop_to, pull_case, reference_drop
 from mudline.study.precision.integration import Case
-from mudline.study.precision.pull import Drag, Pull, SuctionNumbers, drag_case, pull_case
 from mudline.study.report import Omission, StudyError
 
 _DIAMETER = 0.3
@@ -30,13 +30,13 @@ _COHESION = 5000.0
 _FRICTION = 0.5
 _MOBILISATION = 0.01
 _UNITS = {"imperial": (FOOT, POUND)}
-"""Metres and newtons of a deck's units."""
+"""Units of length and force of a deck, in m and N."""
 _REACH = 0.25
 """Of the diameter: how deep the masses fall."""
 
 
 class StudiedContacts(NamedTuple):
-    """A scene and its contacts that are studied; the notes grow with every value that is assumed."""
+    """A scene and its contacts that are studied; each value that is assumed adds a note."""
 
     scene: Scene
     inputs: ContactInput
@@ -54,7 +54,7 @@ def contacts_of(scene: Scene) -> StudiedContacts:
         stiff = [contact for contact in found if contact.stiffness > 0.0]
         studied.contacts.extend(sorted(stiff, key=_fastest_first)[:1])
     if not studied.contacts:
-        studied.notes.append("The deck has no curve and no linear law to fall on: only the reference case was run.")
+        studied.notes.append("The deck has no curve and no linear law: only the reference case was run.")
     return studied
 
 
@@ -151,14 +151,16 @@ def all_cases(studied: StudiedContacts, omissions: list[Omission]) -> list[Case]
     A motion that cannot be integrated is omitted with its reason.
     """
     cases = [drop_case("drop-reference", "dropped, published case", reference_drop())]
-    motions: list[tuple[str, _Motion, _Line, ElasticContact]]
-    motions = [("drop on", _drop, line_of_law, contact) for contact in studied.contacts]
-    motions += [("pull off", _pull, _line_of_suction, contact) for contact in studied.contacts[:1]]
-    motions += [("drag along", _drag, _line_of_friction, contact) for contact in studied.contacts[:1]]
-    for words, make, line, contact in motions:
+    motions: list[tuple[str, _Motion, _Place, ElasticContact]]
+    motions = [("drop on", _drop, _place_of_law, contact) for contact in studied.contacts]
+    motions += [("pull off", _pull, _place_of_suction, contact) for contact in studied.contacts[:1]]
+    motions += [("drag along", _drag, _place_of_friction, contact) for contact in studied.contacts[:1]]
+    for words, make, place, contact in motions:
         what = f"{words} {contact.law.name}"
         try:
-            case = replace(make(studied, contact), line=line(studied, contact))
+            case = make(studied, contact)
+            if where := place(studied, contact):
+                case = replace(case, line=line_of(studied.scene, where), file=file_of(studied.scene, where))
         except (StudyError, ArithmeticError, ValueError) as error:
             omissions.append(Omission(what, str(error)))
             continue
@@ -170,44 +172,33 @@ def all_cases(studied: StudiedContacts, omissions: list[Omission]) -> list[Case]
 
 
 _Motion = Callable[[StudiedContacts, ElasticContact], Case]
-_Line = Callable[[StudiedContacts, ElasticContact], int | None]
+_Place = Callable[[StudiedContacts, ElasticContact], Where | None]
 
 
-def stiffest_drop(scene: Scene) -> Case | None:
-    """The drop on the contact of a scene whose mass oscillates fastest; None where there is none to fall on.
-
-    Raises DeckError where the scene cannot be evaluated.
-    """
-    studied = contacts_of(scene)
-    for contact in sorted(studied.contacts, key=_fastest_first):
-        with suppress(StudyError, ArithmeticError, ValueError):
-            return replace(_drop(studied, contact), line=line_of_law(studied, contact))
-    return None
-
-
-def line_of_law(studied: StudiedContacts, contact: ElasticContact) -> int | None:
-    """The line of the deck where the normal law of a contact stands: its curve, else its number."""
+def _place_of_law(studied: StudiedContacts, contact: ElasticContact) -> Where | None:
+    """Where the normal law of a contact stands: its curve, else its number."""
     laws = studied.scene.laws
     given = laws.set_laws[int(laws.of_element[contact.element])]
-    return line_of(studied.scene, laws.curves[given.curve].title if given.curve >= 0 else given.where)
+    return laws.curves[given.curve].title if given.curve >= 0 else given.where
 
 
-def _line_of_suction(studied: StudiedContacts, contact: ElasticContact) -> int | None:
+def _place_of_suction(studied: StudiedContacts, contact: ElasticContact) -> Where | None:
     """None where the deck has no suction."""
     given, blocks = studied.inputs.assigned.get("suction"), studied.scene.extensions.get("SEABED SUCTION")
     if given is None or blocks is None:
         return None
     element = contact.element if contact.element in given.rows else int(given.rows[0])
-    return line_of(studied.scene, blocks.places[int(blocks.of_element[element])])
+    return blocks.places[int(blocks.of_element[element])]
 
 
-def _line_of_friction(studied: StudiedContacts, contact: ElasticContact) -> int | None:
-    """None where the deck has no friction along the contact."""
-    resistance = studied.scene.resistance
-    index = int(resistance.of_element[contact.element])
-    if index < 0 or _friction_row(studied, contact) is None:
+def _place_of_friction(studied: StudiedContacts, contact: ElasticContact) -> Where | None:
+    """Where the friction of the contact stands, in *SEABED FRICTION first; None without friction along the line."""
+    if _friction_row(studied, contact) is None:
         return None
-    return line_of(studied.scene, resistance.places[index])
+    for given in (studied.scene.extensions.get("SEABED FRICTION"), studied.scene.resistance):
+        if given is not None and (index := int(given.of_element[contact.element])) >= 0:
+            return given.places[index]
+    return None
 
 
 def _drop(_: StudiedContacts, contact: ElasticContact) -> Case:

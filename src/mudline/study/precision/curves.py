@@ -1,7 +1,7 @@
-"""Curve evaluation: mudline's own way and those that people use instead, error against time per point.
+"""Curve evaluation: that of mudline and common alternatives, error against time per point.
 
-Errors are measured against exact rational arithmetic: points and ratios as the doubles they are, no rounding at all.
-Besides, two published curves of undrained penetration in closed form, and what sampling them at points costs: for
+Errors are measured against exact rational arithmetic on the float64 values of points and ratios, without any rounding.
+Two published curves of undrained penetration in closed form are sampled at points, and their errors measured too: for
 D = 0.3 m and a strength of 5 kPa at the mudline, in SI units; the ratio is z / D.
 """
 
@@ -24,9 +24,12 @@ from mudline.study.pictures import Picture, draw_lines, legend_below, panels, sh
 from mudline.study.report import Layout, Omission, Section, StudyOptions, columns_of, grouped
 from mudline.study.timing import timed
 
-if TYPE_CHECKING:  # only who draws loads matplotlib
+if TYPE_CHECKING:  # only drawing needs matplotlib
     from matplotlib.figure import Figure
 
+FORCE_ERROR, BEYOND_ERROR = "error [of largest force]", "error beyond the points [of largest force]"
+LINE_ERROR, PCHIP_ERROR = "error of straight lines [of largest force]", "error of PCHIP [of largest force]"
+"""Headings of the tables."""
 Evaluation = Callable[[FloatArray], NDArray[np.floating]]
 TABLES = tuple(4**power for power in range(2, 9))
 """Entries of the uniform tables: 16 to 65536."""
@@ -47,8 +50,8 @@ class CurveRow(NamedTuple):
     curve: Annotated[str, "curve"]
     method: Annotated[str, "method"]
     family: str
-    error: Annotated[float, "error [of largest force]"]
-    beyond: Annotated[float, "error beyond the points [of largest force]"]
+    error: Annotated[float, FORCE_ERROR]
+    beyond: Annotated[float, BEYOND_ERROR]
     nanoseconds: Annotated[float, "best time [ns/point]"]
     median: Annotated[float, "median time [ns/point]"]
 
@@ -125,7 +128,7 @@ def largest_error(forces: FloatArray, exact: list[Fraction], scale: float) -> fl
 
 
 class Method(NamedTuple):
-    """A way to evaluate a curve.
+    """A method that evaluates a curve.
 
     family: methods of one family are one line of a picture.
     prepare: takes the curve and returns what evaluates it.
@@ -137,7 +140,7 @@ class Method(NamedTuple):
 
 
 def methods(tables: tuple[int, ...] = TABLES) -> Iterator[Method]:
-    """All of them; "fast" needs its extra when it is prepared."""
+    """All methods; "fast" needs its extra when it is prepared."""
     for name, prepare in _METHODS.items():
         yield Method(name, name, prepare)
     for entries in tables:
@@ -171,7 +174,7 @@ _METHODS: dict[str, Callable[[ForceCurve], Evaluation]] = {
 
 
 def _table(curve: ForceCurve, entries: int) -> Evaluation:
-    """The curve resampled at even distances, and straight lines between: what a lookup table does."""
+    """A lookup table: the curve resampled at even distances, with straight lines between."""
     first, last = float(curve.ratios[0]), float(curve.ratios[-1])
     forces = curve.evaluate(np.linspace(first, last, entries), backend="numpy")[0]
     slopes = np.diff(forces)
@@ -222,7 +225,7 @@ def even(points: int) -> FloatArray:
 
 
 def graded(points: int) -> FloatArray:
-    """Ratios that crowd towards the mudline, with the fourth power: where the curve bends most."""
+    """Ratios graded towards the mudline with the fourth power, where the curve bends most."""
     return DEEPEST * np.linspace(0.0, 1.0, points) ** 4
 
 
@@ -235,8 +238,8 @@ class BackboneRow(NamedTuple):
     backbone: Annotated[str, "backbone"]
     spacing: Annotated[str, "points at distances"]
     points: Annotated[int, "points"]
-    linear: Annotated[float, "error of straight lines [of largest force]"]
-    pchip: Annotated[float, "error of PCHIP [of largest force]"]
+    linear: Annotated[float, LINE_ERROR]
+    pchip: Annotated[float, PCHIP_ERROR]
 
 
 SAMPLES = Layout("backbones", "Closed forms sampled at points", columns_of(BackboneRow), brief=False)

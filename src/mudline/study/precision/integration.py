@@ -1,13 +1,13 @@
 """Motions of a mass on the seabed whose outcome is known, and every scheme on them over a ladder of steps.
 
-The work of a run is its number of force evaluations, those of Newton's iterations included: no machine changes it.
-Run times are measured besides; all schemes take turns, so that what slows the machine slows all of them.
+The work of a run is its number of force evaluations, those of Newton's iterations included, which does not depend on
+the machine. Run times are measured too; all schemes take turns, so that what slows the machine slows all of them.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, NamedTuple
 
@@ -19,22 +19,26 @@ from mudline.study.report import Layout, Omission, Section, StudyOptions, column
 from mudline.study.schemes import SCHEMES, bracketed
 
 RUNS = 64
-"""Runs side by side, which land at other phases of a step; the worst of them counts."""
+"""Runs side by side, which land at different phases of a step; the worst of them counts."""
 LADDER = (1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0, 3.0, 10.0)
 """Of omega dt; without --full it ends at the smallest of a case, or where the smallest goal is met."""
 FINE_LADDER = tuple(10.0 ** (power / 6.0) for power in range(-18, 7))
 GOALS = (1e-2, 1e-3, 1e-4)
 """Errors for which a step is looked up."""
+ADVISED_GOALS = GOALS[:2]
+"""Errors that a step is advised for: the largest one is looked for between two steps of the ladder."""
+PARTS = 8
+"""Into which the factor between these two is divided; errors do not always grow with the step, so none is skipped."""
 TRIED = {name: bracketed(scheme) for name, scheme in SCHEMES.items() if scheme.limit > 0.0}
 """The schemes of this study: those that are stable on an oscillator at some step; implicit ones solved in a bracket."""
 REPEATS = 5
-"""Of a run that is timed."""
+"""Timings of a run."""
 _TIMED = 1.0
 """Largest omega dt of runs that are timed more than once: larger ones are of no use."""
 _TIMED_STEPS = {False: 250, True: 2500}
 """Longer runs are not repeated, without and with --full."""
 _FINE = 1e-2
-"""Down to this omega dt every ladder goes: an order needs several steps."""
+"""Every ladder goes down to this omega dt: an order needs several steps."""
 _MORE_STEPS = 8
 _MOST_STEPS = 60_000
 _FAILED = (None, None, None)
@@ -54,19 +58,20 @@ class Case:
     """A motion.
 
     Attributes:
-        name: a word for tables.
-        title: for people.
+        name: identifier in tables.
+        title: for readers.
         omega: square root of the steepest stiffness over the mass, 1/s.
         duration: seconds that the motion takes.
         reference: where the exact values come from.
         quantities: names of the three errors that are measured, each relative to the exact value.
         system: `RUNS` copies of the mass.
-        bound: positions beyond this have run away.
+        bound: positions beyond this have diverged.
         start: the start of the runs for a nominal step.
-        errors: (3, k) amounts of the errors; NaN where the motion did not get so far.
-        missing: what NaN means.
+        errors: (3, k) absolute values of the errors; NaN where the motion did not get that far.
+        missing: why an error is NaN.
         finest: the smallest omega dt without --full.
         line: of the deck, where the law stands; None where the law is not the deck's.
+    file: of that line, where it is in a deck that this one continues; "" for this deck.
     """
 
     name: Annotated[str, "case"]
@@ -82,16 +87,17 @@ class Case:
     missing: str
     finest: float = 3e-3
     line: Annotated[int | None, "deck line"] = None
+    file: Annotated[str, "deck file"] = ""
 
 
 def uneven(dt: float) -> FloatArray:
-    """Steps (k,) up to 18 % shorter than dt: events of a motion that always begins alike fall at other phases."""
+    """Steps (k,) up to 18 % shorter than dt, so that events of runs that start alike fall at different phases."""
     return dt * (1.0 - np.linspace(0.0, 0.175, RUNS))
 
 
 CASES = Layout[Case](
     "cases",
-    "Motions that are integrated",
+    "Integrated motions",
     {**columns_of(Case), "runs side by side": lambda case: len(case.system.mass)},
 )
 
@@ -158,16 +164,49 @@ def study_motions(cases: Sequence[Case], options: StudyOptions) -> tuple[Ladders
 
 
 def ladder_rows(case: Case, schemes: Mapping[str, Scheme], *, full: bool) -> list[StepRow]:
-    """Every scheme on a case, each from its smallest step to its largest; run from the largest to the smallest."""
+    """Every scheme on a case, each from its smallest step to its largest; run from the largest to the smallest.
+
+    Besides the steps of the ladder there are those that were tried to find the largest one for `ADVISED_GOALS`.
+    """
     steps = FINE_LADDER if full else [step for step in LADDER if step >= case.finest]
     left, found = dict(schemes), list[StepRow]()
     for omega_dt in sorted(steps, reverse=True):
-        rows = measured(case, list(left.values()), omega_dt, _TIMED_STEPS[full])
+        rows = measured(case, [(scheme, omega_dt) for scheme in left.values()], _TIMED_STEPS[full])
         if not full and omega_dt <= _FINE:
             left = {row.scheme: schemes[row.scheme] for row in rows if not meets(row, GOALS[-1])}
         found += rows
+    for goal in ADVISED_GOALS:
+        for name, ladder in grouped(found, lambda row: row.scheme).items():
+            found += _up_to(goal, case, schemes[name], ladder)
+        best = [largest_step(ladder, goal) for ladder in grouped(found, lambda row: row.scheme).values()]
+        again = [(schemes[row.scheme], row.omega_dt) for row in best if row is not None and row.repeats == 1]
+        timed = {(row.scheme, row.omega_dt): row for row in measured(case, again, _TIMED_STEPS[full])}
+        found = [timed.get((row.scheme, row.omega_dt), row) for row in found]
     order = list(schemes)
     return sorted(found, key=lambda row: (order.index(row.scheme), row.omega_dt))
+
+
+def largest_step(ladder: Iterable[StepRow], goal: float) -> StepRow | None:
+    """The largest step of a ladder up to which every error is at or below a goal."""
+    best = None
+    for row in sorted(ladder, key=lambda row: row.omega_dt):
+        if not meets(row, goal):
+            break
+        best = row
+    return best
+
+
+def _up_to(goal: float, case: Case, scheme: Scheme, ladder: Sequence[StepRow]) -> Iterator[StepRow]:
+    """Steps from the largest one of a ladder for a goal towards the next, up to the first that does not meet it."""
+    best = largest_step(ladder, goal)
+    larger = [row.omega_dt for row in ladder if best is not None and row.omega_dt > best.omega_dt]
+    if best is None or not larger:
+        return
+    for part in range(1, PARTS):
+        tried = row(case, scheme, best.omega_dt * (min(larger) / best.omega_dt) ** (part / PARTS))
+        yield tried
+        if not meets(tried, goal):
+            return
 
 
 def meets(row: StepRow, goal: float) -> bool:
@@ -175,15 +214,14 @@ def meets(row: StepRow, goal: float) -> bool:
     return row.worst is not None and row.worst <= goal
 
 
-def measured(case: Case, schemes: Sequence[Scheme], omega_dt: float, timed_steps: int) -> list[StepRow]:
-    """The schemes on a case at one step; runs of no more than so many steps are timed `REPEATS` times, in turns."""
-    found = {scheme.name: [row(case, scheme, omega_dt)] for scheme in schemes}
-    short = omega_dt <= _TIMED and all(rows[0].steps <= timed_steps for rows in found.values())
-    turns = REPEATS - 1 if short else 0
-    for _ in range(turns):
-        for scheme in schemes:
-            found[scheme.name].append(row(case, scheme, omega_dt))
-    return [_timed(rows) for rows in found.values()]
+def measured(case: Case, tries: Sequence[tuple[Scheme, float]], timed_steps: int) -> list[StepRow]:
+    """Schemes on a case, each at an omega dt; runs of at most so many steps are timed `REPEATS` times, in turns."""
+    found = [[row(case, *one)] for one in tries]
+    for _ in range(REPEATS - 1):
+        for (scheme, omega_dt), rows in zip(tries, found, strict=True):
+            if omega_dt <= _TIMED and rows[0].steps <= timed_steps:
+                rows.append(row(case, scheme, omega_dt))
+    return [_timed(rows) for rows in found]
 
 
 def _timed(rows: Sequence[StepRow]) -> StepRow:

@@ -1,4 +1,4 @@
-"""The quadratic zone around the mudline: what its half width h costs in error and saves, or costs, in iterations."""
+"""The quadratic zone around the mudline: error and iterations against its half width h."""
 
 from __future__ import annotations
 
@@ -13,15 +13,16 @@ import numpy as np
 from mudline.contact.arrays import FloatArray
 from mudline.scene.deck_values import FOOT
 from mudline.scene.model import Scene
-from mudline.study.laws import ElasticContact, LinearLaw, smoothed_spring
+from mudline.study.laws import LinearLaw, smoothed_spring
 from mudline.study.newton import Newton
 from mudline.study.pictures import LineStyle, Picture, Points, drawn, label, line_style, zero_place, zero_tick
-from mudline.study.precision.drop import Drop, drop_case, reference_drop
+from mudline.study.precision.contacts import contacts_of
+from mudline.study.precision.exact_motions import Drop, drop_case, reference_drop
 from mudline.study.precision.integration import TRIED, row
 from mudline.study.report import Layout, Section, StudyOptions, columns_of, grouped
 from mudline.study.schemes import SCHEMES, STYLES
 
-if TYPE_CHECKING:  # only who draws loads matplotlib
+if TYPE_CHECKING:  # only drawing needs matplotlib
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -37,7 +38,7 @@ _IMPACT_STEPS = (0.1, 0.5)
 _EXACT = 1e-15
 """Smaller errors at rest are drawn here."""
 _COLORS = ("#332288", "#999933")
-"""Of the cases at rest; those of pictures with schemes are the schemes'."""
+"""Of the cases at rest; schemes have their own."""
 
 
 class Rest(NamedTuple):
@@ -86,7 +87,7 @@ SMOOTHING = Layout("smoothing", "Smoothing at rest: Newton iterations and error"
 IMPACTS = Layout("impacts", "Smoothing at an impact", columns_of(ImpactRow), brief=False)
 
 
-def study_smoothing(scene: Scene, contacts: Sequence[ElasticContact], options: StudyOptions) -> Section:
+def study_smoothing(scene: Scene, options: StudyOptions) -> Section:
     """At rest on the published case and on the scene's stiffest law as if it were linear; and the published impact."""
     options.progress("smoothing")
     widths = np.unique([float(f"{width:.4g}") for width in (*WIDTHS, *(share * 1e-5 for share in SHARES))])
@@ -95,7 +96,7 @@ def study_smoothing(scene: Scene, contacts: Sequence[ElasticContact], options: S
         row._replace(half_width=row.half_width / unit, penetration=row.penetration / unit)
         for row in at_rest(PUBLISHED, widths)
     ]
-    for contact in contacts[:1]:
+    for contact in contacts_of(scene).contacts[:1]:
         stiffness, start = contact.stiffness, 0.7 * contact.diameter
         own = Rest(contact.law.name, stiffness, 2e-5 * stiffness, contact.weight, start)
         rest += at_rest(own, np.array(SHARES) * own.kinked)
@@ -136,7 +137,7 @@ def _draw(rest: Sequence[RestRow], hits: Sequence[ImpactRow], figure: Figure) ->
 
 
 def _through(axes: Axes, points: Points, look: LineStyle, name: str) -> None:
-    """A line through points; that of h = 0 stands apart."""
+    """A line through points; the point at h = 0 is drawn separately."""
     above = [point for point in points if point[0] > 0.0]
     axes.plot([x for x, _ in above], [y for _, y in above], label=name, **look)
     at_zero = [y for x, y in points if x == 0.0]
@@ -162,7 +163,7 @@ def at_rest(rest: Rest, widths: FloatArray) -> Iterator[RestRow]:
 
 
 def impacts(drop: Drop) -> Iterator[ImpactRow]:
-    """The same fall on seabeds of growing zones: how fast the mass leaves, and how many iterations a step takes."""
+    """The same drop on seabeds with wider and wider zones: rebound speed, and iterations of a step."""
     stiffness = drop.law.steepest(0.0)
     for share in _IMPACT_SHARES:
         width = share * drop.deepest
@@ -175,6 +176,6 @@ def impacts(drop: Drop) -> Iterator[ImpactRow]:
 
 
 def weightless(drop: Drop) -> Drop:
-    """The same without gravity, so that nothing but the impact is seen."""
+    """The same drop without gravity, for the impact alone."""
     deepest = drop.speed * math.sqrt(drop.mass / drop.law.steepest(0.0))
     return replace(drop, weight=0.0, deepest=deepest)

@@ -1,4 +1,4 @@
-"""What each feature of a scene costs, and that a scene does not pay for those it has not."""
+"""What each feature of a scene costs, and that a scene does not pay for those that it does not have."""
 
 from __future__ import annotations
 
@@ -11,23 +11,23 @@ from mudline.study.pruning.growth import study_growth
 from mudline.study.pruning.imports import study_imports
 from mudline.study.pruning.page import page
 from mudline.study.pruning.scenes import Pipe, pipe_of, variants
-from mudline.study.report import Omission, Section, StudyError, StudyOptions, paragraphs
+from mudline.study.report import Omission, Section, StudyOptions, paragraphs
 from mudline.study.running import Part, Study
 
 _NOTES = """
-Times are those of the processor, so that other programs hardly count: medians and quartiles of five repeats, in which
-what is compared takes turns. Scenes: per node and step of a series of three steps (laid, lifted in waves, dragged
-aside), whose results are thrown away. Apart from the scene as it is, which lies where the deck has it, all nodes are
+Times are CPU times, which other programs hardly affect: medians and quartiles of five repeats, in which what is
+compared takes turns. Scenes: per node and step of a series of three steps (laid, lifted in waves, dragged aside), whose
+results are discarded. Apart from the scene as it is, which lies where the deck has it, all nodes are
 embedded in the seabed, so that every element touches it at the first step.
 
-The scene as it is: the deck, whole and as often as it takes, with its own order of nodes, seabed and laws. The others:
-a straight line with the curve that most of the deck's elements have, and the median of its diameters and lengths;
-stages are switched on with typical values, on every element or node.
+The scene as it is: as many whole copies of the deck as needed, with its own order of nodes, seabed and laws. The
+others: a straight line with the curve that most of the deck's elements have, and the median of its diameters and
+lengths; stages are switched on with typical values, on every element or node.
 
-Memory: the most that one evaluation of one step had at a time, beyond the input, its result included; of calls, the
-most of the whole call.
+Memory: the peak of one evaluation of one step beyond the input, its result included; of calls, the peak of the whole
+call.
 
-Plain numpy: a function by hand for elements on one curve and a flat seabed, with the same results bit by bit.
+Plain numpy: a hand-written function for elements on one curve and a flat seabed, with the same results bit by bit.
 
 Imports: each scene in a fresh interpreter that has loaded numpy; the time is for loading, preparing and evaluating
 eleven nodes.
@@ -38,13 +38,8 @@ constant number of elements. Points, curves, planes: one evaluation of one step,
 
 
 def _given(scene: Scene) -> tuple[ContactInput, Pipe]:
-    """The deck's own input, and what the forced laws are made for.
-
-    Raises DeckError where the scene cannot be evaluated, and StudyError where it has no elements.
-    """
+    """The deck's own input, and what the forced laws are made for; raises DeckError where it cannot be evaluated."""
     inputs = scene.contact_input()
-    if not len(inputs.element_ids):
-        raise StudyError("the deck has no elements of its own, so there is nothing to time: give one with *ELEMENT")
     return inputs, pipe_of(inputs, next(iter(sample_scene().curves.values())))
 
 

@@ -1,7 +1,7 @@
 """The ways to call the evaluator, few steps and many, on a line and in the order of the deck, beside plain numpy.
 
-Nodes of a deck have the order in which it gives them: GEN= puts those that it makes behind the two that it is
-between, so that neighbours on the line are no neighbours in memory.
+Nodes of a deck have the order in which it gives them: GEN= puts the nodes that it generates after the two that it is
+between, so that neighbours on the line are not neighbours in memory.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from mudline.study.pruning.scenes import (
 from mudline.study.report import Layout, Section, StudyOptions, columns_of
 from mudline.study.timing import Spread, paired, ratios
 
-if TYPE_CHECKING:  # only who draws loads matplotlib
+if TYPE_CHECKING:  # only drawing needs matplotlib
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -154,7 +154,7 @@ def _results(call: str, model: ContactModel, moved: FloatArray) -> Iterator[tupl
 
 
 def _run(call: str, model: ContactModel, moved: FloatArray) -> object:
-    """Make a call; what comes last is returned, which is everything of `evaluate`."""
+    """Make a call, and return its last result, which is the whole series for `evaluate`."""
     kept: object = None
     for _, kept in _results(call, model, moved):  # noqa: B007 - the last one
         pass
@@ -162,7 +162,7 @@ def _run(call: str, model: ContactModel, moved: FloatArray) -> object:
 
 
 def _bare(plain: Plain, moved: FloatArray, parts: Sequence[slice | int]) -> object:
-    """The same by hand: as many steps at a time as the call takes; what comes last is returned."""
+    """The same in plain numpy, as many steps at a time as the call takes; return the last result."""
     kept: object = None
     for at in parts:
         kept = plain.evaluate(moved[at])

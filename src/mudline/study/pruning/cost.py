@@ -1,4 +1,4 @@
-"""Time and memory of each scene at each number of nodes, and what a scene with nothing but a curve pays beyond it."""
+"""Time and memory of each scene at each number of nodes, and the overhead of a scene with one curve alone."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from mudline.study.pruning.scenes import (
 from mudline.study.report import Layout, Section, StudyOptions, columns_of, grouped
 from mudline.study.timing import Spread, paired, ratios
 
-if TYPE_CHECKING:  # only who draws loads matplotlib
+if TYPE_CHECKING:  # only drawing needs matplotlib
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -39,7 +39,7 @@ MOST = 1_000_000
 
 
 class CostRow(NamedTuple):
-    """A scene of so many nodes; times of a series, of the processor.
+    """A scene with a number of nodes; CPU times of a series.
 
     touching: at the first step.
     peak: largest memory of one evaluation of one step beyond what was there before, bytes per node; its result counts.
@@ -141,7 +141,7 @@ _SHOWN = {
 }
 """Colours and markers of the scenes in the picture."""
 _APART = 0.045
-"""Of the height of a picture: between two names beside each other, at least."""
+"""Least distance of two names, over the height of a picture."""
 
 
 def _draw_nodes(rows: Sequence[CostRow], figure: Figure) -> None:
@@ -168,7 +168,7 @@ def _draw_nodes(rows: Sequence[CostRow], figure: Figure) -> None:
 
 
 def _name(axes: Axes, heights: Mapping[str, float], x: float) -> None:
-    """The names of lines at their ends, from below, as far from each other as it takes to read them."""
+    """Write the names of lines at their ends, from below, far enough from each other to be readable."""
     low, high = axes.get_ylim()
     below, apart = 0.0, (high / low) ** _APART
     for name, height in sorted(heights.items(), key=lambda pair: pair[1]):
@@ -285,7 +285,7 @@ def _row(  # noqa: PLR0913 - what the two ways to measure differ in
 
 
 def streamed(model: ContactModel, moved: FloatArray) -> Callable[[], None]:
-    """A run through a series (steps, n, 3), results thrown away."""
+    """A run through a series (steps, n, 3), results discarded."""
     times = 0.1 * np.arange(float(len(moved)))
 
     def run() -> None:
@@ -320,7 +320,7 @@ def curve_alone(pipe: Pipe, nodes: int) -> CurveRow:
 
 
 def peak_of(call: Callable[[], object]) -> int:
-    """Bytes that a call has at most at a time, beyond what was there before; what it returns counts."""
+    """Peak memory of a call in bytes, beyond what was there before; what it returns counts."""
     tracemalloc.start()
     try:
         before = tracemalloc.get_traced_memory()[0]

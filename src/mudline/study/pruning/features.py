@@ -1,4 +1,4 @@
-"""What the deck has besides the normal law of its elements, with the line that asks for it, and what that advises."""
+"""Features of a deck other than the normal law of its elements, with their lines, and the advice that follows."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 from mudline.codes import RUN001
 from mudline.diagnostics import Problem, Where
 from mudline.scene.model import Scene
+from mudline.study import file_of
 from mudline.study.pages import Tables, grouped_digits, listed, rounded, time
 from mudline.study.pruning.calls import STEP, STREAM
 from mudline.study.pruning.scenes import AS_IT_IS
@@ -30,12 +31,14 @@ class Feature(NamedTuple):
     """A law that some elements have; the first line of the deck that gives it to one of them, 0 for none.
 
     remembers: a step depends on the one before.
+    file: of the line, in a deck that is continued; "" for the deck itself.
     """
 
     name: Annotated[str, "feature"]
     line: Annotated[int, "deck line"]
     elements: Annotated[int, "elements"]
     remembers: Annotated[bool, "remembers"]
+    file: Annotated[str, "deck file"]
 
 
 FEATURES = Layout("features", "What the deck has besides normal laws", columns_of(Feature), brief=False)
@@ -62,7 +65,7 @@ def _features(scene: Scene) -> Iterator[Feature]:
 
 def _feature(scene: Scene, name: str, where: Where, elements: int) -> Feature:
     line = scene.deck.place(Problem(RUN001, "", where=where)).line
-    return Feature(name, line, elements, name in _REMEMBER)
+    return Feature(name, line, elements, name in _REMEMBER, file_of(scene, where))
 
 
 def advice(tables: Tables) -> str:
@@ -72,10 +75,7 @@ def advice(tables: Tables) -> str:
     cost = f"a step costs {step} a node, {times} times one with a curve and nothing else"
     if own.text("steps") == "together":
         return f"Use stream or evaluate for a series, because no law of this deck remembers the step before: {cost}."
-    names = [
-        f"{row.text('feature')} (deck line {row.text('deck line')})"
-        for row in tables.rows("features", remembers="true")
-    ]
+    names = [f"{row.text('feature')} ({row.place()})" for row in tables.rows("features", remembers="true")]
     laws, remember = (
         (listed(names), "remember" if len(names) > 1 else "remembers") if names else ("its laws", "remember")
     )

@@ -20,7 +20,7 @@ from mudline.study.pruning.scenes import Pipe, Variant, everything, line, planes
 from mudline.study.report import Layout, Section, StudyOptions, columns_of, grouped
 from mudline.study.timing import Spread, paired
 
-if TYPE_CHECKING:  # only who draws loads matplotlib
+if TYPE_CHECKING:  # only drawing needs matplotlib
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -28,13 +28,15 @@ NODES = 10_001
 FEW_NODES = 1001
 ELEMENTS = 2048
 _DEEPEST = 0.5
+UPPER_EXPONENT, ONE_MORE = "exponent, upper half", "time of one more [us]"
+"""Headings of the table."""
 
 
 Call: TypeAlias = Callable[[], object]
 
 
 class Ladder(NamedTuple):
-    """Sizes of one thing, and what is timed of a scene of a pipe with so many."""
+    """Sizes of one thing, and the call that is timed for each size."""
 
     sizes: Sequence[int]
     prepared: Callable[[Pipe, int], Call]
@@ -63,13 +65,13 @@ class Fit(NamedTuple):
     least: Annotated[int, "from"]
     largest: Annotated[int, "to"]
     exponent: Annotated[float, "exponent"]
-    upper: Annotated[float, "exponent, upper half"]
+    upper: Annotated[float, UPPER_EXPONENT]
     factor: Annotated[float, "time, largest / smallest"]
     unit: float
     largest_seconds: Annotated[float, "time of the largest [s]"]
 
 
-FITS = Layout[Fit]("growth", "How time grows", {**columns_of(Fit), "time of one more [us]": lambda fit: 1e6 * fit.unit})
+FITS = Layout[Fit]("growth", "How time grows", {**columns_of(Fit), ONE_MORE: lambda fit: 1e6 * fit.unit})
 SIZES = Layout("sizes", "Time against size", columns_of(GrowthRow), brief=False)
 
 
@@ -115,7 +117,7 @@ def _slope(
 
 
 def growth(pipe: Pipe, options: StudyOptions) -> Iterator[GrowthRow]:
-    """All ladders, the sizes of each turn by turn; longer by a factor of four with `full`."""
+    """All ladders, the sizes of each in turns; longer by a factor of four with `full`."""
     ladders = [
         (what, [*sizes, *((4 * sizes[-1],) if options.full else ())], prepared)
         for what, (sizes, prepared) in LADDERS.items()
@@ -157,7 +159,7 @@ def per_unit(sizes: Sequence[float], seconds: Sequence[float]) -> float:
 
 
 def spread(points: int, scale: float) -> ForceCurve:
-    """A curve of this many points, crowded towards the mudline."""
+    """A curve of this many points, graded towards the mudline."""
     ratios = _DEEPEST * np.linspace(0.0, 1.0, points) ** 2
     return ForceCurve(np.column_stack([ratios, scale * np.sqrt(ratios)]))
 
@@ -167,7 +169,7 @@ def _points(pipe: Pipe, size: int) -> Call:
 
 
 def _curves(pipe: Pipe, size: int) -> Call:
-    """Curves in stretches of the line, as sets have them."""
+    """Curves on consecutive parts of the line, as sets have them."""
     elements = np.arange(NODES - 1)
     law = LawAssignment("curve", elements, {"curve": elements * size // (NODES - 1)})
     made = tuple(spread(10, 1000.0 + number) for number in range(size))
@@ -175,7 +177,7 @@ def _curves(pipe: Pipe, size: int) -> Call:
 
 
 def _sets(pipe: Pipe, size: int) -> Call:
-    """Reading the deck until its evaluator stands."""
+    """From reading the deck to its evaluator."""
     del pipe
     text = deck_with_sets(size, ELEMENTS)
     return lambda: scene_of(text, "sets.keyxm").contact()
@@ -211,7 +213,7 @@ LADDERS = {
 
 
 def deck_with_sets(sets: int, elements: int) -> str:
-    """The text of a straight line on linear seabeds; the elements are shared out among the sets."""
+    """The text of a straight line on linear seabeds; the elements are divided among the sets."""
     edges = [number * elements // sets for number in range(sets + 1)]
     ranges = [(f"Part {number + 1}", first + 1, last) for number, (first, last) in enumerate(pairwise(edges))]
     sets_of = "".join(f" SET={name}\n GEN={first}, {last}\n" for name, first, last in ranges)

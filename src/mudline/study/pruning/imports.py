@@ -1,4 +1,4 @@
-"""What a scene loads: modules and time, each in a fresh interpreter."""
+"""Modules that a scene loads, and the time for it, each in a fresh interpreter."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class ImportRow(NamedTuple):
 
 
 def _parts(row: ImportRow) -> str:
-    """The laws, else the packages, that the modules are of."""
+    """The laws, else the packages, of the modules."""
     return ", ".join(dict.fromkeys(module.removeprefix("laws.").partition(".")[0] for module in row.beyond))
 
 

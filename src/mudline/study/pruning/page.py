@@ -10,6 +10,7 @@ from mudline.study import timing
 from mudline.study.pages import (
     Record,
     Tables,
+    bullets,
     filled,
     grouped_digits,
     listed,
@@ -17,12 +18,15 @@ from mudline.study.pages import (
     percent,
     rounded,
     span,
+    table_of,
     time,
 )
 from mudline.study.pruning.calls import ALONG, EVALUATE, IN_ORDER, STEP, STREAM
 from mudline.study.pruning.features import advice
+from mudline.study.pruning.growth import ONE_MORE, UPPER_EXPONENT
 from mudline.study.pruning.imports import NODES as IMPORT_NODES
 from mudline.study.pruning.scenes import AS_IT_IS, CURVE, EVERYTHING, PLAIN
+from mudline.study.report import grouped
 from mudline.study.running import RUN_TIME
 
 _SHORT = (PLAIN, CURVE, "curve, unloading", "curve, suction", "curve, friction", AS_IT_IS, EVERYTHING)
@@ -30,7 +34,6 @@ _SCATTERED = "curve, scattered points"
 _STEP_TIME, _RATIO, _PLAIN = "time [ns/node/step]", "times the curve's", "times plain numpy"
 _MEMORY, _BARE_MEMORY = "memory [bytes/node]", "memory of plain numpy [bytes/node]"
 _MEDIAN = "median time [ns/node/step]"
-_UPPER = "exponent, upper half"
 _LEVEL = 1.15
 """The largest exponent that is called proportional: the fit of a few noisy times."""
 
@@ -45,7 +48,7 @@ def page(tables: Tables) -> str:
         "run_time": time(float(machine[RUN_TIME])),
         "machine": ", ".join([machine["processor"], f"{machine['cores']} cores", *_versions(machine)]),
         "repeats": str(timing.REPEATS),
-        "summary": "\n".join(f"* {line}" for line in _summary(tables)),
+        "summary": bullets(_summary(tables)),
         "level": _level(tables),
         "touching": _touching(tables),
         "short_table": _short_table(tables),
@@ -63,7 +66,7 @@ def page(tables: Tables) -> str:
         "import_nodes": str(IMPORT_NODES),
         "growth_table": _growth_table(tables),
         "growth_text": _growth_text(tables),
-        "conclusions": "\n".join(f"* {line}" for line in _conclusions(tables)),
+        "conclusions": bullets(_conclusions(tables)),
     }
     return filled(Path(__file__).with_name("page.md"), fields)
 
@@ -109,7 +112,7 @@ def _summary(tables: Tables) -> Iterator[str]:
     )
     yield (
         f"The evaluator takes {_over(tables)} times as long as plain numpy that is written by hand for a curve and "
-        "nothing else, and gives the same bits; which where, see below."
+        "nothing else, and gives the same bits; the tables below say where."
     )
     points = tables.row("growth", **{"number of": "points on the curve"})
     yield (
@@ -155,7 +158,7 @@ def _touching(tables: Tables) -> str:
 
 
 def _order(tables: Tables) -> str:
-    """How much dearer the order of the deck is."""
+    """How much more the order of the deck costs."""
     along = {_call(row): row.number(_MEDIAN) for row in tables.rows("calls", scene=ALONG)}
     rows = [row for row in tables.rows("calls", scene=IN_ORDER) if _call(row) in along]
     over = span(row.number(_MEDIAN) / along[_call(row)] for row in rows)
@@ -167,36 +170,32 @@ def _call(row: Record) -> tuple[str, str, int]:
 
 
 def _decade(row: Record) -> int:
-    """Numbers of nodes that are about the same power of ten: whole copies of a deck seldom have exactly one."""
+    """The power of ten of the number of nodes: whole copies of a deck seldom have exactly one."""
     return round(math.log10(row.number("nodes")))
 
 
 def _stages_table(tables: Tables) -> str:
-    rows = sorted(tables.rows("stages"), key=lambda row: row.number(_RATIO))
-    headings = (
-        "scene",
-        "nodes",
-        "steps",
-        "time per node and step",
-        "times the curve's",
-        "memory per node",
-        "to prepare",
+    return table_of(
+        sorted(tables.rows("stages"), key=lambda row: row.number(_RATIO)),
+        {
+            "scene": lambda row: _marked(row, CURVE, AS_IT_IS),
+            "nodes": _nodes,
+            "steps": "steps",
+            "time per node and step": lambda row: _ns(row, _STEP_TIME),
+            "times the curve's": lambda row: rounded(row.number(_RATIO)),
+            "memory per node": lambda row: _bytes(row, _MEMORY),
+            "to prepare": lambda row: _ns(row, "to prepare [ns/node]"),
+        },
     )
-    return markdown_table(
-        headings,
-        [
-            (
-                f"**{row.text('scene')}**" if row.text("scene") in {CURVE, AS_IT_IS} else row.text("scene"),
-                _nodes(row),
-                row.text("steps"),
-                _ns(row, _STEP_TIME),
-                rounded(row.number(_RATIO)),
-                f"{rounded(row.number(_MEMORY), 3)} B",
-                _ns(row, "to prepare [ns/node]"),
-            )
-            for row in rows
-        ],
-    )
+
+
+def _marked(row: Record, *scenes: str) -> str:
+    """The name of a scene, in bold letters where it is one of these."""
+    return f"**{row.text('scene')}**" if row.text("scene") in scenes else row.text("scene")
+
+
+def _bytes(row: Record, heading: str) -> str:
+    return f"{rounded(row.number(heading), 3)} B"
 
 
 # --------------------------------------------------------------------------------------------------------------- calls
@@ -219,29 +218,24 @@ def _equal(tables: Tables) -> str:
 
 def _calls_table(tables: Tables) -> str:
     """One step and the most steps, of the line that is nearest to a thousand nodes."""
-    rows = tables.rows("calls")
-    lines = []
-    for scene in dict.fromkeys(row.text("scene") for row in rows):
-        own = [row for row in rows if row.text("scene") == scene]
+    shown: list[Record] = []
+    for own in grouped(tables.rows("calls"), lambda row: row.text("scene")).values():
         nodes = min((row.number("nodes") for row in own), key=lambda count: abs(count - 1000.0))
         near = [row for row in own if row.number("nodes") == nodes]
         steps = [row.number("steps") for row in near]
-        lines += [_call_line(row) for row in near if row.number("steps") in {min(steps), max(steps)}]
-    headings = ("scene", "call", "nodes", "steps", "per node and step", _PLAIN, "memory per node", "of plain numpy")
-    return markdown_table(headings, lines)
-
-
-def _call_line(row: Record) -> tuple[str, ...]:
-    has_plain = bool(row.text("same results"))
-    return (
-        row.text("scene"),
-        f"`{row.text('call')}`",
-        _nodes(row),
-        row.text("steps"),
-        _ns(row, _MEDIAN),
-        rounded(row.number(_PLAIN)) if has_plain else "",
-        f"{rounded(row.number(_MEMORY), 3)} B",
-        f"{rounded(row.number(_BARE_MEMORY), 3)} B" if has_plain else "",
+        shown += [row for row in near if row.number("steps") in {min(steps), max(steps)}]
+    return table_of(
+        shown,
+        {
+            "scene": "scene",
+            "call": lambda row: f"`{row.text('call')}`",
+            "nodes": _nodes,
+            "steps": "steps",
+            "per node and step": lambda row: _ns(row, _MEDIAN),
+            _PLAIN: lambda row: rounded(row.number(_PLAIN)) if row.text("same results") else "",
+            "memory per node": lambda row: _bytes(row, _MEMORY),
+            "of plain numpy": lambda row: _bytes(row, _BARE_MEMORY) if row.text("same results") else "",
+        },
     )
 
 
@@ -258,9 +252,9 @@ def _calls_text(tables: Tables) -> str:
     )
     return (
         f"In times of plain numpy, over all sizes and series: {'; '.join(spans)}. A call of `step` on {_nodes(few)} "
-        f"nodes costs {_whole(few, _MEDIAN)}, most of it the calls of numpy in it: a series that is known before "
-        f"belongs into `stream`. On {_nodes(kept)} nodes and {kept.text('steps')} steps `evaluate` holds "
-        f"{rounded(kept.number(_MEMORY), 3)} bytes a node, `stream` {rounded(passed.number(_MEMORY), 3)}. All sizes "
+        f"nodes costs {_whole(few, _MEDIAN)}: use `stream` for a series that is known beforehand. On {_nodes(kept)} "
+        f"nodes and {kept.text('steps')} steps `evaluate` holds {rounded(kept.number(_MEMORY), 3)} bytes a node, "
+        f"`stream` {rounded(passed.number(_MEMORY), 3)}. All sizes "
         "and numbers of steps are in [`pruning-calls.csv`](pruning-calls.csv)."
     )
 
@@ -269,20 +263,18 @@ def _calls_text(tables: Tables) -> str:
 
 
 def _curve_table(tables: Tables) -> str:
-    headings = ("nodes", "curve alone", "plain numpy", "scene", "scene / curve", "scene / plain numpy", "quartiles")
     ratio = "scene / plain numpy"
-    return markdown_table(
-        headings,
-        [
-            (
-                _nodes(row),
-                *(_ns(row, f"{name} [ns/node]") for name in ("curve alone", "plain numpy", "scene")),
-                rounded(row.number("scene / curve alone")),
-                rounded(row.number(ratio)),
-                span(row.number(f"{ratio}, {which} quartile") for which in ("lower", "upper")),
-            )
-            for row in tables.rows("curve")
-        ],
+    return table_of(
+        tables.rows("curve"),
+        {
+            "nodes": _nodes,
+            "curve alone": lambda row: _ns(row, "curve alone [ns/node]"),
+            "plain numpy": lambda row: _ns(row, "plain numpy [ns/node]"),
+            "scene": lambda row: _ns(row, "scene [ns/node]"),
+            "scene / curve": lambda row: rounded(row.number("scene / curve alone")),
+            ratio: lambda row: rounded(row.number(ratio)),
+            "quartiles": lambda row: span(row.number(f"{ratio}, {which} quartile") for which in ("lower", "upper")),
+        },
     )
 
 
@@ -295,8 +287,8 @@ def _curve_text(tables: Tables) -> str:
         "numpy, which reads positions and writes gaps, depths, ratios, forces, slopes and reactions, takes "
         f"{span(bare)} times as long as the curve alone. The scene takes "
         f"{span(row.number('scene / plain numpy') for row in rows)} times as long as plain numpy: the rest goes into "
-        "finding the elements that touch, into checks that name the element at fault, and into blocks small enough for "
-        "the cache. Nothing of it goes into a stage that the scene does not have: its module is not loaded, see below."
+        "finding the elements in contact, into checks that name the element at fault, and into blocks small enough for "
+        f"the cache. {_not_loaded(tables).capitalize()}, see [imports](#imports)."
     )
 
 
@@ -304,69 +296,62 @@ def _curve_text(tables: Tables) -> str:
 
 
 def _imports_table(tables: Tables) -> str:
-    headings = (
-        "scene",
-        "time to load",
-        "quartiles",
-        "modules of mudline",
-        "other modules",
-        "beyond those of the curve",
+    return table_of(
+        tables.rows("imports"),
+        {
+            "scene": lambda row: _marked(row, CURVE),
+            "time to load": lambda row: time(1e-3 * row.number("median [ms]")),
+            "quartiles": lambda row: span((row.number(f"{end} quartile [ms]") for end in ("lower", "upper")), 3, "ms"),
+            "modules of mudline": "modules of mudline",
+            "other modules": "other modules",
+            "beyond those of the curve": "beyond those of the curve",
+        },
     )
-    return markdown_table(
-        headings,
-        [
-            (
-                f"**{row.text('scene')}**" if row.text("scene") == CURVE else row.text("scene"),
-                time(1e-3 * row.number("median [ms]")),
-                span((row.number("lower quartile [ms]"), row.number("upper quartile [ms]")), 3, "ms"),
-                row.text("modules of mudline"),
-                row.text("other modules"),
-                row.text("beyond those of the curve"),
-            )
-            for row in tables.rows("imports")
-        ],
-    )
+
+
+def _not_loaded(tables: Tables) -> str:
+    """What everything loads and a scene with a curve does not."""
+    modules = tables.row("imports", scene=EVERYTHING).text("beyond those of the curve")
+    return f"a scene with a curve loads no module of {listed(modules.split(', '), 'or')}"
 
 
 def _growth_table(tables: Tables) -> str:
-    headings = ("number of", "from", "to", "exponent", "of the larger half", "the largest", "one more costs")
-    return markdown_table(
-        headings,
-        [
-            (
-                row.text("number of"),
-                row.text("from"),
-                row.text("to"),
-                f"{row.number('exponent'):.2f}",
-                f"{row.number(_UPPER):.2f}",
-                time(row.number("time of the largest [s]")),
-                time(1e-6 * row.number("time of one more [us]")) if _grows(row) else "not measurable",
-            )
-            for row in tables.rows("growth")
-        ],
+    return table_of(
+        tables.rows("growth"),
+        {
+            "number of": "number of",
+            "from": "from",
+            "to": "to",
+            "exponent": lambda row: f"{row.number('exponent'):.2f}",
+            "of the larger half": lambda row: f"{row.number(UPPER_EXPONENT):.2f}",
+            "the largest": lambda row: time(row.number("time of the largest [s]")),
+            "one more costs": lambda row: time(1e-6 * row.number(ONE_MORE)) if _grows(row) else "not measurable",
+        },
     )
 
 
 def _grows(row: Record) -> bool:
-    return row.number(_UPPER) > 1.0 - 1.0 / _LEVEL
+    return row.number(UPPER_EXPONENT) > 1.0 - 1.0 / _LEVEL
 
 
 def _growth_text(tables: Tables) -> str:
-    faster = [row.text("number of") for row in tables.rows("growth") if row.number(_UPPER) > _LEVEL]
-    level = [row.text("number of") for row in tables.rows("growth") if not _grows(row)]
+    faster = [row.text("number of") for row in tables.rows("growth") if row.number(UPPER_EXPONENT) > _LEVEL]
+    level = [
+        f"{row.text('number of')} ({rounded(row.number('time, largest / smallest'))} times from {row.text('from')} to "
+        f"{row.text('to')})"
+        for row in tables.rows("growth")
+        if not _grows(row)
+    ]
     words = ["**Nothing grows faster than in proportion.**"]
     if faster:
         words = [f"The time grows faster than in proportion with the number of {listed(faster)}."]
     if level:
-        words.append(f"The number of {listed(level)} does not count.")
+        words.append(f"The number of {listed(level)} hardly counts.")
     return " ".join(words)
 
 
 def _conclusions(tables: Tables) -> Iterator[str]:
-    yield (
-        "Do not leave out a feature for fear of its price elsewhere: a scene with a curve loads no module of any other "
-        "stage than its own."
-    )
+    yield (f"Do not leave out a feature because of its cost for other decks: {_not_loaded(tables)}.")
     costliest = sorted(tables.rows("stages", steps="one by one"), key=lambda row: -row.number(_RATIO))
     named = [f"{row.text('scene')} ({rounded(row.number(_RATIO))} times the curve)" for row in costliest[:3]]
     yield (

@@ -1,4 +1,4 @@
-"""The least that gives what the evaluator gives for elements on one curve: plain numpy, a line for each result.
+"""The results of the evaluator for elements on one curve in plain numpy, a line for each result.
 
 Nothing is checked, and there is no history, no other law and no seabed but the flat one. Results have the same bits as
 those of the evaluator, which the study verifies before it compares times.

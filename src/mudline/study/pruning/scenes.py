@@ -19,12 +19,12 @@ from mudline.curves import ForceCurve
 
 AS_IT_IS, CURVE, EVERYTHING = "scene as it is", "curve", "everything"
 PLAIN = "plain numpy"
-"""What is compared with the scene of a curve: a function, and no scene."""
+"""The function that is compared with the scene of a curve."""
 COHESION = 5000.0
 STEPS = 3
 """Of a series: laid, then lifted in waves, then dragged."""
 _BESIDE = ("nodal", "unloading", "suction spring", "suction", "friction", "lateral", "trench peak")
-"""What everything has besides normal laws of its elements."""
+"""The laws of "everything" in addition to the normal laws of its elements."""
 _WAVE = 200
 _DEEPEST = 0.25
 _RISE = 0.001
@@ -64,8 +64,8 @@ class Variant:
 
     Attributes:
         name: for tables.
-        make: gives the input with so many nodes; about so many, where whole copies of the deck are made.
-        lies: whether the nodes stay where the deck has them, instead of being embedded in the seabed.
+        make: the input with a number of nodes, or about that many where whole copies of the deck are made.
+        lies: whether the nodes are where the deck has them, instead of embedded in the seabed.
     """
 
     name: str
@@ -120,7 +120,7 @@ def variants(inputs: ContactInput, pipe: Pipe) -> list[Variant]:
 
 
 def everything(pipe: Pipe, nodes: int) -> ContactInput:
-    """Every law on every element and node, curves and linear laws by turns, on two planes."""
+    """Every law on every element and node, curves and linear laws alternating, on two planes."""
     by_turns = [
         replace(law, rows=law.rows[first::2])
         for first, law in enumerate(law_everywhere(name, pipe, nodes) for name in ("curve", "smoothed"))
@@ -133,7 +133,7 @@ def everything(pipe: Pipe, nodes: int) -> ContactInput:
 
 
 def law_everywhere(law: str, pipe: Pipe, nodes: int) -> LawAssignment:
-    """A law of this name on a chain of so many nodes."""
+    """A law of this name on a chain of nodes."""
     rows = np.arange(nodes if law_named(law).acts_on == "nodes" else nodes - 1)
     parameters = _numbers(pipe)[law]
     if law == "friction":
@@ -165,7 +165,7 @@ def _numbers(pipe: Pipe) -> dict[str, Mapping[str, ArrayLike]]:
 
 
 def repeated(inputs: ContactInput, copies: int) -> ContactInput:
-    """An input so many times side by side; each copy has the order of nodes and elements that the deck gives them."""
+    """Copies of an input side by side, each with the order of nodes and elements of the deck."""
     nodes, elements = len(inputs.node_ids), len(inputs.element_ids)
     first = np.repeat(np.arange(copies), elements)[:, None] * nodes
     return replace(
@@ -185,7 +185,7 @@ def repeated(inputs: ContactInput, copies: int) -> ContactInput:
 
 
 def copies_for(inputs: ContactInput, nodes: int) -> int:
-    """How many copies of an input have about so many nodes; at least one."""
+    """How many copies of an input have about this number of nodes; at least one."""
     return max(1, round(nodes / max(len(inputs.node_ids), 1)))
 
 
@@ -205,7 +205,7 @@ def with_curve(inputs: ContactInput, pipe: Pipe) -> ContactInput:
 
 
 def _repeated(given: AssignedLaw, copies: int, count: int) -> LawAssignment:
-    """A law on the copies of so many elements or nodes."""
+    """A law on the copies of `count` elements or nodes."""
     rows = np.tile(given.rows, copies) + np.repeat(np.arange(copies), len(given.rows)) * count
     return LawAssignment(
         given.law.name, rows, {name: np.tile(values, copies) for name, values in given.parameters.items()}

@@ -1,4 +1,4 @@
-"""The step that a deck allows: what its contacts ask of each scheme, how it lands on them, and one sentence."""
+"""The step that a deck allows each scheme: critical steps of its contacts, landings on them, and the advice."""
 
 from __future__ import annotations
 
@@ -10,26 +10,21 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 import numpy as np
 
 from mudline.contact.stiffest import ADVISED_OMEGA_DT, rounded_down
+from mudline.keywords.catalogue import holds_in_soil
 from mudline.scene.model import Scene
 from mudline.scene.oscillation import Segment, line_of, steepest_segment
+from mudline.study import file_of
 from mudline.study.laws import CurveLaw, LinearLaw
 from mudline.study.motion import Scheme
 from mudline.study.pages import Tables
 from mudline.study.pictures import Picture, drawn, label, legend_below
 from mudline.study.report import Layout, Omission, Section, StudyOptions, columns_of
-from mudline.study.schemes import SCHEMES, STYLES
-from mudline.study.stability.critical import (
-    CONTACTS,
-    CRITICAL_STEPS,
-    Contact,
-    Measured,
-    can_oscillate,
-    find_contacts,
-    measure,
-)
-from mudline.study.stability.landings import ALLOWED, LANDING_SCHEMES, TRIED, Fall, envelope
+from mudline.study.schemes import PREFERRED, SCHEMES, STYLES
+from mudline.study.stability.contacts import CONTACTS, Contact, can_oscillate, find_contacts
+from mudline.study.stability.critical import CRITICAL_STEPS, Measured, measure
+from mudline.study.stability.landings import ALLOWED, LANDING_SCHEMES, TRIED, Fall, contact_steps, envelope
 
-if TYPE_CHECKING:  # only who draws loads matplotlib
+if TYPE_CHECKING:  # only drawing needs matplotlib
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -38,16 +33,22 @@ MOST_CONTACTS = 8
 STEPPED = tuple(SCHEMES)
 """The schemes that are stepped on each contact."""
 MOST_LANDINGS = 2
-"""Seabeds on which landings are looked at by default, the stiffest."""
+"""Seabeds on which landings are tried by default, the stiffest."""
 FARTHEST = 3.0
 """Largest omega dt of landings on a deck's own laws."""
 _FINER = np.geomspace(0.001, 0.02, 14)
 """omega dt that are tried where all larger ones are too large: where the force jumps at the mudline."""
-_PREFERRED = ("generalised-alpha-0.5", "hht-0.3", "newmark", "generalised-alpha-1", "generalised-alpha-0")
-"""Implicit schemes of second order to choose from; of equal ones the first, which damps what is not resolved."""
 _EXPLICIT = "central-difference"
+_LIKE_EXPLICIT = "velocity-verlet"
+"""The scheme of `LANDING_SCHEMES` with the same positions."""
+_MOST_STEPS, _MOST_FINER = 5000, 20_000
+"""Steps of a landing at the smallest omega dt of `TRIED`, and of `_FINER`."""
+NO_FREQUENCY = (
+    "No contact of this deck has a frequency: that takes a law with a stiffness, which a rigid seabed has not, and "
+    "sections with a mass."
+)
 _SHALLOW = 0.05
-"""Of the diameter: how deep a pipe falls whose static penetration is not known."""
+"""Of the diameter: depth of the fall of a pipe whose static penetration is not known."""
 
 
 class DeckLanding(NamedTuple):
@@ -56,6 +57,7 @@ class DeckLanding(NamedTuple):
     below: the largest step tried up to which no landing gains more than 1 % of its speed; NaN where all do.
     within: the same for gain and loss.
     speed: of the landing.
+    least: the smallest omega dt tried.
     """
 
     contact: Contact
@@ -63,6 +65,7 @@ class DeckLanding(NamedTuple):
     below: float
     within: float
     speed: float
+    least: float
 
 
 DECK_LANDINGS = Layout[DeckLanding](
@@ -82,7 +85,7 @@ DECK_LANDINGS = Layout[DeckLanding](
 
 
 class DeckStep(NamedTuple):
-    """What a deck allows a scheme: the least of all contacts, and which contact asks for it; NaN where not known."""
+    """The step that a deck allows a scheme: the smallest of all contacts, and the contact; NaN where not known."""
 
     scheme: Scheme
     critical: float
@@ -103,12 +106,13 @@ DECK_STEPS = Layout[DeckStep](
         "landings below 1.01 [s]": lambda one: one.below,
         "landings within 1 % [s]": lambda one: one.within,
         "landing on": lambda one: one.lands_on.name if one.lands_on else "",
+        "deck file": lambda one: one.by.file if math.isfinite(one.critical) else "",
     },
 )
 
 
 class Advice(NamedTuple):
-    """One sentence: which scheme, which step, because of what; and what an explicit scheme would need instead."""
+    """Which scheme with which step, because of what; and what an explicit scheme needs instead."""
 
     scheme: Annotated[str, "scheme"]
     step: Annotated[float, "step [s]"]
@@ -119,26 +123,31 @@ class Advice(NamedTuple):
     explicit_step: Annotated[float, "explicit step [s]"]
     explicit_contact: Annotated[str, "explicit because of"]
     explicit_line: Annotated[int, "explicit deck line"]
+    explicit_why: Annotated[str, "explicit why"]
+    file: Annotated[str, "deck file"]
+    explicit_file: Annotated[str, "explicit deck file"]
 
 
-ADVICE = Layout[Advice]("advice", "Which step to take", columns_of(Advice), brief=False)
+ADVICE = Layout[Advice]("advice", "Advised step", columns_of(Advice), brief=False)
 
-LANDS, OSCILLATES, MISSES = "landings", "omega dt", "no step"
+LANDS, OSCILLATES, MISSES, GROWS = "landings", "omega dt", "no step", "stability"
 _WHY = {
     LANDS: "above it landings there gain or lose more than 1 % of their speed",
     OSCILLATES: f"omega dt is {ADVISED_OMEGA_DT:g} there",
     MISSES: "even there landings gain or lose more than 1 % of their speed, as at every larger step tried",
+    GROWS: "above it a small motion there grows",
 }
 
 
 class NarrowSegment(NamedTuple):
-    """A segment of a curve that sets the step of a contact alone, and the curve without one of its points."""
+    """A segment of a curve that alone sets the step of a contact, and the curve without one of its points."""
 
     contact: Contact
     segment: Segment
     diameter: float
     line: int
     removed_line: int
+    file: str
 
     @property
     def step(self) -> float:
@@ -160,12 +169,13 @@ SEGMENTS = Layout[NarrowSegment](
         "stiffness without it [{force}/{length}2]": lambda one: one.segment.secant / one.diameter,
         "advised step without it [s]": lambda one: one.step,
         "largest change of force [{force}/{length}]": lambda one: one.segment.difference,
+        "deck file": lambda one: one.file,
     },
 )
 
 
 def study_steps(scene: Scene, options: StudyOptions) -> Section:
-    """Every scheme on the contacts that ask for the smallest steps, or in a full run on all of them."""
+    """Every scheme on the contacts with the smallest critical steps, or in a full run on all of them."""
     found, omissions = find_contacts(scene)
     wide = [one for one in found if can_oscillate(one)]
     omissions += [
@@ -181,10 +191,17 @@ def study_steps(scene: Scene, options: StudyOptions) -> Section:
     for contact in options.each(stepped, lambda contact: f"steps on {contact.name}"):
         measured += [measure(scene, contact, SCHEMES[name]) for name in STEPPED]
     seabeds = [one for one in wide if one.oscillation.kind == "normal"]
-    landed = [
-        deck_landing(scene, contact, SCHEMES[name])
-        for contact in (seabeds if options.full else seabeds[:MOST_LANDINGS])
-        for name in LANDING_SCHEMES
+    landed: list[DeckLanding] = []
+    for contact in seabeds if options.full else seabeds[:MOST_LANDINGS]:
+        if contact_steps(fall := fall_on(scene, contact), float(TRIED[0])) > _MOST_STEPS:
+            reason = f"no landings: one would take more than {_MOST_STEPS} steps, its stiffest part is so narrow"
+            omissions.append(Omission(contact.name, reason))
+            continue
+        landed += [deck_landing(contact, SCHEMES[name], fall) for name in LANDING_SCHEMES]
+    omissions += [
+        Omission(f"*{keyword}", "left out of all steps: the evaluator has no springs of this keyword")
+        for keyword in sorted(scene.deck.keywords())
+        if holds_in_soil(keyword)
     ]
     steps = [_deck_step(scheme, found, landed) for scheme in SCHEMES.values()] if found else []
     advised = [_advice(found, landed)] if any(one.omega > 0.0 for one in found) else []
@@ -202,10 +219,10 @@ def study_steps(scene: Scene, options: StudyOptions) -> Section:
 
 def _notes(found: Sequence[Contact], measured: Sequence[Measured]) -> list[str]:
     if not found:
-        return ["No contact of this deck has a frequency: laws with a stiffness and sections with a mass are needed."]
+        return [NO_FREQUENCY]
     return [
         (
-            f"{sum(one.as_predicted for one in measured)} of {len(measured)} runs of a scheme on a contact did as "
+            f"{sum(one.as_predicted for one in measured)} of {len(measured)} runs of a scheme on a contact behaved as "
             "predicted: bounded below the critical step, growing above it."
         )
     ]
@@ -219,20 +236,25 @@ def narrow_segments(scene: Scene, found: Sequence[Contact]) -> list[NarrowSegmen
         segment = None if law is None or law.curve < 0 else steepest_segment(scene.laws.curves[law.curve])
         if segment is not None and segment.narrow and segment.removed is not None and segment.secant > 0.0:
             lines = line_of(scene, segment.where), line_of(scene, segment.removed)
-            rows.append(NarrowSegment(one, segment, float(scene.diameter[one.element]), *lines))
+            file = file_of(scene, segment.where)
+            rows.append(NarrowSegment(one, segment, float(scene.diameter[one.element]), *lines, file))
     return rows
 
 
-def deck_landing(scene: Scene, contact: Contact, scheme: Scheme) -> DeckLanding:
-    """Land on the law of a contact as fast as a fall to its static penetration needs."""
-    fall = _fall(scene, contact)
-    found = envelope(scheme, fall, TRIED[TRIED <= FARTHEST])
-    if math.isnan(found.within) and scheme.name in (*_PREFERRED, "velocity-verlet", "rk4"):
-        found = envelope(scheme, fall, _FINER)
-    return DeckLanding(contact, scheme, found.below / contact.omega, found.within / contact.omega, fall.speed)
+def deck_landing(contact: Contact, scheme: Scheme, fall: Fall) -> DeckLanding:
+    """Land on the law of a contact over the ladder of omega dt."""
+    tried = TRIED[TRIED <= FARTHEST]
+    found = envelope(scheme, fall, tried)
+    finer = scheme.name in (*PREFERRED, "velocity-verlet", "rk4") and contact_steps(fall, _FINER[0]) <= _MOST_FINER
+    if math.isnan(found.within) and finer:
+        tried = _FINER
+        found = envelope(scheme, fall, tried)
+    limits = found.below / contact.omega, found.within / contact.omega
+    return DeckLanding(contact, scheme, *limits, fall.speed, float(tried[0]))
 
 
-def _fall(scene: Scene, contact: Contact) -> Fall:
+def fall_on(scene: Scene, contact: Contact) -> Fall:
+    """A fall on the law of a contact, fast enough to reach its static penetration."""
     arrays, element = scene.law_arrays(), contact.element
     weight, diameter = float(scene.submerged_weight[element]), float(scene.diameter[element])
     law: CurveLaw | LinearLaw
@@ -252,7 +274,7 @@ def _fall(scene: Scene, contact: Contact) -> Fall:
 
 def _deck_step(scheme: Scheme, found: Sequence[Contact], landed: Sequence[DeckLanding]) -> DeckStep:
     by = min(found, key=lambda one: one.critical_step(scheme.name))
-    name = "velocity-verlet" if scheme.name == _EXPLICIT else scheme.name
+    name = _LIKE_EXPLICIT if scheme.name == _EXPLICIT else scheme.name
     own = [one for one in landed if one.scheme.name == name]
     lands_on = min(own, key=_least, default=None)
     below, within = (min((getattr(one, which) for one in own), default=math.nan) for which in ("below", "within"))
@@ -263,49 +285,62 @@ def _least(one: DeckLanding) -> float:
     return 0.0 if math.isnan(one.within) else one.within
 
 
-def _advice(found: Sequence[Contact], landed: Sequence[DeckLanding]) -> Advice:
-    """The implicit scheme of second order that lands within 1 % at the largest step, and that step.
+class _Allowed(NamedTuple):
+    """A step that is advised, the contact that sets it, and why."""
 
-    It is less where a spring of the deck, one that does not lift off included, is not resolved by it.
+    step: float
+    contact: Contact
+    why: str
+
+
+def _allowed(scheme: str, found: Sequence[Contact], landed: Sequence[DeckLanding]) -> _Allowed:
+    """The largest step with which every spring of the deck is resolved and landings keep within 1 %.
+
+    A spring that never lifts off counts too.
     """
     fastest = max(found, key=lambda one: one.omega)
-    step, contact, why, scheme = fastest.advised_step, fastest, OSCILLATES, SCHEMES[_PREFERRED[0]]
-    limits = [
-        min((one for one in landed if one.scheme.name == name), key=_least)
-        for name in _PREFERRED
-        if any(one.scheme.name == name for one in landed)
-    ]
-    if limits:
-        limit = max(limits, key=_least)
-        scheme = limit.scheme
-        if _least(limit) == 0.0:
-            step, contact, why = float(_FINER[0]) / limit.contact.omega, limit.contact, MISSES
-        elif limit.within < step:
-            step, contact, why = limit.within, limit.contact, LANDS
+    resolved = _Allowed(fastest.advised_step, fastest, OSCILLATES)
+    limit = min((one for one in landed if one.scheme.name == scheme), key=_least, default=None)
+    if limit is None:
+        return resolved
+    if math.isnan(limit.within):
+        return _Allowed(limit.least / limit.contact.omega, limit.contact, MISSES)
+    return min(resolved, _Allowed(limit.within, limit.contact, LANDS), key=lambda one: one.step)
+
+
+def _advice(found: Sequence[Contact], landed: Sequence[DeckLanding]) -> Advice:
+    """The implicit scheme of second order that is allowed the largest step, and what central difference is allowed."""
+    names = [name for name in PREFERRED if any(one.scheme.name == name for one in landed)] or PREFERRED[:1]
+    allowed = {name: _allowed(name, found, landed) for name in names}
+    best = max(names, key=lambda name: (allowed[name].why != MISSES, allowed[name].step))
+    own = allowed[best]
     by = min(found, key=lambda one: one.critical_step(_EXPLICIT))
+    stable = _Allowed(by.critical_step(_EXPLICIT), by, GROWS)
+    other = min(stable, _allowed(_LIKE_EXPLICIT, found, landed), key=lambda one: one.step)
     return Advice(
-        scheme.title,
-        rounded_down(step),
-        contact.name,
-        contact.line,
-        why,
+        SCHEMES[best].title,
+        rounded_down(own.step),
+        own.contact.name,
+        own.contact.line,
+        own.why,
         SCHEMES[_EXPLICIT].title,
-        rounded_down(by.critical_step(_EXPLICIT)),
-        by.name,
-        by.line,
+        rounded_down(other.step),
+        other.contact.name,
+        other.contact.line,
+        other.why,
+        own.contact.file,
+        other.contact.file,
     )
 
 
 def advice(tables: Tables) -> str:
     """The sentence about the deck; raises MissingTableError for a deck without a frequency."""
     row = tables.row("advice")
-    place, explicit = (
-        f"{row.text(f'{start}because of')} (deck line {row.text(f'{start}deck line')})" for start in ("", "explicit ")
-    )
+    place, explicit = (f"{row.text(f'{start}because of')} ({row.place(start)})" for start in ("", "explicit "))
     return (
         f"Use {row.text('scheme')} with a step of {row.number('step [s]'):.3g} s or less, because of {place}: "
-        f"{_WHY[row.text('why')]}; {row.text('explicit scheme')} would need less than "
-        f"{row.number('explicit step [s]'):.3g} s, because of {explicit}."
+        f"{_WHY[row.text('why')]}; {row.text('explicit scheme')} needs {row.number('explicit step [s]'):.3g} s or "
+        f"less, because of {explicit}: {_WHY[row.text('explicit why')]}."
     )
 
 
@@ -355,10 +390,12 @@ def _draw(
         text = f"{one.scheme}: {one.step:.3g} s"
         axes.axvline(one.step, color=STYLES[one.scheme]["color"], linewidth=1.5, label=f"advised, {text}")
     _mark_limit(axes, rows)
-    axes.set_yticks(range(len(rows)), [f"{drawn(one.name)}\ndeck line {one.line}" for one in rows], fontsize="small")
+    places = [f"line {one.line} of {drawn(one.file)}" if one.file else f"deck line {one.line}" for one in rows]
+    names = [f"{drawn(one.name)}\n{place}" for one, place in zip(rows, places, strict=True)]
+    axes.set_yticks(range(len(rows)), names, fontsize="small")
     axes.set_ylim(len(rows) - 0.4, -0.6)
     by = min(rows, key=lambda one: one.critical_step(_EXPLICIT))
-    step = by.critical_step(_EXPLICIT)
+    step = rounded_down(by.critical_step(_EXPLICIT))
     title = f"This deck: central difference below {step:.3g} s, because of {drawn(by.name)}"
     title += "".join(f"\n{one.scheme} up to {one.step:.3g} s, because of {drawn(one.contact)}" for one in advised)
     label(axes, title, "time step [s]", "")

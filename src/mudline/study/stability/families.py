@@ -1,4 +1,4 @@
-"""The rungs of the ladder of extremes: a family for each thing that is taken to its ends, and random decks.
+"""The ladder of extremes: a family of cells for each number that is set to extreme values, and random decks.
 
 To add to the ladder, add a row to `FAMILIES`.
 """
@@ -57,7 +57,7 @@ PLACES = ("1E-300", "1E-100", "1E-10", "1E0", "1E10", "1E100", "1E150", "1E151")
 
 
 class Family(NamedTuple):
-    """What is taken to its ends: the values, as decks have them, and how a cell is made of the family and a value."""
+    """A number that is set to extreme values: the values, as decks have them, and the cell of family and value."""
 
     name: str
     values: Sequence[str]
@@ -103,7 +103,7 @@ def _curves(rows: Callable[[str], Pairs]) -> Callable[[str, str], Cell]:
 
 
 def _stiffer(value: str) -> Pairs:
-    """Segments whose slopes are so many times apart."""
+    """Segments whose slopes differ by this factor."""
     far = float(value) * 0.1
     return [("0", "0"), ("0.1", "0.1"), ("0.2", repr(0.1 + far)), ("0.3", repr(0.2 + far))]
 
@@ -114,14 +114,14 @@ def _softer(value: str) -> Pairs:
 
 
 def _narrow(value: str) -> Pairs:
-    """A rise of 1000 on a segment so wide, which begins at a ratio of 0.1."""
+    """A rise of 1000 on a segment of this width, which begins at a ratio of 0.1."""
     power = int(value.removeprefix("1E-"))
     end = "0.2" if power == 1 else "0." + str(10 ** (power - 1) + 1).zfill(power)
     return [("0", "0"), ("0.1", "1000"), (end, "2000"), ("0.5", "3000")]
 
 
 def _softening(value: str) -> Pairs:
-    """A curve that falls behind its peak, the last segment this steep; it pulls in the end."""
+    """A curve that falls after its peak, with this slope of the last segment; its force ends below 0."""
     return [("0", "0"), ("0.1", "1000"), ("0.2", repr(1000.0 + 0.1 * float(value)))]
 
 
@@ -150,7 +150,7 @@ def _on_path(
         deck = made(value)
         try:
             places = path(deck)
-        except (ArithmeticError, ValueError):  # no float64 has a number of the deck: it must be refused
+        except (ArithmeticError, ValueError):  # a number of the deck is not a float64: it must be refused
             places = ()
         return PathCell(family, value, deck, places, bound)
 
@@ -163,7 +163,7 @@ def sliding(deck: SmallDeck, depth: float = 0.01) -> list[Place]:
 
 
 def returning(deck: SmallDeck, depth: float = 0.03) -> list[Place]:
-    """A path on which a force vanishes on its way back and comes again."""
+    """A path on which a force vanishes on unloading and comes back."""
     element = exact_element(deck)
     if element.law is None or not deck.unloading:
         return plunge(depth, depth)
@@ -204,7 +204,7 @@ _ZEROS = {
     "plane": replace(_TILTED, slope="-0.0", direction="-0.0", point=("-0.0", "-0.0", "-0.0")),
     "-1E-400": replace(_RUBS, height="-1E-400", across="-1E-400", coefficients=("-1E-400", "0.4")),
 }
-"""What is a zero with a minus, by its name."""
+"""Decks with negative zeros, by the name of the number."""
 
 FAMILIES = (
     Family("linear stiffness", powers(-3, 15), _linear),
@@ -308,7 +308,7 @@ FAMILIES = (
 
 
 def random_cells(count: int) -> list[AnyCell]:
-    """Random decks, always the same ones: every other one of a law alone, the rest of everything on a path."""
+    """Random decks, the same in each run: every other one has one law, the rest all laws on a path."""
     rng = random.Random(_SEED)  # noqa: S311 - nothing secret about it
     return [_random_cell(rng, index) for index in range(count)]
 
@@ -329,7 +329,7 @@ def _random_curve(rng: random.Random) -> Pairs:
 
 
 def _random_path(rng: random.Random, value: str) -> PathCell:
-    """A deck of everything, on a path that its friction follows."""
+    """A deck with all laws, on a path on which its friction slips."""
     far = rng.choice((3, 30, 150, 307))
 
     def number() -> str:
@@ -371,7 +371,7 @@ def _random_path(rng: random.Random, value: str) -> PathCell:
 
 
 def _rising(rng: random.Random, far: int) -> Pairs:
-    """A curve that never pulls."""
+    """A curve without forces below 0."""
     ratios, forces = (sorted(float(_number(rng, -far, far)) for _ in range(3)) for _ in range(2))
     return [("0", "0"), *((repr(ratio), repr(force)) for ratio, force in zip(ratios, forces, strict=True))]
 

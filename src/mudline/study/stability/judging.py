@@ -1,6 +1,6 @@
-"""A small deck is evaluated from its text to forces, is compared with exact results, and is judged.
+"""Evaluate a small deck from its text to forces, compare them with exact results, and give a verdict.
 
-Here are the verdicts and what all cells share, and the cells whose forces depend on the depth alone.
+The verdicts and what all cells have in common are here, and the cells whose forces depend on the depth alone.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from mudline.study.stability.small_decks import DIAMETER, LENGTH, Pairs, SmallDe
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """A deck, where it stands on the ladder, and the law that it should give; None where the deck holds no law."""
+    """A deck, its place on the ladder, and the law that it should give; None where the deck has no valid law."""
 
     family: str
     value: str
@@ -46,13 +46,13 @@ def curve_deck(points: Pairs, diameter: str = DIAMETER) -> str:
 
 
 FILE = "cell.keyxm"
-"""What diagnostics call a cell."""
+"""File name of a cell in diagnostics."""
 _ABOVE = (0.0, 5e-324, 0.05, 1e6)
 _LARGEST = Fraction(float_info.max) * (1 - Fraction(1, 2**50))
 
 
 class Verdict(StrEnum):
-    """Only the first three may ever appear."""
+    """Verdict on a cell; only the first three are acceptable."""
 
     RIGHT = "right"
     """Every result is within the bound."""
@@ -63,26 +63,26 @@ class Verdict(StrEnum):
     WRONG = "WRONG"
     """A result is outside its bound, or not finite."""
     NO_LINE = "REFUSED WITHOUT A LINE"
-    """A refusal that names no line, or one of a result that a float64 can hold."""
+    """A refusal without a line, or of a result that fits a float64."""
     WARNED = "WARNED"
-    """A numpy warning came out, or an error that is none of ours."""
+    """A numpy warning, or an error other than a diagnostic."""
 
     @property
     def acceptable(self) -> bool:
-        """Whether it may appear."""
+        """Whether it is one of the first three."""
         return self in {Verdict.RIGHT, Verdict.RIGHT_UNTIL_REFUSED, Verdict.REFUSED}
 
 
 @dataclass(frozen=True, slots=True)
 class Judgement:
-    """A cell and what came of it.
+    """A cell and its verdict.
 
     Attributes:
-        family: what grows along the ladder.
-        value: where on it, as the deck has it.
+        family: the number that is set to extreme values.
+        value: of the number, as the deck has it.
         error: in roundings (2^-53) of the largest term; 0 where nothing was compared.
         bound: roundings that are allowed.
-        message: the diagnostic of a refusal, else what is wrong.
+        message: the diagnostic of a refusal, or what is wrong.
     """
 
     family: Annotated[str, "family"]
@@ -100,7 +100,7 @@ def judge(cell: Cell) -> Judgement:
 
 
 def guarded(family: str, value: str, judged: Callable[[], Judgement]) -> Judgement:
-    """What is judged, with every numpy warning an error, refusals of decks and all other errors reported."""
+    """Judge a cell with every numpy warning as an error; refusals of decks and all other errors become verdicts."""
     with np.errstate(all="raise"), warnings.catch_warnings():
         warnings.simplefilter("error")
         try:
@@ -130,7 +130,7 @@ def _judged(cell: Cell) -> Judgement:
         _compare_curve(tally, scene, cell.law)
     message = _compare_heights(tally, scene, cell.law, heights)
     if message is None:
-        refused = "a value was refused that a float64 can hold"
+        refused = "a value that fits a float64 was refused"
         return Judgement(cell.family, cell.value, Verdict.NO_LINE, message=refused)
     verdict = Verdict.WRONG if tally.fault else Verdict.RIGHT_UNTIL_REFUSED if message else Verdict.RIGHT
     return Judgement(cell.family, cell.value, verdict, tally.results, tally.error, BOUND, tally.fault or message)
@@ -143,9 +143,9 @@ def _heights(law: ExactLaw) -> list[float]:
 
 
 def _compare_heights(tally: Tally, scene: Scene, law: ExactLaw, heights: list[float]) -> str | None:
-    """Compare the results at heights, as one series, or one by one where that is refused.
+    """Compare the results at heights, as one series, or one by one where the series is refused.
 
-    Returns the first refusal, "" without any, None where a result was refused for no reason.
+    Returns the first refusal, "" without any, None where a result was refused without reason.
     """
     try:
         result = _evaluated(scene, heights)
@@ -187,7 +187,7 @@ def _evaluated(scene: Scene, heights: list[float]) -> ContactResult:
 
 
 def _compare_curve(tally: Tally, scene: Scene, law: ExactCurve) -> None:
-    """The curve itself, also above the seabed where no element asks for it."""
+    """Compare the curve itself, also above the seabed where no element evaluates it."""
     curve = next(iter(scene.curves.values()))
     for ratio in law.ratios():
         spring = law.spring(Fraction(0), Fraction(ratio))
@@ -199,13 +199,13 @@ def _compare_curve(tally: Tally, scene: Scene, law: ExactCurve) -> None:
 
 
 def compare(tally: Tally, law: ExactLaw, height: float, result: ContactResult) -> None:
-    """One element whose two nodes lie at `height`: what it gives against what it should."""
+    """Compare one element whose two nodes are at `height`."""
     for what, compared in _pairs(law, height, result):
         tally.add(f"{what} at height {height!r}", compared)
 
 
 def _pairs(law: ExactLaw, height: float, result: ContactResult) -> Iterator[tuple[str, Compared]]:
-    """Each link of the chain from what the link before gave: none hides behind the condition of another."""
+    """Each result and what follows exactly from the results before it, so that no error hides behind another."""
     depth, ratio = float(result.depth[0]), float(result.ratio[0])
     exact_ratio = Fraction(depth) / Fraction(law.diameter)
     yield "the depth", _itself(depth, -Fraction(height))

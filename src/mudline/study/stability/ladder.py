@@ -1,8 +1,8 @@
-"""A ladder of extremes: small decks with numbers at the ends of what numbers can be, against exact arithmetic.
+"""The ladder of extremes: small decks with the largest and smallest numbers, against exact arithmetic.
 
 Every deck is text, and goes through the whole program: read, resolved, evaluated. A result is right, within a stated
 bound, or it is refused with a diagnostic that names a line of the deck; nothing else is accepted. There is a family of
-cells for each thing that is taken to its ends.
+cells for each number that is set to extreme values. The section of the page about it is made here too.
 """
 
 from __future__ import annotations
@@ -10,20 +10,24 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mudline.scene.model import Scene
 from mudline.short_repr import cut
+from mudline.study.exact import BOUND
+from mudline.study.pages import Record, Tables, filled, grouped_digits, listed, markdown_table, rounded
 from mudline.study.pictures import Picture, drawn
 from mudline.study.report import Layout, Section, StudyOptions, columns_of, grouped
-from mudline.study.stability.families import all_cells, judge, random_cells
+from mudline.study.stability.families import RANDOM, all_cells, judge, random_cells
 from mudline.study.stability.judging import Judgement, Verdict
 from mudline.study.stability.own_laws import is_own, own_cells
-from mudline.study.stability.pull_out import suction_cells
+from mudline.study.stability.paths import TILTED_BOUND
+from mudline.study.stability.pull_out import SUCTION_BOUND, suction_cells
 
-if TYPE_CHECKING:  # only who draws loads matplotlib
+if TYPE_CHECKING:  # only drawing needs matplotlib
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -103,8 +107,8 @@ def _pictures(judgements: Sequence[Judgement]) -> list[Picture]:
 
 
 def _draw(families: Mapping[str, Sequence[Judgement]], half: int, figure: Figure) -> None:
-    """Draw so many families in a column, the rest in a second one."""
-    from matplotlib.patches import Patch  # noqa: PLC0415 - only who draws loads it
+    """Draw the first `half` families in a column, the rest in a second one."""
+    from matplotlib.patches import Patch  # noqa: PLC0415 - only drawing needs it
 
     names = list(families)
     columns = [names[:half], names[half:]] if half < len(names) else [names]
@@ -116,11 +120,11 @@ def _draw(families: Mapping[str, Sequence[Judgement]], half: int, figure: Figure
     counts = {verdict: sum(_count(part, verdict) for part in families.values()) for verdict in Verdict}
     named = [Patch(facecolor=_COLORS[one], label=f"{one.value}: {count}") for one, count in counts.items() if count]
     figure.legend(handles=named, loc="outside lower center", ncols=len(named), fontsize="medium")
-    figure.suptitle("What comes out of decks with the number in the cell; 9(4) are four nines", fontsize="large")
+    figure.suptitle("Verdicts on decks with the number in the cell; 9(4) stands for four nines", fontsize="large")
 
 
 def _draw_column(axes: Axes, families: Mapping[str, Sequence[Judgement]], rows: int) -> None:
-    from matplotlib.patches import Rectangle  # noqa: PLC0415 - only who draws loads it
+    from matplotlib.patches import Rectangle  # noqa: PLC0415 - only drawing needs it
 
     for row, judgements in enumerate(families.values()):
         for column, one in enumerate(judgements):
@@ -139,6 +143,108 @@ def _draw_column(axes: Axes, families: Mapping[str, Sequence[Judgement]], rows: 
 
 
 def _short(value: str) -> str:
-    """The value of a cell so that it fits: 9(14) are fourteen nines."""
+    """The value of a cell, shortened: 9(14) stands for fourteen nines."""
     text = _NINES.sub(lambda found: f"9({len(found[0])})", value)
     return text.replace("1.7976931348623157E308", "1.8E308")
+
+
+# ----------------------------------------------------------------------------------------------------------------- page
+
+_CODE = re.compile(r"line \d+: ([A-Z]{3}\d{3})")
+_FOR = {
+    0.0: "decks that are all refused",
+    BOUND: "laws, along the axes",
+    TILTED_BOUND: "directions that are no axes: slopes, angles, the ellipse",
+    SUCTION_BOUND: "powers in the suction",
+}
+"""What each bound is for."""
+_ERROR, _BOUND = "largest error [2^-53]", "bound [2^-53]"
+
+
+def ladder_part(tables: Tables) -> str:
+    """The text, with its heading; raises MissingTableError."""
+    every = tables.rows("ladder")
+    fixed = [row for row in every if not is_own(row.text("family")) and row.text("family") != RANDOM]
+    own = [row for row in every if is_own(row.text("family"))]
+    return filled(
+        Path(__file__).with_name("ladder.md"),
+        {
+            "cells": _sum(fixed, "cells"),
+            "families": str(len(fixed)),
+            "numbers": _sum(every, "numbers compared"),
+            "verdict": _verdict(tables, every),
+            "right": _sum(fixed, "right"),
+            "beyond": _sum(fixed, "refused beyond"),
+            "refused": _sum(fixed, "refused"),
+            "codes": listed(f"`{code}`" for code in _codes(tables)),
+            "bounds": _bounds(every),
+            "own": _own(own),
+            "random": _random(every),
+        },
+    )
+
+
+def _sum(rows: Sequence[Record], heading: str) -> str:
+    return grouped_digits(sum(row.number(heading) for row in rows))
+
+
+def _verdict(tables: Tables, rows: Sequence[Record]) -> str:
+    wrong = sum(row.number("anything else") for row in rows)
+    if not wrong:
+        return "All decks are right within their bound, or refused with a line; nothing in between was found."
+    accepted = {verdict.value for verdict in Verdict if verdict.acceptable}
+    bad = [one for one in tables.rows("ladder-cells") if one.text("verdict") not in accepted]
+    names = listed(f"{one.text('family')} {one.text('value')}" for one in bad)
+    return f"**{grouped_digits(wrong)} decks are neither right nor refused with a line: {names}.**"
+
+
+def _codes(tables: Tables) -> list[str]:
+    """The codes of the refusals on the ladder."""
+    found = (_CODE.match(one.text("told")) for one in tables.rows("ladder-cells", verdict=Verdict.REFUSED.value))
+    return sorted({match[1] for match in found if match})
+
+
+def _bounds(rows: Sequence[Record]) -> str:
+    """The bounds, and the largest errors found."""
+    lines = []
+    for bound in sorted({row.number(_BOUND) for row in rows}):
+        # of random decks each has its own bound
+        held = [row for row in rows if row.number(_BOUND) == bound and row.text("family") != RANDOM]
+        if held:
+            worst = max(held, key=lambda row: row.number(_ERROR))
+            families, error = str(len(held)), rounded(worst.number(_ERROR))
+            lines.append((rounded(bound), _FOR[bound], families, error, worst.text("family")))
+    return markdown_table(("bound", "for", "families", "largest error", "in"), lines)
+
+
+def _own(rows: Sequence[Record]) -> str:
+    if not rows:
+        return "The deck has no law that can be scaled."
+    lines = [
+        (
+            row.text("family"),
+            *(_sum([row], heading) for heading in ("cells", "right", "refused beyond", "refused", "anything else")),
+            rounded(row.number(_ERROR)),
+            rounded(row.number(_BOUND)),
+        )
+        for row in rows
+    ]
+    headings = ("numbers", "decks", "right", "refused beyond", "refused", "anything else", "largest error", "bound")
+    return (
+        "The same with the numbers of the deck that was studied: of each of its contacts all forces, all depths, the "
+        "diameter, the length of\nthe element, the coefficients of friction and the suction are multiplied by powers "
+        "of ten.\n\n![Verdicts on the laws of the deck](stability-ladder-deck.png)\n\n"
+        + markdown_table(headings, lines)
+    )
+
+
+def _random(rows: Sequence[Record]) -> str:
+    found = [row for row in rows if row.text("family") == RANDOM]
+    if not found:
+        decks = grouped_digits(RANDOM_DECKS)
+        return f"`--full` adds {decks} random decks that combine all of these, with numbers of any size."
+    right, beyond, refused = (_sum(found, heading) for heading in ("right", "refused beyond", "refused"))
+    return (
+        f"Of {_sum(found, 'cells')} random decks that combine all of these, with numbers of any size, {right} are "
+        f"right, {beyond} right\nwith a refusal beyond, {refused} refused."
+    )

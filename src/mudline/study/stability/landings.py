@@ -1,14 +1,15 @@
-"""Energy at touchdown: a mass lands on an elastic seabed at every phase of a step, and should leave as fast as it came.
+"""Energy at touchdown: a mass lands on an elastic seabed at every phase of a step, and should rebound as fast.
 
-The seabed is elastic, without gravity or damping. What a scheme makes of it depends on omega dt and on the landing
-phase alone: the share of a step that is left when the seabed is reached.
+The seabed is elastic, without gravity or damping. The outcome of a scheme depends on omega dt and on the landing phase
+alone: the share of a step that is left when the seabed is reached.
 
-The figures to compare with were computed once, apart from this program, with the same 400 phases, and rounded to the
-digits that stand here. HHT and generalised-alpha average the forces of both ends of a step.
+The figures to compare with were computed once, independently of this program, with the same 400 phases, and rounded to
+the digits given here. HHT and generalised-alpha average the forces of both ends of a step.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, NamedTuple
@@ -23,7 +24,7 @@ from mudline.study.pictures import Picture, draw_lines, label, legend_below
 from mudline.study.report import Layout, Section, StudyOptions, columns_of, grouped
 from mudline.study.schemes import SCHEMES, STYLES, bracketed
 
-if TYPE_CHECKING:  # only who draws loads matplotlib
+if TYPE_CHECKING:  # only drawing needs matplotlib
     from matplotlib.figure import Figure
 
 PHASES: FloatArray = (np.arange(400) + 0.5) / 400
@@ -54,12 +55,12 @@ _COMPARED = {
 """Least/mean/largest for each of `_COMPARED_AT`."""
 _COMPARED_AT = (0.1, 0.5, 1.0, 4.4721, 10.0, 100.0)
 _SHOWN = ((0.1, 0.9965, 1.0025), (0.5, 0.89, 1.04), (1.0, 0.2, 1.15), (10.0, -0.1, 3.0))
-"""omega dt of each panel, and what it shows of the axis."""
+"""omega dt of each panel, and the limits of its axis."""
 _DRAWN = tuple(name for name in LANDING_SCHEMES if name != "generalised-alpha-1")
-"""With a spectral radius of 1 generalised-alpha does what Newmark's scheme does."""
+"""With a spectral radius of 1 generalised-alpha coincides with Newmark's scheme."""
 _SETTLING = 64
-"""Steps besides those of the contact: backward Euler creeps out of the seabed at large steps, and the acceleration that
-the generalised-alpha scheme carries along dies away by the half in each."""
+"""Steps after those of the contact: backward Euler creeps out of the seabed at large steps, and the acceleration of the
+generalised-alpha scheme is halved in each."""
 
 
 class Landing(NamedTuple):
@@ -100,7 +101,7 @@ LANDINGS = Layout[Landing](
 
 
 def study_landings(_: Scene, options: StudyOptions) -> Section:
-    """All schemes at all steps: in which of them the rebound is faster than the landing."""
+    """All schemes at all steps, and where the rebound is faster than the landing."""
     options.progress("landings")
     landed, over = landings(), [envelope(SCHEMES[name], LINEAR_FALL) for name in LANDING_SCHEMES]
     agree = [one.agrees for one in landed if one.agrees is not None]
@@ -143,7 +144,7 @@ def _draw(figure: Figure) -> None:
             axes.plot(PHASES, speeds, label=scheme.title, **STYLES[scheme.title], markevery=(6 * index, 50))
         axes.axhline(1.0, color="0.4", linewidth=0.8, zorder=0)
         axes.set_ylim(low, high)
-        label(axes, f"ω dt = {omega_dt:g}{_off(omega_dt, low)}", "", "speed after / before landing [-]")
+        label(axes, f"omega dt = {omega_dt:g}{_off(omega_dt, low)}", "", "speed after / before landing [-]")
     for axes in panels[1]:
         axes.set_xlabel("landing phase, share of the step left at the seabed [-]")
     legend_below(figure, panels.flat[0])
@@ -194,7 +195,7 @@ def _last_digit(text: str) -> float:
 
 
 class Fall(NamedTuple):
-    """A mass that lands at a speed on an elastic seabed; `depth` is how deep it gets, about."""
+    """A mass that lands at a speed on an elastic seabed; `depth` is its approximate penetration."""
 
     law: Law
     mass: float
@@ -212,19 +213,19 @@ TRIED: FloatArray = np.unique(
         *(0.0316, 0.0567, 1.99, 1.9999),
     ]
 )
-"""omega dt at which the landings of a scheme are looked at, up to its critical one.
+"""omega dt at which the landings of a scheme are tried, up to its critical one.
 
-How a landing ends depends on pi / (omega dt) too, the steps that it takes: where limits are expected that is dense.
+The outcome depends on pi / (omega dt) too, the steps of a landing: the values are dense where limits are expected.
 """
 FEW_PHASES: FloatArray = (np.arange(64) + 0.5) / 64
 NEVER = 2e-4
-"""A gain up to here is none; generalised-alpha with rho = 0 has 7.6e-5 at omega dt = 0.0316 and 1.2e-4 at 0.0567."""
+"""Smaller gains are neglected; generalised-alpha with rho = 0 has 7.6e-5 at omega dt = 0.0316 and 1.2e-4 at 0.0567."""
 ALLOWED = 0.01
-"""Gain, or gain and loss, of the landings that a limit allows."""
+"""Gain, or gain and loss, that a limit allows."""
 
 
 class Envelope(NamedTuple):
-    """What a scheme makes of landings over omega dt: least and largest speed after over before, of `FEW_PHASES`."""
+    """Landings of a scheme over omega dt: least and largest speed after over before, of `FEW_PHASES`."""
 
     scheme: Scheme
     omega_dt: FloatArray
@@ -256,6 +257,11 @@ def envelope(scheme: Scheme, fall: Fall, tried: FloatArray | None = None) -> Env
     return Envelope(scheme, omega_dt, speeds.min(axis=1), speeds.max(axis=1))
 
 
+def contact_steps(fall: Fall, omega_dt: float) -> int:
+    """About how many steps a landing takes; many where the stiffest part of a law is far stiffer than the rest."""
+    return math.ceil(2.0 * math.pi * fall.depth / fall.speed * fall.omega / omega_dt)
+
+
 def rebounds(scheme: Scheme, fall: Fall, omega_dt: FloatArray, phases: FloatArray) -> FloatArray:
     """Speed after over speed before contact (k, p) for steps (k,) and landing phases (p,) in (0, 1).
 
@@ -265,7 +271,7 @@ def rebounds(scheme: Scheme, fall: Fall, omega_dt: FloatArray, phases: FloatArra
     system = Falling(np.full(len(dt), fall.mass), fall.law, weight=0.0)
     high = fall.law.top + np.tile(phases, len(omega_dt)) * dt * fall.speed
     start = Motion.start(system, high, np.full(len(dt), -fall.speed))
-    steps = int(np.ceil(2.0 * np.pi * fall.depth / fall.speed / dt.min())) + _SETTLING
+    steps = contact_steps(fall, float(omega_dt.min())) + _SETTLING
     run = march(bracketed(scheme), system, start, dt, steps)
     left = (run.position[-1] > fall.law.top) & (run.velocity[-1] > 0.0)
     return np.where(left, run.velocity[-1] / fall.speed, np.nan).reshape(len(omega_dt), -1)
@@ -309,7 +315,7 @@ def _rows(over: Sequence[Envelope]) -> list[_EnvelopeRow]:
 
 
 def _draw_gain(over: Sequence[Envelope], figure: Figure) -> None:
-    """The largest gain up to each step: it never falls."""
+    """The largest gain up to each step, which never falls."""
     axes = figure.subplots()
     lines = {
         one.scheme.title: list(zip(one.omega_dt, np.fmax.accumulate(one.largest) - 1.0, strict=True))

@@ -1,4 +1,4 @@
-"""The ladder on the laws of the user's own deck: its curves, springs, friction and suction, scaled to the extremes.
+"""The ladder of extremes on the laws of the user's deck: curves, springs, friction and suction, scaled.
 
 Of each contact of the deck a small deck is made that has the numbers of that contact, as text. All forces, all depths,
 the diameter, the length of the element, the coefficients of friction are then multiplied by powers of ten.
@@ -27,13 +27,13 @@ from mudline.study.stability.small_decks import Pair, SmallDeck
 POWERS = (-300, -200, -100, -10, 0, 10, 100, 200, 300)
 """Powers of ten by which the numbers of the deck are multiplied."""
 _BETWEEN = ": "
-"""In the name of a family, between the contact and what is scaled."""
+"""Separator in the name of a family, between the contact and what is scaled."""
 MOST_CONTACTS = 6
 """Contacts that are scaled: those with the most elements."""
 
 
 class OwnContact(NamedTuple):
-    """A contact of the deck: what it is called, a small deck with its numbers, and its suction, if it has any."""
+    """A contact of the deck: its name, a small deck with its numbers, and its suction, if it has any."""
 
     name: str
     deck: SmallDeck
@@ -46,7 +46,7 @@ def is_own(family: str) -> bool:
 
 
 def own_cells(scene: Scene) -> tuple[list[AnyCell], list[Omission]]:
-    """The cells on the laws of a deck, and what has none; raises DeckError for a deck that cannot be evaluated."""
+    """The cells on the laws of a deck, and what is left out; raises DeckError for a deck that cannot be evaluated."""
     given = scene.contact().input
     contacts, omissions = _contacts(scene, given)
     return [cell for contact in contacts for cell in _scaled(contact)], omissions
@@ -86,7 +86,7 @@ def _contacts(scene: Scene, given: ContactInput) -> tuple[list[OwnContact], list
 
 
 def _columns(given: ContactInput) -> dict[str, FloatArray]:
-    """What each element (m,) has: parameters by law and name; those of its first node's laws too."""
+    """Parameters of each element (m,) by law and name, those of the laws of its first node included."""
     elements, nodes = len(given.element_ids), len(given.node_ids)
     found = {"curve": given.curve_index.astype(np.float64), "diameter": given.diameter, "length": given.length}
     for name, assigned in given.assigned.items():

@@ -1,6 +1,6 @@
-"""Cells on a path: a small deck whose element goes down, to the sides, back and up, each step against exact arithmetic.
+"""Cells on a path: a small deck whose element moves down, sideways, back and up, each step against exact arithmetic.
 
-What a step is compared with follows from the texts of the deck, and never from what was read of them.
+The exact values follow from the texts of the deck, not from what the program has read.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ and thrice with displacements."""
 
 @dataclass(frozen=True, slots=True)
 class PathCell:
-    """A deck, where it stands on the ladder, and where its element goes."""
+    """A deck, its place on the ladder, and the path of its element."""
 
     family: str
     value: str
@@ -59,7 +59,7 @@ def _judged(cell: PathCell) -> Judgement:
     tally = Tally()
     message = _follow(scene, element, [scene.coordinates, *points_of(cell.deck, element, cell.path)], tally, cell.bound)
     if message is None:
-        refused = "a value was refused that a float64 can hold"
+        refused = "a value that fits a float64 was refused"
         return Judgement(cell.family, cell.value, Verdict.NO_LINE, message=refused)
     if message and not tally.results:
         return Judgement(cell.family, cell.value, Verdict.REFUSED, message=message)
@@ -68,7 +68,7 @@ def _judged(cell: PathCell) -> Judgement:
 
 
 def _follow(scene: Scene, element: ExactElement, steps: Sequence[np.ndarray], tally: Tally, bound: float) -> str | None:
-    """Step from place to place. Returns the first refusal, "" without any, None where one had no reason."""
+    """Step along the path. Returns the first refusal, "" without any, None for one without reason."""
     with as_deck_errors(scene):
         model = scene.contact()
     state, message = model.initial_state(), ""
@@ -181,7 +181,7 @@ def plunge(depth: float, back: float) -> list[Place]:
 
 
 def sweep(*depths: float) -> list[Place]:
-    """Each of these depths, down and up, without going to the sides."""
+    """Each of these depths, down and up, without moving sideways."""
     return [(depth, 0.0, 0.0) for depth in depths]
 
 
@@ -189,7 +189,7 @@ Path = Callable[[SmallDeck], Sequence[Place]]
 
 
 def limits(deck: SmallDeck, depth: float = 0.01) -> tuple[float, float]:
-    """Displacements at which friction is at its limit under the law of the deck at a depth; any where there is none."""
+    """Displacements at which friction is at its limit under the law of the deck at a depth; 0.1 without friction."""
     element = exact_element(deck)
     spring = element.law.spring(Fraction(depth), Fraction(depth) / Fraction(element.diameter)) if element.law else None
     load = Fraction(0) if spring is None else spring.force * element.length / 2

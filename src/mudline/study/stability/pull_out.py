@@ -1,4 +1,4 @@
-"""Suction at the ends of velocity, cohesion and force, pulled out and compared with the law in 50 digits."""
+"""Suction at extreme velocities, cohesions and forces, pulled out and compared with the law in 50 digits."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SUCTION_BOUND = 64.0
 """Roundings of the largest suction. Powers and products behind a law take some 15; on the release, where the distance
 to breakout is a tenth of the uplift, they count up to ten times in the distance, which is divided by a fifth again."""
 SUCTION_FLOOR = 10**9 * SMALLEST
-"""Velocity and cohesion are known to the smallest float64; the law multiplies that by its slopes, up to 10^8 here."""
+"""Velocity and cohesion have the resolution of the smallest float64; the law multiplies it by its slopes, 10^8 here."""
 VELOCITIES = ("0", "5E-324", "1E-300", "1E-100", "1E-30", "1E-10", "9.99E-4", "1E-3", "1E-1", "1E0", "1E3", "1E6")
 COHESIONS = ("0", "5E-324", "1E-300", "1E-100", "1E-3", "1E0", "5E3", "1E6", "1E15", "1E100", "1E300", "1E308", "1E309")
 _UPLIFTS = (0.05, 0.19, 0.21, 0.5, 0.79, 0.81, 0.9, 0.999, 1.001)

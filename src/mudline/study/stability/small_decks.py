@@ -1,4 +1,4 @@
-"""Decks of one element, as text: every number of them stands as it was given, so that one can be taken to an end."""
+"""Decks of one element, as text: every number is written as given, so that any can be set to an extreme value."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ LENGTH = "2.0"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SmallDeck:
-    """What a deck says of its element along +Y and its seabed; a text that is empty is not in the deck.
+    """The element along +Y of a deck and its seabed, as texts; an empty text is not in the deck.
 
     Attributes:
         height: X of both nodes. across: Z of both nodes. start: Y of the first node. length: Y of the second.
         diameter: external; the wall is a quarter of it.
-        stiffness: linear, per unit length; does not count beside a curve or a nodal stiffness.
+        stiffness: linear, per unit length; not used with a curve or a nodal stiffness.
         curve: embedment ratios and forces.
         nodal: stiffness of the nodes.
         smoothing: half width of the quadratic zone. form: CENTRED or ONE-SIDED.

@@ -1,4 +1,4 @@
-"""Static solutions: where suction that lets go has several, and where Newton's method on friction finds none.
+"""Static solutions: several of them during the release of suction, and Newton's method on friction that finds none.
 
 On the release the suction falls with slope F_max / ((1 - xc2) Delta_B). A pipe suspended from a structure of
 stiffness ks (per unit length), whose far end is raised slowly, has one equilibrium at each height of that end only for
@@ -13,11 +13,11 @@ kt (mu N - F) / kb > mu N, that is
 
     kt / kb > 1 / (1 - F / (mu N));
 
-from there it is (F + mu N) / kb, which slips then too: the iterates jump between the two for ever. Two cures:
+from there it is (F + mu N) / kb, which slips too: the iterates alternate between the two without end. Two remedies:
 
 * corrections that are halved until the residual falls. Beside the limit, at u = mu N / kt, the correction is
-  (mu N - F) / kb, and the residual falls only down to 2 (mu N - F) / (kb + kt) below it: log2(kt / kb) - 1 halvings are
-  needed, and a cap on them that is lower loses solutions;
+  about (mu N - F) / kb, and the residual falls only within 2 (mu N - F) / (kb + kt) of it: about log2(kt / kb) - 1
+  halvings are needed, and with a lower cap some starts do not converge;
 * a bracket, which keeps the two nearest points between which the residual changes its sign, and is halved where
   Newton's method would leave it.
 
@@ -81,7 +81,7 @@ RELEASE = Layout[Release](
 
 
 def study_release(scene: Scene, options: StudyOptions) -> Section:
-    """What suction asks of a structure during its release, on the laws of a scene."""
+    """The stiffness that a structure needs during the release of suction, on the laws of a scene."""
     options.progress("release of suction")
     suction = scene.contact_input().assigned.get("suction")
     omissions = [] if suction is not None else [Omission("release of suction", "no element has *SEABED SUCTION")]
@@ -120,7 +120,7 @@ def _release(element: int, law: SuctionLaw, velocity: float) -> Release:
 
 
 def equilibria(law: SuctionLaw, velocity: float, structure: float) -> int:
-    """The most equilibria at any one height of the structure's end, in the uplift up to breakout and somewhat beyond.
+    """The largest number of equilibria at one height of the structure's end, up to 1.5 times the uplift at breakout.
 
     At uplift x the end stands at x + suction / ks: where that falls as x grows, a height belongs to several uplifts.
     """
@@ -152,6 +152,10 @@ STARTS = np.linspace(-20.0, 20.0, 101)
 MOST = 50
 RATIOS = (1.0, 9.0, 99.0, 1e4, 1e6)
 FORCES = (0.1, 0.5, 0.9, 1.5)
+
+
+SPRING_OVER_STRUCTURE, FORCE_OVER_LIMIT = "spring / structure [-]", "force / limit [-]"
+"""Headings of the tables: kt / kb and F / mu N."""
 
 
 class FrictionProblem(NamedTuple):
@@ -220,11 +224,11 @@ class CycleCount(NamedTuple):
     ratio, share: kt / kb and F / mu N.
     threshold: kt / kb above which Newton's method alone cycles; inf where the pipe slides.
     plain, halved, bracketed: from how many of the starts the three methods do not converge.
-    most: of the slowest.
+    most: iterations of the slowest start.
     """
 
-    ratio: Annotated[float, "spring / structure [-]"]
-    share: Annotated[float, "force / limit [-]"]
+    ratio: Annotated[float, SPRING_OVER_STRUCTURE]
+    share: Annotated[float, FORCE_OVER_LIMIT]
     starts: Annotated[int, "starts"]
     plain: Annotated[int, "lost: plain"]
     halved: Annotated[int, "lost: halved corrections"]
@@ -243,7 +247,7 @@ def study_cycles(_: Scene, options: StudyOptions) -> Section:
         newton_path(EXAMPLE, 1.0, Newton(most=most, halving=halving)) for most, halving in ((6, False), (50, True))
     )
     note = (
-        "Newton's method on friction (kb = 1, kt = 99, mu N = 10, F = 5, from 1) goes "
+        "Newton's method on friction (kb = 1, kt = 99, mu N = 10, F = 5, from 1) has the iterates "
         f"{_points(plain.iterates)}, ... without end; with halved corrections {_points(halved.iterates)}: "
         f"{halved.iterations} iterations."
     )
@@ -305,15 +309,15 @@ CAPS = (5, 10, 15, 20, 25)
 
 
 class HalvingCount(NamedTuple):
-    """What a cap on the halvings of a correction does.
+    """The effect of a cap on the halvings of a correction.
 
     lost: from how many starts no solution is found, for each of `CAPS`.
     needed: halvings that suffice by the closed form.
     least: the smallest cap from which on, up to `needed`, none of the starts is lost.
     """
 
-    ratio: Annotated[float, "spring / structure [-]"]
-    share: Annotated[float, "force / limit [-]"]
+    ratio: Annotated[float, SPRING_OVER_STRUCTURE]
+    share: Annotated[float, FORCE_OVER_LIMIT]
     starts: Annotated[int, "starts"]
     lost: tuple[int, ...]
     needed: int
@@ -326,7 +330,7 @@ def _lost(index: int) -> Callable[[HalvingCount], int]:
 
 HALVINGS = Layout[HalvingCount](
     "newton-halvings",
-    "Newton's method with halved corrections: solutions lost to a cap on the halvings",
+    "Newton's method with halved corrections: starts that do not converge with a cap on the halvings",
     {
         **columns_of(HalvingCount),
         **{f"lost: at most {cap} halvings": _lost(index) for index, cap in enumerate(CAPS)},

@@ -1,49 +1,60 @@
-"""A contact of the scene under the real evaluator: a load holds it where its law is steepest, and it oscillates there.
+"""The contacts of a scene with their frequencies, and each of them under load as an oscillator of the real evaluator.
 
-The evaluator has copies of the element of the contact, one unit of length each, with the law that is studied. Friction,
-lateral springs and suction need a seabed besides: a linear one that gives the static normal force. What the laws
-remember is what a step before the motion left: a node that sticks, the deepest penetration, suction that is armed.
+The contacts are those of `mudline.scene.oscillation`: normal laws, unloading, friction that sticks, lateral springs,
+and suction with its damping, each with the mass that its node carries.
+
+A load holds a contact where its law is steepest, and it oscillates there. The evaluator has copies of the element of
+the contact, one unit of length each, with the law that is studied. Friction, lateral springs and suction need a seabed
+besides: a linear one that gives the static normal force. The state of the laws is that after an earlier step: a node
+that sticks, the deepest penetration, suction that is armed.
 """
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from mudline.contact import ContactInput, ContactModel, LawAssignment
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.suction import SuctionLaw
-from mudline.contact.stiffest import static_normal_force, suction_rates
+from mudline.contact.stiffest import ADVISED_OMEGA_DT, critical_step, static_normal_force, suction_rates
 from mudline.contact.tables import Tables
 from mudline.scene.model import Scene
-from mudline.scene.oscillation import Oscillation, steepest_segment
+from mudline.scene.oscillation import Oscillation, line_of, oscillations, steepest_segment
+from mudline.study import file_of
 from mudline.study.motion import Forces, History
+from mudline.study.report import Layout, Omission, columns_of
 
 _BEYOND = 10.0
-"""Times the reach of a contact: a motion that comes so far has grown, and has no force any more."""
+"""Times the reach of a contact: a motion that gets this far has grown, and has no force."""
 _SLOW = 1e-3
-"""Of v_r: at rest suction has no derivative, so its damping is looked at in a motion as slow as that."""
+"""Of v_r: at rest suction has no derivative, so its damping is evaluated in a motion this slow."""
 _BELOW = 1e-4
-"""How far below the end of the rise of suction, and below v_r, its mobilisation is looked at."""
+"""How far below the end of the rise of suction, and below v_r, its mobilisation is evaluated."""
 _PRESSED = 0.01
 """Depth on the seabed below friction, lateral springs and suction."""
+_NARROWEST = 1e-5
+"""Of the scale of a contact: the least reach of an oscillation that rounding leaves visible."""
+_SOFTEST = 1e-280
+_SLOWEST = 1e-140
+"""And the fastest the other way round: the square of a step must be a number."""
 _X, _Y, _Z = range(3)
 
 Parameters = dict[str, float]
 
 
 class Setting(NamedTuple):
-    """How copies of a contact are set up, and where the small motion takes place.
+    """The copies of a contact, and the small motion that is studied.
 
     laws: name and parameters of the laws of each copy, of its element or its two nodes.
     direction: of the motion: 0 up, 1 along the element, 2 across it.
     depth: of the motion's centre; below 0 it is above the mudline.
-    before: depth of the step before, where the laws remember one.
+    before: depth of the step before, where the laws have a history.
     speed: upwards, of the motion's centre.
     reach: how far to both sides the law has this stiffness, or damping.
-    scale: the largest distance that the law computes with there: an oscillation below its rounding is not resolved.
+    scale: the largest distance that the law computes with there; an oscillation below its rounding is not resolved.
     factor: stiffness and mass of a copy over those per unit length.
     """
 
@@ -55,6 +66,115 @@ class Setting(NamedTuple):
     reach: float
     scale: float
     factor: float = 1.0
+
+
+class Contact(NamedTuple):
+    """One kind of contact.
+
+    name: its law, and the set through which its elements have it.
+    element: index of an element at the node that asks for the smallest step.
+    elements: how many elements share it; of laws of nodes how many nodes.
+    stiffness: the largest tangent stiffness that its law can reach, per unit length.
+    mass: that the node carries, per unit length.
+    omega: root of stiffness over mass, radians per unit of time.
+    damping: the largest derivative of its force by velocity, per unit length.
+    rate: damping over mass.
+    node: number of the node.
+    line: of the deck, that sets it; 0 for none.
+    file: of that line, where it is in a deck that this one continues; "" for this deck.
+    oscillation: the same as the scene has it.
+    setting: how copies of it are set up.
+    """
+
+    name: Annotated[str, "contact"]
+    element: int
+    elements: Annotated[int, "elements"]
+    stiffness: Annotated[float, "largest stiffness [{force}/{length}2]"]
+    mass: Annotated[float, "mass [{mass}/{length}]"]
+    omega: Annotated[float, "omega [rad/s]"]
+    damping: float
+    rate: float
+    node: int
+    line: int
+    file: str
+    oscillation: Oscillation
+    setting: Setting
+
+    @property
+    def depth(self) -> float:
+        """A penetration in the middle of where the law has this stiffness."""
+        return self.setting.depth
+
+    @property
+    def reach(self) -> float:
+        """How far to both sides it has it."""
+        return self.setting.reach
+
+    def critical_step(self, scheme: str) -> float:
+        """The largest step of a scheme, by its name, at which a small motion does not grow."""
+        return critical_step(scheme, self.omega, self.rate)
+
+    @property
+    def advised_step(self) -> float:
+        """The step at which omega dt is `ADVISED_OMEGA_DT`; infinite for damping alone."""
+        return ADVISED_OMEGA_DT / self.omega if self.omega > 0.0 else np.inf
+
+
+CONTACTS = Layout[Contact](
+    "contacts",
+    "Frequencies of the contacts, the smallest step first",
+    {
+        **columns_of(Contact),
+        "advised step, implicit [s]": lambda one: one.advised_step,
+        "critical step, central-difference [s]": lambda one: one.critical_step("central-difference"),
+        "critical step, rk4 [s]": lambda one: one.critical_step("rk4"),
+        "critical step, velocity-verlet [s]": lambda one: one.critical_step("velocity-verlet"),
+        "damping [{force} s/{length}2]": lambda one: one.damping,
+        "damping rate [1/s]": lambda one: one.rate,
+        "kind": lambda one: one.oscillation.kind,
+        "node": lambda one: one.node,
+        "deck line": lambda one: one.line,
+        "deck file": lambda one: one.file,
+    },
+)
+
+
+def find_contacts(scene: Scene) -> tuple[list[Contact], list[Omission]]:
+    """The contacts that oscillate, the smallest step first, and those of which no frequency is known."""
+    given = scene.contact_input("cut")
+    found, unknown = oscillations(scene, given)
+    return [_contact(scene, given, one) for one in found], [Omission(*each) for each in unknown]
+
+
+def _contact(scene: Scene, given: ContactInput, one: Oscillation) -> Contact:
+    return Contact(
+        one.name,
+        one.element,
+        one.shared,
+        one.stiffness,
+        one.mass,
+        one.omega,
+        one.damping,
+        one.rate,
+        int(scene.node_ids[one.node]),
+        line_of(scene, one.where),
+        file_of(scene, one.where),
+        one,
+        setting_of(scene, given, one),
+    )
+
+
+def can_oscillate(contact: Contact) -> bool:
+    """Whether a small oscillation is more than the rounding of depths and forces."""
+    setting = contact.setting
+    wide = _NARROWEST * setting.scale < setting.reach < np.inf
+    felt = contact.omega == 0.0 or (
+        _SOFTEST < contact.stiffness * setting.reach < np.inf and _SLOWEST < contact.omega < 1.0 / _SLOWEST
+    )
+    return wide and felt and contact.rate < 1.0 / _SLOWEST
+
+
+# ----------------------------------------------------------------------------------------------------------- under load
 
 
 def setting_of(scene: Scene, given: ContactInput, one: Oscillation) -> Setting:
@@ -119,7 +239,7 @@ def _parameters(given: ContactInput, law: str, row: int) -> Parameters:
 
 
 def _small(scene: Scene, element: int) -> float:
-    """A distance that is small for a linear law."""
+    """A small distance for a linear law."""
     diameter = float(scene.diameter[element])
     return 0.01 * diameter if np.isfinite(diameter) else 0.01
 
@@ -177,7 +297,7 @@ def _suction(given: ContactInput, one: Oscillation) -> Setting:
 
 
 def _copies(given: ContactInput, element: int, laws: dict[str, Parameters], runs: int) -> ContactInput:
-    """So many elements of one unit of length, apart from each other, with these laws."""
+    """Separate elements of one unit of length with these laws."""
     of_nodes = {name for name in laws if name in {"nodal", "friction"}}
     return ContactInput(
         node_ids=np.arange(1, 2 * runs + 1),
@@ -204,8 +324,8 @@ def _points(runs: int, depth: float) -> FloatArray:
 class LoadedContact:
     """`runs` copies of a contact, under a load that holds them at the centre of the motion.
 
-    Positions are distances from there, velocities those beside that of the centre; forces are those of the evaluator
-    along the motion, less the load. What the laws remember stays as it is.
+    Positions are distances from the centre, velocities are relative to that of the centre; forces are those of the
+    evaluator along the motion, less the load. The history of the laws does not change.
 
     Attributes:
         mass: (k,) of the copies.
