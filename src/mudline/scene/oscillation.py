@@ -18,6 +18,7 @@ from mudline.codes import RUN001
 from mudline.contact.input import LawKind
 from mudline.diagnostics import Problem, Where
 from mudline.scene.force_curves import SceneCurve
+from mudline.scene.laws import Extension
 from mudline.scene.numbering import Floats, Indices, Mask, at_nodes, summed
 from mudline.scene.resolved import ResolvedDeck
 
@@ -141,7 +142,7 @@ def _of_elements(
             steeper = returns > normal
     for group in _groups(~np.isnan(normal), scene.laws.of_element, sections, blocks):
         name = f"{scene.law_names[group[0]]} on {scene.law_sets[group[0]]}"
-        place = _place_of_law(scene, int(group[0]))
+        place = place_of_law(scene, int(group[0]))
         yield _of_group("normal", name, group, (normal, none), carried, place)
         if back is not None and steeper[group].any():
             place = back.places[int(back.of_element[group[0]])].inside("stiffness")
@@ -156,7 +157,7 @@ def _of_elements(
     if "suction" in by_law:
         yield from _of_suction(scene, given, carried)
     if "friction" in by_law:
-        yield from _of_friction(scene, by_law["friction"].at_nodes, carried)
+        yield from _of_friction(scene, given, by_law["friction"].at_nodes, carried)
 
 
 def _groups(having: Mask, *keys: Indices) -> list[Indices]:
@@ -249,7 +250,7 @@ def _of_node(
 
 
 def _of_friction(
-    scene: ResolvedDeck, stiffness: Floats | None, carried: _Carried
+    scene: ResolvedDeck, given: ContactInput, stiffness: Floats | None, carried: _Carried
 ) -> Iterator[Oscillation | tuple[str, str]]:
     """Nodes that stick, by the place that gives them their springs."""
     if stiffness is None:
@@ -259,11 +260,10 @@ def _of_friction(
     of_keyword = np.full(nodes, -1) if own is None else at_nodes(own.of_element, ends, nodes)
     of_properties = np.where(of_keyword >= 0, -1, at_nodes(scene.resistance.of_element, ends, nodes))
     having = ~np.isnan(stiffness) & (stiffness != 0.0)
-    unknown = np.isnan(stiffness) & np.isin(np.arange(nodes), ends) & ((of_keyword >= 0) | (of_properties >= 0))
     for group in _groups(having, of_keyword, of_properties):
         keyword, index = int(of_keyword[group[0]]), int(of_properties[group[0]])
         if own is not None and keyword >= 0:
-            holder, place = own.sets[keyword], own.places[keyword]
+            holder, place = own.sets[keyword], own.places[keyword].inside("stiffness")
             name = f"friction on {'?' if holder is None else holder.name}"
         else:
             place = scene.resistance.places[index].inside("friction")
@@ -271,8 +271,12 @@ def _of_friction(
             name = f"friction on {_set_of_resistance(scene, int(on))}"
         found = _of_node("friction", name, group, stiffness, carried)
         yield found._replace(where=place) if isinstance(found, Oscillation) else found
-    if not having.any() and unknown.any() and np.isnan(stiffness).any():
-        yield "friction", "no frequency: its springs follow the submerged weight, which is not known"
+    rubbing = given.assigned["friction"].rows
+    unknown = rubbing[np.isnan(stiffness[rubbing])]
+    if unknown.size:
+        around = scene.submerged_weight[np.isin(ends, unknown).any(axis=1)]
+        why = "which is not known" if np.isnan(around).any() else "and the pipe floats"
+        yield "friction", f"no springs at {len(unknown)} nodes: they follow the submerged weight, {why}"
 
 
 def _of_suction(scene: ResolvedDeck, given: ContactInput, carried: _Carried) -> Iterator[Oscillation | tuple[str, str]]:
@@ -306,7 +310,7 @@ def _of_suction(scene: ResolvedDeck, given: ContactInput, carried: _Carried) -> 
         rest = at(0.0 * law.regularisation)[1]
         damping = np.fmax(rest, at(law.regularisation)[1])
         none = np.zeros(len(having))
-        place = own.places[index]
+        place = place_of_suction(own, index)
         at_rest = _of_group("suction damping", f"suction damping {name}", group, (none, damping), carried, place)
         yield at_rest
         if law.force_exponent[row] > law.depth_exponent[row]:
@@ -319,7 +323,7 @@ def _of_suction(scene: ResolvedDeck, given: ContactInput, carried: _Carried) -> 
                 group,
                 at(share * law.regularisation),
                 carried,
-                own.places[index],
+                place,
                 share * slow,
             )
             for share in _RISES.tolist()
@@ -340,7 +344,12 @@ def _set_of_resistance(scene: ResolvedDeck, element: int) -> str:
     return scene.laws.set_laws[index].set_.name if index >= 0 else "ALL"
 
 
-def _place_of_law(scene: ResolvedDeck, element: int) -> Where | None:
+def place_of_suction(own: Extension, index: int) -> Where:
+    """Where the numbers of the suction force of a block stand: FORCE=, else COHESION=."""
+    return own.places[index].inside("cohesion" if getattr(own.entries[index], "force", None) is None else "force")
+
+
+def place_of_law(scene: ResolvedDeck, element: int) -> Where | None:
     """Where the stiffness of an element stands: the end of the steepest segment of its curve."""
     law = scene.set_law(element)
     if law is None:

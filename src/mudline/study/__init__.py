@@ -9,6 +9,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
+from mudline.contact.input import LawKind
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Where
 from mudline.scene.model import Scene, resolve
@@ -74,6 +77,14 @@ def file_of(scene: Scene, where: Where | None) -> str:
     """Name of the file of a place that a deck continues (*RESTART); "" for a place in the deck itself."""
     base = scene.deck.base_of(where)
     return Path(base[0].file).name if base else ""
+
+
+def without_springs(scene: Scene) -> str:
+    """Why no contact of a scene has a spring and a mass, as a clause."""
+    if not np.isin(scene.law, (LawKind.NONE, LawKind.RIGID)).all():
+        mass = scene.mass_per_length
+        return "no law has a stiffness" if (mass > 0.0).any() else "the mass of the sections is not known"
+    return "the seabed is rigid" if (scene.law == LawKind.RIGID).any() else "no element has a seabed law"
 
 
 def sample_scene() -> Scene:

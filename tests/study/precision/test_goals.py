@@ -69,7 +69,7 @@ def test_the_steps_that_a_jump_needs() -> None:
     ("scheme", "percent", "tenth", "most"),
     [
         *(("velocity-verlet", 0.0895, 0.0283, 1.01), ("newmark", 0.201, 0.0598, 1.01)),
-        ("rk4", 0.318, 0.106, 1.4),  # its error falls again behind a short stretch above 1 %
+        ("rk4", 0.318, 0.106, 1.1),  # its error does not grow evenly: 0.97 % at 0.348, 1.08 % at 0.365
     ],
 )
 def test_largest_steps_are_found(scheme: str, percent: float, tenth: float, most: float) -> None:
@@ -89,7 +89,7 @@ def test_backward_euler_has_no_step_for_the_published_case() -> None:
 
 def test_the_drops_on_a_deck() -> None:
     drops = drops_on(SAMPLE_TEXT)
-    assert [(name, case.line) for name, case in drops.items()][1:] == [("drop-curve", 30), ("drop-linear", 27)]
+    assert [(name, case.line) for name, case in drops.items()][1:] == [("drop-curve", 32), ("drop-linear", 27)]
     assert drops["drop-curve"].omega > drops["drop-linear"].omega
     stiff = drops_on(SAMPLE_TEXT.replace("STIFFNESS=50.0E3", "STIFFNESS=500.0E3"))
     assert stiff["drop-linear"].omega > stiff["drop-curve"].omega
@@ -101,16 +101,16 @@ def test_the_drops_on_a_deck() -> None:
 
 def test_cases_have_the_lines_of_their_laws() -> None:
     lines = {case.name: case.line for case in all_cases(contacts_of(sample_scene()), [])}
-    assert lines == {"drop-reference": None, "drop-curve": 30, "drop-linear": 27, "pull": 42, "drag": 23}
+    assert lines == {"drop-reference": None, "drop-curve": 32, "drop-linear": 27, "pull": 43, "drag": 28}
     text = SAMPLE_TEXT.replace("*SEABED SUCTION\n SET=Clay\n COHESION=5.0E3\n", "")
     text = text.replace(" FRICTION=0.35, 0.60, 0.003, 0.150\n", "")
     lines = {case.name: case.line for case in all_cases(contacts_of(legal_scene(text)), [])}
-    assert lines == {"drop-reference": None, "drop-curve": 29, "drop-linear": 26, "pull": None, "drag": None}
-    block = "*SEABED FRICTION\n SET=Clay\n COEFFICIENTS=0.4, 0.7\n STIFFNESS=4.0E4, 2.0E4\n$LOAD CASE"
+    assert lines == {"drop-reference": None, "drop-curve": 31, "drop-linear": 26, "pull": None, "drag": 27}
+    block = "*SEABED FRICTION\n SET=Clay\n COEFFICIENTS=0.4, 0.7\n STIFFNESS=4.0E5, 2.0E5\n$LOAD CASE"
     text = text.replace("$LOAD CASE", block)
     (line,) = (case.line for case in all_cases(contacts_of(legal_scene(text)), []) if case.name == "drag")
     assert line is not None
-    assert text.splitlines()[line - 2] == "*SEABED FRICTION"
+    assert text.splitlines()[line - 1] == " STIFFNESS=4.0E5, 2.0E5"
 
 
 def test_the_advice_takes_the_smallest_step_of_the_deck_and_the_least_work() -> None:
@@ -148,7 +148,7 @@ def test_the_advice_is_below_the_critical_step_of_every_contact() -> None:
     for scheme, limit in (("velocity Verlet", 1.0), ("central difference", 2.0), ("RK4", 2.7852936)):
         row = found[scheme]
         assert row.dt == pytest.approx(limit / rate)
-        assert (row.case, row.line, row.limited, row.omega_dt) == ("suction damping on Clay", 42, "stability", None)
+        assert (row.case, row.line, row.limited, row.omega_dt) == ("suction damping on Clay", 43, "stability", None)
         assert row.evaluations == pytest.approx(rate / limit)
         assert row.error == 1e-4
 

@@ -12,9 +12,10 @@ from scipy.integrate import trapezoid
 from mudline.contact import LawAssignment
 from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, from_cohesion, step
 from mudline.curves import ForceCurve
+from mudline.scene.oscillation import oscillations
 from mudline.study import SAMPLE_TEXT, sample_scene
 from mudline.study.laws import CurveLaw, LinearLaw, SuctionNumbers, smoothed_spring
-from mudline.study.precision import exact_motions, integration
+from mudline.study.precision import contacts, exact_motions, integration
 from mudline.study.precision.contacts import (
     all_cases,
     contacts_of,
@@ -222,27 +223,71 @@ def test_suction_of_a_deck_is_taken_from_it() -> None:
     assert "Bridge" in bare.notes[0]
 
 
-def test_friction_of_a_deck_is_taken_from_it() -> None:
+def test_friction_is_the_stiffest_of_the_deck() -> None:
+    """At the end node on sand: 0.5 W over 3 mm; as the mass per unit length there, so its omega is that of STB002."""
     studied = contacts_of(sample_scene())
     contact, inputs = studied.contacts[0], studied.inputs
     drag = friction_of(studied, contact)
-    assert drag.limit == pytest.approx(0.35 * contact.weight)
+    assert drag.name == "friction on Sand"
+    assert drag.limit == pytest.approx(0.5 * contact.weight)
     assert drag.stiffness == pytest.approx(drag.limit / 0.003)
-    stiff = friction_of(studied._replace(inputs=changed(inputs, "friction", axial_stiffness=4e4)), contact)
-    assert stiff.stiffness == pytest.approx(4e4 / 2.0)
+    assert drag.mass == pytest.approx(contact.mass)
+    stiff = friction_of(studied._replace(inputs=changed(inputs, "friction", axial_stiffness=4e5)), contact)
+    assert stiff.stiffness == pytest.approx(4e5)  # a metre of line at an end node, two at the others
+    sideways = friction_of(studied._replace(inputs=changed(inputs, "friction", lateral_stiffness=4e5)), contact)
+    assert sideways.stiffness == pytest.approx(4e5)
+    assert sideways.limit == pytest.approx(0.6 * contact.weight)  # of two equal ones the first node, on clay
     assert not studied.notes
     bare = friction_of(studied._replace(inputs=replace(inputs, laws=())), contact)
     assert (bare.limit, bare.stiffness) == pytest.approx((0.5 * contact.weight, 0.5 * contact.weight / 0.003))
-    assert "no axial friction" in studied.notes[0]
+    assert "The deck has no friction:" in studied.notes[0]
 
 
-def test_case_that_overflows_is_reported() -> None:
-    found = legal_scene(SAMPLE_TEXT.replace(", 0.003,", ", 1.0E-307,"))
+def test_drag_oscillates_as_the_friction_of_the_stability_study() -> None:
+    """Springs of *SEABED FRICTION, stiffer across: 3e7 N/m on half an element."""
+    block = "*SEABED FRICTION\n SET=ALL\n COEFFICIENTS=0.4, 0.7\n STIFFNESS=1.0E7, 3.0E7\n$LOAD CASE"
+    text = SAMPLE_TEXT.replace("$LOAD CASE", block)
+    found = legal_scene(text)
+    (drag,) = (case for case in all_cases(contacts_of(found), []) if case.name == "drag")
+    (friction,) = (one for one in oscillations(found, found.contact_input("cut")).found if one.kind == "friction")
+    assert drag.omega == pytest.approx(friction.omega)
+    assert drag.omega == pytest.approx((3e7 / 1.0 / friction.mass) ** 0.5)
+    assert drag.title == "dragged, friction on ALL"
+    assert drag.line is not None
+    assert text.splitlines()[drag.line - 1] == " STIFFNESS=1.0E7, 3.0E7"
+
+
+@pytest.mark.parametrize(("inner", "note"), [("0.295", "The pipe floats: half"), ("0.25", "")])
+def test_a_floating_pipe_is_named(inner: str, note: str) -> None:
+    studied = contacts_of(legal_scene(SAMPLE_TEXT.replace("0.3, 0.25,", f"0.3, {inner},")))
+    assert [one.startswith(note) for one in studied.notes] == ([True] if note else [])
+
+
+def test_case_that_overflows_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
+    endless = replace(drag_case(Drag("sand", 1.0, 1.0, 1.0)), omega=math.inf)
+    monkeypatch.setattr(contacts, "_drag", lambda *_: endless)
+    omissions: list[Omission] = []
+    cases = all_cases(contacts_of(sample_scene()), omissions)
+    assert "drag" not in {case.name for case in cases}
+    assert [omission.reason for omission in omissions] == ["its stiffness or its duration overflows"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "reason"),
+    [
+        (", 0.003,", ", 1.0E-307,", "friction: no frequency: its law has no largest stiffness or damping"),
+        ("0.3, 0.25,", "0.3, 0.295,", "friction: no springs at 11 nodes: they follow the submerged weight, and the"),
+    ],
+)
+def test_friction_without_a_known_spring_is_not_dragged(old: str, new: str, reason: str) -> None:
+    found = legal_scene(SAMPLE_TEXT.replace(old, new))
     omissions: list[Omission] = []
     with np.errstate(all="ignore"):
         cases = all_cases(contacts_of(found), omissions)
     assert "drag" not in {case.name for case in cases}
-    assert [omission.reason for omission in omissions] == ["its stiffness or its duration overflows"]
+    (omission,) = omissions
+    assert omission.what == "drag along Soft Clay"
+    assert omission.reason.startswith(reason)
 
 
 def test_curve_of_many_points_does_without_stops(monkeypatch: pytest.MonkeyPatch) -> None:

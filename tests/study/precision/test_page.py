@@ -31,7 +31,7 @@ def read(name: str) -> list[dict[str, str]]:
 def test_the_page_of_the_sample_with_a_short_ladder(sample_report: StudyReport) -> None:
     assert sample_report.advice == (
         "On this deck, for errors of 1 % no step of the ladder is small enough, because of the mass dropped on Soft "
-        "Clay (deck line 30); for errors of 0.1 % no step of the ladder is small enough."
+        "Clay (deck line 32); for errors of 0.1 % no step of the ladder is small enough."
     )
     assert "| drop-curve | dropped on Soft Clay | 30 |" in sample_report.page
     assert "64 runs meet the seabed" in sample_report.page
@@ -70,7 +70,7 @@ def test_no_advised_step_is_above_the_critical_one_of_the_stability_study() -> N
             assert (row["limited by"], row["set by"]) == ("stability", "suction damping on Clay")
     words = advice(Tables.read(DOCS, "precision"))
     assert (
-        "(explicit: central difference with a step of 309 us, because of suction damping on Clay (deck line 42))"
+        "(explicit: central difference with a step of 309 us, because of suction damping on Clay (deck line 43))"
         in words
     )
 

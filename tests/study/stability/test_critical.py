@@ -35,8 +35,8 @@ def test_the_contacts_of_the_sample() -> None:
     found, left_out = find_contacts(sample_scene())
     assert left_out == []
     assert [(one.name, one.elements, one.line) for one in found] == [
-        ("suction damping on Clay", 7, 42),
-        ("suction mobilisation on Clay", 7, 42),
+        ("suction damping on Clay", 7, 43),
+        ("suction mobilisation on Clay", 7, 43),
         ("friction on Sand", 4, 28),
         ("curve:Soft Clay on Clay", 7, 32),
         ("friction on Clay", 7, 25),

@@ -37,12 +37,12 @@ def test_a_restart_names_the_file_of_each_line(tmp_path: Path, monkeypatch: pyte
     path.write_text("$LOAD CASE\n*RESTART\n LAST=static\n*TIME\n STEP=FIXED\n 0.0, 9.0, 0.01, 2.0\n", encoding="utf-8")
     report = run(mudline.read(path).scene(), StudyOptions(only=("steps",)))
     assert "because of curve:Soft Clay on Clay (line 32 of static.keyxm)" in report.advice
-    assert "because of suction damping on Clay (line 42 of static.keyxm): above it" in report.advice
+    assert "because of suction damping on Clay (line 43 of static.keyxm): above it" in report.advice
     texts = {path.stem.removeprefix("stability-"): path.read_text("utf-8") for path in DOCS.glob("stability-*.csv")}
     texts |= {table.name: "".join(table.csv()) for table in report.tables}
     text = page(Tables(texts))
-    assert "| suction damping on Clay | 42 of static.keyxm | 1 |" in text
-    assert "| central difference | 0.000309 | suction damping on Clay | 42 of static.keyxm |" in text
+    assert "| suction damping on Clay | 43 of static.keyxm | 1 |" in text
+    assert "| central difference | 0.000309 | suction damping on Clay | 43 of static.keyxm |" in text
     assert "from ratio 0 to 0.01 (line 32 of static.keyxm)" in text
 
 

@@ -103,7 +103,7 @@ def test_one_sentence_says_what_to_do(report: StudyReport) -> None:
     )
     assert report.advice.startswith(start)
     assert report.advice.endswith(
-        "central difference needs 0.000309 s or less, because of suction damping on Clay (deck line 42): above it a "
+        "central difference needs 0.000309 s or less, because of suction damping on Clay (deck line 43): above it a "
         "small motion there grows."
     )
 

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from mudline.scene.model import Scene
+from mudline.study.pages import listed
 from mudline.study.precision.contacts import all_cases, contacts_of
 from mudline.study.precision.curves import study_backbones, study_curves
 from mudline.study.precision.goals import motion_pictures, study_goals
-from mudline.study.precision.integration import ADVISED_GOALS, PARTS, REPEATS, RUNS, study_motions
+from mudline.study.precision.integration import ADVISED_GOALS, COMPARED, PARTS, REPEATS, RUNS, study_motions
 from mudline.study.precision.page import advice, page
 from mudline.study.precision.smoothing import study_smoothing
 from mudline.study.report import Omission, Section, StudyOptions, paragraphs
 from mudline.study.running import Part, Study
-from mudline.study.schemes import BRACKETED
+from mudline.study.schemes import BRACKETED, SCHEMES
 
+_COMPARED = listed([SCHEMES[name].title for name in COMPARED])
 _SOUGHT = " and ".join(f"{100.0 * goal:g} %" for goal in ADVISED_GOALS)
 _NOTES = f"""
 Errors of curves: the largest of 1500 random ratios and the points themselves, against exact rational arithmetic on the
@@ -23,7 +25,8 @@ side by side: force evaluations are those of one run, Newton's iterations includ
 runs together. Run times are medians of {REPEATS} repeats, in which all schemes take turns; long runs are timed once.
 
 The largest step for an error of {_SOUGHT} is the last before the first that is too large, of {PARTS} between
-two steps of the ladder.
+two steps of the ladder. For {_COMPARED} the next {PARTS} below it, closer together, meet the goal too: errors do
+not always grow with the step.
 
 An advised step is also below the critical step of the scheme on every contact of the deck, damping included.
 

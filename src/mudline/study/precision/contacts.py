@@ -16,9 +16,10 @@ from mudline.diagnostics import Where
 from mudline.results.laws_in_use import line_of
 from mudline.scene.deck_values import DEFAULT_GRAVITY, FOOT, POUND
 from mudline.scene.model import Scene
+from mudline.scene.oscillation import Oscillation, oscillations, place_of_suction, steepest_segment
 from mudline.scene.resolved import LawArrays
 from mudline.scene.sections import surroundings
-from mudline.study import file_of
+from mudline.study import file_of, without_springs
 from mudline.study.laws import CurveLaw, ElasticContact, Law, LinearLaw, SuctionNumbers
 from mudline.study.precision.exact_motions import Drag, Pull, drag_case, drop_case, drop_to, pull_case, reference_drop
 from mudline.study.precision.integration import Case
@@ -54,7 +55,7 @@ def contacts_of(scene: Scene) -> StudiedContacts:
         stiff = [contact for contact in found if contact.stiffness > 0.0]
         studied.contacts.extend(sorted(stiff, key=_fastest_first)[:1])
     if not studied.contacts:
-        studied.notes.append("The deck has no curve and no linear law: only the reference case was run.")
+        studied.notes.append(f"Only the reference case was run: {without_springs(scene)}.")
     return studied
 
 
@@ -82,10 +83,10 @@ def _contact(studied: StudiedContacts, element: int, mass: float, weight: float)
     if not weight > 0.0:
         known = surroundings(scene.deck).gravity
         gravity = DEFAULT_GRAVITY.get(scene.units, DEFAULT_GRAVITY["metric"]) if math.isnan(known) else known
+        why = "The submerged weight of the pipe is not known" if math.isnan(weight) else "The pipe floats"
         weight = 0.5 * mass * gravity
-        studied.notes.append(
-            "The submerged weight of the pipe is unknown or not positive: half of its weight in air is used."
-        )
+        note = f"{why}: half of its weight in air is used as submerged weight."
+        studied.notes.extend([note] if note not in studied.notes else [])
     name = scene.law_names[element].removeprefix("curve:")
     law: Law
     if arrays.law[element] == LawKind.CURVE:
@@ -120,29 +121,38 @@ def suction_of(studied: StudiedContacts, contact: ElasticContact) -> SuctionNumb
 
 
 def friction_of(studied: StudiedContacts, contact: ElasticContact) -> Drag:
-    """Friction along the line at the contact's element, else of 0.5, mobilised over a hundredth of the diameter."""
-    inputs = studied.inputs
-    given, at = inputs.assigned.get("friction"), _friction_row(studied, contact)
-    length = float(inputs.length[contact.element])
-    if given is None or at is None:
-        studied.notes.append("The deck has no axial friction there: 0.5, mobilised over a hundredth of D, is used.")
+    """The friction of the deck that oscillates fastest, else of 0.5, mobilised over a hundredth of the diameter."""
+    fastest = _fastest_friction(studied)
+    if fastest is None:
+        studied.notes.append("The deck has no friction: 0.5, mobilised over a hundredth of D, is used.")
         limit = _FRICTION * contact.weight
-        return Drag(contact.law.name, contact.mass, limit, limit / (_MOBILISATION * contact.diameter))
-    names = ("axial_coefficient", "axial_stiffness", "axial_mobilisation")
-    coefficient, constant, mobilisation = (float(given[name][at]) for name in names)
-    limit = coefficient * contact.weight
-    stiffness = limit / mobilisation if math.isnan(constant) else constant / length
-    return Drag(contact.law.name, contact.mass, limit, stiffness)
+        return Drag(f"friction on {contact.law.name}", contact.mass, limit, limit / (_MOBILISATION * contact.diameter))
+    given = studied.inputs.assigned["friction"]
+    at = int(np.flatnonzero(given.rows == fastest.node)[0])
+    coefficients, constant, mobilisation = (
+        np.array([given[f"{side}_{name}"][at] for side in ("axial", "lateral")])
+        for name in ("coefficient", "stiffness", "mobilisation")
+    )
+    springs = np.where(np.isnan(constant), coefficients / mobilisation, constant)
+    side = int(np.argmax(np.where(coefficients > 0.0, springs, -1.0)))
+    if math.isnan(constant[side]):
+        return Drag(fastest.name, fastest.mass, fastest.stiffness * float(mobilisation[side]), fastest.stiffness)
+    weight = float(studied.scene.submerged_weight[fastest.element])
+    limit = (float(coefficients[side]) or _FRICTION) * (weight if weight > 0.0 else contact.weight)
+    return Drag(fastest.name, fastest.mass, limit, fastest.stiffness)
 
 
-def _friction_row(studied: StudiedContacts, contact: ElasticContact) -> int | None:
-    """The row of the friction at the first node of the contact's element; None without axial friction there."""
-    inputs = studied.inputs
-    given = inputs.assigned.get("friction")
-    if given is None or not inputs.length[contact.element] > 0.0:
-        return None
-    at = np.flatnonzero(given.rows == inputs.element_nodes[contact.element, 0])
-    return int(at[0]) if at.size and given["axial_coefficient"][at[0]] > 0.0 else None
+def _fastest_friction(studied: StudiedContacts) -> Oscillation | None:
+    """The friction of the deck that limits explicit steps most, on the node and with the mass that it has there.
+
+    None where the deck has no friction; raises StudyError where nothing is known of the springs that it has.
+    """
+    found, unknown = oscillations(studied.scene, studied.inputs)
+    frictions = [one for one in found if one.kind == "friction"]
+    reasons = [reason for name, reason in unknown if name.startswith("friction")]
+    if reasons and not frictions:
+        raise StudyError(f"friction: {reasons[0]}")
+    return max(frictions, key=lambda one: one.omega, default=None)
 
 
 def all_cases(studied: StudiedContacts, omissions: list[Omission]) -> list[Case]:
@@ -176,10 +186,13 @@ _Place = Callable[[StudiedContacts, ElasticContact], Where | None]
 
 
 def _place_of_law(studied: StudiedContacts, contact: ElasticContact) -> Where | None:
-    """Where the normal law of a contact stands: its curve, else its number."""
+    """Where the stiffness of a contact stands: of a curve the steepest segment, or its name if that lies deeper."""
     laws = studied.scene.laws
     given = laws.set_laws[int(laws.of_element[contact.element])]
-    return laws.curves[given.curve].title if given.curve >= 0 else given.where
+    if given.curve < 0:
+        return given.where
+    segment = steepest_segment(laws.curves[given.curve])
+    return laws.curves[given.curve].title if segment is None or segment.low >= _REACH else segment.where
 
 
 def _place_of_suction(studied: StudiedContacts, contact: ElasticContact) -> Where | None:
@@ -188,17 +201,13 @@ def _place_of_suction(studied: StudiedContacts, contact: ElasticContact) -> Wher
     if given is None or blocks is None:
         return None
     element = contact.element if contact.element in given.rows else int(given.rows[0])
-    return blocks.places[int(blocks.of_element[element])]
+    return place_of_suction(blocks, int(blocks.of_element[element]))
 
 
-def _place_of_friction(studied: StudiedContacts, contact: ElasticContact) -> Where | None:
-    """Where the friction of the contact stands, in *SEABED FRICTION first; None without friction along the line."""
-    if _friction_row(studied, contact) is None:
-        return None
-    for given in (studied.scene.extensions.get("SEABED FRICTION"), studied.scene.resistance):
-        if given is not None and (index := int(given.of_element[contact.element])) >= 0:
-            return given.places[index]
-    return None
+def _place_of_friction(studied: StudiedContacts, _: ElasticContact) -> Where | None:
+    """None where the deck has no friction."""
+    fastest = _fastest_friction(studied)
+    return None if fastest is None else fastest.where
 
 
 def _drop(_: StudiedContacts, contact: ElasticContact) -> Case:

@@ -433,7 +433,7 @@ def drag_case(drag: Drag) -> Case:
 
     return Case(
         name="drag",
-        title=f"dragged on {drag.name}, friction",
+        title=f"dragged, {drag.name}",
         quantities=("maximum displacement", "return velocity", "energy"),
         reference="closed form",
         system=system,

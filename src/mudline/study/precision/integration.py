@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Annotated, NamedTuple
 
 import numpy as np
@@ -22,6 +23,8 @@ RUNS = 64
 """Runs side by side, which land at different phases of a step; the worst of them counts."""
 LADDER = (1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0, 3.0, 10.0)
 """Of omega dt; without --full it ends at the smallest of a case, or where the smallest goal is met."""
+_WIDEST = max(b / a for a, b in pairwise(LADDER))
+"""The largest factor between two steps of the ladder."""
 FINE_LADDER = tuple(10.0 ** (power / 6.0) for power in range(-18, 7))
 GOALS = (1e-2, 1e-3, 1e-4)
 """Errors for which a step is looked up."""
@@ -29,6 +32,10 @@ ADVISED_GOALS = GOALS[:2]
 """Errors that a step is advised for: the largest one is looked for between two steps of the ladder."""
 PARTS = 8
 """Into which the factor between these two is divided; errors do not always grow with the step, so none is skipped."""
+COMPARED = ("velocity-verlet", "newmark", "rk4")
+"""Schemes whose largest steps the page compares: as many closer steps below each have to meet the goal too."""
+_CLOSER = 4
+"""How many times as close."""
 TRIED = {name: bracketed(scheme) for name, scheme in SCHEMES.items() if scheme.limit > 0.0}
 """The schemes of this study: those that are stable on an oscillator at some step; implicit ones solved in a bracket."""
 REPEATS = 5
@@ -176,8 +183,10 @@ def ladder_rows(case: Case, schemes: Mapping[str, Scheme], *, full: bool) -> lis
             left = {row.scheme: schemes[row.scheme] for row in rows if not meets(row, GOALS[-1])}
         found += rows
     for goal in ADVISED_GOALS:
-        for name, ladder in grouped(found, lambda row: row.scheme).items():
-            found += _up_to(goal, case, schemes[name], ladder)
+        for look in (_up_to, _below):
+            for name, ladder in grouped(found, lambda row: row.scheme).items():
+                found += look(goal, case, schemes[name], ladder)
+    for goal in ADVISED_GOALS:
         best = [largest_step(ladder, goal) for ladder in grouped(found, lambda row: row.scheme).values()]
         again = [(schemes[row.scheme], row.omega_dt) for row in best if row is not None and row.repeats == 1]
         timed = {(row.scheme, row.omega_dt): row for row in measured(case, again, _TIMED_STEPS[full])}
@@ -207,6 +216,21 @@ def _up_to(goal: float, case: Case, scheme: Scheme, ladder: Sequence[StepRow]) -
         yield tried
         if not meets(tried, goal):
             return
+
+
+def _below(goal: float, case: Case, scheme: Scheme, ladder: Sequence[StepRow]) -> Iterator[StepRow]:
+    """Steps just below the largest one for a goal, closer to each other; below a smaller one where one fails."""
+    if scheme.name not in COMPARED:
+        return
+    rows, best = list(ladder), largest_step(ladder, goal)
+    smallest = min(row.omega_dt for row in rows)
+    while best is not None:
+        steps = [best.omega_dt * _WIDEST ** (-part / (_CLOSER * PARTS)) for part in range(1, PARTS + 1)]
+        tried = [row(case, scheme, step) for step in steps if step > smallest]
+        yield from tried
+        rows += tried
+        found = largest_step(rows, goal)
+        best = None if all(meets(one, goal) for one in tried) else found
 
 
 def meets(row: StepRow, goal: float) -> bool:

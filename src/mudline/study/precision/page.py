@@ -27,7 +27,7 @@ from mudline.study.pages import (
 )
 from mudline.study.precision.curves import BEYOND_ERROR, FORCE_ERROR, LINE_ERROR, PCHIP_ERROR
 from mudline.study.precision.goals import ACCURACY, ORDER_STEPS, QUARTILE, STEP, TIME, WORK
-from mudline.study.precision.integration import ADVISED_GOALS, LADDER, PARTS
+from mudline.study.precision.integration import ADVISED_GOALS, COMPARED, LADDER, PARTS
 from mudline.study.precision.smoothing import PUBLISHED, WIDTHS
 from mudline.study.report import grouped
 from mudline.study.running import RUN_TIME
@@ -47,7 +47,7 @@ _ERRORS = (
     "error of energy or work [relative]",
 )
 _BRACKETED = "steps that needed the bracket"
-_VERLET, _NEWMARK, _RK4 = (SCHEMES[name].title for name in ("velocity-verlet", "newmark", "rk4"))
+_VERLET, _NEWMARK, _RK4 = (SCHEMES[name].title for name in COMPARED)
 _COMPARED = ("newmark", "hht-0.3", "generalised-alpha-0.5", "generalised-alpha-0", "backward-euler")
 _COMPARED_STEP = 0.1
 _RESOLUTION = max(b / a for a, b in pairwise(LADDER)) ** (1.0 / PARTS) - 1.0

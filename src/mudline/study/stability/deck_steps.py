@@ -13,7 +13,7 @@ from mudline.contact.stiffest import ADVISED_OMEGA_DT, rounded_down
 from mudline.keywords.catalogue import holds_in_soil
 from mudline.scene.model import Scene
 from mudline.scene.oscillation import Segment, line_of, steepest_segment
-from mudline.study import file_of
+from mudline.study import file_of, without_springs
 from mudline.study.laws import CurveLaw, LinearLaw
 from mudline.study.motion import Scheme
 from mudline.study.pages import Tables
@@ -214,12 +214,12 @@ def study_steps(scene: Scene, options: StudyOptions) -> Section:
         ADVICE.table(advised),
     )
     pictures = [_picture(found, measured, landed, advised)] if measured else []
-    return Section(tables, pictures, _notes(found, measured), omissions)
+    return Section(tables, pictures, _notes(scene, found, measured), omissions)
 
 
-def _notes(found: Sequence[Contact], measured: Sequence[Measured]) -> list[str]:
+def _notes(scene: Scene, found: Sequence[Contact], measured: Sequence[Measured]) -> list[str]:
     if not found:
-        return [NO_FREQUENCY]
+        return [f"No contact of this deck has a frequency: {without_springs(scene)}."]
     return [
         (
             f"{sum(one.as_predicted for one in measured)} of {len(measured)} runs of a scheme on a contact behaved as "
