@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from mudline.linting.engine import lint_bytes
@@ -98,6 +100,20 @@ def test_steps_are_looked_at_only_when_asked() -> None:
 @pytest.mark.parametrize(("product", "words"), [(0.9, "11 %"), (1.9, "far too fast"), (3.0, "central difference")])
 def test_what_a_coarse_step_does(product: float, words: str) -> None:
     assert words in messages(TIME.format(f", {product / (1e5 / MASS) ** 0.5}"), "STB002")[0]
+
+
+@pytest.mark.parametrize(
+    ("blocks", "line"),
+    [
+        ("*SEABED FRICTION\n SET=ALL\n COEFFICIENTS=0.3, 0.6\n STIFFNESS=1E9, 2E9\n", " STIFFNESS=1E9, 2E9"),
+        ("*SEABED SUCTION\n SET=ALL\n COHESION=5E6\n", " COHESION=5E6"),
+        ("*SEABED SUCTION\n SET=ALL\n DEPTH=1E-4, 0\n COHESION=5\n FORCE=1E6, 0.2\n", " FORCE=1E6, 0.2"),
+        ("*SEABED UNLOADING\n SET=ALL\n STIFFNESS=1E9\n", " STIFFNESS=1E9"),
+    ],
+)
+def test_the_line_is_that_of_the_numbers(blocks: str, line: str) -> None:
+    text = TIME.format(", 9").replace("$LOAD CASE\n", f"{blocks}$LOAD CASE\n")
+    assert re.search(rf"node 1, line {text.splitlines().index(line) + 1}\b", messages(text, "STB002")[0])
 
 
 def test_steps_on_curves_and_without_any_mass() -> None:

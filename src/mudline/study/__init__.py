@@ -82,8 +82,7 @@ def file_of(scene: Scene, where: Where | None) -> str:
 def without_springs(scene: Scene) -> str:
     """Why no contact of a scene has a spring and a mass, as a clause."""
     if not np.isin(scene.law, (LawKind.NONE, LawKind.RIGID)).all():
-        mass = scene.mass_per_length
-        return "no law has a stiffness" if (mass > 0.0).any() else "the mass of the sections is not known"
+        return "no law has a stiffness" if (scene.mass_per_length > 0.0).any() else "no section has a mass"
     return "the seabed is rigid" if (scene.law == LawKind.RIGID).any() else "no element has a seabed law"
 
 

@@ -56,6 +56,10 @@ def test_contacts_without_a_frequency_say_why() -> None:
         "no frequency: the mass per unit length is not known"
     }
     assert [one.what for one in left_out if "weight" in one.reason] == ["friction"]
+    _, floating = find_contacts(legal_scene(SAMPLE_TEXT.replace("0.3, 0.25,", "0.3, 0.295,")))
+    assert [(one.what, one.reason) for one in floating] == [
+        ("friction", "no springs at 11 nodes: they follow the submerged weight, and the pipe floats")
+    ]
     found, left_out = find_contacts(curved(" 0, 1000\n 1, 0\n"))
     assert "linear on Sand" in {one.name for one in found}
     assert [tuple(one) for one in left_out] == [("curve:Soft Clay on Clay", "no frequency: its law never stiffens")]

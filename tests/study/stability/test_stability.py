@@ -11,6 +11,7 @@ import pytest
 from mudline.scene.model import Scene
 from mudline.study import SAMPLE_TEXT, sample_scene
 from mudline.study.motion import Scheme
+from mudline.study.precision.contacts import contacts_of
 from mudline.study.report import Cell, StudyOptions, StudyReport
 from mudline.study.schemes import SCHEMES
 from mudline.study.stability import deck_steps, ladder, landings, own_laws, run, statics
@@ -154,11 +155,22 @@ def test_a_deck_without_mass_or_suction_is_reported(monkeypatch: pytest.MonkeyPa
     text = SAMPLE_TEXT.partition("*SEABED CONTACT")[0].replace("7850.0", "0.0")
     progress: list[str] = []
     found = run(legal_scene(text, "deck.keyx", "user"), StudyOptions(full=True, progress=progress.append))
-    assert found.notes[0].startswith("No contact of this deck has a frequency")
+    assert found.notes[0] == "No contact of this deck has a frequency: no section has a mass."
     assert {one.what for one in found.omissions} >= {"release of suction", "linear on Sand"}
     assert "force/length2" in found.tables[0].columns[2].unit
     assert progress[-1] == "5 random decks"
     assert [picture.name for picture in found.pictures] == ["landings", "landing-gain", "ladder"]
+
+
+@pytest.mark.parametrize(
+    ("blocks", "why"), [(" TYPE=RIGID\n", "the seabed is rigid"), ("", "no element has a seabed law")]
+)
+def test_a_deck_without_springs_says_why(blocks: str, why: str) -> None:
+    head = SAMPLE_TEXT.partition("*SEABED PROPERTIES")[0]
+    scene = legal_scene(head + (f"*SEABED PROPERTIES\n{blocks} SET=ALL\n" if blocks else ""))
+    found = deck_steps.study_steps(scene, StudyOptions())
+    assert found.notes == [f"No contact of this deck has a frequency: {why}."]
+    assert contacts_of(scene).notes == [f"Only the reference case was run: {why}."]
 
 
 def test_only_the_fastest_contacts_are_stepped_by_default(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -252,6 +252,8 @@ def motion_fields(tables: Tables) -> dict[str, str]:
         "goals": _by_scheme(tables, names, _needed),
         "findings": "\n\n".join([*_advice_table(tables), "What follows from it:", bullets(_findings(tables))]),
         "goal_names": ", then for ".join(percent(goal) for goal in ADVISED_GOALS),
+        "compared": listed((_VERLET, _NEWMARK, _RK4)),
+        "closer": str(PARTS),
         "resolution": percent(_RESOLUTION, rounding=UP),
         "order_steps": f"{ORDER_STEPS:g} and below",
         "orders": _by_scheme(tables, names, lambda row: rounded(row.number("order"))),
