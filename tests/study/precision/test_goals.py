@@ -14,7 +14,7 @@ from mudline.study.precision import integration
 from mudline.study.precision.contacts import all_cases, contacts_of
 from mudline.study.precision.exact_motions import drop_case, reference_drop
 from mudline.study.precision.goals import Limit, advised, order, order_of
-from mudline.study.precision.integration import TRIED, Case, StepRow, ladder_rows, largest_step, measured
+from mudline.study.precision.integration import TRIED, Case, StepRow, ladder_rows, largest_step, measured, meets
 from tests.builders.scenes import legal_scene
 
 JUMPING = SAMPLE_TEXT.replace(" 0.00,    0.0\n", " 0.00,  300.0\n")
@@ -80,6 +80,10 @@ def test_largest_steps_are_found(scheme: str, percent: float, tenth: float, most
         assert best is not None
         assert limit / 1.17 <= best.omega_dt <= most * limit
         assert min(row.omega_dt for row in rows if row.omega_dt > best.omega_dt) < 1.17 * best.omega_dt
+        near = [row for row in rows if best.omega_dt / 1.36 < row.omega_dt <= best.omega_dt]
+        assert len(near) >= 9  # the step, and eight closer ones below it
+        assert all(meets(row, goal) for row in rows if row.omega_dt <= best.omega_dt)
+    assert len({round(row.omega_dt, 9) for row in rows}) == len(rows)
 
 
 def test_backward_euler_has_no_step_for_the_published_case() -> None:

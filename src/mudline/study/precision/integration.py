@@ -226,7 +226,8 @@ def _below(goal: float, case: Case, scheme: Scheme, ladder: Sequence[StepRow]) -
     smallest = min(row.omega_dt for row in rows)
     while best is not None:
         steps = [best.omega_dt * _WIDEST ** (-part / (_CLOSER * PARTS)) for part in range(1, PARTS + 1)]
-        tried = [row(case, scheme, step) for step in steps if step > smallest]
+        known = np.array([one.omega_dt for one in rows])
+        tried = [row(case, scheme, step) for step in steps if step > smallest and not np.isclose(known, step).any()]
         yield from tried
         rows += tried
         found = largest_step(rows, goal)
