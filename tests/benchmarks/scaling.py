@@ -97,7 +97,7 @@ without a cluster.
         )
     }
 
-{archived(figures)}The whole command, its start and that of the connection included, the best of two rounds:
+{archived(figures)}The whole command, its start and that of the connection included, the best of three rounds:
 
 {
         table(
