@@ -153,7 +153,7 @@ def scaling(folder: Path, base: int) -> list[dict[str, float | int]]:
     for workers in (1, 2):
         (folder / f"logs-{workers}").mkdir()
     with running(folder / "logs-1", 1) as alone, running(folder / "logs-2", 2) as both:
-        for round_ in range(1 + _ROUNDS):  # in the first one, the workers import what they need
+        for round_ in range(2 + _ROUNDS):  # in the first one, the workers import what they need
             for name, count in sizes.items():
                 for workers, cluster in ((1, alone), (2, both)):
                     taken = Timed(folder, "lint", name, "-q", "--scheduler", cluster.address).seconds
@@ -223,7 +223,7 @@ def main() -> None:
         "index": lambda folder: indexed(folder, given.decks),
         "overhead": overhead,
         "series": series,
-        "scaling": lambda folder: scaling(folder, max(given.decks // 5, 10)),
+        "scaling": lambda folder: scaling(folder, max(2 * given.decks // 5, 10)),
     }
     parser.add_argument("--only", nargs="+", choices=parts, default=list(parts), help="measure these parts only")
     given = parser.parse_args()

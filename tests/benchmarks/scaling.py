@@ -64,9 +64,9 @@ def measured(figures: dict[str, Any]) -> str:
     return f"""## Measured
 
 By `python -m tests.benchmarks.cluster` on {figures["machine"]}, with a load of {figures["load"]:.1f} from other
-programs before it began. Client, scheduler and two workers share the two processors, and other programs ran beside
-them: the figures are noisy, and two workers cannot be twice as fast as one here. The parts were measured one by one
-under loads that changed, `evaluate` under the highest: only figures of one row compare.
+programs before it began. Client, scheduler and two workers share the two processors: two workers cannot be twice as
+fast as one here, and what else the machine does shows. The parts were measured one after the other: only figures of
+one row compare.
 
 {
         table(
@@ -97,7 +97,7 @@ without a cluster.
         )
     }
 
-{archived(figures)}The whole command, its start and that of the connection included, the best of two rounds:
+{archived(figures)}The whole command, its start and that of the connection included, the best of three rounds:
 
 {
         table(

@@ -44,7 +44,10 @@ def frequencies(beam: Beam, part: slice) -> FloatArray:
 
 
 def limits() -> Iterator[tuple[Cell, ...]]:
-    """The rows of `LIMITS`: of the line with its own damping, and of the largest stiffness and damping of each law."""
+    """The rows of `LIMITS`: of the line with its own damping, and of the largest stiffness and damping of each law.
+
+    What acts on a node acts on those at the ends too, which have half the mass of the others.
+    """
     beam = read_beam(DECK)
     for what, part in (("EA of the line", slice(beam.nodes, None)), ("EI of the line", slice(beam.nodes))):
         omegas = frequencies(beam, part)
@@ -54,7 +57,7 @@ def limits() -> Iterator[tuple[Cell, ...]]:
     length = float(beam.contact.input.length[0])
     mass = float(beam.mass[1]) / length
     for law in beam.contact.stiffest().laws:
-        over = mass * (length if law.per == "node" else 1.0)
+        over = float(beam.mass.min()) if law.per == "node" else mass
         stiffness, damping = float(np.nanmax(law.stiffness)), float(np.nanmax(law.damping))
         omega, rate = float(np.sqrt(stiffness / over)), damping / over
         unit = "N/m" if law.per == "node" else "N/m2"

@@ -233,7 +233,7 @@ def test_a_result_draws_itself_the_same_each_time(tmp_path: Path, name: str) -> 
 
 def test_a_result_refuses_what_it_cannot_draw(tmp_path: Path) -> None:
     state = heave().step(0)
-    with pytest.raises(ValueError, match=r"a plot is a \.png, \.svg or \.pdf"):
+    with pytest.raises(ValueError, match=r"unknown file format: give a name ending in \.png, \.svg or \.pdf"):
         state.plot(tmp_path / "picture.jpg")
     with pytest.raises(ValueError, match="no panel is called 'lines'"):
         state.plot(panels=["lines"])

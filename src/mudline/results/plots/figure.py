@@ -183,7 +183,8 @@ def plot_result(
     """Return the figure of a result, and write it to a file if a path is given; see `ContactResult.plot`."""
     form = "" if path is None else suffix_of(path)
     if path is not None and form not in PICTURES:
-        raise ValueError(f"{path}: a plot is a .{', .'.join(PICTURES[:-1])} or .{PICTURES[-1]}")
+        forms = f".{', .'.join(PICTURES[:-1])} or .{PICTURES[-1]}"
+        raise ValueError(f"{path}: unknown file format: give a name ending in {forms}")
     data = PlotData.of_result(result, elements)
     with mpl.rc_context(SETTINGS):
         figure = figure_of(data, str, "", panels)
