@@ -88,7 +88,7 @@ def test_the_rule_sees_friction() -> None:
     text = f"{KINDS['friction']}$LOAD CASE\n*TIME\n STEP=FIXED\n 0.0, 120.0, 0.004656, 24.0\n"
     (found,) = lint_bytes(text.encode(), "deck.keyxm", select(["STB002"]))
     assert (
-        "omega dt = 2.3 on the stiffest contact (friction on ALL, node 1, line 26, omega = 495 rad/s)" in found.message
+        "omega dt = 2.3 on the stiffest contact (friction on ALL, node 1, line 28, omega = 495 rad/s)" in found.message
     )
     assert "central difference fails; give a step of 0.00101 or less" in found.message
 
