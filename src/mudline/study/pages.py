@@ -10,12 +10,15 @@ from __future__ import annotations
 import csv
 import io
 import math
+import shlex
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Context, Decimal
 from pathlib import Path
 from string import Formatter
 from typing import TypeAlias
+
+from mudline.study import SAMPLE_NAME
 
 NONE = "none"
 """The text on a page where a table has no number."""
@@ -54,6 +57,13 @@ class Record:
     def flag(self, heading: str) -> bool:
         """Whether the cell says true."""
         return self.text(heading) == "true"
+
+
+def command_of(study: str, deck: str) -> str:
+    """What a reader writes to make the page of a deck: of the built-in one, that of the documentation."""
+    if deck == SAMPLE_NAME:
+        return f"mudline study {study} -o docs/studies"
+    return f"mudline study {study} {shlex.quote(deck)} -o DIR"
 
 
 class Tables:

@@ -9,8 +9,8 @@ from statistics import linear_regression
 
 import pytest
 
-from mudline.study import precision
-from mudline.study.pages import Tables
+from mudline.study import SAMPLE_NAME, precision
+from mudline.study.pages import Tables, command_of
 from mudline.study.precision.page import advice, page
 from mudline.study.report import StudyOptions, StudyReport
 from mudline.study.schemes import SCHEMES
@@ -70,8 +70,8 @@ def test_no_advised_step_is_above_the_critical_one_of_the_stability_study() -> N
             assert (row["limited by"], row["set by"]) == ("stability", "suction damping on Clay")
     words = advice(Tables.read(DOCS, "precision"))
     assert (
-        "(explicit: central difference with a step of 309 us, because of suction damping on Clay (deck line 43))"
-        in words
+        "The best explicit scheme for 1 % and 0.1 % is central difference with a step of 309 us, because of suction "
+        "damping on Clay (deck line 43)." in words
     )
 
 
@@ -112,3 +112,8 @@ def test_work_and_run_times_of_the_steps() -> None:
         else:
             assert quartiles == ("", "")
     assert page(Tables.read(DOCS, "precision"))
+
+
+def test_a_page_shows_the_command_that_makes_it() -> None:
+    assert command_of("precision", SAMPLE_NAME) == "mudline study precision -o docs/studies"
+    assert command_of("stability", "steep riser.keyxm") == "mudline study stability 'steep riser.keyxm' -o DIR"

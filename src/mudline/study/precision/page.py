@@ -14,6 +14,7 @@ from mudline.study.pages import (
     Record,
     Tables,
     bullets,
+    command_of,
     filled,
     grouped_digits,
     line_cell,
@@ -69,6 +70,7 @@ def advice(tables: Tables) -> str:
     """Return which scheme and which step the deck needs, because of which line; "" where it has nothing to step on."""
     parts: list[str] = []
     causes: list[str] = []
+    others: dict[tuple[str, str, str], list[str]] = {}
     for goal, tried in grouped(tables.rows("advice"), lambda row: row.text("goal [relative]")).items():
         reached = [row for row in tried if row.text("step [s]")]
         causes.append(_cause(tables, (reached or tried)[0]))
@@ -77,15 +79,17 @@ def advice(tables: Tables) -> str:
             parts.append(f"for errors of {percent(float(goal))} no step of the ladder is small enough{because}")
             continue
         explicit = reached[0].text("scheme") in _EXPLICIT
-        other = [row for row in reached if (row.text("scheme") in _EXPLICIT) != explicit][:1]
-        besides = ""
-        for row in other:
-            cause = _cause(tables, row)
-            own = "" if cause in causes else f", because of {cause}"
-            causes.insert(0, cause)
-            besides = f" ({'implicit' if explicit else 'explicit'}: {_use(row)}{own})"
-        parts.append(f"for errors of {percent(float(goal))} use {_use(reached[0])}{besides}{because}")
-    return f"On this deck, {'; '.join(parts)}." if parts else ""
+        for row in [row for row in reached if (row.text("scheme") in _EXPLICIT) != explicit][:1]:
+            key = "implicit" if explicit else "explicit", _use(row), _cause(tables, row)
+            others.setdefault(key, []).append(percent(float(goal)))
+        parts.append(f"for errors of {percent(float(goal))} use {_use(reached[0])}{because}")
+    if not parts:
+        return ""
+    sentences = [f"On this deck, {'; '.join(parts)}."]
+    for (kind, use, cause), goals in others.items():
+        own = "" if cause in causes else f", because of {cause}"
+        sentences.append(f"The best {kind} scheme for {' and '.join(goals)} is {use}{own}.")
+    return " ".join(sentences)
 
 
 def _use(row: Record) -> str:
@@ -107,9 +111,11 @@ def _cause(tables: Tables, row: Record) -> str:
 
 def page(tables: Tables) -> str:
     """The page in Markdown; raises MissingTableError where a part was not run."""
+    deck = tables.row("machine", what="deck").text("value")
     fields = {
+        "command": command_of("precision", deck),
         "advice": advice(tables) or "The deck has no normal law with a stiffness: only the published case was run.",
-        "deck": f"`{tables.row('machine', what='deck').text('value')}`",
+        "deck": f"`{deck}`",
         "run_time": time(tables.row("machine", what=RUN_TIME).number("value")),
         "processor": tables.row("machine", what="processor").text("value"),
         "in_short": bullets(_in_short(tables)),

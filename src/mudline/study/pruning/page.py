@@ -11,6 +11,7 @@ from mudline.study.pages import (
     Record,
     Tables,
     bullets,
+    command_of,
     filled,
     grouped_digits,
     listed,
@@ -44,6 +45,7 @@ def page(tables: Tables) -> str:
     own = _at_most(tables.rows("nodes", scene=CURVE))
     fields = {
         "advice": advice(tables),
+        "command": command_of("pruning", machine["deck"]),
         "deck": f"`{machine['deck']}`",
         "run_time": time(float(machine[RUN_TIME])),
         "machine": ", ".join([machine["processor"], f"{machine['cores']} cores", *_versions(machine)]),

@@ -16,6 +16,7 @@ from mudline.study.pages import (
     Record,
     Tables,
     bullets,
+    command_of,
     filled,
     grouped_digits,
     line_cell,
@@ -51,6 +52,7 @@ _MOST_ROWS = 12
 def page(tables: Tables) -> str:
     """The page in Markdown; raises MissingTableError."""
     fields = {
+        "command": command_of("stability", _machine(tables, "deck")),
         "deck": _machine(tables, "deck"),
         "processor": _machine(tables, "processor"),
         "run_time": time(float(_machine(tables, "run time [s]") or math.nan)),
