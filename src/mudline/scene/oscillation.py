@@ -271,8 +271,8 @@ def _of_friction(
             name = f"friction on {_set_of_resistance(scene, int(on))}"
         found = _of_node("friction", name, group, stiffness, carried)
         yield found._replace(where=place) if isinstance(found, Oscillation) else found
-    rubbing = given.assigned["friction"].rows
-    unknown = rubbing[np.isnan(stiffness[rubbing])]
+    sliding = given.assigned["friction"].rows
+    unknown = sliding[np.isnan(stiffness[sliding])]
     if unknown.size:
         around = scene.submerged_weight[np.isin(ends, unknown).any(axis=1)]
         why = "which is not known" if np.isnan(around).any() else "and the pipe floats"

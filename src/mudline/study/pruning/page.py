@@ -254,7 +254,7 @@ def _calls_text(tables: Tables) -> str:
     )
     return (
         f"In times of plain numpy, over all sizes and series: {'; '.join(spans)}. A call of `step` on {_nodes(few)} "
-        f"nodes costs {_whole(few, _MEDIAN)}: use `stream` for a series that is known beforehand. On {_nodes(kept)} "
+        f"nodes costs {_whole(few, _MEDIAN)}: use `stream` where the whole series is known. On {_nodes(kept)} "
         f"nodes and {kept.text('steps')} steps `evaluate` holds {rounded(kept.number(_MEMORY), 3)} bytes a node, "
         f"`stream` {rounded(passed.number(_MEMORY), 3)}. All sizes "
         "and numbers of steps are in [`pruning-calls.csv`](pruning-calls.csv)."
