@@ -111,13 +111,13 @@ def _cause(tables: Tables, row: Record) -> str:
 
 def page(tables: Tables) -> str:
     """The page in Markdown; raises MissingTableError where a part was not run."""
-    deck = tables.row("machine", what="deck").text("value")
+    machine = {row.text("what"): row.text("value") for row in tables.rows("machine")}
     fields = {
-        "command": command_of("precision", deck),
+        "command": command_of("precision", machine["deck"]),
         "advice": advice(tables) or "The deck has no normal law with a stiffness: only the published case was run.",
-        "deck": f"`{deck}`",
-        "run_time": time(tables.row("machine", what=RUN_TIME).number("value")),
-        "processor": tables.row("machine", what="processor").text("value"),
+        "deck": f"`{machine['deck']}`",
+        "run_time": time(float(machine[RUN_TIME])),
+        "processor": machine["processor"],
         "in_short": bullets(_in_short(tables)),
         **_curve_fields(tables),
         **motion_fields(tables),
@@ -411,10 +411,10 @@ def _smoothing_fields(tables: Tables) -> dict[str, str]:
     rest = sorted(tables.rows("smoothing", case=PUBLISHED.name), key=_share)
     width, depth = (_heading(rest[0], words) for words in ("half width h", "penetration"))
     unit = width.partition("[")[2].removesuffix("]")
-    shown = [row for row in rest if any(_alike(_share(row), h / PUBLISHED.kinked) for h in WIDTHS)]
+    shown = [row for row in rest if any(math.isclose(_share(row), h / PUBLISHED.kinked) for h in WIDTHS)]
     rows = [(rounded(row.number(width)), _tries(row), rounded(row.number(depth), 5)) for row in shown]
     exact = [row for row in rest if row.number(_DEPTH_ERROR) < _LIES]
-    floating = next(row for row in rest if _alike(_share(row), _FLOATING / PUBLISHED.kinked))
+    floating = next(row for row in rest if math.isclose(_share(row), _FLOATING / PUBLISHED.kinked))
     hits = tables.rows("impacts", scheme="newmark", **{"omega dt": "0.5"})
     hits = [min(hits, key=lambda row: abs(row.number(_DEEPEST) - share)) for share in (0.0, 0.1, 0.316)]
     more = [percent(row.number(_ITERATIONS) / hits[0].number(_ITERATIONS) - 1.0) for row in hits]
@@ -444,10 +444,6 @@ def _heading(row: Record, words: str) -> str:
 
 def _share(row: Record) -> float:
     return row.number("h / static penetration")
-
-
-def _alike(one: float, other: float) -> bool:
-    return math.isclose(one, other, rel_tol=1e-6)
 
 
 def _tries(row: Record) -> str:
