@@ -146,7 +146,7 @@ def test_what_is_damaged_is_evaluated_anew(damage: Callable[[], object], left: i
 @pytest.mark.usefixtures("decks")
 @pytest.mark.parametrize(
     "options",
-    [("--tension", "cut"), ("--units", "user"), ("--form", "npz"), ("--positions", "state.csv"), ("--spreadsheet",)],
+    [("--tension", "cut"), ("--units", "user"), ("--form", "npz"), ("--positions", "state.csv")],
 )
 def test_other_options_are_other_results(folder: Path, options: tuple[str, ...]) -> None:
     (folder / "state.csv").write_text(STATE, encoding="utf-8")

@@ -201,7 +201,6 @@ def test_gitignore_hides_decks(four: str, folder: Path) -> None:
         (["--positions", "{name.csv"], "--positions {name.csv: not a pattern: expected '}' before end of string"),
         (["--positions", "nowhere.csv"], "nowhere.csv: no such file or directory"),
         (["--time-step", "0"], "--time-step is 0.0: it must be greater than 0"),
-        (["--spreadsheet"], "--spreadsheet is for CSV: give --output-format csv, or a .csv file with -o where the"),
         (["-o", "decks/a.keyxm"], "decks/a.keyxm: cannot be created: file exists"),
     ],
 )

@@ -177,7 +177,6 @@ class Order(NamedTuple):
     folder: str | None
     inputs: EvaluateInputs
     units: str | None
-    as_text: bool
 
 
 class Done(NamedTuple):
@@ -217,7 +216,7 @@ def _kept(order: Order, path: Path | None) -> Kept:
         quiet, elements = View(quiet=True), evaluation.element_table()
         lines = line_watch(evaluation, suffix_of(path), None)
         consumers += [] if lines is None else [lines]
-        with result_files(evaluation, elements, path, quiet, as_text=order.as_text, synced=False) as sink:
+        with result_files(evaluation, elements, path, quiet, synced=False) as sink:
             _run(evaluation.parts(), [*consumers, sink])
             sink.finish(behind(evaluation, watch.warnings(), None, lines))
     warnings = watch.warnings()

@@ -13,13 +13,12 @@ from mudline.cli import DONE, FOUND, on_cluster, options, pictures
 from mudline.cli.evaluate_inputs import EvaluateInputs, read_headings
 from mudline.cli.evaluate_one import Outputs, evaluate_one, show_plan
 from mudline.cli.inputs import STDIN, GivenDeck, collect, refuses_bad_decks
-from mudline.cli.pictures import Pictures
+from mudline.cli.pictures import Picture
 from mudline.cli.result_files import has_library, is_installed
 from mudline.cli.view import View
-from mudline.files import is_url, suffix_of
+from mudline.files import is_url
 from mudline.results.evaluation import Tension
 from mudline.results.forms import form_names
-from mudline.results.panels import ANIMATIONS, PICTURES
 
 if TYPE_CHECKING:
     from mudline.cluster.scheduler import Scheduler
@@ -86,16 +85,7 @@ if TYPE_CHECKING:
     metavar="STEPS",
     help="Evaluate this many steps at a time in a process of --summary-only.",
 )
-@click.option(
-    "--plot",
-    "picture",
-    metavar=f"FILE.{'|'.join(PICTURES)}",
-    help="Draw the results (needs the extra mudline[plot]).",
-)
 @pictures.options
-@click.option(
-    "--animate", metavar=f"FILE.{'|'.join(ANIMATIONS)}", help="Draw the steps of a series as moving pictures."
-)
 @click.option("--plan", "plan_only", is_flag=True, help="Print what the deck needs and what is left out, and why.")
 @click.option(
     "--table",
@@ -104,7 +94,6 @@ if TYPE_CHECKING:
     show_default=True,
     help="Show these rows in text and CSV on standard output; a line at a step is a row of the summary.",
 )
-@options.spreadsheet
 @click.option(
     "--fail-on",
     type=click.Choice(["error", "warning"]),
@@ -139,12 +128,9 @@ def command(
     against: str | None,
     output: str | None,
     picture: str | None,
-    panels: str | None,
     plot_elements: str | None,
-    animate: str | None,
     plan_only: bool,
     table: str,
-    spreadsheet: bool,
     fail_on: str,
     output_format: str,
     scheduler: Scheduler | None,
@@ -170,21 +156,17 @@ def command(
         form = form or ("parquet" if is_installed("parquet") else "npz")
         if output is not None and not has_library(form):
             return FOUND
-        if spreadsheet and "csv" not in (output_format, form):
-            raise click.UsageError(options.CSV_ONLY)
-        many = ManyOptions(
-            inputs, units, positions, output, form, output_format, fail_on, spreadsheet, jobs, no_cache, scheduler
-        )
+        many = ManyOptions(inputs, units, positions, output, form, output_format, fail_on, jobs, no_cache, scheduler)
         return evaluate_many(collect(decks, gitignore=not every_file, urls=True), many, view)
-    _check_one(form, (output_format, suffix_of(output or "")), spreadsheet=spreadsheet)
+    _check_one(form)
     if summary_only:
         from mudline.cli.evaluate_series import SeriesOptions, evaluate_series  # noqa: PLC0415 - others start quicker
 
         _refuse_options(_OF_STEPS, "is not for --summary-only: leave one of them out")
-        series = SeriesOptions(output, table, output_format, spreadsheet, fail_on, chunk, jobs, no_cache)
+        series = SeriesOptions(output, table, output_format, fail_on, chunk, jobs, no_cache)
         return evaluate_series(GivenDeck(decks[0], stdin_name, units), inputs, positions, series, view)
-    wanted = Pictures.asked_for(picture, animate, panels, plot_elements, option="--plot")
-    outputs = Outputs(output, wanted, against, table, output_format, spreadsheet, fail_on)
+    wanted = Picture.asked_for(picture, plot_elements)
+    outputs = Outputs(output, wanted, against, table, output_format, fail_on)
     if not outputs.have_libraries():
         return FOUND
     deck = GivenDeck(decks[0], stdin_name, units).load()
@@ -194,12 +176,10 @@ def command(
     return evaluate_one(deck, inputs, positions, outputs, view)
 
 
-def _check_one(form: str | None, written: Sequence[str], *, spreadsheet: bool) -> None:
+def _check_one(form: str | None) -> None:
     """Refuse options about forms that do not fit one deck; raises click.UsageError."""
     if form is not None:
         raise click.UsageError("--form is for several decks: the suffix of -o gives the form of the results of one")
-    if spreadsheet and "csv" not in written:
-        raise click.UsageError(options.CSV_ONLY)
 
 
 def _check_chunk(chunk: int | None, *, summary_only: bool) -> None:
@@ -210,9 +190,7 @@ def _check_chunk(chunk: int | None, *, summary_only: bool) -> None:
 _OF_STEPS = {
     "against": "--against",
     "picture": "--plot",
-    "panels": "--panels",
     "plot_elements": "--plot-elements",
-    "animate": "--animate",
     "plan_only": "--plan",
 }
 """Options of one deck that need the results of single steps, or none."""

@@ -65,7 +65,6 @@ class ManyOptions:
     form: str
     output_format: str
     fail_on: str
-    spreadsheet: bool
     jobs: int
     no_cache: bool
     scheduler: Scheduler | None = None
@@ -94,14 +93,14 @@ def evaluate_many(decks: Inputs, options: ManyOptions, view: View) -> int:
         evaluated = _on_cluster if options.scheduler else _here
         rows, taken = evaluated(decks, cases, placed, options, progress)
     ranked = worst_first(one.row for one in rows)
-    written = options.output and _write_summary(ranked, options.output, spreadsheet=options.spreadsheet)
+    written = options.output and _write_summary(ranked, options.output)
     if not view.quiet:
         _notify_warnings(rows)
         _notify_written(rows, taken, options.output, written)
     if options.output_format == "json":
         emit_json([row.row() for row in ranked])
     elif options.output_format == "csv":
-        emit(_csv(ranked, spreadsheet=options.spreadsheet))
+        emit(_csv(ranked))
     else:
         print_cases(ranked, common, {case.file.name: case.inside for case in cases}, view)
     failing = any(row.failed or (row.warnings and options.fail_on == "warning") for row in ranked)
@@ -118,7 +117,7 @@ def _once(files: Iterable[Input]) -> list[Input]:
 
 def _spelled(options: ManyOptions) -> str:
     """The options on which results depend besides the files."""
-    return repr((options.inputs, options.units, options.form, options.spreadsheet))
+    return repr((options.inputs, options.units, options.form))
 
 
 # ------------------------------------------------------------------------------------------------- evaluating decks
@@ -156,7 +155,7 @@ def _on_cluster(
     place = None if options.output is None else storage.join(options.output, CHUNKS)
     cluster = OnCluster(options.scheduler, place, options.no_cache)
     here = os.getcwd()  # noqa: PTH109 - sent as text
-    given = EvaluateGiven(cases[0], placed, options.inputs, options.output, options.units, options.spreadsheet, here)
+    given = EvaluateGiven(cases[0], placed, options.inputs, options.output, options.units, here)
     rows: list[Kept] = []
     words = f"{_spelled(options)} {options.output} {placed}"
     for one in evaluated_on_cluster(decks, cases, given, words, cluster):
@@ -183,7 +182,7 @@ def _tasks(
         others = [path for path in (positions, inputs.elements) if path]
         key = "" if known is None else known.key(case.file.name, data, others)
         found = None if known is None or options.no_cache else known.find(key, case.result)
-        order = Order(case.file, data, positions, case.result, folder, inputs, options.units, options.spreadsheet)
+        order = Order(case.file, data, positions, case.result, folder, inputs, options.units)
         yield Task(case, key, order, found)
 
 
@@ -256,11 +255,11 @@ def _remember(known: KnownResults, task: Task, done: Done) -> None:
         known.put(task.key, task.case.result, done.kept, done.read, done.written)
 
 
-def _write_summary(rows: Sequence[CaseSummary], folder: str, *, spreadsheet: bool) -> str:
+def _write_summary(rows: Sequence[CaseSummary], folder: str) -> str:
     """Write the rows of all decks: in Parquet where that is installed, else as CSV. Returns the path or the URL."""
     if is_url(folder):
         with TemporaryDirectory(prefix="mudline-") as near:
-            path = Path(_write_summary(rows, near, spreadsheet=spreadsheet))
+            path = Path(_write_summary(rows, near))
             target = storage.join(folder, path.name)
             try:
                 storage.write(target, path.read_bytes())
@@ -273,12 +272,12 @@ def _write_summary(rows: Sequence[CaseSummary], folder: str, *, spreadsheet: boo
             write_parquet(rows, stream)
     else:
         path = Path(folder, f"{SUMMARY}.csv")
-        write_text(path, _csv(rows, spreadsheet=spreadsheet))
+        write_text(path, _csv(rows))
     return path.as_posix()
 
 
-def _csv(rows: Sequence[CaseSummary], *, spreadsheet: bool) -> Iterator[str]:
-    return csv_lines([CASES, *(row.row().values() for row in rows)], as_text=spreadsheet)
+def _csv(rows: Sequence[CaseSummary]) -> Iterator[str]:
+    return csv_lines([CASES, *(row.row().values() for row in rows)])
 
 
 # ---------------------------------------------------------------------------------------------------------- notes

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
 from mudline.cli import DONE, FOUND
 from mudline.cli.evaluate_inputs import EvaluateInputs, read_file
 from mudline.cli.evaluate_text import print_comparison, print_evaluation, print_plan
-from mudline.cli.pictures import Pictures
+from mudline.cli.pictures import Picture
 from mudline.cli.result_files import (
     behind,
     beside,
@@ -28,7 +27,6 @@ from mudline.quantities import csv_lines
 from mudline.results.against import Comparison, read_reference
 from mudline.results.evaluation import Evaluation, Prepared
 from mudline.results.forms import ResultConsumer, Sink, Together, plan_rows, text_form
-from mudline.results.plot_data import PlotData
 from mudline.results.totals import SlowSuction, StepSummary
 from mudline.results.warnings import ContactWarning, ContactWatch, caption
 from mudline.short_repr import listed_numbers
@@ -42,17 +40,16 @@ class Outputs:
     """Where the results of one deck go, and what is shown of them."""
 
     output: str | None
-    pictures: Pictures
+    picture: Picture
     against: str | None
     table: str
     output_format: str
-    spreadsheet: bool
     fail_on: str
 
     def have_libraries(self) -> bool:
         """Whether the libraries for the files are installed; reports one that is not. Raises click.UsageError."""
         form = form_of_file(self.output)
-        return (not form or has_library(form)) and self.pictures.has_library()
+        return (not form or has_library(form)) and self.picture.has_library()
 
 
 def evaluate_one(deck: Deck, inputs: EvaluateInputs, positions: str | None, outputs: Outputs, view: View) -> int:
@@ -61,7 +58,7 @@ def evaluate_one(deck: Deck, inputs: EvaluateInputs, positions: str | None, outp
     against, output, output_format = outputs.against, outputs.output, outputs.output_format
     reference = read_file(against, lambda file: read_reference(file, evaluation)) if against else None
     comparison = None if reference is None else Comparison(evaluation, reference)
-    drawing = outputs.pictures.data(partial(PlotData.of_evaluation, evaluation))
+    drawing = outputs.picture.data(evaluation)
     if not view.quiet:
         notify_before(evaluation, comparison)
     shown = "" if output else output_format
@@ -76,7 +73,7 @@ def evaluate_one(deck: Deck, inputs: EvaluateInputs, positions: str | None, outp
         warnings = watch.warnings()
         sink.finish(behind(evaluation, warnings, comparison, lines))
     if drawing is not None:
-        outputs.pictures.draw(drawing, caption(warnings), view)
+        outputs.picture.draw(drawing, caption(warnings), view)
     if not view.quiet:
         notify_warnings(warnings)
         _notify_after(evaluation, slow, watch.note(), Path(output) if output else None)
@@ -103,13 +100,13 @@ def _sink(
 ) -> AbstractContextManager[Sink]:
     """Where the rows go: files, standard output, or nowhere."""
     elements = evaluation.element_table(None if comparison is None else comparison.others)
-    form, as_text = outputs.output_format, outputs.spreadsheet
+    form = outputs.output_format
     if outputs.output:
-        return result_files(evaluation, elements, Path(outputs.output), view, as_text=as_text)
+        return result_files(evaluation, elements, Path(outputs.output), view)
     if form in {"json", "csv"}:
         tables = {"nodes": evaluation.node_table, "summary": evaluation.line_table}
         rows = tables[outputs.table]() if form == "csv" and outputs.table in tables else elements
-        return nullcontext(text_form(form, as_text=as_text)(evaluation, rows, emit))
+        return nullcontext(text_form(form)(evaluation, rows, emit))
     return nullcontext(Together())
 
 

@@ -55,7 +55,6 @@ class SeriesOptions:
     output: str | None
     table: str
     output_format: str
-    spreadsheet: bool
     fail_on: str
     chunk: int | None
     jobs: int
@@ -119,7 +118,7 @@ def evaluate_series(
         "positions": "file",
         "warnings": [one.row() for one in warnings],
     }
-    tables = replace(series_tables(summary, more), as_text=options.spreadsheet)
+    tables = series_tables(summary, more)
     written = _write(tables, options)
     if checkpoint is not None:
         checkpoint.remove()

@@ -34,7 +34,6 @@ COMMANDS = {
     "show": "Summarise a deck: sections, keywords, sets, curves, diameters.",
     "curves": "Show the force-embedment curves of a deck as they are evaluated.",
     "evaluate": "Evaluate the contact forces and stiffnesses of decks.",
-    "plot": "Draw the results in a file that evaluate wrote.",
     "index": "Bring decks into an archive.",
     "query": "Answer a question about an archive in SQL.",
     "study": "Measure precision, stability and cost on a deck.",
