@@ -13,12 +13,13 @@ from mudline.contact.result import Part
 from mudline.contact.touchdown import line_summaries
 from mudline.results.panels import PANELS, PanelError, panel_names, require, usual
 from mudline.results.plot_data import PlotData
+from mudline.scene.model import resolve
 from mudline.scene.positions import read_positions
-from tests.samples import SAMPLES
+from tests.samples import SAMPLES, sample
 
 
 def series(name: str, positions: str) -> ContactResult:
-    scene = mudline.read(SAMPLES / name).scene()
+    scene = resolve(sample(name))
     given = read_positions(SAMPLES / positions, scene.nodes)
     assert given.time is not None
     return scene.contact().evaluate(given.whole, present=given.present, times=given.time)

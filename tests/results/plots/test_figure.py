@@ -23,13 +23,14 @@ from mudline.results.plots import figure_of
 from mudline.results.plots.figure import Cycle, draw_path, traces
 from mudline.results.plots.stretch import Stretch
 from mudline.results.plots.style import PlainFormatter, thinned, widened
+from mudline.scene.model import resolve
 from mudline.scene.positions import read_positions
 from tests.samples import SAMPLES
 
 
 @cache
 def result(name: str, positions: str) -> ContactResult:
-    scene = mudline.read(SAMPLES / name).scene()
+    scene = resolve(mudline.read(SAMPLES / name))
     given = read_positions(SAMPLES / positions, scene.nodes)
     return scene.contact().evaluate(given.whole, present=given.present, times=given.time)
 
