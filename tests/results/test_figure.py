@@ -23,13 +23,14 @@ from mudline.results.plots.figure import figure_of, panels_of
 from mudline.results.plots.over_time import Cycle, draw_path, reaction
 from mudline.results.plots.stretch import Stretch
 from mudline.results.plots.style import PlainFormatter, thinned, widened
+from mudline.scene.model import resolve
 from mudline.scene.positions import read_positions
 from tests.samples import SAMPLES
 
 
 @cache
 def result(name: str, positions: str) -> ContactResult:
-    scene = mudline.read(SAMPLES / name).scene()
+    scene = resolve(mudline.read(SAMPLES / name))
     given = read_positions(SAMPLES / positions, scene.nodes)
     return scene.contact().evaluate(given.whole, present=given.present, times=given.time)
 
@@ -141,16 +142,16 @@ def test_extents_and_touchdown_over_time_are_those_of_the_arrays() -> None:
     for found, name in ((heave(), "force"), (cycle(), "embedment")):
         values = found.force if name == "force" else found.depth
         axes = panel(PlotData.of_result(found), name)
-        edges = {tuple(point) for point in axes.collections[0].get_paths()[0].vertices.tolist()}
+        edges = {tuple(point) for point in np.asarray(axes.collections[0].get_paths()[0].vertices).tolist()}
         here = np.searchsorted(found.known.lines.element_arc, drawn(axes)[0].get_xdata())
         arcs = found.known.lines.element_arc[here]
         for side in (values[:, here].max(axis=0), values[:, here].min(axis=0)):
             assert set(zip(arcs.tolist(), side.tolist(), strict=True)) <= edges
     found = heave()
-    times, arcs = drawn(panel(PlotData.of_result(found), "touchdown"))[0].get_data()
+    times, touchdown = drawn(panel(PlotData.of_result(found), "touchdown"))[0].get_data()
     assert found.times is not None
     assert np.array_equal(times, found.times)
-    assert np.asarray(arcs).tolist() == [line.touchdown[0].arc_length for line in line_summaries(found)]
+    assert np.asarray(touchdown).tolist() == [line.touchdown[0].arc_length for line in line_summaries(found)]
 
 
 def test_a_loop_has_its_states_and_arrows() -> None:

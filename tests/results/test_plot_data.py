@@ -7,17 +7,17 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-import mudline
 from mudline.contact import ContactResult
 from mudline.contact.result import Part
 from mudline.contact.touchdown import line_summaries
 from mudline.results.plot_data import PlotData
+from mudline.scene.model import resolve
 from mudline.scene.positions import read_positions
-from tests.samples import SAMPLES
+from tests.samples import SAMPLES, sample
 
 
 def series(name: str, positions: str) -> ContactResult:
-    scene = mudline.read(SAMPLES / name).scene()
+    scene = resolve(sample(name))
     given = read_positions(SAMPLES / positions, scene.nodes)
     assert given.time is not None
     return scene.contact().evaluate(given.whole, present=given.present, times=given.time)

@@ -15,7 +15,7 @@ from mudline.contact.columns import ElementTable
 from mudline.files import suffix_of
 from mudline.results.against import Comparison
 from mudline.results.evaluation import Evaluation
-from mudline.results.forms import Output, Sink, form_module, form_names, table_path
+from mudline.results.forms import Output, Sink, Tables, form_module, form_names, table_path
 from mudline.results.lines import LineWatch
 from mudline.results.warnings import ContactWarning
 
@@ -70,6 +70,17 @@ def beside(path: Path) -> dict[str, Path]:
     """The files of the other tables beside that of the elements, by the names of the tables."""
     form = form_module(suffix_of(path))
     return {table: table_path(path, table) for table in form.BESIDE}
+
+
+def write_tables(tables: Tables, path: Path) -> dict[str, Path]:
+    """Write tables into a file, or several; returns those beside it by the names of the tables."""
+    form = form_module(suffix_of(path))
+    _, *others = tables.columns
+    found = {table: table_path(path, table) for table in others} if form.BESIDE else {}
+    with ExitStack() as stack:
+        streams = [stack.enter_context(writing(one)) for one in (path, *found.values())]
+        form.write_tables(tables, streams, path.parent)
+    return found
 
 
 def line_watch(evaluation: Evaluation, form: str, most: int | None) -> LineWatch | None:
