@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from dataclasses import fields, replace
 
 import numpy as np
@@ -255,7 +256,7 @@ def test_a_long_line_on_several_threads(seabed: Seabed | None) -> None:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_states_go_from_one_backend_to_the_other(seed: int) -> None:
+def test_states_go_from_one_backend_to_the_other_and_through_a_pickle(seed: int) -> None:
     inputs = all_laws(60, seed)
     positions, velocities, _ = journey(60, 10, seed)
     models = [ContactModel(inputs, backend=backend) for backend in BACKENDS]
@@ -264,7 +265,7 @@ def test_states_go_from_one_backend_to_the_other(seed: int) -> None:
         (one, after), (other, second) = (contact.step(place, rate, state) for contact in models)
         assert differences(one, other) == []
         assert differences(after, second) == []
-        state = (after, second)[number % 2]
+        state = pickle.loads(pickle.dumps((after, second)[number % 2]))  # noqa: S301 - our own bytes
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
