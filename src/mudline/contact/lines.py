@@ -1,4 +1,4 @@
-"""The lines that elements form, arc length along them from one end, junction or free, to the other, and what they do."""
+"""The lines that elements form, arc length along them from one end, junction or free, to the other; how one lies."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from mudline.contact.columns import NO_ELEMENT, Column, Table, Values
 from mudline.contact.input import ContactInput, LawKind
 from mudline.contact.lines import ElementForce, LineSummary, TouchdownPoint
 from mudline.contact.result import ContactResult, Part
-from mudline.quantities import LINES
+from mudline.quantities import LINES, finite
 
 _NOWHERE = (math.nan, math.nan, math.nan)
 

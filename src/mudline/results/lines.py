@@ -7,8 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mudline.contact.lines import LineSummary
 from mudline.contact.result import Part
-from mudline.contact.touchdown import LineSeries, LineSummary, Touchdown
+from mudline.contact.touchdown import LineSeries, Touchdown
 from mudline.results.evaluation import Evaluation
 from mudline.scene.numbering import Floats
 
