@@ -17,9 +17,6 @@ from math import isfinite
 from sys import float_info
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.patches import Patch, Rectangle
 
 from mudline.contact.model import ContactModel
 from mudline.contact.result import ContactResult
@@ -28,11 +25,8 @@ from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Severity
 from mudline.results.evaluation import as_deck_errors
 from mudline.scene.model import Scene, resolve
-from tests.benchmarks.drawing import draw
-from tests.benchmarks.studies.exact import SMALLEST, ExactCurve, ExactLaw, ExactLinear, ExactSmoothed, Tally
-from tests.benchmarks.tables import digits, load, save, table
+from tests.contact.exact import SMALLEST, ExactCurve, ExactLaw, ExactLinear, ExactSmoothed, Tally
 
-NAME = "stability-ladder"
 _LARGEST = Fraction(float_info.max) * (1 - Fraction(1, 2**50))
 _ZERO = Fraction(0)
 Pairs = Sequence[tuple[str, str]]
@@ -293,46 +287,3 @@ FAMILIES: dict[str, tuple[Sequence[str], Callable[[str], Deck]]] = {
 def judged() -> list[Judgement]:
     """The verdicts on all cells."""
     return [judge(name, value, deck(value)) for name, (values, deck) in FAMILIES.items() for value in values]
-
-
-def run(progress: Callable[[str], None]) -> None:
-    """Write table and picture."""
-    progress("ladder of extremes")
-    found = judged()
-    heads = ("family", "decks", *(str(verdict) for verdict in Verdict), "numbers compared", "largest error [2^-53]")
-    rows = []
-    for family in FAMILIES:
-        own = [one for one in found if one.family == family]
-        counts = [sum(one.verdict is verdict for one in own) for verdict in Verdict]
-        rows.append([family, len(own), *counts, sum(one.results for one in own), max(one.error for one in own)])
-    save(NAME, heads, rows)
-    draw(NAME, lambda figure: _draw(found, figure), (14.0, 6.0))
-
-
-_COLORS = dict(zip(Verdict, ("#9ecae1", "#c7e9c0", "#fdd49e", "#b2182b"), strict=True))
-
-
-def _draw(found: Sequence[Judgement], figure: Figure) -> None:
-    """A square for each deck, in a row for each family."""
-    axes: Axes = figure.subplots()
-    for row, family in enumerate(FAMILIES):
-        for at, one in enumerate(one for one in found if one.family == family):
-            axes.add_patch(Rectangle((at, row), 1, 1, facecolor=_COLORS[one.verdict], edgecolor="white"))
-            text = one.value.replace("1.7976931348623157E308", "1.8E308")
-            axes.text(at + 0.5, row + 0.5, text, ha="center", va="center", fontsize=6)
-    axes.set_xlim(0, max(len(values) for values, _ in FAMILIES.values()))
-    axes.set_ylim(len(FAMILIES), 0)
-    axes.set_yticks(np.arange(len(FAMILIES)) + 0.5, list(FAMILIES))
-    axes.set_xticks([])
-    axes.tick_params(length=0)
-    counts = {verdict: sum(one.verdict is verdict for one in found) for verdict in Verdict}
-    named = [Patch(facecolor=_COLORS[one], label=f"{one}: {count}") for one, count in counts.items() if count]
-    figure.legend(handles=named, loc="outside lower center", ncols=len(named))
-
-
-def _table() -> str:
-    rows = load(NAME)
-    return table(list(rows[0]), [[row["family"], *(digits(cell) for cell in list(row.values())[1:])] for row in rows])
-
-
-TABLES = {"ladder": _table}

@@ -20,9 +20,9 @@ from scipy.interpolate import PchipInterpolator, PPoly
 from mudline.contact.arrays import FloatArray
 from mudline.curves import ForceCurve
 from tests.benchmarks.drawing import draw, label, legend_below, lines, panels
-from tests.benchmarks.studies.exact import ExactCurve
 from tests.benchmarks.studies.laws import CLAY, DIAMETER
 from tests.benchmarks.tables import column, digits, load, save, table
+from tests.contact.exact import ExactCurve
 
 CURVES, BACKBONES = "precision-curves", "precision-backbones"
 Evaluation = Callable[[FloatArray], NDArray[np.floating]]
@@ -79,7 +79,7 @@ def largest_error(curve: ForceCurve, evaluation: Evaluation, ratios: FloatArray)
 
 
 def methods(curve: ForceCurve) -> Iterator[tuple[str, float, float, float]]:
-    """Every method: its error between the points and within a tenth of their range beyond them, and its ns per point."""
+    """Every method: its error between the points, within a tenth of their range beyond them, and its ns per point."""
     first, last = float(curve.ratios[0]), float(curve.ratios[-1])
     rng = np.random.default_rng(20)
     inside = np.concatenate([rng.uniform(first, last, _CHECKED), curve.ratios])

@@ -16,7 +16,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from mudline.contact.arrays import BoolArray, FloatArray
-from tests.benchmarks.drawing import draw, label, legend_below, lines, style
+from tests.benchmarks.drawing import draw, label, legend_below, lines
 from tests.benchmarks.studies.laws import CLAY, DIAMETER, MASS, CurveLaw, Falling, Law, LinearLaw
 from tests.benchmarks.studies.motion import Motion, Scheme, march
 from tests.benchmarks.studies.motions import JUMPING
@@ -46,8 +46,6 @@ _FEW_PHASES: FloatArray = (np.arange(64) + 0.5) / 64
 _SETTLING = 64
 """Steps after those of the contact: backward Euler creeps out of the seabed at large steps, and the acceleration of the
 generalised-alpha scheme is halved in each."""
-_SHOWN = ((0.1, 0.9965, 1.0025), (0.5, 0.89, 1.04), (1.0, 0.2, 1.15), (10.0, -0.1, 3.0))
-"""omega dt of each panel, and the limits of its axis."""
 
 
 class Fall(NamedTuple):
@@ -98,7 +96,7 @@ class Envelope(NamedTuple):
     @classmethod
     def of(cls, scheme: Scheme, fall: Fall) -> Envelope:
         """At all of `TRIED` below the critical step of a scheme; few of them at a time have about as many steps."""
-        omega_dt = TRIED[TRIED < scheme.limit]
+        omega_dt = TRIED[scheme.limit > TRIED]
         speeds = np.concatenate([rebounds(scheme, fall, part, _FEW_PHASES) for part in np.array_split(omega_dt, 16)])
         return cls(omega_dt, np.nanmin(speeds, axis=1), np.nanmax(speeds, axis=1))
 
@@ -134,23 +132,7 @@ def run(progress: Callable[[str], None]) -> None:
     heads = ("seabed", "scheme", "below 1.01 up to [-]", "within 1 % up to [-]", "largest [-]", "at omega dt [-]",
              "least [-]")  # fmt: skip
     save(LIMITS, heads, limits)
-    draw(LANDINGS, _draw, (10.0, 8.0))
     draw("stability-landing-gain", partial(_draw_gain, gains))
-
-
-def _draw(figure: Figure) -> None:
-    """Restitution over the landing phase, a panel for each omega dt."""
-    axes_of = figure.subplots(2, 2, sharex=True)
-    for axes, (omega_dt, low, high) in zip(axes_of.flat, _SHOWN, strict=True):
-        for index, scheme in enumerate(SCHEMES.values()):
-            speeds = rebounds(scheme, LINEAR, np.array([omega_dt]), PHASES)[0]
-            axes.plot(PHASES, speeds, label=scheme.title, **style(scheme.title), markevery=(6 * index, 50))
-        axes.axhline(1.0, color="0.4", linewidth=0.8, zorder=0)
-        axes.set_ylim(low, high)
-        label(axes, f"omega dt = {omega_dt:g}", "", "speed after / before landing [-]")
-    for axes in axes_of[1]:
-        axes.set_xlabel("landing phase, share of the step left at the seabed [-]")
-    legend_below(figure, axes_of.flat[0])
 
 
 def _draw_gain(gains: dict[str, Sequence[tuple[float, float]]], figure: Figure) -> None:

@@ -1,4 +1,4 @@
-"""What each stage costs: time, memory and modules of scenes of any size, the ways to call them, and growth.
+"""What each stage costs, time and memory of scenes of any size, and how time grows with what a deck has.
 
 Times are processor times. What is compared takes turns, in reverse order every other time: a busy machine slows all of
 it, and the ratios of one repeat are of the same moment.
@@ -6,41 +6,102 @@ it, and the ratios of one repeat are of the same moment.
 
 from __future__ import annotations
 
-import json
-import pickle
-import subprocess
-import sys
 import tracemalloc
 from collections.abc import Callable, Sequence
-from dataclasses import fields, replace
+from dataclasses import replace
 from functools import partial
 from itertools import pairwise
 from statistics import median
 from time import process_time
-from typing import NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from mudline.contact.input import ContactInput, LawAssignment
 from mudline.contact.model import ContactModel
+from mudline.contact.seabed import PlanesSeabed, Seabed, SlopingSeabed
+from mudline.contact.seabed.scattered import ScatteredSeabed
 from mudline.curves import ForceCurve
 from mudline.deck.loading import load_bytes
 from mudline.scene.model import resolve
-from tests.benchmarks.contact import by_hand, stepping, streaming
-from tests.benchmarks.drawing import draw, label, panels, style
-from tests.benchmarks.studies.scenes import CURVE, SCENES, everything, line, planes, positions, series
+from tests.benchmarks.contact import all_laws, by_hand, of_line, series, streaming
+from tests.benchmarks.drawing import draw, label
 from tests.benchmarks.tables import Cell, column, digits, load, save, table
+from tests.builders.contact import bridge_law, friction, line, on, suction, trench
 
-STAGES, CALLS, GROWTH, SIZES = "pruning-stages", "pruning-calls", "pruning-growth", "pruning-sizes"
-PLAIN = "plain numpy"
-"""A function written by hand for one curve, which gives no other results."""
+STAGES, GROWTH = "pruning-stages", "pruning-growth"
+PLAIN, CURVE = "plain numpy", "curve"
+"""A function written by hand for one curve, which gives no other results; and the scene that all are compared with."""
 LADDER = (100, 1000, 10_000, 100_000)
 STEPS = 3
 _REPEATS = 5
 _LEAST = 2e-2
 """Seconds: short calls are repeated within a turn."""
+_RISE = 0.001
+"""Of a seabed over the length: that of a gentle slope."""
 Call = Callable[[], object]
+
+# -------------------------------------------------------------------------------------------------------------- scenes
+
+LAWS: dict[str, Callable[[int], LawAssignment]] = {
+    "curve": lambda count: on("curve", count, curve=0),
+    "linear": lambda count: on("linear", count, stiffness=2e4),
+    "smoothed": lambda count: on("smoothed", count, stiffness=2e4, half_width=0.003),
+    "nodal": lambda count: on("nodal", count + 1, stiffness=3e4, half_width=0.003),
+    "unloading": lambda count: on("unloading", count, stiffness=4e5),
+    "suction springs": lambda count: on("suction spring", count, stiffness=800.0, extent=0.06),
+    "suction": lambda count: suction(bridge_law(count)),
+    "friction": lambda count: friction(count + 1, stiffness=np.nan, mobilisation=0.01),
+    "lateral springs": lambda count: on("lateral", count, stiffness=900.0),
+    "trench": lambda count: trench(count, 0.02, 0.4, 350.0),
+}
+"""On this many elements, or on their nodes."""
+
+
+def scene(nodes: int, *laws: str, seabed: Seabed | None = None) -> ContactInput:
+    """A line in contact all along, with these laws everywhere and nothing else."""
+    count = nodes - 1
+    return replace(
+        of_line(line(count, 1), np.full(count, 0.3), *(LAWS[law](count) for law in laws)),
+        curves=of_line(line(count, 1), np.full(count, 0.3)).curves if "curve" in laws else (),
+        seabed=seabed,
+    )
+
+
+def planes(number: int, nodes: int) -> PlanesSeabed:
+    """A valley of this many planes along a line; one more plane is steeper than the one before."""
+    points = np.column_stack([np.zeros(number), np.linspace(0.0, 2.0 * nodes, number), np.zeros(number)])
+    return PlanesSeabed(points, np.linspace(0.0, _RISE, number))
+
+
+def _scattered(nodes: int) -> ScatteredSeabed:
+    """A plain strip of triangles about the line."""
+    rng, reach = np.random.default_rng(1), 2.5 * nodes
+    along = np.concatenate([[-reach, -reach, 2.0 * reach, 2.0 * reach], rng.uniform(0.0, reach, 396)])
+    across = np.concatenate([[-reach, reach, -reach, reach], rng.uniform(-0.1 * reach, 0.1 * reach, 396)])
+    return ScatteredSeabed(np.column_stack([_RISE * np.sin(along / reach * 20.0), along, across]))
+
+
+SCENES: dict[str, Callable[[int], ContactInput]] = {
+    CURVE: lambda nodes: scene(nodes, "curve"),
+    **{
+        ", ".join(laws): (lambda nodes, laws=laws: scene(nodes, *laws))  # type: ignore[misc]
+        for laws in (
+            ("linear",),
+            ("smoothed",),
+            *(("curve", law) for law in LAWS if law not in {"curve", "linear", "smoothed", "trench"}),
+            ("curve", "friction", "trench"),
+        )
+    },
+    "curve, sloping bed": lambda nodes: scene(nodes, "curve", seabed=SlopingSeabed(_RISE, 30.0)),
+    "curve, 2 planes": lambda nodes: scene(nodes, "curve", seabed=planes(2, nodes)),
+    "curve, scattered points": lambda nodes: scene(nodes, "curve", seabed=_scattered(nodes)),
+    "everything": lambda nodes: replace(all_laws(nodes), seabed=planes(2, nodes)),
+}
+"""By name, of a number of nodes; "everything" has each law on a part of the line, drawn at random."""
+
+
+# ------------------------------------------------------------------------------------------------------------- measure
 
 
 def paired(calls: Sequence[Call]) -> list[list[float]]:
@@ -68,9 +129,6 @@ def _ratio(above: Sequence[float], below: Sequence[float]) -> float:
     return median(one / other for one, other in zip(above, below, strict=True))
 
 
-# -------------------------------------------------------------------------------------------------------------- stages
-
-
 def _peak(call: Call) -> int:
     """Peak memory of a call in bytes, beyond what was there before; what it returns counts."""
     tracemalloc.start()
@@ -87,86 +145,30 @@ def _peak(call: Call) -> int:
 
 def cost(name: str, nodes: int) -> list[Cell]:
     """A scene of so many nodes, paired with that of a curve and nothing else; or plain numpy on the latter."""
-    curve = line(nodes, "curve")
-    along = series(positions(curve), STEPS)
+    curve = scene(nodes, "curve")
+    along = series(curve, STEPS)
     plain = partial(by_hand, along, curve.diameter, 0.5 * curve.length)
     inputs = curve if name == PLAIN else SCENES[name](nodes)
-    model, points = ContactModel(inputs), positions(inputs)
-    work = plain if name == PLAIN else streaming(inputs, series(points, STEPS), "numpy")
+    model = ContactModel(inputs, backend="numpy")
+    work = plain if name == PLAIN else streaming(inputs, series(inputs, STEPS), "numpy")
     own, of_curve = paired([work, streaming(curve, along, "numpy")])
-    peak = _peak(plain) / STEPS if name == PLAIN else _peak(lambda: model.evaluate(points))
+    peak = _peak(plain) / STEPS if name == PLAIN else _peak(model.evaluate)
     together = "together" if name == PLAIN or not model.plan.history else "one by one"
     return [name, nodes, together, 1e9 * median(own) / (nodes * STEPS), _ratio(own, of_curve), peak / nodes]
 
 
-_PROGRAM = """
-import json, pickle, sys, time
-import numpy
-data, before = sys.stdin.buffer.read(), set(sys.modules)
-start = time.process_time()
-from mudline.contact.input import ContactInput
-from mudline.contact.model import ContactModel
-model = ContactModel(ContactInput(**pickle.loads(data)), backend="numpy")
-model.evaluate()
-print(json.dumps([time.process_time() - start, sorted(set(sys.modules) - before)]))
-"""
-
-
-def loaded(name: str) -> tuple[float, set[str]]:
-    """Seconds to load, prepare and evaluate 11 nodes in a fresh interpreter that has numpy; and its new modules."""
-    inputs = SCENES[name](11)
-    kept = [field.name for field in fields(inputs) if field.init and field.name != "names"]
-    data = pickle.dumps({key: getattr(inputs, key) for key in kept})
-    runs = [
-        json.loads(subprocess.run([sys.executable, "-c", _PROGRAM], input=data, capture_output=True, check=True).stdout)
-        for _ in range(_REPEATS)
-    ]
-    return median(run[0] for run in runs), set(runs[0][1])
-
-
 def _stages(progress: Callable[[str], None]) -> None:
-    common = loaded(CURVE)[1]
-    rows: list[list[Cell]] = []
+    rows = []
     for name in (PLAIN, *SCENES):
         progress(f"cost of {name}")
-        seconds, modules = (None, common) if name == PLAIN else loaded(name)
-        laws = sorted({one.rpartition(".")[2] for one in modules - common if one.startswith("mudline.contact")})
-        time = None if seconds is None else 1e3 * seconds
-        rows += [[*cost(name, nodes), time, ", ".join(laws), len(modules)] for nodes in LADDER]
-    heads = ("scene", "nodes", "steps", "time [ns/node/step]", "times the curve's", "memory [bytes/node]",
-             "to load [ms]", "beyond the curve's modules", "modules")  # fmt: skip
+        rows += [cost(name, nodes) for nodes in LADDER]
+    heads = ("scene", "nodes", "steps", "time [ns/node/step]", "times the curve's", "memory [bytes/node]")
     save(STAGES, heads, rows)
-
-
-def _calls(progress: Callable[[str], None]) -> None:
-    progress("ways to call")
-    rows = []
-    for name, make in ((CURVE, SCENES[CURVE]), ("everything", everything)):
-        for nodes in LADDER[:3]:
-            inputs = make(nodes)
-            moved, model = series(positions(inputs), 30), ContactModel(inputs, backend="numpy")
-            calls: list[Call] = [
-                partial(model.evaluate, moved),
-                streaming(inputs, moved, "numpy"),
-                stepping(inputs, moved, "numpy"),
-                partial(by_hand, moved, inputs.diameter, 0.5 * inputs.length),
-            ]
-            steps = (30, 30, 1, 30)
-            taken = [1e9 * median(found) / nodes / one for found, one in zip(paired(calls), steps, strict=True)]
-            rows.append([name, nodes, *taken])
-    save(CALLS, ("scene", "nodes", "evaluate [ns]", "stream [ns]", "step [ns]", "plain numpy [ns]"), rows)
 
 
 # -------------------------------------------------------------------------------------------------------------- growth
 
 _NODES, _FEW_NODES, _ELEMENTS = 10_001, 1001, 2048
-
-
-class Growing(NamedTuple):
-    """Sizes of one thing, and the call that is timed for each size."""
-
-    sizes: Sequence[int]
-    prepared: Callable[[int], Call]
 
 
 def _spread(points: int, scale: float) -> ForceCurve:
@@ -176,15 +178,15 @@ def _spread(points: int, scale: float) -> ForceCurve:
 
 
 def _pressed(inputs: ContactInput) -> Call:
-    return partial(ContactModel(inputs, backend="numpy").evaluate, positions(inputs))
+    return ContactModel(inputs, backend="numpy").evaluate
 
 
 def _curves(size: int) -> Call:
     """Curves on consecutive parts of the line, as sets have them."""
     elements = np.arange(_NODES - 1)
-    law = LawAssignment("curve", elements, {"curve": elements * size // (_NODES - 1)})
+    law = on("curve", elements, curve=elements * size // (_NODES - 1))
     made = tuple(_spread(10, 1000.0 + number) for number in range(size))
-    return _pressed(replace(line(_NODES, "curve"), laws=(law,), curves=made))
+    return _pressed(replace(scene(_NODES, "curve"), laws=(law,), curves=made))
 
 
 def _sets(size: int) -> Call:
@@ -194,23 +196,18 @@ def _sets(size: int) -> Call:
 
 
 def _stepped(inputs: ContactInput, steps: int) -> Call:
-    return streaming(inputs, series(positions(inputs), steps), "numpy")
+    return streaming(inputs, series(inputs, steps), "numpy")
 
 
-def _doubling(most: int, first: int = 1) -> list[int]:
-    return [size for size in (2**power for power in range(20)) if first <= size <= most]
-
-
-GROWING = {
-    "points on the curve": Growing(
-        _doubling(4096, 2), lambda size: _pressed(replace(line(_NODES, "curve"), curves=(_spread(size, 1000.0),)))
-    ),
-    "curves": Growing(_doubling(512), _curves),
-    "sets": Growing(_doubling(512), _sets),
-    "planes": Growing(_doubling(256), lambda size: _pressed(line(_NODES, "curve", seabed=planes(size, 2.0 * _NODES)))),
-    "steps, curve": Growing(_doubling(256), lambda size: _stepped(line(_FEW_NODES, "curve"), size)),
-    "steps, everything": Growing(_doubling(64), lambda size: _stepped(everything(_FEW_NODES), size)),
+GROWING: dict[str, tuple[int, Callable[[int], Call]]] = {
+    "points on the curve": (4096, lambda size: _pressed(replace(scene(_NODES, "curve"), curves=(_spread(size, 1e3),)))),
+    "curves": (512, _curves),
+    "sets": (512, _sets),
+    "planes": (256, lambda size: _pressed(scene(_NODES, "curve", seabed=planes(size, _NODES)))),
+    "steps, curve": (256, lambda size: _stepped(scene(_FEW_NODES, "curve"), size)),
+    "steps, everything": (64, lambda size: _stepped(SCENES["everything"](_FEW_NODES), size)),
 }
+"""The largest size, and the call that is timed for each."""
 
 
 def deck_with_sets(sets: int, elements: int) -> str:
@@ -226,34 +223,25 @@ def deck_with_sets(sets: int, elements: int) -> str:
     return "\n".join([*lines, ""])
 
 
-def exponent(sizes: Sequence[float], seconds: Sequence[float]) -> float:
-    """Slope of the straight line through log(size), log(seconds), by least squares."""
-    return float(np.polyfit(np.log(sizes), np.log(seconds), 1)[0])
-
-
 def _growth(progress: Callable[[str], None]) -> None:
-    rows: list[list[Cell]] = []
     fits: list[list[Cell]] = []
-    for what, (sizes, prepared) in GROWING.items():
+    for what, (most, prepared) in GROWING.items():
         progress(f"growth with the number of {what}")
+        sizes = [2**power for power in range("points" in what, most.bit_length())]
         seconds = [median(found) for found in paired([prepared(size) for size in sizes])]
-        rows += [[what, size, found] for size, found in zip(sizes, seconds, strict=True)]
         half = len(sizes) // 2
         one_more = (seconds[-1] - seconds[-2]) / (sizes[-1] - sizes[-2])
-        powers = [exponent(sizes, seconds), exponent(sizes[half:], seconds[half:])]
-        fits.append([what, sizes[0], sizes[-1], *powers, 1e3 * seconds[-1], max(0.0, 1e6 * one_more)])
-    save(SIZES, ("number of", "size", "time [s]"), rows)
-    heads = ("number of", "from", "to", "exponent", "of the larger half", "time of the largest [ms]", "one more [us]")
+        power = float(np.polyfit(np.log(sizes[half:]), np.log(seconds[half:]), 1)[0])
+        fits.append([what, sizes[0], most, power, 1e3 * seconds[0], 1e3 * seconds[-1], max(0.0, 1e6 * one_more)])
+    heads = ("number of", "from", "to", "exponent", "time of the first [ms]", "of the last [ms]", "one more [us]")
     save(GROWTH, heads, fits)
 
 
 def run(progress: Callable[[str], None]) -> None:
-    """Write tables and pictures."""
+    """Write tables and picture."""
     _stages(progress)
-    _calls(progress)
     _growth(progress)
     draw(STAGES, _draw_stages, (11.0, 6.5))
-    draw(GROWTH, _draw_growth, (12.0, 7.5))
 
 
 def _draw_stages(figure: Figure) -> None:
@@ -276,26 +264,10 @@ def _draw_stages(figure: Figure) -> None:
     time.invert_yaxis()
 
 
-def _draw_growth(figure: Figure) -> None:
-    for axes, (what, fit) in zip(
-        panels(figure, len(GROWING), 3), ((row["number of"], row) for row in load(GROWTH)), strict=True
-    ):
-        own = [row for row in load(SIZES) if row["number of"] == what]
-        sizes, times = np.array(column(own, "size")), 1e3 * np.array(column(own, "time [s]"))
-        axes.loglog(sizes, times, **style("", 0) | {"linestyle": "none"})
-        half, power = len(sizes) // 2, float(fit["of the larger half"])
-        middle = np.exp(np.log(times[half:]).mean() + power * (np.log(sizes[half:]) - np.log(sizes[half:]).mean()))
-        axes.loglog(sizes[half:], middle, color="#cc6677", label=f"exponent {power:.2f}")
-        axes.set_ylim(0.25 * times.min(), max(4.0 * times.max(), 50.0 * times.min()))
-        label(axes, f"Number of {what}", "number [-]", "time [ms]")
-        axes.legend(fontsize="small", loc="upper left")
-
-
 def _stage_table() -> str:
     rows = load(STAGES)
     own = {name: [row for row in rows if row["scene"] == name] for name in dict.fromkeys(row["scene"] for row in rows)}
-    head = ["scene", *(f"{nodes:,} nodes".replace(",", " ") for nodes in LADDER), "times the curve's", "steps",
-            "bytes a node", "to load", "its own modules"]  # fmt: skip
+    head = ["scene", *(f"{digits(nodes, 6)} nodes" for nodes in LADDER), "times the curve's", "steps", "bytes a node"]
     return table(
         head,
         [
@@ -305,20 +277,16 @@ def _stage_table() -> str:
                 digits(part[-1]["times the curve's"], 2),
                 part[-1]["steps"],
                 digits(part[-1]["memory [bytes/node]"]),
-                f"{digits(part[-1]['to load [ms]'], 2)} ms" if part[-1]["to load [ms]"] else "",
-                part[-1]["beyond the curve's modules"],
             ]
             for name, part in own.items()
         ],
     )
 
 
-def _all(name: str, most: int) -> str:
-    rows = load(name)
-    text = rows[0].keys() & {"scene", "number of"}
-    return table(
-        list(rows[0]), [[cell if key in text else digits(cell, most) for key, cell in row.items()] for row in rows]
-    )
+def _growth_table() -> str:
+    rows = load(GROWTH)
+    cells = [[cell if key == "number of" else digits(cell, 2) for key, cell in row.items()] for row in rows]
+    return table(list(rows[0]), cells)
 
 
-TABLES = {"stages": _stage_table, "calls": lambda: _all(CALLS, 2), "growth": lambda: _all(GROWTH, 2)}
+TABLES = {"stages": _stage_table, "growth": _growth_table}

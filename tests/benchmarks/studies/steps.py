@@ -33,6 +33,7 @@ _ENOUGH = 1e-4
 _ORDER_STEPS, _FLOOR = 0.1, 1e-11
 """Orders are measured at this omega dt and below; smaller errors are round-off."""
 _REPEATS = 5
+_HEADS = (("omega dt", "[-]"), ("evaluations a period", "[-]"), ("run time", "[s/s]"))
 _MORE_STEPS = 8
 
 
@@ -117,8 +118,7 @@ def run(progress: Callable[[str], None]) -> None:
                 row = best[title, goal]
                 cells += (None,) * 3 if row is None else (row.omega_dt, row.work, times[title, row.omega_dt])
             rows.append([case.name, title, order(found), *cells])
-    heads = [f"{what} for {goal} {unit}" for goal in GOALS
-             for what, unit in (("omega dt", "[-]"), ("evaluations a period", "[-]"), ("run time", "[s/s]"))]  # fmt: skip
+    heads = [f"{what} for {goal} {unit}" for goal in GOALS for what, unit in _HEADS]
     save(NAME, ["case", "scheme", "order", *heads], rows)
     draw("precision-work", partial(_draw, ladders), (12.5, 8.0))
 
