@@ -8,13 +8,12 @@ from __future__ import annotations
 import argparse
 import sys
 
-from tests.benchmarks.studies import critical, curves, extremes, friction, landings, pruning, smoothing, steps
+from tests.benchmarks.studies import critical, curves, extremes, friction, landings, pruning, steps
 from tests.benchmarks.tables import FOLDER, rewrite
 
 PARTS = {
     "curves": curves,
     "steps": steps,
-    "smoothing": smoothing,
     "critical": critical,
     "landings": landings,
     "friction": friction,

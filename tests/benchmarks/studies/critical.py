@@ -11,7 +11,7 @@ from mudline.contact.arrays import FloatArray
 from mudline.contact.stiffest import critical_step
 from tests.benchmarks.studies.motion import Forces, History, Motion, Scheme, march
 from tests.benchmarks.studies.schemes import SCHEMES
-from tests.benchmarks.tables import digits, load, save, table
+from tests.benchmarks.tables import Cell, digits, load, save, table
 
 NAME = "stability-critical-steps"
 SHARES = (0.99, 1.01)
@@ -50,7 +50,7 @@ def grows(scheme: Scheme, omega: float, gamma: float, dt: FloatArray) -> list[bo
 def run(progress: Callable[[str], None]) -> None:
     """Write the table."""
     progress("critical steps")
-    rows = []
+    rows: list[list[Cell]] = []
     for scheme in SCHEMES.values():
         for name, (omega, gamma) in CONTACTS.items():
             limit = critical_step(scheme.name, omega, gamma)

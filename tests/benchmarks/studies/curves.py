@@ -13,15 +13,13 @@ from functools import partial
 from timeit import repeat
 
 import numpy as np
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator, PPoly
 
 from mudline.contact.arrays import FloatArray
 from mudline.curves import ForceCurve
-from tests.benchmarks.drawing import draw, label, legend_below, lines, panels
 from tests.benchmarks.studies.laws import CLAY, DIAMETER
-from tests.benchmarks.tables import column, digits, load, save, table
+from tests.benchmarks.tables import digits, load, save, table
 from tests.contact.exact import ExactCurve
 
 CURVES, BACKBONES = "precision-curves", "precision-backbones"
@@ -31,17 +29,6 @@ _STRENGTH, _GRADIENT, _SOIL_WEIGHT, _STIFFNESS = 5000.0, 1500.0, 6000.0, 200.0
 DEEPEST = 0.5
 """Ratio up to which the closed forms are sampled."""
 POINTS = (3, 5, 7, 10, 15, 20, 30, 50, 75, 100, 150, 200, 300)
-
-
-def _float32(curve: ForceCurve) -> Evaluation:
-    ratios, forces, slopes = (array.astype(np.float32) for array in (curve.ratios, curve.forces, curve.slopes))
-
-    def evaluate(query: FloatArray) -> NDArray[np.floating]:
-        single = query.astype(np.float32)
-        left = np.searchsorted(ratios[1:-1], single, side="right")
-        return forces[left] + slopes[left] * (single - ratios[left])
-
-    return evaluate
 
 
 def _table(entries: int, curve: ForceCurve) -> Evaluation:
@@ -64,7 +51,6 @@ METHODS: dict[str, Callable[[ForceCurve], Evaluation]] = {
     "np.interp": lambda curve: lambda ratios: np.interp(ratios, curve.ratios, curve.forces),
     "scipy PPoly": lambda curve: PPoly(np.array([curve.slopes, curve.forces[:-1]]), curve.ratios),
     "scipy PCHIP": lambda curve: PchipInterpolator(curve.ratios, curve.forces),
-    "float32": _float32,
     **{f"table of {4**power}": partial(_table, 4**power) for power in range(2, 9)},
 }
 
@@ -134,27 +120,11 @@ def backbones() -> Iterator[tuple[str, str, int, float, float]]:
 
 
 def run(progress: Callable[[str], None]) -> None:
-    """Write tables and picture."""
+    """Write tables."""
     progress("curves")
     save(CURVES, ("method", "largest error [-]", "beyond the last point [-]", "time [ns/point]"), methods(CLAY))
     heads = ("curve", "points at distances", "points", "straight lines [-]", "PCHIP [-]")
     save(BACKBONES, heads, backbones())
-    draw("precision-backbones", _draw, (10.0, 5.2))
-
-
-def _draw(figure: Figure) -> None:
-    axes_of = panels(figure, len(FORMS), len(FORMS), sharey=True)
-    for axes, name in zip(axes_of, FORMS, strict=True):
-        found = {}
-        for spacing in SPACINGS:
-            rows = [row for row in load(BACKBONES) if (row["curve"], row["points at distances"]) == (name, spacing)]
-            for how in ("straight lines", "PCHIP"):
-                found[f"{spacing} points, {how}"] = list(
-                    zip(column(rows, "points"), column(rows, f"{how} [-]"), strict=True)
-                )
-        lines(axes, found)
-        label(axes, name, "points on the curve [-]", "largest error / largest force [-]")
-    legend_below(figure, axes_of[0])
 
 
 def _sampled() -> str:

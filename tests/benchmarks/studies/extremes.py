@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from tests.benchmarks.tables import digits, load, save, table
+from tests.benchmarks.tables import Cell, digits, load, save, table
 from tests.contact.extreme_decks import FAMILIES, Verdict, judge
 
 NAME = "stability-ladder"
@@ -16,7 +16,7 @@ NAME = "stability-ladder"
 def run(progress: Callable[[str], None]) -> None:
     """Write the table."""
     progress("ladder of extremes")
-    rows = []
+    rows: list[list[Cell]] = []
     for family, (values, deck) in FAMILIES.items():
         found = [judge(family, value, deck(value)) for value in values]
         counts = [sum(one.verdict is verdict for one in found) for verdict in Verdict]

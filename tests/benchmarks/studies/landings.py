@@ -8,7 +8,7 @@ the forces of both ends of a step.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -135,7 +135,7 @@ def run(progress: Callable[[str], None]) -> None:
     draw("stability-landing-gain", partial(_draw_gain, gains))
 
 
-def _draw_gain(gains: dict[str, Sequence[tuple[float, float]]], figure: Figure) -> None:
+def _draw_gain(gains: Mapping[str, Sequence[tuple[float, float]]], figure: Figure) -> None:
     """The largest gain up to each step, which never falls; backward Euler has none."""
     axes = figure.subplots()
     lines(axes, {title: points for title, points in gains.items() if points[-1][1] > 0.0})

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.laws.linear import smoothed_reaction, zone_onset
 from mudline.curves import ForceCurve
 from tests.benchmarks.studies.motion import Forces, History
 
@@ -20,38 +19,20 @@ DIAMETER, MASS, WEIGHT = 0.3, 169.5, 953.0
 """Of the pipe on it: m, kg/m, and N/m in water."""
 
 
-def smoothed_spring(z: FloatArray, stiffness: float, half_width: float | FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Force and d force / d z of centred zones at penetrations (k,) of any sign; 0 above the zone."""
-    with np.errstate(all="ignore"):
-        touches = z > zone_onset(stiffness, half_width, 0.0)
-        force, slope = smoothed_reaction(z, np.nan, stiffness, half_width, 0.0)
-        return np.where(touches, force, 0.0), np.where(touches, slope, 0.0)
-
-
 @dataclass(frozen=True, slots=True)
 class LinearLaw:
-    """k z, with the quadratic zone of half width `top` around the mudline where that is > 0.
-
-    A law gives the force per unit length over the penetration z > 0; above the seabed, which begins at the height `top`
-    above the mudline, there is none.
-    """
+    """k z. A law gives the force per unit length over the penetration z > 0; above the mudline there is none."""
 
     stiffness: float
-    top: float = 0.0
 
     def spring(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Force and d force / d z at penetrations (k,)."""
-        if self.top == 0.0:
-            below = z > 0.0
-            return np.where(below, self.stiffness * z, 0.0), np.where(below, self.stiffness, 0.0)
-        return smoothed_spring(z, self.stiffness, self.top)
+        below = z > 0.0
+        return np.where(below, self.stiffness * z, 0.0), np.where(below, self.stiffness, 0.0)
 
     def work(self, z: FloatArray) -> FloatArray:
-        """Work from the mudline, or from the start of the zone, to z, exactly; 0 above the seabed."""
-        k, h = self.stiffness, self.top
-        zone = np.zeros(z.shape) if h == 0.0 else k * np.clip(z + h, 0.0, 2.0 * h) ** 3 / (12.0 * h)
-        below = np.maximum(z, h)
-        return zone + 0.5 * k * (below - h) * (below + h)
+        """Work from the mudline to z, exactly; 0 above it."""
+        return 0.5 * self.stiffness * np.maximum(z, 0.0) ** 2
 
     @property
     def steepest(self) -> float:
@@ -65,7 +46,6 @@ class CurveLaw:
 
     curve: ForceCurve
     diameter: float
-    top: float = 0.0
 
     def spring(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
         """See `LinearLaw`."""

@@ -73,11 +73,11 @@ def _uneven(dt: float) -> FloatArray:
     return dt * (1.0 - np.linspace(0.0, 0.175, RUNS))
 
 
-def _until(rate: Rate, state: Sequence[float], ends: int, level: float = 0.0) -> tuple[float, FloatArray]:
-    """Integrate until a component of the state passes a level upwards: time and state."""
+def _until(rate: Rate, state: Sequence[float], ends: int) -> tuple[float, FloatArray]:
+    """Integrate until a component of the state passes zero upwards: time and state."""
 
     def event(_: float, now: FloatArray) -> float:
-        return float(now[ends]) - level
+        return float(now[ends])
 
     event.terminal, event.direction = True, 1.0  # type: ignore[attr-defined]  # scipy asks for these
     found = solve_ivp(rate, (0.0, 1e3), state, method="DOP853", rtol=1e-12, atol=1e-14, events=event, max_step=1e-2)
@@ -115,7 +115,7 @@ class Drop:
         def rate(_: float, state: FloatArray) -> list[float]:
             return [float(state[1]), float(self.law.spring(-state[:1])[0][0] - self.weight) / self.mass]
 
-        duration, _ = _until(rate, [self.law.top - 1e-12, -self.speed], 0, self.law.top)
+        duration, _ = _until(rate, [-1e-12, -self.speed], 0)
         return Case(
             name,
             math.sqrt(self.law.steepest / self.mass),
@@ -130,20 +130,20 @@ class Drop:
         """A share of a step above the seabed, on the path that reaches it with the given speed."""
         fall = self.weight / self.mass
         before = (np.arange(RUNS) + 0.5) / RUNS * min(dt, 0.9 * self.speed / fall if fall else dt)
-        height = self.law.top + self.speed * before - 0.5 * fall * before**2
+        height = self.speed * before - 0.5 * fall * before**2
         return Start(Motion.start(system, height, fall * before - self.speed), np.full(RUNS, dt))
 
     def _errors(self, run: Trajectory, dt: FloatArray, deepest: float) -> FloatArray:
-        top, runs = self.law.top, np.arange(RUNS)
-        touched = np.maximum.accumulate(run.position < top, axis=0)
-        away = touched & (run.position >= top)
+        runs = np.arange(RUNS)
+        touched = np.maximum.accumulate(run.position < 0.0, axis=0)
+        away = touched & (run.position >= 0.0)
         out = np.argmax(away, axis=0)
-        x, v = run.position[out, runs] - top, run.velocity[out, runs]
+        x, v = run.position[out, runs], run.velocity[out, runs]
         rebound = np.sqrt(np.maximum(v * v + 2.0 * self.weight / self.mass * x, 0.0))
         during = np.arange(len(run.position))[:, None] <= out
-        kinetic, height = 0.5 * self.mass * run.velocity**2, run.position - top
+        kinetic = 0.5 * self.mass * run.velocity**2
         stored = self.law.work(-run.position.reshape(-1)).reshape(run.position.shape)
-        energy = (kinetic + self.weight * height + stored) / (0.5 * self.mass * self.speed**2)
+        energy = (kinetic + self.weight * run.position + stored) / (0.5 * self.mass * self.speed**2)
         errors = np.abs(
             [
                 _deepest(run, dt, during) / deepest - 1.0,
@@ -184,14 +184,14 @@ _EMBEDMENT = 0.05 * DIAMETER
 
 def _breakout(v: float) -> float:
     """Uplift at breakout at a velocity that never fell."""
-    return _SUCTION["depth_factor"] * max(v, _CORNERS["regularisation"]) ** _SUCTION["depth_exponent"]
+    return _SUCTION["depth_factor"] * math.pow(max(v, _CORNERS["regularisation"]), _SUCTION["depth_exponent"])
 
 
 def _resistance(x: float, v: float) -> float:
     """Suction at an uplift and a velocity above that of the regularisation: an implementation of its own."""
     share = x / _breakout(v)
     trapezoid = min(share / 0.2, 1.0, (1.0 - share) / 0.2)
-    return _SUCTION["force_factor"] * v ** _SUCTION["force_exponent"] * max(0.0, trapezoid)
+    return _SUCTION["force_factor"] * math.pow(v, _SUCTION["force_exponent"]) * max(0.0, trapezoid)
 
 
 class _Risen(NamedTuple):

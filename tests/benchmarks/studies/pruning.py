@@ -20,7 +20,6 @@ from matplotlib.figure import Figure
 from mudline.contact.input import ContactInput, LawAssignment
 from mudline.contact.model import ContactModel
 from mudline.contact.seabed import PlanesSeabed, Seabed, SlopingSeabed
-from mudline.contact.seabed.scattered import ScatteredSeabed
 from mudline.curves import ForceCurve
 from mudline.deck.loading import load_bytes
 from mudline.scene.model import resolve
@@ -74,14 +73,6 @@ def planes(number: int, nodes: int) -> PlanesSeabed:
     return PlanesSeabed(points, np.linspace(0.0, _RISE, number))
 
 
-def _scattered(nodes: int) -> ScatteredSeabed:
-    """A plain strip of triangles about the line."""
-    rng, reach = np.random.default_rng(1), 2.5 * nodes
-    along = np.concatenate([[-reach, -reach, 2.0 * reach, 2.0 * reach], rng.uniform(0.0, reach, 396)])
-    across = np.concatenate([[-reach, reach, -reach, reach], rng.uniform(-0.1 * reach, 0.1 * reach, 396)])
-    return ScatteredSeabed(np.column_stack([_RISE * np.sin(along / reach * 20.0), along, across]))
-
-
 SCENES: dict[str, Callable[[int], ContactInput]] = {
     CURVE: lambda nodes: scene(nodes, "curve"),
     **{
@@ -95,7 +86,6 @@ SCENES: dict[str, Callable[[int], ContactInput]] = {
     },
     "curve, sloping bed": lambda nodes: scene(nodes, "curve", seabed=SlopingSeabed(_RISE, 30.0)),
     "curve, 2 planes": lambda nodes: scene(nodes, "curve", seabed=planes(2, nodes)),
-    "curve, scattered points": lambda nodes: scene(nodes, "curve", seabed=_scattered(nodes)),
     "everything": lambda nodes: replace(all_laws(nodes), seabed=planes(2, nodes)),
 }
 """By name, of a number of nodes; "everything" has each law on a part of the line, drawn at random."""

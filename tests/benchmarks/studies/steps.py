@@ -41,7 +41,6 @@ class Tried(NamedTuple):
     """A scheme on a case at a step.
 
     error: largest of the three errors and of all runs; None where one of them failed or did not get that far.
-    speed: the largest of the speed alone.
     work: force evaluations of a run in a period 2 pi / omega.
     seconds: processor time of all runs side by side, per simulated second.
     """
@@ -50,7 +49,6 @@ class Tried(NamedTuple):
     scheme: Scheme
     omega_dt: float
     error: float | None
-    speed: float | None
     work: float
     seconds: float
 
@@ -68,9 +66,9 @@ def tried(case: Case, scheme: Scheme, omega_dt: float) -> Tried:
     with np.errstate(all="ignore"):
         errors = case.errors(run, start.dt)
     failed = run.failed.any() or np.isnan(errors).any()
-    error, speed = (None, None) if failed else (float(errors.max()), float(errors[1].max()))
+    error = None if failed else float(errors.max())
     work = float(run.evaluations.mean()) / steps * 2.0 * math.pi / omega_dt
-    return Tried(case.name, scheme, omega_dt, error, speed, work, run.seconds / (steps * nominal))
+    return Tried(case.name, scheme, omega_dt, error, work, run.seconds / (steps * nominal))
 
 
 def ladder(case: Case, scheme: Scheme) -> list[Tried]:
