@@ -12,7 +12,8 @@ import pytest
 
 from mudline.contact import ContactModel, ContactResult
 from mudline.contact.result import Part
-from mudline.contact.touchdown import LineSummary, LineTable, line_summaries
+from mudline.contact.lines import LineSummary
+from mudline.contact.touchdown import LineTable, line_summaries
 from tests.contact.random_scenes import random_scene
 
 SCENES = 50
