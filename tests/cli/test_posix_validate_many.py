@@ -14,7 +14,6 @@ import pytest
 from mudline.__main__ import main
 from mudline.cli import view
 from mudline.cli.inputs import Input
-from mudline.cli.printing import elided
 from mudline.cli.verdicts import Total, Verdict
 from mudline.cli.view import View
 from tests.builders.decks import CLEAN, ILLEGAL
@@ -236,20 +235,6 @@ def test_nobody_looks_at_a_file() -> None:
 
 
 # -------------------------------------------------------------------------------------------------------------- table
-
-
-@pytest.mark.parametrize(
-    ("text", "width", "encoding", "shown"),
-    [
-        ("short", 20, "utf-8", "short"),
-        ("0123456789", 7, "utf-8", "01\u20266789"),
-        ("0123456789", 9, "ascii", "01...6789"),
-        ("\u6d77\u5e95\u6d77\u5e95\u6d77\u5e95", 8, "utf-8", "\u6d77\u2026\u6d77\u5e95"),
-        ("\u00e9" * 5, 5, "utf-8", "\u00e9" * 5),
-    ],
-)
-def test_elided(text: str, width: int, encoding: str, shown: str) -> None:
-    assert elided(text, width, encoding) == shown
 
 
 def test_colours_are_those_of_the_verdicts(place: Place) -> None:

@@ -9,7 +9,7 @@ import pytest
 from rich.cells import cell_len
 
 from mudline.cli.lint_report import statistics_lines
-from mudline.cli.printing import Screen, excerpt, findings, summary
+from mudline.cli.printing import excerpt, findings, summary
 from mudline.diagnostics import Diagnostic, Edit, Fix, Severity
 from mudline.linting.output import LONGEST, form, visible, visible_lines
 from mudline.syntax.source import Source
@@ -249,7 +249,7 @@ def test_number_is_never_cut(place: Place, monkeypatch: pytest.MonkeyPatch) -> N
 # ---------------------------------------------------------------- forms of findings, for what no deck makes yet: fixes,
 
 
-SCREEN = Screen(80)
+WIDTH = 80
 TEXT = Source.from_bytes(b"first\n second, x\n", "deck.keyxm")
 
 
@@ -258,8 +258,8 @@ def found(line: int = 2, column: int = 2, end_line: int = 2, end_column: int = 8
     return Diagnostic("deck.keyxm", "SYN004", "unknown-setting", Severity.ERROR, "no such setting", *place, fix)
 
 
-def lines(diagnostic: Diagnostic, source: Source = TEXT, screen: Screen = SCREEN) -> list[str]:
-    return [text.plain for text in excerpt(diagnostic, source, screen)]
+def lines(diagnostic: Diagnostic, source: Source = TEXT) -> list[str]:
+    return [text.plain for text in excerpt(diagnostic, source, WIDTH)]
 
 
 def test_fix_in_json() -> None:
@@ -280,7 +280,7 @@ def test_fix_in_json() -> None:
 def test_nothing() -> None:
     assert list(form("jsonl", [], "")([])) == []
     assert list(statistics_lines([])) == []
-    assert list(findings([], TEXT, SCREEN)) == []
+    assert list(findings([], TEXT, WIDTH)) == []
 
 
 def test_excerpt() -> None:
