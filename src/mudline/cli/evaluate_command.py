@@ -22,7 +22,7 @@ from mudline.results.evaluation import Prepared
 from mudline.results.forms import FORMS, plan_rows
 
 
-@click.command("evaluate")
+@options.command("evaluate")
 @takes_inputs("Read the positions of the nodes: CSV, NPZ or NPY, one state or time steps.")
 @click.option("--against", metavar="FILE", help="Compare with another program's element results, a CSV.")
 @click.option(
