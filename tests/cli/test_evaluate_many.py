@@ -6,15 +6,14 @@ import csv
 import io
 import json
 import multiprocessing
-import os
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from mudline.cli import evaluate_many, processes
-from mudline.cli.cases import Done, Order, failed
+from mudline.cli import evaluate_many
 from mudline.quantities import CASES
+from mudline.running import executors
 from tests.builders.decks import BAD_NUMBER, CLEAN, PULLING
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Json, assert_fits, run
@@ -29,8 +28,8 @@ STATE = "node,x,y,z\n1,-0.3,0,0\n2,-0.3,10,0\n3,0.3,20,0\n"
 @pytest.fixture
 def eager(monkeypatch: pytest.MonkeyPatch) -> None:
     """Processes are used behind the first deck, whatever there is to do."""
-    monkeypatch.setattr(processes, "PAYS", dict.fromkeys(processes.PAYS, 0.0))
-    monkeypatch.setattr(evaluate_many, "TRIED", 0.0)
+    monkeypatch.setattr(executors, "PAYS", dict.fromkeys(executors.PAYS, 0.0))
+    monkeypatch.setattr(executors, "TRIED", 0.0)
 
 
 @pytest.fixture
@@ -294,17 +293,3 @@ def test_interrupted_run_ends_its_processes(four: str, folder: Path, monkeypatch
     assert multiprocessing.active_children() == []
     assert not list(folder.rglob("*.mudline"))
     assert not Path("out/summary.csv").exists()
-
-
-def end(order: Order) -> Done:
-    """A worker that dies."""
-    os._exit(len(order.data))
-
-
-@pytest.mark.usefixtures("eager")
-def test_process_that_dies_is_reported(four: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(evaluate_many, "_done", lambda task: Done(failed(task.case.file.name, "skipped")))
-    monkeypatch.setattr(evaluate_many, "evaluate_case", end)
-    outcome = run("evaluate", four, "--jobs", "2")
-    assert outcome.code == 2
-    assert "a process that evaluated decks has ended early" in outcome.err

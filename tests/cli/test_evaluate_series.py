@@ -1,9 +1,8 @@
-"""`mudline evaluate --summary-only`: the extremes of all steps, from any number of processes, and after any stop."""
+"""`mudline evaluate --summary-only`: the extremes of all steps, also after any stop."""
 
 from __future__ import annotations
 
 import json
-import multiprocessing
 import os
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mudline.cli import evaluate_series, processes
+from mudline.cli import evaluate_series
 from mudline.contact.result import Part
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import form_names
@@ -20,7 +19,6 @@ from tests.builders.decks import CLEAN
 from tests.cli.conftest import Place
 from tests.cli.runner import assert_fits, run
 from tests.cli.test_evaluate_states import BOTH, RIGID
-from tests.processes import TIMEOUT, started
 
 STEPS = 700
 DECKS = {"without history": CLEAN, "with history": BOTH, "rigid": RIGID}
@@ -39,12 +37,6 @@ def long(folder: Path) -> Path:
     steps[:, 2, 0] += 0.3
     np.save(folder / "long.npy", steps)
     return folder / "long.npy"
-
-
-@pytest.fixture
-def eager(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Processes are used behind the first chunk, whatever there is to do."""
-    monkeypatch.setattr(processes, "PAYS", dict.fromkeys(processes.PAYS, 0.0))
 
 
 def files(folder: Path) -> dict[str, bytes]:
@@ -149,18 +141,7 @@ def test_terminal_shows_what_a_whole_run_does(place: Place) -> None:
     assert "\n".join(shown[1:]).strip() == whole.out[whole.out.index("Over all steps") :].strip()
 
 
-# ------------------------------------------------------------------------------------------------ processes and stops
-
-
-@pytest.mark.usefixtures("long", "eager")
-def test_processes_and_chunks_change_no_byte(place: Place, folder: Path) -> None:
-    place()
-    assert run("evaluate", *GIVEN, "-o", "out.json", "--jobs", "1").code == 0
-    alone = files(folder)
-    for chunk in ("1", "130"):
-        assert run("evaluate", *GIVEN, "-o", "out.json", "--jobs", "2", "--chunk", chunk).code == 0
-        assert files(folder) == alone
-    assert multiprocessing.active_children() == []
+# ------------------------------------------------------------------------------------------------------------- stops
 
 
 @pytest.mark.usefixtures("long")
@@ -183,47 +164,6 @@ def test_a_stopped_run_goes_on(
     outcome = run("evaluate", *GIVEN, "-o", output)
     assert outcome.code == 0
     assert f"goes on at step 448 of 700: {output}.unfinished\n" in outcome.err
-    assert files(folder) == whole
-
-
-KILLED = """
-import multiprocessing, os, signal, sys
-from mudline.__main__ import main
-from mudline.cli import evaluate_series, processes
-from mudline.results.checkpoint import Checkpoint
-
-processes.PAYS = dict.fromkeys(processes.PAYS, 0.0)
-evaluate_series.SAVED_EVERY = 0.0
-write, saved = Checkpoint.write, []
-
-def counted(checkpoint, reached):
-    write(checkpoint, reached)
-    saved.append(reached.done)
-    if reached.done > 350:
-        print(reached.done, *(one.pid for one in multiprocessing.active_children()), flush=True)
-        os.kill(os.getpid(), signal.SIGKILL)
-
-Checkpoint.write = counted
-main(sys.argv[1:])
-"""
-
-
-@pytest.mark.usefixtures("long", "eager")
-@pytest.mark.skipif(os.name != "posix", reason="processes are killed in another way")
-@pytest.mark.parametrize("deck", [CLEAN, BOTH], ids=["two processes", "with history"])
-def test_a_killed_run_goes_on(place: Place, folder: Path, deck: str) -> None:
-    place(deck)
-    given = ("evaluate", *GIVEN, "-o", "out.json", "--jobs", "2", "--chunk", "64")
-    assert run(*given).code == 0
-    whole = files(folder)
-    (folder / "out.json").unlink()
-    with started("-c", KILLED, *given) as running:
-        done, *workers = map(int, running.out.readline().split())
-        assert running.process.wait(TIMEOUT) == -9
-        assert running.out.read() == b""  # the processes that it had started have ended too
-    assert len(workers) == (2 if deck == CLEAN else 0)
-    assert list(files(folder)) == ["out.json.unfinished"]
-    assert f"goes on at step {done} of 700" in run(*given).err
     assert files(folder) == whole
 
 

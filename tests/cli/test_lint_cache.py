@@ -10,12 +10,12 @@ from hashlib import blake2b
 from pathlib import Path
 
 import pytest
+from mudline.linting.cache import packed, program, unpacked
 
 from mudline import cache_folder
 from mudline.cli import lint_run
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting import cache
-from mudline.linting.cache import packed, program, unpacked
 from mudline.linting.engine import LintSettings
 from mudline.linting.fixing import FileReport, lint_one
 from mudline.linting.registry import rules

@@ -20,7 +20,6 @@ from mudline.cli.known_results import Kept
 from mudline.cli.result_files import behind, beside, line_watch, result_files
 from mudline.cli.streams import counted, reason
 from mudline.cli.view import View
-from mudline.cluster.storage import exists, is_folder, join, resolved
 from mudline.contact.result import Part
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Diagnostic
@@ -29,6 +28,7 @@ from mudline.quantities import CASES, shown
 from mudline.results.cases import CaseSummary, CaseWatch
 from mudline.results.forms import ResultConsumer, form_module
 from mudline.results.warnings import ContactWatch
+from mudline.running.storage import exists, is_folder, join
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
@@ -129,12 +129,6 @@ class PositionFiles:
         if not _is_file(path):
             raise MissingPositionsError(f"its positions were not found: {path}")
         return path
-
-    def from_folder(self, folder: str) -> PositionFiles:
-        """The same, given in a working folder that may not be this one."""
-        if self.given is None or self.given.startswith("{folder}"):
-            return self
-        return PositionFiles(resolved(self.given, folder))
 
     def _in_folder(self, case: Case, folder: str) -> str:
         """The file with the name of the deck: in the folder that the deck is in below the common one, or at the top."""

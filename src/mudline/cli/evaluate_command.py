@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, cast
+from typing import cast
 
 import click
 from click.core import ParameterSource
 
-from mudline.cli import DONE, FOUND, on_cluster, options, pictures
+from mudline.cli import DONE, FOUND, options, pictures
 from mudline.cli.evaluate_inputs import EvaluateInputs, read_headings
 from mudline.cli.evaluate_one import Outputs, evaluate_one, show_plan
 from mudline.cli.inputs import STDIN, GivenDeck, collect, refuses_bad_decks
@@ -20,9 +20,6 @@ from mudline.files import is_url, suffix_of
 from mudline.results.evaluation import Tension
 from mudline.results.forms import form_names
 from mudline.results.panels import ANIMATIONS, PICTURES
-
-if TYPE_CHECKING:
-    from mudline.cluster.scheduler import Scheduler
 
 
 @click.command("evaluate")
@@ -113,7 +110,6 @@ if TYPE_CHECKING:
     help="Exit with 1 for warnings about the results too.",
 )
 @options.output_format("text", "json", "csv")
-@on_cluster.options
 @options.every_file
 @options.decks
 @options.stdin_name
@@ -147,7 +143,6 @@ def command(
     spreadsheet: bool,
     fail_on: str,
     output_format: str,
-    scheduler: Scheduler | None,
     view: View,
 ) -> int:
     """Evaluate contact forces and stiffnesses of decks, at their own coordinates or at positions from a file.
@@ -160,10 +155,8 @@ def command(
     inputs = EvaluateInputs(cast("Tension", tension), elements, time_step, read_headings(columns))
     inputs.check(positions)
     _check_chunk(chunk, summary_only=summary_only)
-    on_cluster.refuse(scheduler, {}, None, decks)
-    if scheduler is None:
-        _refuse_urls({"--positions": positions, "--elements": elements, "-o": output})
-    if scheduler is not None or _are_many(decks):
+    _refuse_urls({"--positions": positions, "--elements": elements, "-o": output})
+    if _are_many(decks):
         from mudline.cli.evaluate_many import ManyOptions, evaluate_many  # noqa: PLC0415 - one deck starts quicker
 
         _refuse_options(_OF_ONE, "is for one deck: give a single file")
@@ -172,9 +165,7 @@ def command(
             return FOUND
         if spreadsheet and "csv" not in (output_format, form):
             raise click.UsageError(options.CSV_ONLY)
-        many = ManyOptions(
-            inputs, units, positions, output, form, output_format, fail_on, spreadsheet, jobs, no_cache, scheduler
-        )
+        many = ManyOptions(inputs, units, positions, output, form, output_format, fail_on, spreadsheet, jobs, no_cache)
         return evaluate_many(collect(decks, gitignore=not every_file, urls=True), many, view)
     _check_one(form, (output_format, suffix_of(output or "")), spreadsheet=spreadsheet)
     if summary_only:
@@ -227,10 +218,10 @@ def _are_many(decks: Sequence[str]) -> bool:
 
 
 def _refuse_urls(given: Mapping[str, str | None]) -> None:
-    """Raise click.UsageError for a URL that only workers read or write."""
+    """Raise click.UsageError for a URL where a file is needed."""
     for option, path in given.items():
         if path is not None and is_url(path):
-            raise click.UsageError(f"{option} {path}: a URL needs --scheduler, such as local")
+            raise click.UsageError(f"{option} {path}: give the path of a file, not a URL")
 
 
 def _refuse_options(names: Mapping[str, str], why: str) -> None:

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import os
-import time
-from collections import deque
 from collections.abc import Generator, Iterable, Iterator, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import click
 
@@ -31,27 +28,13 @@ from mudline.cli.cases import (
 from mudline.cli.evaluate_inputs import EvaluateInputs
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.known_results import Kept, KnownResults
-from mudline.cli.processes import Effort, pays, pool, submitted
 from mudline.cli.result_files import is_installed
 from mudline.cli.streams import MOST_REPORTED, counted, emit, emit_json, notify, reason, write_text, writing
 from mudline.cli.view import Progress, View, wants_bar
-from mudline.cluster import storage
-from mudline.cluster.scheduler import Scheduler
-from mudline.files import is_url, remove_left
+from mudline.files import remove_left
 from mudline.quantities import CASES, csv_lines
 from mudline.results.cases import CaseSummary, worst_first, write_parquet
-
-if TYPE_CHECKING:
-    from concurrent.futures import Executor, Future
-
-CHUNKS = ".mudline-chunks"
-"""The folder below that of the results in which workers note what is done."""
-
-TRIED = 0.05
-"""Seconds of evaluating by which the remaining work is estimated."""
-
-_AHEAD = 4
-"""Decks for each process that are sent ahead."""
+from mudline.running.executors import RunError, executor, in_order
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +51,6 @@ class ManyOptions:
     spreadsheet: bool
     jobs: int
     no_cache: bool
-    scheduler: Scheduler | None = None
 
 
 class Task(NamedTuple):
@@ -91,8 +73,7 @@ def evaluate_many(decks: Inputs, options: ManyOptions, view: View) -> int:
         return decks.code
     common, cases = named_cases(_once(decks.files), options.form if options.output else "")
     with Progress(len(cases), view, shown=wants_bar(view)) as progress:
-        evaluated = _on_cluster if options.scheduler else _here
-        rows, taken = evaluated(decks, cases, placed, options, progress)
+        rows, taken = _here(decks, cases, placed, options, progress)
     ranked = worst_first(one.row for one in rows)
     written = options.output and _write_summary(ranked, options.output, spreadsheet=options.spreadsheet)
     if not view.quiet:
@@ -134,7 +115,7 @@ def _here(
     taken = 0
     with _folder(folder, cases, known):
         tasks = _tasks(decks, cases, placed, options, known)
-        with closing(_evaluated(tasks, len(cases), Effort(options.jobs))) as results:
+        with closing(_evaluated(tasks, len(cases), options.jobs)) as results:
             for task, done in results:
                 rows.append(done.kept)
                 taken += task.known is not None and not done.kept.row.failed
@@ -142,27 +123,6 @@ def _here(
                 if known is not None and task.known is None:
                     _remember(known, task, done)
     return rows, taken
-
-
-def _on_cluster(
-    decks: Inputs, cases: Sequence[Case], placed: PositionFiles, options: ManyOptions, progress: Progress
-) -> tuple[list[Kept], int]:
-    """As `_here`, evaluated by the workers of a cluster; what is done is noted below the results."""
-    from mudline.cli.cluster_decks import EvaluateGiven, evaluated_on_cluster  # noqa: PLC0415 - few runs use a cluster
-    from mudline.cli.on_cluster import OnCluster  # noqa: PLC0415 - as above
-
-    if options.scheduler is None:
-        raise ValueError("no scheduler is given")
-    place = None if options.output is None else storage.join(options.output, CHUNKS)
-    cluster = OnCluster(options.scheduler, place, options.no_cache)
-    here = os.getcwd()  # noqa: PTH109 - sent as text
-    given = EvaluateGiven(cases[0], placed, options.inputs, options.output, options.units, options.spreadsheet, here)
-    rows: list[Kept] = []
-    words = f"{_spelled(options)} {options.output} {placed}"
-    for one in evaluated_on_cluster(decks, cases, given, words, cluster):
-        rows.append(one)
-        progress.advance()
-    return rows, cluster.taken
 
 
 def _tasks(
@@ -187,40 +147,15 @@ def _tasks(
         yield Task(case, key, order, found)
 
 
-def _evaluated(tasks: Iterator[Task], count: int, effort: Effort) -> Generator[tuple[Task, Done], None, None]:
+def _evaluated(tasks: Iterator[Task], count: int, jobs: int) -> Generator[tuple[Task, Done], None, None]:
     """Each deck in its order with what it gave. Processes are used once that pays."""
-    spent, done = 0.0, 0
-    for number, task in enumerate(tasks):
-        start = time.perf_counter()
-        made = _done(task)
-        if task.order is not None and task.known is None:
-            spent, done = spent + time.perf_counter() - start, done + 1
-        yield task, made
-        if done and spent >= TRIED and pays(spent / done * (count - number - 1), effort):
-            break
-    else:
-        return
-    with pool(effort.processes, "evaluated decks", __name__) as executor:
-        yield from _ahead(tasks, executor, _AHEAD * effort.processes)
-
-
-def _ahead(tasks: Iterator[Task], executor: Executor, most: int) -> Iterator[tuple[Task, Done]]:
-    """The decks in order, while the processes work on `most` of them."""
-    waiting: deque[tuple[Task, Future[Done] | None]] = deque()
-    for task in tasks:
-        order = None if task.known is not None else task.order
-        waiting.append((task, None if order is None else submitted(executor, evaluate_case, order)))
-        if len(waiting) > most:
-            first, made = waiting.popleft()
-            yield first, made.result() if made else _done(first)
-    for first, made in waiting:
-        yield first, made.result() if made else _done(first)
-
-
-def _done(task: Task) -> Done:
-    if task.known is not None or task.order is None:
-        return Done(task.known or failed(task.case.file.name, "not evaluated"))
-    return evaluate_case(task.order)
+    orders = ((task, None if task.known is not None else task.order) for task in tasks)
+    try:
+        with executor(jobs) as pool, closing(in_order(pool, evaluate_case, orders, count)) as results:
+            for task, made in results:
+                yield task, made or Done(task.known or failed(task.case.file.name, "not evaluated"))
+    except RunError as error:
+        raise click.ClickException(str(error)) from error
 
 
 # ----------------------------------------------------------------------------------------------------- the folder
@@ -258,15 +193,6 @@ def _remember(known: KnownResults, task: Task, done: Done) -> None:
 
 def _write_summary(rows: Sequence[CaseSummary], folder: str, *, spreadsheet: bool) -> str:
     """Write the rows of all decks: in Parquet where that is installed, else as CSV. Returns the path or the URL."""
-    if is_url(folder):
-        with TemporaryDirectory(prefix="mudline-") as near:
-            path = Path(_write_summary(rows, near, spreadsheet=spreadsheet))
-            target = storage.join(folder, path.name)
-            try:
-                storage.write(target, path.read_bytes())
-            except OSError as error:
-                raise click.ClickException(f"{target}: cannot be written: {reason(error)}") from error
-        return target
     if is_installed("parquet"):
         path = Path(folder, f"{SUMMARY}.parquet")
         with writing(path) as stream:

@@ -1,17 +1,14 @@
-"""`mudline evaluate --summary-only`: a long series in bounded memory, by several processes; a stopped run goes on."""
+"""`mudline evaluate --summary-only`: a long series in bounded memory, a stopped run goes on."""
 
 from __future__ import annotations
 
 import os
-from collections import deque
 from collections.abc import Generator
 from contextlib import ExitStack, closing
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from hashlib import blake2b
 from pathlib import Path
 from time import monotonic
-from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -21,31 +18,21 @@ from mudline.cli.evaluate_one import MOST_ROWS, notify_before, notify_slow, noti
 from mudline.cli.evaluate_text import print_series
 from mudline.cli.inputs import STDIN, GivenDeck, Input
 from mudline.cli.known_results import plugins_in_use
-from mudline.cli.processes import Effort, pays, pool, submitted
 from mudline.cli.result_files import form_of_file, has_library
 from mudline.cli.streams import emit, notify, reason, writing
 from mudline.cli.view import Progress, View, wants_bar
-from mudline.contact import ContactModel, ContactState
+from mudline.contact import ContactState
 from mudline.contact.tables import restored_state, state_arrays
 from mudline.deck.loading import load_bytes
 from mudline.files import recording_looks
-from mudline.linting.cache import program, state
 from mudline.results.checkpoint import About, Checkpoint, CheckpointError, FileMark, Reached, sampled_digest
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import Tables, form_module, plan_rows, table_path, tables_as_text
 from mudline.results.series import SeriesSummary, series_tables
-from mudline.scene.positions import StepFile
-
-if TYPE_CHECKING:
-    from concurrent.futures import Future
+from mudline.running.remembered import program, state
 
 SAVED_EVERY = 10.0
 """Seconds between two checkpoints."""
-
-_CHUNK = 4_000_000
-"""Nodes times steps that a process evaluates at a time, unless the options say how many steps."""
-_AHEAD = 2
-"""Chunks for each process that are sent ahead."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -207,9 +194,9 @@ class _Run:
         if options.no_cache and self._checkpoint is not None:
             self._checkpoint.remove()
         self._take_up(view)
-        steps, effort = self._evaluation.steps, Effort(options.jobs)
+        steps = self._evaluation.steps
         due = monotonic() + SAVED_EVERY
-        advanced = self._advanced(self._chunk(options.chunk), effort)
+        advanced = self._advanced()
         with closing(advanced), Progress(steps - self._done, view, shown=wants_bar(view)) as progress:
             for done in advanced:
                 progress.advance(done - self._done)
@@ -220,12 +207,6 @@ class _Run:
                 if self._checkpoint is not None and done < steps and monotonic() >= due:
                     self._save(self._checkpoint)
                     due = monotonic() + SAVED_EVERY
-
-    def _chunk(self, steps: int | None) -> int:
-        """Steps of a process at a time: as asked for, in whole batches."""
-        batch = self._evaluation.model.batch
-        wanted = steps or _CHUNK // max(len(self._evaluation.present), 1)
-        return max(-(-wanted // batch), 1) * batch
 
     def _take_up(self, view: View) -> None:
         """Go on from the checkpoint of an earlier run, if there is one."""
@@ -255,54 +236,10 @@ class _Run:
         except OSError as error:
             raise click.ClickException(f"{checkpoint.path.as_posix()}: cannot be written: {reason(error)}") from error
 
-    def _advanced(self, chunk: int, effort: Effort) -> Generator[int, None, None]:
-        """The numbers of steps done so far, as they come: here, and in other processes once that pays."""
-        steps, start, began = self._evaluation.steps, self._done, monotonic()
+    def _advanced(self) -> Generator[int, None, None]:
+        """The numbers of steps done so far, as they come."""
         history = self._evaluation.model.plan.history
-        alone = history or not isinstance(self._evaluation.positions, StepFile)
-        for part, behind in self._evaluation.resumed(range(start, steps), self._state):
+        for part, behind in self._evaluation.resumed(range(self._done, self._evaluation.steps), self._state):
             self._summary.take(part)
             self._state = behind if history else None
-            done = part.start + part.count
-            yield done
-            if not alone and done - start >= chunk and done < steps:
-                if pays((monotonic() - began) / (done - start) * (steps - done), effort):
-                    with closing(self._elsewhere(range(done, steps, chunk), effort)) as others:
-                        yield from others
-                    return
-                alone = True
-
-    def _elsewhere(self, starts: range, effort: Effort) -> Generator[int, None, None]:
-        """The same from other processes, which evaluate a chunk at a time each; added up in the order of the steps."""
-        waiting: deque[tuple[int, Future[dict[str, Any]]]] = deque()
-        with pool(effort.processes, "evaluated steps", __name__) as executor:
-
-            def added() -> int:
-                stop, future = waiting.popleft()
-                self._summary.add(future.result())
-                return stop
-
-            for start in starts:
-                stop = min(start + starts.step, starts.stop)
-                waiting.append((stop, submitted(executor, _kept, (self._order, range(start, stop)))))
-                if len(waiting) > _AHEAD * effort.processes:
-                    yield added()
-            while waiting:
-                yield added()
-
-
-def _kept(given: tuple[Order, range]) -> dict[str, Any]:
-    """What is kept of some steps; in another process."""
-    order, steps = given
-    evaluation = _evaluation(order)
-    summary = SeriesSummary(evaluation)
-    for part, _ in evaluation.resumed(steps):
-        summary.take(part)
-    return summary.arrays()
-
-
-@lru_cache(maxsize=1)
-def _evaluation(order: Order) -> Evaluation:
-    """The evaluation of this process: one thread, as there are other processes."""
-    found = order.evaluation()
-    return replace(found, model=ContactModel(found.model.input, threads=1))
+            yield part.start + part.count

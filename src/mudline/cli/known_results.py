@@ -18,12 +18,14 @@ from typing import Any, NamedTuple
 
 from mudline.diagnostics import PluginError
 from mudline.files import write_atomically
-from mudline.linting.cache import KEY, changed_since, program, state
 from mudline.linting.registry import plugin_files
 from mudline.results.cases import CaseSummary
+from mudline.running.remembered import changed_since, program, state
 
 LIST = ".mudline-results.json"
 _FORMAT = "mudline-results/1"
+KEY = 40
+"""Letters of a key."""
 
 
 class Kept(NamedTuple):
