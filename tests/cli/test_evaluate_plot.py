@@ -35,7 +35,7 @@ def test_steps_have_traces(place: Place, folder: Path) -> None:
     options = ("--positions", place(STEPS, "steps.csv"), "--plot", "p.svg", "-o", "out.json")
     assert run("evaluate", place(), *options).code == 0
     text = words(folder)
-    for label in ("time [s]", "total reaction", "deepest", "when the total reaction is largest"):
+    for label in ("time [s]", "total reaction", "least to largest", "when the total reaction is largest"):
         assert label in text, label
     assert (folder / "out.json").exists()
     first = words(folder)
@@ -108,17 +108,19 @@ def test_other_forms_are_wrong_usage(place: Place, name: str) -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (("--plot-elements", "1,7"), "--plot-elements: no evaluated element has the number 7"),
+        (("--plot-elements", "1"), "--plot-elements: force over penetration needs time steps, and this is one state"),
+        (("--positions", "steps.csv", "--plot-elements", "1,7"), "no evaluated element has the number 7"),
         (("--plot-elements", "1,b"), "--plot-elements: 'b' is not a number of an element; give numbers as 12,13"),
     ],
 )
 def test_what_cannot_be_drawn_is_wrong_usage(
     place: Place, folder: Path, options: tuple[str, str], message: str
 ) -> None:
+    place(STEPS, "steps.csv")
     outcome = run("evaluate", place(), "--plot", "p.svg", "-o", "out.json", *options)
     assert (outcome.code, outcome.out) == (2, "")
     assert message in outcome.err
-    assert [file.name for file in folder.iterdir()] == ["deck.keyxm"], "nothing is written"
+    assert sorted(file.name for file in folder.iterdir()) == ["deck.keyxm", "steps.csv"], "nothing is written"
 
 
 def test_elements_are_for_a_plot(place: Place) -> None:
@@ -126,7 +128,7 @@ def test_elements_are_for_a_plot(place: Place) -> None:
     assert (outcome.code, "--plot-elements is for a plot: give --plot" in outcome.err) == (2, True)
 
 
-def test_elements_whose_force_is_drawn(place: Place, folder: Path) -> None:
+def test_elements(place: Place, folder: Path) -> None:
     options = ("--positions", place(STEPS, "steps.csv"), "--plot", "p.svg", "-q")
     assert run("evaluate", place(), *options, "--plot-elements", "2, 1").code == 0
     text = words(folder)

@@ -225,7 +225,7 @@ def _kept(order: Order, path: Path | None) -> Kept:
         quiet, elements = View(quiet=True), evaluation.element_table()
         lines = line_watch(evaluation, suffix_of(path), None)
         consumers += [] if lines is None else [lines]
-        with result_files(evaluation, elements, path, quiet, as_text=False, synced=False) as sink:
+        with result_files(evaluation, elements, path, quiet, synced=False) as sink:
             _run(evaluation.parts(), [*consumers, sink])
             sink.finish(behind(evaluation, watch.warnings(), None, lines))
     warnings = watch.warnings()

@@ -7,12 +7,12 @@ import os
 import click
 from click.core import ParameterSource
 
-from mudline.cli import DONE, FOUND, evaluate_inputs, options
+from mudline.cli import DONE, FOUND, evaluate_inputs, options, pictures
 from mudline.cli.evaluate_inputs import EvaluateInputs, takes_inputs
 from mudline.cli.evaluate_one import Outputs, evaluate_one, evaluate_series
 from mudline.cli.evaluate_text import print_plan
 from mudline.cli.inputs import GivenDeck, refuses_bad_decks
-from mudline.cli.pictures import Pictures
+from mudline.cli.pictures import Picture
 from mudline.cli.result_files import form_of_file, has_library
 from mudline.cli.streams import emit, emit_json
 from mudline.cli.view import View
@@ -20,7 +20,6 @@ from mudline.files import is_url
 from mudline.quantities import csv_lines
 from mudline.results.evaluation import Prepared
 from mudline.results.forms import form_names, plan_rows
-from mudline.results.panels import PICTURES
 
 
 @click.command("evaluate")
@@ -32,13 +31,7 @@ from mudline.results.panels import PICTURES
     metavar=f"OUT.{'|'.join(form_names())}",
     help="Write the results; CSV and Parquet write OUT-nodes and OUT-summary beside it.",
 )
-@click.option(
-    "--plot",
-    "picture",
-    metavar=f"FILE.{'|'.join(PICTURES)}",
-    help="Draw the results (needs the extra mudline[plot]).",
-)
-@click.option("--plot-elements", metavar="N,M", help="Draw the force over penetration of these elements, by number.")
+@pictures.options
 @click.option("--plan", "plan_only", is_flag=True, help="Print what the deck needs and what is left out, and why.")
 @click.option(
     "--table",
@@ -84,7 +77,7 @@ def command(
         _refuse_with_summary()
         if inputs.positions is None:
             raise click.UsageError("--summary-only is for time steps: give a series with --positions")
-    wanted = Pictures.asked_for(picture, None, None, plot_elements, option="--plot")
+    wanted = Picture.asked_for(picture, plot_elements)
     form = form_of_file(output)
     if (form and not has_library(form)) or not wanted.has_library():
         return FOUND

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
 from mudline.cli.evaluate_inputs import read_file
 from mudline.cli.evaluate_text import print_comparison, print_evaluation, print_series
-from mudline.cli.pictures import Pictures
+from mudline.cli.pictures import Picture
 from mudline.cli.result_files import behind, beside, form_of_file, line_watch, result_files, write_tables
 from mudline.cli.streams import MOST_REPORTED, counted, emit, notify
 from mudline.cli.view import Progress, View, wants_bar
@@ -18,7 +17,6 @@ from mudline.contact import LawKind
 from mudline.results.against import Comparison, read_reference
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import ResultConsumer, Sink, Together, tables_as_text, text_form
-from mudline.results.plot_data import PlotData
 from mudline.results.series import SeriesSummary, series_tables
 from mudline.results.totals import SlowSuction, StepSummary
 from mudline.results.warnings import ContactWarning, ContactWatch, caption
@@ -33,7 +31,7 @@ class Outputs:
     """Where the results of one deck go, and what is shown of them."""
 
     output: str | None
-    pictures: Pictures
+    picture: Picture
     against: str | None
     table: str
     output_format: str
@@ -44,7 +42,7 @@ def evaluate_one(evaluation: Evaluation, outputs: Outputs, view: View) -> list[C
     against, output, output_format = outputs.against, outputs.output, outputs.output_format
     reference = read_file(against, lambda file: read_reference(file, evaluation)) if against else None
     comparison = None if reference is None else Comparison(evaluation, reference)
-    drawing = outputs.pictures.data(partial(PlotData.of_evaluation, evaluation))
+    drawing = outputs.picture.data(evaluation)
     if not view.quiet:
         _notify_before(evaluation, comparison)
     shown = "" if output else output_format
@@ -59,7 +57,7 @@ def evaluate_one(evaluation: Evaluation, outputs: Outputs, view: View) -> list[C
         warnings = watch.warnings()
         sink.finish(behind(evaluation, warnings, comparison, lines))
     if drawing is not None:
-        outputs.pictures.draw(drawing, caption(warnings), view)
+        outputs.picture.draw(drawing, caption(warnings), view)
     if not view.quiet:
         _notify_warnings(warnings)
         if note := watch.note():
@@ -104,7 +102,7 @@ def _sink(
     elements = evaluation.element_table(None if comparison is None else comparison.others)
     form = outputs.output_format
     if outputs.output:
-        return result_files(evaluation, elements, Path(outputs.output), view, as_text=False)
+        return result_files(evaluation, elements, Path(outputs.output), view)
     if form in {"json", "csv"}:
         tables = {"nodes": evaluation.node_table, "summary": evaluation.line_table}
         rows = tables[outputs.table]() if form == "csv" and outputs.table in tables else elements

@@ -35,7 +35,6 @@ COMMANDS = {
     "curves": "Show the force-embedment curves of a deck as they are evaluated.",
     "evaluate": "Evaluate the contact forces and stiffnesses of a deck.",
     "batch": "Evaluate many decks or load cases: a row and a result file each.",
-    "plot": "Draw the results in a file that evaluate wrote.",
     "index": "Bring decks into an archive.",
     "query": "Answer a question about an archive in SQL.",
     "study": "Measure precision, stability and cost on a deck.",

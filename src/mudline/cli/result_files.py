@@ -53,7 +53,7 @@ def has_library(form: str) -> bool:
 
 @contextmanager
 def result_files(
-    evaluation: Evaluation, elements: ElementTable, path: Path, view: View, *, as_text: bool, synced: bool = True
+    evaluation: Evaluation, elements: ElementTable, path: Path, view: View, *, synced: bool = True
 ) -> Iterator[Sink]:
     """The file of an evaluation by its suffix, or several files; they exist when all is written, or not at all.
 
@@ -62,7 +62,7 @@ def result_files(
     form = form_module(suffix_of(path))
     with ExitStack() as stack:
         streams = [stack.enter_context(writing(one, synced=synced)) for one in (path, *beside(path).values())]
-        output = Output(evaluation, elements, streams, path.parent, partial(tracked, view=view), as_text)
+        output = Output(evaluation, elements, streams, path.parent, partial(tracked, view=view))
         yield stack.enter_context(form.opened(output))
 
 
