@@ -76,9 +76,7 @@ def named_cases(files: Sequence[Input], form: str) -> tuple[str, list[Case]]:
         stem if all(counts[one.casefold()] == 1 for one in (stem, *_others(stem, form))) else name
         for stem, name in zip(plain, inside, strict=True)
     ]
-    return common, [
-        Case(file, name, f"{stem}.{form}") for file, name, stem in zip(files, inside, stems, strict=True)
-    ]
+    return common, [Case(file, name, f"{stem}.{form}") for file, name, stem in zip(files, inside, stems, strict=True)]
 
 
 def _inside(path: str, common: str) -> str:
@@ -111,7 +109,10 @@ def check_positions(given: str | None) -> None:
 
 
 def positions_of(case: Case, given: str | None) -> str | None:
-    """The file of a deck: one for all, one by a pattern, one of a folder, or none; raises click.ClickException, OSError."""
+    """The file of a deck: one for all, one by a pattern, one of a folder, or none.
+
+    Raises click.ClickException where there is none or several, OSError.
+    """
     if given is None or _is_file(given):
         return given
     if _there(given):
@@ -204,7 +205,12 @@ def evaluate_case(order: Order) -> Done:
     for path in results_of(order.case, order.seen(order.output)):
         with suppress(OSError):
             storage.remove(path) if is_url(path) else Path(path).unlink()
-    return Done(CaseSummary(name, "failed", why.replace(f"{near}{os.sep}", "")))
+    return failed(name, why.replace(f"{near}{os.sep}", ""))
+
+
+def failed(name: str, why: str) -> Done:
+    """The row of a deck that cannot be evaluated."""
+    return Done(CaseSummary(name, "failed", why))
 
 
 def results_of(case: Case, output: str) -> list[str]:
@@ -235,7 +241,7 @@ def _evaluated(order: Order, near: Path) -> tuple[CaseSummary, list[ContactWarni
         written = [path, *write_tables(series_tables(series), path).values()]
     else:
         lines = line_watch(evaluation, suffix_of(path), None)
-        with result_files(evaluation, evaluation.element_table(), path, View(quiet=True), as_text=False) as sink:
+        with result_files(evaluation, evaluation.element_table(), path, View(quiet=True)) as sink:
             _run(evaluation, [row, watch, *([] if lines is None else [lines]), sink])
             sink.finish(behind(evaluation, watch.warnings(), None, lines))
         written = [path, *beside(path).values()]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import os
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import closing
+from contextlib import closing, contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
@@ -20,6 +20,7 @@ from mudline.cli.batch_cases import (
     Order,
     check_positions,
     evaluate_case,
+    failed,
     named_cases,
     positions_of,
     results_of,
@@ -105,7 +106,14 @@ def command(
     folder = _made(output)
     order = Order(cases[0], b"", inputs, folder, units, summary_only, os.getcwd())  # noqa: PTH109 - sent as text
     memory = _memory(folder, repr((inputs, units, form, summary_only)))
-    done, taken = _run(_tasks(found, cases, order, memory, fresh=no_cache), cases, order, memory, jobs, scheduler, view)
+    tasks = _tasks(found, cases, order, memory, fresh=no_cache)
+    with (
+        _saved(memory, cases, folder),
+        Progress(len(cases), view, shown=wants_bar(view)) as progress,
+        executor(jobs, scheduler) as pool,
+        closing(in_order(pool, evaluate_case, tasks, len(cases))) as results,
+    ):
+        done, taken = _taken(results, memory, progress)
     ranked = worst_first(one.row for one in done)
     summary = _write_summary(ranked, folder)
     if not view.quiet:
@@ -132,10 +140,12 @@ def _once(files: Iterable[Input]) -> list[Input]:
 
 
 def _made(output: str) -> str:
-    """The folder or the URL of results; ends the command for a folder that cannot be made."""
+    """The folder or the URL of results; ends the command for a folder that cannot be made, and for no such URL."""
     try:
         folder = storage.as_path(output)
-        if not is_url(folder):
+        if is_url(folder):
+            storage.exists(folder)
+        else:
             Path(folder).mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise click.ClickException(f"{slashed(output)}: cannot be created: {reason(error)}") from error
@@ -146,19 +156,21 @@ def _made(output: str) -> str:
 
 
 class _Task(NamedTuple):
-    """A deck, the key of its results and the files beside it that they depend on; `known` is what needs no work."""
+    """The order for a deck, the key of its results, the files that it depends on; `known` is what needs no work."""
 
+    order: Order
     key: str = ""
     files: Sequence[str] = ()
     known: Done | None = None
 
 
 def _tasks(
-    found: Inputs, cases: Sequence[Case], order: Order, memory: Memory | None, *, fresh: bool
+    found: Inputs, cases: Sequence[Case], first: Order, memory: Memory | None, *, fresh: bool
 ) -> Iterator[tuple[_Task, Order | None]]:
     """What is to do for each deck; one that cannot be read, or has no positions, has failed."""
     for case in cases:
-        name, given = case.file.name, order.inputs
+        name, given = case.file.name, first.inputs
+        order = first._replace(case=case)
         try:
             data, positions = case.file.read(), positions_of(case, given.positions)
             files = [path for path in (positions, given.elements) if path]
@@ -166,16 +178,16 @@ def _tasks(
             marks = [f"{path} {storage.size_and_date(path) if is_url(path) else ''}" for path in files]
         except OSError as error:
             found.fail(f"{name}: {reason(error)}")
-            yield _Task(known=Done(CaseSummary(name, "failed", reason(error)))), None
+            yield _Task(order, known=failed(name, reason(error))), None
             continue
         except click.ClickException as error:
-            yield _Task(known=Done(CaseSummary(name, "failed", error.message))), None
+            yield _Task(order, known=failed(name, error.message)), None
             continue
         key = "" if memory is None else memory.key(name, case.result, data, *marks)
         known = None if memory is None or fresh else _known(memory, key, order.output)
-        wanted = order._replace(case=case, data=data, inputs=replace(given, positions=positions))
+        order = order._replace(data=data, inputs=replace(given, positions=positions))
         near = [os.path.abspath(path) for path in files if not is_url(path)]  # noqa: PTH100 - links stay what they are
-        yield _Task(key, near, known), None if known else wanted
+        yield _Task(order, key, near, known), None if known else order
 
 
 def _keep_inputs(case: Case, files: Sequence[str], output: str) -> None:
@@ -186,39 +198,35 @@ def _keep_inputs(case: Case, files: Sequence[str], output: str) -> None:
             raise click.ClickException(f"its results would replace {slashed(path)}: give another folder with -o")
 
 
-def _run(
-    tasks: Iterator[tuple[_Task, Order | None]],
-    cases: Sequence[Case],
-    order: Order,
-    memory: Memory | None,
-    jobs: int,
-    scheduler: str | None,
-    view: View,
+def _taken(
+    results: Iterable[tuple[_Task, Done | None]], memory: Memory | None, progress: Progress
 ) -> tuple[list[Done], int]:
-    """What each deck gave, and how many were taken over; what is done is remembered, also when it is interrupted."""
-    all_done: list[Done] = []
+    """What each deck gave, and how many were taken over; what is new is remembered."""
+    done: list[Done] = []
     taken = 0
+    for task, made in results:
+        one = made or task.known or failed(task.order.case.file.name, "not evaluated")
+        done.append(one)
+        taken += made is None and not one.row.failed
+        if made is not None and memory is not None and not one.row.failed:
+            _remember(memory, task, one)
+        progress.advance()
+    return done, taken
+
+
+@contextmanager
+def _saved(memory: Memory | None, cases: Sequence[Case], folder: str) -> Iterator[None]:
+    """What is done is remembered, also when the run is interrupted; half-written files are removed then."""
     try:
-        with Progress(len(cases), view, shown=wants_bar(view)) as progress, executor(jobs, scheduler) as pool:
-            with closing(in_order(pool, evaluate_case, tasks, len(cases))) as results:
-                for task, made in results:
-                    done = made or task.known
-                    if done is None:
-                        raise AssertionError("a deck is neither known nor evaluated")
-                    all_done.append(done)
-                    if made is not None and memory is not None:
-                        _remember(memory, task, made, order.output)
-                    taken += made is None and not done.row.failed
-                    progress.advance()
+        yield
     except BaseException:
-        if not is_url(order.output):
-            for place in {Path(path).parent for case in cases for path in results_of(case, order.output)}:
+        if not is_url(folder):
+            for place in {Path(folder, case.result).parent for case in cases}:
                 remove_left(str(place))  # of processes that were ended
         raise
     finally:
         if memory is not None:
             memory.save()
-    return all_done, taken
 
 
 # -------------------------------------------------------------------------------------------------------- remembering
@@ -239,10 +247,8 @@ def _known(memory: Memory, key: str, output: str) -> Done | None:
     return Done(CaseSummary(**held["row"]), [(code, text) for code, text in held["warnings"]])
 
 
-def _remember(memory: Memory, task: _Task, done: Done, output: str) -> None:
-    if done.row.failed:
-        return
-    written = {name: _mark(storage.join(output, name)) for name in done.written}
+def _remember(memory: Memory, task: _Task, done: Done) -> None:
+    written = {name: _mark(storage.join(task.order.output, name)) for name in done.written}
     held = {"row": done.row.row(), "warnings": done.warnings, "written": written}
     memory.put(task.key, held, [*done.read, *task.files])
 

@@ -9,7 +9,7 @@ from click.core import ParameterSource
 
 from mudline.cli import DONE, FOUND, evaluate_inputs, options, pictures
 from mudline.cli.evaluate_inputs import EvaluateInputs, takes_inputs
-from mudline.cli.evaluate_one import Outputs, evaluate_one, evaluate_series
+from mudline.cli.evaluate_one import evaluate_one, evaluate_series
 from mudline.cli.evaluate_text import print_plan
 from mudline.cli.inputs import GivenDeck, refuses_bad_decks
 from mudline.cli.pictures import Picture
@@ -91,7 +91,15 @@ def command(
             raise click.UsageError(f"--summary-only is for time steps: {inputs.positions} is one state")
         warnings = evaluate_series(evaluation, output, table, output_format, view)
     else:
-        warnings = evaluate_one(evaluation, Outputs(output, wanted, against, table, output_format), view)
+        warnings = evaluate_one(
+            evaluation,
+            view,
+            output=output,
+            picture=wanted,
+            against=against,
+            table=table,
+            output_format=output_format,
+        )
     return FOUND if warnings and fail_on == "warning" else DONE
 
 
