@@ -12,6 +12,7 @@ import mudline
 from mudline.quantities import CASES, ELEMENTS, LINES, NODES, Quantity
 from mudline.results.cases import CaseSummary
 from mudline.results.evaluation import Evaluation, evaluate_scene
+from mudline.scene.model import resolve
 from tests.results.written import arrays_of, csv_of, json_of
 from tests.samples import SAMPLES
 
@@ -19,7 +20,7 @@ ROOT = Path(__file__).parents[1]
 
 
 def evaluated() -> Evaluation:
-    return evaluate_scene(mudline.read(SAMPLES / "slope-friction.keyxm").scene())
+    return evaluate_scene(resolve(mudline.read(SAMPLES / "slope-friction.keyxm")))
 
 
 def flat_names(quantities: dict[str, Quantity]) -> list[str]:

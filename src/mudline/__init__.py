@@ -12,13 +12,21 @@ from __future__ import annotations
 TYPE_CHECKING = False  # as in typing, whose import would take longer than `mudline --version` does otherwise
 
 if TYPE_CHECKING:
-    from mudline.api import Deck, from_json, from_keyword, from_yaml, lint, read, read_positions
+    from mudline.api import (
+        Deck,
+        Scene,
+        contact_warnings,
+        from_json,
+        from_keyword,
+        from_yaml,
+        lint,
+        read,
+        read_positions,
+    )
     from mudline.contact import ContactModel, ContactResult, ContactState, Plan, PositionError
     from mudline.curves import CurveError, ForceCurve
     from mudline.diagnostics import DeckError, Diagnostic, Severity
-    from mudline.results.reading import read_result
-    from mudline.results.warnings import ContactWarning, contact_warnings
-    from mudline.scene.model import Scene
+    from mudline.results.warnings import ContactWarning
 
 __version__ = "0.1.0"
 
@@ -44,19 +52,26 @@ __all__ = [
     "lint",
     "read",
     "read_positions",
-    "read_result",
 ]
 
 _HOMES = {
     name: home
     for home, names in {
-        "api": ["Deck", "from_json", "from_keyword", "from_yaml", "lint", "read", "read_positions"],
+        "api": [
+            "Deck",
+            "Scene",
+            "contact_warnings",
+            "from_json",
+            "from_keyword",
+            "from_yaml",
+            "lint",
+            "read",
+            "read_positions",
+        ],
         "contact": ["ContactModel", "ContactResult", "ContactState", "Plan", "PositionError"],
         "curves": ["CurveError", "ForceCurve"],
         "diagnostics": ["DeckError", "Diagnostic", "Severity"],
-        "results.reading": ["read_result"],
-        "results.warnings": ["ContactWarning", "contact_warnings"],
-        "scene.model": ["Scene"],
+        "results.warnings": ["ContactWarning"],
     }.items()
     for name in names
 }

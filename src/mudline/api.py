@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import os
 import re
+from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from mudline.deck import model
 from mudline.deck.forms import KEYWORD
@@ -14,10 +15,17 @@ from mudline.deck.loading import dump, load_bytes, load_path
 from mudline.diagnostics import Diagnostic
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select as _chosen
-from mudline.scene.model import Scene, resolve
+from mudline.scene import model as scenes
 
 if TYPE_CHECKING:
+    from mudline.contact import ContactModel, ContactResult
+    from mudline.contact.plan import Backend
+    from mudline.curves import ForceCurve
+    from mudline.deck.parameters import EvaluatedDeck
+    from mudline.results.warnings import ContactWarning
+    from mudline.scene.numbering import Floats, Ids, Indices
     from mudline.scene.positions import Positions
+    from mudline.scene.resolved import ByName
 
 _KEYWORD = re.compile(r"\s*[$*][A-Z][A-Z &/-]*\s*", re.IGNORECASE)
 _SECTION = re.compile(r"^\s*\$[A-Z]", re.IGNORECASE | re.MULTILINE)
@@ -52,7 +60,122 @@ class Deck(model.Deck):
         Raises:
             DeckError: the deck has errors on which a result depends.
         """
-        return resolve(self.alone).require()
+        return Scene(scenes.resolve(self.alone).require())
+
+
+class Scene:
+    """A deck resolved: equations evaluated, sets expanded, everything as arrays in the deck's units; X is up.
+
+    `Deck.scene` makes scenes; `contact` makes the evaluator. n nodes, m elements.
+    """
+
+    def __init__(self, resolved: scenes.Scene) -> None:
+        self._resolved = resolved
+
+    def __repr__(self) -> str:
+        return repr(self._resolved)
+
+    def _repr_html_(self) -> str:
+        """Counts, laws, curves and sets, for notebooks."""
+        from mudline.html_repr import html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
+
+        counts = (
+            ("nodes", len(self.node_ids)),
+            ("elements", len(self.element_ids)),
+            ("sets", len(self.sets)),
+            ("curves", len(self.curves)),
+        )
+        laws = Counter(self.law_names)
+        curves = ((name, len(curve.ratios), float(curve.forces.max())) for name, curve in self.curves.items())
+        sets = ((name, len(numbers)) for name, numbers in self.sets.items())
+        return html_page(
+            "Scene",
+            f"{self.deck.file}, {self.units}",
+            html_table(("", "number"), counts, 4),
+            html_table(("law", "elements"), laws.items(), len(laws)),
+            html_table(("curve", "points", "largest force"), curves, len(self.curves)),
+            html_table(("set", "elements"), sets, len(self.sets)),
+        )
+
+    @property
+    def deck(self) -> EvaluatedDeck:
+        """The deck with its equations evaluated."""
+        return self._resolved.deck
+
+    @property
+    def source(self) -> str:
+        """The deck: the file that it was made from, or its own."""
+        return self._resolved.source
+
+    @property
+    def units(self) -> str:
+        """The unit system: "metric", "imperial" or "user"."""
+        return self._resolved.units
+
+    @property
+    def node_ids(self) -> Ids:
+        """Node numbers (n,), in the order in which they first appear."""
+        return self._resolved.node_ids
+
+    @property
+    def coordinates(self) -> Floats:
+        """Node coordinates (n, 3), X up."""
+        return self._resolved.coordinates
+
+    @property
+    def element_ids(self) -> Ids:
+        """Element numbers (m,)."""
+        return self._resolved.element_ids
+
+    @property
+    def element_nodes(self) -> Indices:
+        """Indices (m, 2) of each element's nodes."""
+        return self._resolved.element_nodes
+
+    @property
+    def length(self) -> Floats:
+        """Element lengths (m,) between the deck's coordinates."""
+        return self._resolved.length
+
+    @property
+    def diameter(self) -> Floats:
+        """External diameters (m,): Do, else Dd of a FLEXIBLE section; NaN where there is none."""
+        return self._resolved.diameter
+
+    @property
+    def law_names(self) -> list[str]:
+        """`curve:NAME`, `linear`, `nodal`, `rigid` or `none` for each element."""
+        return self._resolved.law_names
+
+    @property
+    def law_sets(self) -> list[str | None]:
+        """Name of the set through which each element got its law; None without a law."""
+        return self._resolved.law_sets
+
+    @property
+    def sets(self) -> ByName[Ids]:
+        """Element numbers (k,) of every set by its name, found without case; ALL included."""
+        return self._resolved.sets
+
+    @property
+    def curves(self) -> ByName[ForceCurve]:
+        """The force-embedment curves by name, found without case; one of `*EMBEDMENT` has the name of its set.
+
+        Of two curves of one name the later one holds, a named one before that of a set.
+        """
+        return self._resolved.curves
+
+    def contact(self, tension: Literal["keep", "cut"] = "keep", *, backend: Backend = "auto") -> ContactModel:
+        """The evaluator of this scene, with only the stages it needs.
+
+        `tension` "cut" sets force and stiffness of curves to 0 where they pull. `backend` "fast" steps through history
+        with compiled loops (extra `mudline[fast]`), "numpy" never does, "auto" does where a series is so long that
+        compiling pays.
+
+        Raises ImportError where "fast" is not installed, and DeckError for the findings that keep the scene from being
+        evaluated, and (RUN001) for what no check covers.
+        """
+        return self._resolved.contact(tension, backend=backend)
 
 
 def read(path: str | os.PathLike[str], *, units: str | None = None) -> Deck:
@@ -84,7 +207,18 @@ def read_positions(path: str | os.PathLike[str], scene: Scene) -> Positions:
     """
     from mudline.scene import positions  # noqa: PLC0415 - decks alone do without it
 
-    return positions.read_positions(Path(path), scene.nodes)
+    return positions.read_positions(Path(path), scene._resolved.nodes)  # noqa: SLF001 - a class of this module
+
+
+def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | None = None) -> list[ContactWarning]:
+    """Return what is doubtful in a result of `scene.contact().evaluate(positions)`, in the order of the deck.
+
+    `positions` are those that were evaluated, (nodes, 3) or (steps, nodes, 3); None stands for the deck's own
+    coordinates, whose reaction is compared with the submerged weight.
+    """
+    from mudline.results import warnings  # noqa: PLC0415 - decks alone do without it
+
+    return warnings.contact_warnings(scene._resolved, result, positions)  # noqa: SLF001 - as above
 
 
 def from_keyword(text: str | bytes, *, units: str | None = None) -> Deck:

@@ -38,7 +38,7 @@ USED = {
 }
 INTERNAL = {
     "deck": "alone base_of bases damaged diagnose folder_of incomplete lost origin own_sections place require written",
-    "scene": "bed context extensions floor grant laws nodes section_table set_table table",
+    "scene": "context extensions laws nodes resistance seabed section_table set_table table",
 }
 
 
@@ -78,9 +78,10 @@ def held(deck: mudline.Deck) -> list[object]:
     series = np.repeat(scene.coordinates[np.newaxis], 2, axis=0)
     parts = list(contact.stream(series, times=np.arange(2.0)))
     tangent = contact.tangent(scene.coordinates, still, contact.initial_state(), 0.1)
-    evaluation = evaluate_scene(scene)
+    resolved = resolve(deck)
+    evaluation = evaluate_scene(resolved)
     begin = contact.initial_state()
-    more = [contact.stiffest(), evaluation, scene.law_arrays(), *parts]
+    more = [contact.stiffest(), evaluation, resolved.law_arrays(), *parts]
     return [deck, scene, contact, result, begin, state, tangent, *more]
 
 
@@ -113,7 +114,7 @@ def test_representations_of_the_main_objects(monkeypatch: pytest.MonkeyPatch) ->
     _, after = contact.step(scene.coordinates, None, before)
     assert repr(before) == "<ContactState before the first step: friction>"
     assert repr(after) == "<ContactState after a step of 201 nodes: friction>"
-    assert repr(evaluate_scene(scene)) == (
+    assert repr(evaluate_scene(resolve(deck))) == (
         "<Evaluation of 'scr-touchdown.keyxm': metric, 1 step, 200 elements, 201 nodes>"
     )
     assert repr(contact.stiffest()) == "<Stiffest: curve, friction>"

@@ -11,7 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import mudline
-from mudline.results.plots.figure import Cycle, draw_path
+from mudline.results.plots.over_time import Cycle, draw_path
+from mudline.scene.model import resolve
 from mudline.scene.positions import read_positions
 
 _ELEMENT = 0
@@ -40,7 +41,7 @@ _FINER = 5
 
 def cycle(samples: Path) -> Cycle:
     """Evaluate the sample, with places between those of its file: penetration in mm, force in kN/m, states."""
-    scene = mudline.read(samples / "full-cycle.keyxm").scene()
+    scene = resolve(mudline.read(samples / "full-cycle.keyxm"))
     given = read_positions(samples / "full-cycle.csv", scene.nodes)
     assert given.time is not None
     steps = np.arange(len(given.time))

@@ -13,12 +13,13 @@ from mudline.contact.result import Part
 from mudline.contact.touchdown import line_summaries
 from mudline.results.cases import CaseSummary, CaseWatch, worst_first, write_parquet
 from mudline.results.evaluation import Evaluation, evaluate_scene
+from mudline.scene.model import resolve
 from mudline.scene.positions import read_positions
 from tests.samples import SAMPLES
 
 
 def heave() -> Evaluation:
-    scene = mudline.read(SAMPLES / "scr-touchdown.keyxm").scene()
+    scene = resolve(mudline.read(SAMPLES / "scr-touchdown.keyxm"))
     return evaluate_scene(scene, read_positions(SAMPLES / "positions.csv", scene.nodes))
 
 

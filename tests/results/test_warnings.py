@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mudline import ContactWarning, contact_warnings
+from mudline import ContactWarning
 from mudline.results.evaluation import evaluate_scene
-from mudline.results.warnings import ContactWatch, caption, seabed_warnings
+from mudline.results.warnings import ContactWatch, caption, contact_warnings, seabed_warnings
 from mudline.scene.numbering import Floats
 from mudline.scene.positions import Positions
 from tests.builders.scenes import legal_scene, scene_of

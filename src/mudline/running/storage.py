@@ -79,6 +79,12 @@ def write(url: str, data: bytes) -> None:
             stream.write(data)
 
 
+def remove(url: str) -> None:
+    """Remove a file; raises UrlError."""
+    with _opened(url) as (system, inside):
+        system.rm_file(inside)
+
+
 @contextmanager
 def _opened(url: str) -> Iterator[tuple[Any, str]]:
     """The file system of a URL and the URL's path in it; what a library of a protocol raises becomes an OSError."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
@@ -29,43 +28,10 @@ if TYPE_CHECKING:
     from mudline.contact.plan import Backend
     from mudline.scene.csv_file import ExternalElements
 
-_INTERNAL = frozenset(
-    [
-        "blocking",
-        "context",
-        "describe",
-        "errors",
-        "extensions",
-        "findings",
-        "law_arrays",
-        "law_name",
-        "laws",
-        "mass_per_length",
-        "nodal",
-        "nodes",
-        "noticed",
-        "problems",
-        "refusal",
-        "require",
-        "require_evaluable",
-        "resistance",
-        "seabed",
-        "section_table",
-        "set_law",
-        "set_table",
-        "submerged_weight",
-        "table",
-    ]
-)
-"""What the rest of the program uses of a scene; `dir` leaves it out."""
-
 
 @dataclass(repr=False)
 class Scene(ResolvedDeck):
-    """A resolved deck with what is wrong with it, and its evaluator.
-
-    `Deck.scene` makes scenes; `contact` makes the evaluator.
-    """
+    """A resolved deck with what is wrong with it, and its evaluator: what the packages use of `mudline.Scene`."""
 
     def __repr__(self) -> str:
         counts = [
@@ -77,34 +43,6 @@ class Scene(ResolvedDeck):
         if errors := len(self.errors()):
             counts.append(counted(errors, "error"))
         return outline(f"Scene of {cut(self.deck.file, 80)!r}", ", ".join([self.units, *counts]))
-
-    def _repr_html_(self) -> str:
-        """Counts, laws, curves and sets, for notebooks."""
-        from mudline.html_repr import html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
-
-        counts = (
-            (kind, len(things))
-            for kind, things in (
-                ("nodes", self.node_ids),
-                ("elements", self.element_ids),
-                ("sets", self.sets),
-                ("curves", self.curves),
-            )
-        )
-        laws = Counter(self.law_names)
-        curves = ((name, len(curve.ratios), float(curve.forces.max())) for name, curve in self.curves.items())
-        sets = ((name, len(numbers)) for name, numbers in self.sets.items())
-        return html_page(
-            "Scene",
-            f"{self.deck.file}, {self.units}",
-            html_table(("", "number"), counts, 4),
-            html_table(("law", "elements"), laws.items(), len(laws)),
-            html_table(("curve", "points", "largest force"), curves, len(self.curves)),
-            html_table(("set", "elements"), sets, len(self.sets)),
-        )
-
-    def __dir__(self) -> list[str]:
-        return [name for name in super().__dir__() if name not in _INTERNAL]
 
     @cached_property
     def findings(self) -> list[Problem]:
@@ -141,14 +79,7 @@ class Scene(ResolvedDeck):
         return self
 
     def contact(self, tension: Literal["keep", "cut"] = "keep", *, backend: Backend = "auto") -> ContactModel:
-        """The evaluator of this scene, with only the stages it needs.
-
-        `backend` "fast" steps through history with compiled loops (extra `mudline[fast]`), "numpy" never does, "auto"
-        does where a series is so long that compiling pays.
-
-        Raises ImportError where "fast" is not installed, and DeckError for the findings that keep the scene from being
-        evaluated, and (RUN001) for what no check covers.
-        """
+        """The evaluator of this scene, as `mudline.Scene.contact` says."""
         from mudline.contact.model import ContactModel  # noqa: PLC0415 - as below
 
         return ContactModel(self.contact_input(tension), backend=backend)

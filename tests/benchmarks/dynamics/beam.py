@@ -16,6 +16,7 @@ import mudline
 from mudline.contact import ContactModel
 from mudline.contact.arrays import FloatArray
 from mudline.scene.deck_values import number
+from mudline.scene.model import resolve
 from tests.benchmarks.runner import ROOT
 
 DECKS = ROOT / "docs" / "studies" / "benchmark"
@@ -86,7 +87,7 @@ def in_line_order(contact: ContactModel) -> ContactModel:
 
 def read_beam(name: str) -> Beam:
     """The line of a deck in docs/studies/benchmark: one set, `OPTION=FLEXIBLE`, elements of one length along Y."""
-    scene = mudline.read(DECKS / name).scene()
+    scene = resolve(mudline.read(DECKS / name))
     section = scene.section_table.sections[0].entry.flexible
     if section is None:
         raise ValueError(f"{name} has no flexible section")

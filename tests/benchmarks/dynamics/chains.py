@@ -18,6 +18,7 @@ import mudline
 from mudline.contact import ContactModel
 from mudline.contact.arrays import FloatArray
 from mudline.contact.tables import ContactState
+from mudline.scene.model import resolve
 from mudline.scene.sections import surroundings
 from tests.benchmarks.dynamics.beam import DECKS, in_line_order
 
@@ -100,7 +101,7 @@ class Chain:
 
 def read_chain(case: Case) -> Chain:
     """The chain of a deck, with one section, `OPTION=MOORING`."""
-    scene = mudline.read(DECKS / case.deck).scene()
+    scene = resolve(mudline.read(DECKS / case.deck))
     section = scene.section_table.sections[0].entry.mooring
     if section is None:
         raise ValueError(f"{case.deck} has no mooring section")
