@@ -11,7 +11,11 @@ import pytest
 
 from mudline import cache_folder
 from mudline.cli import lint_run
+from mudline.cli.configured import Configured
+from mudline.cli.inputs import Input, Inputs
+from mudline.cli.known_findings import known_findings
 from mudline.diagnostics import Diagnostic, Severity
+from mudline.linting.configuration import Given
 from mudline.linting.engine import LintSettings
 from mudline.linting.fixing import FileReport, lint_one
 from mudline.linting.registry import rules
@@ -192,7 +196,7 @@ def test_a_file_that_is_missing_is_reported_beside_known_ones(place: Place, lint
     assert len(linted) == 1
 
 
-def test_findings_come_back_whole(folder: Path, linted: Linted) -> None:
+def test_findings_come_back_whole(linted: Linted) -> None:
     follows = Diagnostic("a", "REF006", "undefined-node", Severity.WARNING, "m", 2, 1, 2, 2)
     cause = Diagnostic("a", "SYN009", "unknown-keyword", Severity.ERROR, "m", 1, 1, 1, 2, None, True, (follows,))
     found = (*lint_one("a", UNSORTED.encode() + BAD_NUMBER.encode(), LintSettings(rules())).found, cause)
