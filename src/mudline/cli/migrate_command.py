@@ -9,7 +9,7 @@ import click
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_changes
 from mudline.cli.inputs import Input, collect
-from mudline.cli.streams import emit_deck, notify, notify_diagnostics, write_bytes
+from mudline.cli.streams import MOST_REPORTED, emit_deck, notify, notify_diagnostics, write_bytes
 from mudline.cli.view import View
 from mudline.deck.forms import form_of
 from mudline.deck.loading import dump, load_bytes
@@ -17,8 +17,6 @@ from mudline.diagnostics import DeckError
 from mudline.migration.migrating import Migration, Verdict, legacy_blocks, migrate, verify
 from mudline.migration.refusals import Continuations, misspelt
 from mudline.short_repr import counted
-
-_MOST_REPORTED = 20
 
 
 @click.command("migrate")
@@ -103,7 +101,7 @@ class _Run:
         return dump(migration.deck, form).encode()
 
     def _proved(self, verdict: Verdict) -> bool:
-        for difference in verdict.differences[:_MOST_REPORTED]:
+        for difference in verdict.differences[:MOST_REPORTED]:
             notify(f"{self.file.name}: {difference.what}: {difference.text}")
         if verdict.differences:
             count = counted(len(verdict.differences), "difference")

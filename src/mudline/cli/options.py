@@ -7,8 +7,10 @@ from collections.abc import Callable
 from functools import wraps
 
 import click
+from click.core import ParameterSource
 
 from mudline.cli.view import View
+from mudline.running.executors import RunError, check_address
 
 Command = Callable[..., int]
 
@@ -35,6 +37,39 @@ def common(command: Command) -> Command:
     ):
         viewed = option(viewed)
     return viewed
+
+
+def running(command: Command) -> Command:
+    """`--jobs` and `--scheduler`, for `executor`; ends the command where items cannot be done elsewhere."""
+
+    @wraps(command)
+    def run(*, scheduler: str | None, **others: object) -> int:
+        given = click.get_current_context().get_parameter_source("jobs") is not ParameterSource.DEFAULT
+        if scheduler is not None and given:
+            raise click.UsageError("--jobs is for processes without --scheduler: leave one of them out")
+        try:
+            if scheduler is not None:
+                check_address(scheduler)
+            return command(scheduler=scheduler, **others)
+        except RunError as error:
+            raise click.ClickException(str(error)) from error
+
+    for option in (
+        click.option(
+            "--scheduler",
+            metavar="ADDRESS",
+            help="Use the workers of a Dask scheduler: tcp://HOST:PORT or tls://HOST:PORT (needs mudline[cluster]).",
+        ),
+        click.option(
+            "--jobs",
+            type=click.IntRange(min=0),
+            default=0,
+            metavar="N",
+            help="Use at most N processes, when that pays; 0 (default): one for each processor.",
+        ),
+    ):
+        run = option(run)
+    return run
 
 
 units = click.option(
