@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from shutil import rmtree
 
 import pytest
 
@@ -50,10 +51,14 @@ def test_output_is_that_of_a_run_without_a_scheduler(tmp_path: Path, monkeypatch
             ("lint", "decks", "missing.keyxm", "--output-format", "json", "--no-cache"),
             ("lint", "decks", "-", "--no-cache"),
             ("validate", "decks", "--output-format", "json", "-v"),
+            ("batch", "decks", "-o", "results", "--form", "csv", "--output-format", "json", "--no-cache", "-q"),
         ):
             alone = run(*words, stdin=BAD_NUMBER.encode())
+            rmtree("results", ignore_errors=True)
             assert run(*words, "--scheduler", address, stdin=BAD_NUMBER.encode()) == alone
             assert alone.code in (1, 2)
+    results = {path.name for path in (tmp_path / "here" / "results").iterdir()}
+    assert {f"{number:02}.csv" for number in range(30) if number % 4 in {0, 2}} < results
 
 
 def test_a_scheduler_that_is_not_there_is_named(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

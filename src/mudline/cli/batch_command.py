@@ -44,28 +44,35 @@ _MEMORY = ".mudline-batch"
 """The file in the folder of results that says from what they were made."""
 
 
-@click.command("batch")
+@options.command("batch")
 @takes_inputs(
     "Read the positions of the nodes: one file for all decks, a folder with a file NAME.csv, .npz or .npy for each, "
     "or a pattern such as {folder}/{name}.csv."
 )
 @evaluate_inputs.summary_only
-@click.option(
+@options.option(
     "-o",
     "--output",
+    group=options.OUTPUT,
     required=True,
     metavar="DIR",
     help="Write a result file for each deck and the rows as summary.parquet into this folder, or below this URL.",
 )
-@click.option(
+@options.option(
     "--form",
+    group=options.OUTPUT,
     type=click.Choice(_FORMS),
     help="Write result files in this form; without it Parquet, or NPZ where pyarrow is not installed.",
 )
 @options.output_format("text", "json", "csv")
 @evaluate_inputs.fail_on
 @options.running
-@click.option("--no-cache", is_flag=True, help="Evaluate every deck again, whatever DIR holds from before.")
+@options.option(
+    "--no-cache",
+    group=options.RUN,
+    is_flag=True,
+    help="Evaluate every deck again, whatever DIR holds from before.",
+)
 @options.every_file
 @options.decks
 @options.units

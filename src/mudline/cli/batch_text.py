@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from mudline.cli.evaluate_one import MOST_ROWS
 from mudline.cli.streams import counted
@@ -12,7 +13,14 @@ from mudline.files import is_url
 from mudline.quantities import CASES, headed, shown
 from mudline.results.cases import CaseSummary
 
+if TYPE_CHECKING:
+    from mudline.cli.printing import Printer
+
 _DIGITS = 5
+_NAME = 30
+"""Columns that a deck's name gets on a narrow terminal."""
+_GAP = 2
+"""Columns between two others."""
 _LARGE = 1e7
 """Numbers from here on have an exponent."""
 
@@ -28,21 +36,34 @@ def print_cases(ranked: Sequence[CaseSummary], folder: str, names: Mapping[str, 
         reasons = [(names[row.deck], row.reason or "") for row in failed[:most]]
         printer.table(f"Failed{where}", ("deck", "reason"), reasons, left=("deck", "reason"), note=_more(failed, most))
     if evaluated:
-        systems = {row.units for row in evaluated}
-        columns = _columns(next(iter(systems)) or "" if len(systems) == 1 else "")
-        if len(systems) == 1:
-            del columns["units"]
-        if all(row.steps == 1 for row in evaluated):
-            del columns["steps"]
-        rows = [(names[row.deck], *(cell(row) for cell in columns.values())) for row in evaluated[:most]]
-        optional = [head for head in columns if head.startswith(("warn", "largest\nuplift"))]
-        title, note = f"Contact of {counted(len(evaluated), 'deck')}{where}", _more(evaluated, most)
-        printer.table(title, ("deck", *columns), rows, left=("deck",), optional=optional, note=note)
+        title = f"Contact of {counted(len(evaluated), 'deck')}{where}"
+        _print_evaluated(printer, title, evaluated[:most], names, _more(evaluated, most))
     doubtful = sum(bool(row.warnings) for row in evaluated)
     parts = [f"{counted(len(ranked), 'deck')}: {len(evaluated)} evaluated"]
     parts += [f"{doubtful} with warnings"] if doubtful else []
     parts += [f"{len(failed)} failed"] if failed else []
     printer.line((", ".join(parts), "bold red" if failed else "green"))
+
+
+def _print_evaluated(
+    printer: Printer, title: str, listed: Sequence[CaseSummary], names: Mapping[str, str], note: str
+) -> None:
+    """A line for each deck: on a narrow terminal without the columns that are needed least, long names shortened."""
+    systems = {row.units for row in listed}
+    columns = _columns(next(iter(systems)) or "" if len(systems) == 1 else "")
+    cells = {head: [cell(row) for row in listed] for head, cell in columns.items()}
+    unused = [head for head in cells if head.startswith(("warn", "largest\nuplift")) and not any(cells[head])]
+    unused += ["units"] if len(systems) == 1 else []
+    unused += ["steps"] if all(row.steps == 1 for row in listed) else []
+    cells = {head: column for head, column in cells.items() if head not in unused}
+    widths = {head: max(map(len, (*head.split("\n"), *column))) + _GAP for head, column in cells.items()}
+    wanted = min(_NAME, max(printer.columns(names[row.deck]) for row in listed))
+    for head in ("in\ncontact", "element", "steps"):
+        if head in widths and sum(widths.values()) + wanted > printer.width:
+            del widths[head], cells[head]
+    left = max(printer.width - sum(widths.values()), _NAME // 2)
+    decks = [printer.elided(names[row.deck], left) for row in listed]
+    printer.table(title, ("deck", *cells), zip(decks, *cells.values(), strict=True), left=("deck",), note=note)
 
 
 def _inside(folder: str) -> str:
@@ -60,23 +81,23 @@ def _more(rows: Sequence[CaseSummary], most: int | None) -> str:
     return f"{counted(left, 'more deck')}: -v shows all" if left > 0 else ""
 
 
-def _columns(units: str) -> dict[str, Callable[[CaseSummary], str | int | None]]:
+def _columns(units: str) -> dict[str, Callable[[CaseSummary], str]]:
     """What is shown of an evaluated deck, by the headings."""
 
     def head(name: str, label: str = "") -> str:
         return headed(label or CASES[name].label or name, CASES[name].unit_name(units))
 
     return {
-        "units": lambda row: row.units,
-        "steps": lambda row: row.steps,
-        head("in_contact"): lambda row: row.in_contact,
+        "units": lambda row: row.units or "",
+        "steps": lambda row: _count(row.steps),
+        head("in_contact"): lambda row: _count(row.in_contact),
         head("touchdown_from", "touchdown\nat"): _touchdown,
         head("largest_force"): lambda row: _number(row.largest_force),
-        head("largest_force_element"): lambda row: row.largest_force_element,
+        head("largest_force_element"): lambda row: _count(row.largest_force_element),
         head("largest_uplift"): lambda row: _number(row.largest_uplift),
         head("reaction"): lambda row: _number(row.reaction),
         head("ratio"): lambda row: _number(row.ratio),
-        head("warnings"): lambda row: row.warnings or None,
+        head("warnings"): lambda row: str(row.warnings or ""),
     }
 
 
@@ -86,6 +107,10 @@ def _touchdown(row: CaseSummary) -> str:
         return "all" if row.contact_length else "none"
     low, high = _number(row.touchdown_from), _number(row.touchdown_to)
     return low if low == high else f"{low} to {high}"
+
+
+def _count(value: int | None) -> str:
+    return "" if value is None else str(value)
 
 
 def _number(value: float | None) -> str:

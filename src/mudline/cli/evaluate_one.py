@@ -15,7 +15,8 @@ from mudline.cli.view import Progress, View, wants_bar
 from mudline.contact import LawKind
 from mudline.results.against import Comparison, read_reference
 from mudline.results.evaluation import Evaluation
-from mudline.results.forms import ResultConsumer, Sink, Together, tables_as_text, text_form
+from mudline.results.forms import ResultConsumer, Sink, contents_of, tables_of
+from mudline.results.forms.text import text_writer, write_text
 from mudline.results.series import SeriesSummary, series_tables
 from mudline.results.totals import SlowSuction, StepSummary
 from mudline.results.warnings import ContactWarning, ContactWatch, caption
@@ -80,7 +81,7 @@ def evaluate_series(
     if output:
         written = write_tables(tables, Path(output))
     elif output_format != "text":
-        emit(tables_as_text(tables, output_format, table))
+        write_text(tables, output_format, emit, table)
     if not view.quiet:
         _notify_warnings(warnings)
         _notify_slow(evaluation, summary.slow)
@@ -98,11 +99,11 @@ def _sink(
     elements = evaluation.element_table(None if comparison is None else comparison.others)
     if output:
         return result_files(evaluation, elements, Path(output), view)
-    if shown in {"json", "csv"}:
-        tables = {"nodes": evaluation.node_table, "summary": evaluation.line_table}
-        rows = tables[table]() if shown == "csv" and table in tables else elements
-        return nullcontext(text_form(shown)(evaluation, rows, emit))
-    return nullcontext(Together())
+    if shown == "text":
+        return nullcontext(Sink(evaluation, {}, None))
+    tables = tables_of(evaluation, shown, elements, table)
+    writer = text_writer(shown, contents_of(evaluation, tables), emit, table)
+    return nullcontext(Sink(evaluation, tables, writer))
 
 
 def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer], view: View, *, bar: bool) -> None:

@@ -10,8 +10,6 @@ from contextlib import closing
 from dataclasses import asdict, fields
 from textwrap import indent
 
-import click
-
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import Inputs, collect_any_form
 from mudline.cli.streams import emit, reason
@@ -25,7 +23,7 @@ from mudline.syntax.source import Source
 _COUNTS = ("errors", "warnings", "sections", "keywords", "curves", "elements")
 
 
-@click.command("validate")
+@options.command("validate")
 @options.paths
 @options.output_format("text", "json", "csv")
 @options.running
