@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+import json
 import re
 
 import pytest
 from rich.cells import cell_len
 
 from mudline.cli.printing import excerpt
-from mudline.diagnostics import Diagnostic, Fix, Severity
-from mudline.linting.output import LONGEST, visible, visible_lines
+from mudline.diagnostics import Diagnostic, Edit, Fix, Severity
+from mudline.linting.output import LONGEST, form, visible, visible_lines
 from mudline.syntax.source import Source
 from tests.builders.decks import BAD_NUMBER, CLEAN, UNUSED
 from tests.cli.conftest import Place
-from tests.cli.runner import Outcome, process, run
+from tests.cli.runner import Outcome, assert_fits, process, run
 
 ESCAPE = re.compile(r"\x1b\[[0-9;]*m")
 COMMANDS = [("lint",), ("validate",), ("show",), ("curves",), ("evaluate",)]
@@ -303,3 +304,18 @@ def test_text_that_nobody_reads_to_its_end_is_cut() -> None:
 def test_visible_lines_keep_their_ends() -> None:
     assert visible_lines("a\n\tb\n") == "a\n\tb\n"
     assert visible_lines("a\n\tb\x1b\r\n") == "a\n\tb\ufffd\ufffd\n"
+
+
+def test_fix_in_json() -> None:
+    fix = Fix("unsafe", "write SET=", (Edit((2, 2), (2, 8), "SET"), Edit((3, 1), (3, 1), "\n")))
+    objects = json.loads("".join(form("json", [], "")([found(fix=fix), found()])))
+    assert_fits(objects, "lint")
+    assert objects[0]["fix"] == {
+        "applicability": "unsafe",
+        "message": "write SET=",
+        "edits": [
+            {"start": [2, 2], "end": [2, 8], "text": "SET"},
+            {"start": [3, 1], "end": [3, 1], "text": "\n"},
+        ],
+    }
+    assert [json.loads(line) for line in form("jsonl", [], "")([found(fix=fix), found()])] == objects
