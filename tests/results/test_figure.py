@@ -18,8 +18,8 @@ from matplotlib.lines import Line2D
 import mudline
 from mudline.contact import ContactInput, ContactModel, ContactResult, LawAssignment
 from mudline.contact.touchdown import line_summaries
-from mudline.results.plot_data import PlotData
-from mudline.results.plots.curves import Cycle, draw_path
+from mudline.results.plot_data import Cycle, PlotData
+from mudline.results.plots.curves import draw_path
 from mudline.results.plots.figure import figure_of, panels_of, reaction
 from mudline.results.plots.stretch import Stretch
 from mudline.results.plots.style import PlainFormatter, thinned, widened
