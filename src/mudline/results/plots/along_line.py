@@ -11,12 +11,12 @@ from mudline.contact.result import Part
 from mudline.contact.touchdown import Touchdown
 from mudline.quantities import ELEMENTS, NODES, SLIDING, labelled, unit_names
 from mudline.results.plot_data import Chosen, Extents, PlotData
-from mudline.results.plots.stretch import Stretch
 from mudline.results.plots.style import (
     LIGHT,
     MOST_POINTS,
     SEABED,
     STATE_STYLES,
+    Stretch,
     Style,
     above,
     is_number,

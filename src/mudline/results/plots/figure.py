@@ -20,8 +20,19 @@ from mudline.quantities import STEPS, labelled, unit_names
 from mudline.results.plot_data import PICTURES, Extents, PlotData
 from mudline.results.plots import along_line
 from mudline.results.plots.curves import loop, on_curves
-from mudline.results.plots.stretch import Stretch
-from mudline.results.plots.style import COLORS, SETTINGS, Spelled, Style, above, finish, time_label, when, widen, write
+from mudline.results.plots.style import (
+    COLORS,
+    SETTINGS,
+    Spelled,
+    Stretch,
+    Style,
+    above,
+    finish,
+    time_label,
+    when,
+    widen,
+    write,
+)
 
 MOST_PANELS = 6
 """More have letters that nobody reads on half a page."""
