@@ -28,10 +28,10 @@ FORMAT = "mudline-diff/1"
 FOLDER_FORMAT = "mudline-diff-folders/1"
 
 
-@click.command("diff")
+@options.command("diff")
 @click.argument("before", metavar="A")
 @click.argument("after", metavar="B")
-@click.option(
+@options.option(
     "--tolerance",
     type=click.FloatRange(min=0, max=1),
     default=0.0,
@@ -39,7 +39,7 @@ FOLDER_FORMAT = "mudline-diff-folders/1"
     metavar="REL",
     help="Ignore differences of numbers up to this one, relative to the larger number.",
 )
-@click.option("--strict", is_flag=True, help="List differences of spelling in superseded keywords too: exit code 1.")
+@options.option("--strict", is_flag=True, help="List differences of spelling in superseded keywords too: exit code 1.")
 @options.output_format("text", "json", "markdown")
 @options.every_file
 @options.stdin_name

@@ -19,11 +19,13 @@ from mudline.migration.refusals import Continuations, misspelt
 from mudline.short_repr import counted
 
 
-@click.command("migrate")
+@options.command("migrate")
 @options.paths
-@click.option("-o", "--output", metavar="OUT", help="Write to this file instead of the deck itself; for one deck only.")
-@click.option("--diff", is_flag=True, help="Print what would change, and write nothing.")
-@click.option(
+@options.option(
+    "-o", "--output", metavar="OUT", help="Write to this file instead of the deck itself; for one deck only."
+)
+@options.option("--diff", is_flag=True, help="Print what would change, and write nothing.")
+@options.option(
     "--verify",
     "proved",
     is_flag=True,

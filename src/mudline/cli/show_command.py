@@ -6,8 +6,6 @@ from collections import Counter
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
-import click
-
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.streams import MOST_ROWS, emit_json, notify
@@ -23,7 +21,7 @@ if TYPE_CHECKING:
 _OPEN = "+ a block that is not read may add elements to this set"
 
 
-@click.command("show")
+@options.command("show")
 @options.output_format("text", "json")
 @takes_deck
 def command(*, deck: GivenDeck, output_format: str, view: View) -> int:
