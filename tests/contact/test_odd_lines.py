@@ -45,25 +45,6 @@ def test_a_line_goes_through_its_nodes_whichever_way_its_elements_are_written(el
         assert one.reaction == pytest.approx(other.reaction, rel=1e-12, abs=1e-9)
 
 
-@pytest.mark.parametrize("elements", [[[0, 1], [2, 1]], [[1, 0], [1, 2]]])
-def test_the_tangent_of_such_a_line(elements: list[list[int]]) -> None:
-    straight = chain([LINEAR] * 2, friction(3, stiffness=(1e5, 2e4)))
-    contact = ContactModel(replace(straight, element_nodes=np.array(elements, np.intp)))
-    start = along_z(3)
-    start[:, 1] += [0.0, 0.1, 0.3]
-    _, state = contact.step(start, None, contact.initial_state())
-    points = drifted(start, 0.002, 0.001)
-    tangent = contact.tangent(points, None, state).by_position.dense()
-    size, columns = 1e-6, []
-    for place in np.ndindex(points.shape):
-        sides = [points.copy(), points.copy()]
-        sides[0][place] += size
-        sides[1][place] -= size
-        up, down = (contact.step(side, None, state)[0].reaction for side in sides)
-        columns.append((up - down).reshape(-1) / (2.0 * size))
-    assert tangent == pytest.approx(np.column_stack(columns), rel=1e-6, abs=1.0)
-
-
 def bounded(elements: int) -> ContactInput:
     """A chain with friction whose seabed ends at Z = 4.5."""
     seabed = PlanesSeabed([[0.0, 0.0, 0.0]], [0.0], [0.0], [[-100.0, 100.0, -100.0, 4.5]])
@@ -147,14 +128,6 @@ def test_a_node_of_three_elements_rubs_once_under_all_their_weight() -> None:
     assert results[1].normal_force == pytest.approx([3000.0, 1000.0, 1000.0, 1000.0])
     sideways = results[1].reaction[:, 1:]
     assert sideways == pytest.approx(np.array([[-1500.0, 0.0]] + [[-500.0, 0.0]] * 3), abs=1e-6)
-
-
-def test_an_element_written_twice_counts_twice() -> None:
-    twice = chain([LINEAR] * 2, friction(3), trench(2, 0.02, 0.4, 50.0))
-    twice = replace(twice, element_nodes=np.array([[0, 1], [0, 1]], np.intp))
-    results = walk(ContactModel(twice), drawn([(0.0, 0.0), (0.01, 0.0)], nodes=3))
-    assert results[1].normal_force == pytest.approx([2000.0, 2000.0, 0.0])
-    assert results[1].friction == pytest.approx(np.array([[-1000.0, 0.0]] * 2 + [[0.0, 0.0]]))
 
 
 def test_an_element_between_a_node_and_itself() -> None:

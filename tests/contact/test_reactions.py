@@ -9,8 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mudline.contact import ContactModel
-from tests.builders.contact import CLAY, CURVE, LINEAR, at_depths, chain, changed, mixed, rearranged
+from mudline.contact import ContactInput, ContactModel, ElementError
+from mudline.contact.arrays import as_range
+from mudline.curves import ForceCurve
+from tests.builders.contact import CLAY, CURVE, LINEAR, at_depths, chain, everything, mixed, on
 
 
 @given(st.integers(1, 60), st.integers(0, 2**32 - 1))
@@ -25,24 +27,6 @@ def test_reactions_balance_the_forces_on_the_elements(count: int, seed: int) -> 
     assert result.normal_force @ lever == pytest.approx(load @ (lever[:-1] + 0.5), rel=1e-12, abs=1e-12)
     assert np.array_equal(result.reaction, result.normal_force[..., np.newaxis] * result.normal)
     assert np.array_equal(result.normal, np.broadcast_to([1.0, 0.0, 0.0], (3, count + 1, 3)))
-
-
-def test_an_end_node_takes_half_an_element_and_an_interior_node_two_halves() -> None:
-    inputs = chain([LINEAR] * 3, length=[1.0, 2.0, 4.0])
-    result = ContactModel(inputs).evaluate(at_depths(np.full(4, 0.02)))
-    assert result.normal_force == pytest.approx([500.0, 1500.0, 3000.0, 2000.0])
-
-
-@given(st.integers(1, 60), st.integers(0, 2**32 - 1))
-def test_the_order_of_the_elements_does_not_matter(count: int, seed: int) -> None:
-    inputs = mixed(count, seed)
-    order = np.random.default_rng(seed).permutation(count)
-    shuffled = rearranged(inputs, order, np.ones(count, np.bool_))
-    positions = at_depths(np.random.default_rng(seed).uniform(-0.1, 0.2, count + 1))
-    straight, mingled = ContactModel(inputs).evaluate(positions), ContactModel(shuffled).evaluate(positions)
-    for name in ("depth", "ratio", "contact", "force", "slope", "stiffness", "cut"):
-        assert np.array_equal(getattr(mingled, name), getattr(straight, name)[order])
-    assert np.array_equal(mingled.reaction, straight.reaction)
 
 
 def test_many_elements_may_meet_at_a_node() -> None:
@@ -75,23 +59,29 @@ def test_stiffness_is_the_derivative_of_the_force(count: int) -> None:
     assert derivative[smooth] == pytest.approx(middle.stiffness[smooth], rel=1e-6)
 
 
-@given(st.integers(-40, 40), st.integers(-40, 40), st.integers(0, 2**32 - 1))
-def test_a_change_of_units_scales_the_results(length_power: int, force_power: int, seed: int) -> None:
-    inputs, length, force = mixed(20, seed), 2.0**length_power, 2.0**force_power
-    per_length = force / length
-    curves = tuple(type(curve)(np.column_stack((curve.ratios, curve.forces * per_length))) for curve in inputs.curves)
-    rescaled = replace(
-        inputs,
-        length=inputs.length * length,
-        diameter=inputs.diameter * length,
-        curves=curves,
+def plain(elements: int, *, curves: int = 1) -> ContactInput:
+    """A chain on curves, in stretches."""
+    index = np.arange(elements) * curves // elements
+    given_curves = tuple(ForceCurve([(0.0, 0.0), (0.2, 1000.0 + number)]) for number in range(curves))
+    laws = (on("curve", elements, curve=index),)
+    return replace(everything(elements, 1), laws=laws, curves=given_curves, diameter=np.full(elements, 0.3))
+
+
+def test_the_element_at_fault_is_named_where_all_touch() -> None:
+    steep = replace(plain(6), curves=(ForceCurve([(0.0, 0.0), (1.0, 1e300)]),))
+    points = steep.coordinates.copy()
+    points[:, 0] = -0.1
+    points[3:5, 0] = -1e10
+    series = np.stack([steep.coordinates, points])
+    with pytest.raises(ElementError, match="element 3 at step 1") as caught:
+        ContactModel(steep).evaluate(series)
+    assert (caught.value.element, caught.value.step) == (3, 1)
+
+
+@given(st.lists(st.integers(0, 30), max_size=12))
+def test_ranges(indices: list[int]) -> None:
+    found = as_range(np.array(indices, np.intp))
+    assert np.arange(31)[found].tolist() == indices
+    assert isinstance(found, slice) == (
+        indices == list(range(indices[0], indices[0] + len(indices))) if indices else True
     )
-    if "linear" in inputs.assigned:
-        rescaled = changed(rescaled, "linear", stiffness=inputs.assigned["linear"]["stiffness"] * (per_length / length))
-    positions = at_depths(np.random.default_rng(seed).uniform(-0.1, 0.2, 21))
-    before, after = ContactModel(inputs).evaluate(positions), ContactModel(rescaled).evaluate(positions * length)
-    assert np.array_equal(after.ratio, before.ratio)
-    assert np.array_equal(after.force, before.force * per_length)
-    assert np.array_equal(after.slope, before.slope * per_length)
-    assert np.array_equal(after.stiffness, before.stiffness * (per_length / length))
-    assert np.array_equal(after.reaction, before.reaction * force)

@@ -20,15 +20,12 @@ from tests.builders.contact import (
     at_depths,
     bridge_law,
     chain,
-    everything,
     floats,
     friction,
     heave,
-    journey,
     law_of,
     on,
     suction,
-    walk,
 )
 from tests.contact.single import breakout, largest
 
@@ -213,36 +210,9 @@ def test_suction_at_positions_and_velocities() -> None:
     assert moving.damping == pytest.approx([16394.56738], rel=1e-9)
 
 
-def test_what_knows_no_positions_is_the_same_at_all_of_them() -> None:
-    inputs = everything(40, 3)
-    positions, velocities, _ = journey(40, 4, 3)
-    contact = ContactModel(inputs)
-    anywhere, there = contact.stiffest(), contact.stiffest(positions, velocities)
-    assert [law.law for law in anywhere.laws] == [law.law for law in there.laws]
-    for law in ("unloading", "suction spring", "lateral"):
-        np.testing.assert_array_equal(law_of(anywhere, law).stiffness, law_of(there, law).stiffness)
-    for law in ("linear", "smoothed", "curve", "nodal", "suction"):
-        known = ~np.isnan(law_of(anywhere, law).stiffness)
-        assert (law_of(there, law).stiffness[known] <= law_of(anywhere, law).stiffness[known] * (1.0 + 1e-12)).all()
-        np.testing.assert_array_equal(np.isnan(law_of(there, law).stiffness), ~known)
-
-
 def test_the_stiffest_of_all_laws_per_length() -> None:
     """Springs of nodes count over the length that is asked for."""
     inputs = chain([LINEAR, NONE, NONE], on("nodal", [1, 2], stiffness=[1e5, 4e5]), on("lateral", [0], stiffness=1e6))
     found = ContactModel(inputs).stiffest()
     np.testing.assert_array_equal(found.per_length(np.full(3, 2.0)), [1e6, 2e5, 2e5])
     assert np.isnan(ContactModel(chain([NONE])).stiffest().per_length(np.ones(1))).all()
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_results_are_nowhere_stiffer_than_their_laws(seed: int) -> None:
-    """On the elements of a scene with everything, along a journey."""
-    inputs = everything(12, seed)
-    positions, velocities, _ = journey(12, 30, seed)
-    contact = ContactModel(inputs)
-    found = contact.stiffest()
-    columns = [law.stiffness for law in found.laws if law.per == "length" and law.law not in {"lateral", "friction"}]
-    most = np.nansum(columns, axis=0)
-    for result in walk(contact, positions, velocities):
-        assert (result.stiffness <= most * (1.0 + 1e-9)).all()

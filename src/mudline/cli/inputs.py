@@ -8,7 +8,6 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache, wraps
-from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,18 +16,17 @@ import click
 from mudline.cli import FOUND, WRONG_USAGE, options
 from mudline.cli.search import Search
 from mudline.cli.streams import notify, notify_diagnostics, reason
-from mudline.cluster import storage
 from mudline.deck import MARK
 from mudline.deck.forms import SUFFIXES, form_of
 from mudline.diagnostics import DeckError
 from mudline.files import is_url, write_atomically
+from mudline.running import storage
 
 if TYPE_CHECKING:
     from mudline.deck.model import Deck
 
 STDIN = "-"
 
-_BATCH = 1000
 _HEAD = 4096
 """Bytes at the beginning of a JSON or YAML file that name its format."""
 
@@ -46,6 +44,12 @@ class Input:
         if self.path is None or is_url(self.path):
             return None
         return _folder(os.path.dirname(self.path))  # noqa: PTH120 - asked for many files
+
+    def seen_from(self, here: str) -> Input:
+        """The same file for a process whose working folder may not be `here`."""
+        if self.path is None or is_url(self.path) or os.getcwd() == here:  # noqa: PTH109 - compared as text
+            return self
+        return Input(self.name, os.path.join(here, self.path))  # noqa: PTH118 - as above
 
     def size_and_date(self) -> tuple[int, int]:
         """Bytes, and the time of the last change in ns since 1970, -1 where that is not known; raises OSError."""
@@ -71,43 +75,11 @@ def _folder(path: str) -> Path:
     return Path(path)
 
 
-@dataclass(frozen=True, slots=True)
-class Batch:
-    """Some files of one folder, kept as one text: there may be very many.
-
-    `name` and `path` are what stands before them in the name and the path of an `Input`, `files` their names with NUL
-    between them.
-    """
-
-    name: str
-    path: str
-    files: str
-
-    def __iter__(self) -> Iterator[Input]:
-        return (Input(self.name + file, self.path + file) for file in self.files.split("\0"))
-
-    def __len__(self) -> int:
-        return self.files.count("\0") + 1
-
-
-@dataclass(slots=True)
-class Files:
-    """The files of a run in their order, each made when it is asked for."""
-
-    parts: list[list[Input] | Batch] = field(default_factory=list)
-
-    def __iter__(self) -> Iterator[Input]:
-        return chain.from_iterable(self.parts)
-
-    def __len__(self) -> int:
-        return sum(map(len, self.parts))
-
-
 @dataclass(slots=True)
 class Inputs:
     """The files found, each once, and whether something could not be found or read."""
 
-    files: Files = field(default_factory=Files)
+    files: list[Input] = field(default_factory=list)
     code: int = 0
 
     def contents(self) -> Iterator[tuple[Input, bytes]]:
@@ -183,7 +155,7 @@ def _is_deck_in_any_form(path: str) -> bool:
     if not is_deck(path) and form_of(path) == "keyword":
         return False
     if is_url(path):
-        return is_deck(path) or MARK.encode() in storage.head(path, _HEAD)
+        return is_deck(path) or MARK.encode() in storage.read(path, _HEAD)
     file = Path(path)
     if file.exists() and not file.is_file():
         return False
@@ -214,21 +186,20 @@ def _collect(
         if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
             _directory(Search(given, gitignore), found, taken, may_be_empty=may_be_empty)
         else:
-            found.files.parts.append([_single(given, stdin_name)])
-    if len(paths) > 1:
-        found.files = Files([list(dict.fromkeys(found.files))])
+            found.files.append(_single(given, stdin_name))
+    found.files = list(dict.fromkeys(found.files))
     return found
 
 
 def _below_url(url: str, found: Inputs, taken: Wanted) -> None:
     """The file at a URL, or the wanted ones below a folder; raises OSError."""
     if not storage.is_folder(url):
-        found.files.parts.append([Input(url, url)])
+        found.files.append(Input(url, url))
         return
     files = [Input(one, one) for one in storage.files_below(url) if taken(one)]
     if not files:
         found.fail(f"{url}: no deck in this folder (looked for {', '.join(sorted(SUFFIXES))})")
-    found.files.parts.append(files)
+    found.files += files
 
 
 def _single(given: str, stdin_name: str) -> Input:
@@ -242,17 +213,13 @@ def _slashed(path: str) -> str:
 def _directory(search: Search, found: Inputs, taken: Wanted, *, may_be_empty: bool) -> None:
     given = search.given
     start = "" if given == "." else _slashed(given).rstrip("/") + "/"
-    batches = [
-        Batch(start + inside, path, "\0".join(names[at : at + _BATCH]))
-        for inside, path, names in search.files(taken)
-        for at in range(0, len(names), _BATCH)
-    ]
+    files = [Input(start + inside, path) for inside, path in search.files(taken)]
     for error in search.unreadable:
         found.fail(f"{_slashed(str(error.filename))}: {reason(error)}")
-    if not (batches or search.unreadable or may_be_empty):
+    if not (files or search.unreadable or may_be_empty):
         hidden = "; --no-gitignore takes what a .gitignore hides" if search.hidden else ""
         found.fail(f"{given}: no deck in this directory (looked for {', '.join(sorted(SUFFIXES))}{hidden})")
-    found.files.parts += batches
+    found.files += files
 
 
 # ------------------------------------------------------------------------------------------------ the one deck

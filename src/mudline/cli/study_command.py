@@ -31,7 +31,7 @@ _EXTRAS = frozenset({"matplotlib", "mpmath", "scipy"})
 _DIGITS = 4
 
 
-@click.command("study")
+@options.command("study")
 @click.argument("study", type=click.Choice(list(STUDIES)))
 @click.argument("deck", required=False, metavar="[DECK]", shell_complete=click.Path().shell_complete)
 @click.option("-o", "--output", metavar="DIR", help="Write the page, CSV, JSON and PNG files into this folder.")

@@ -8,6 +8,7 @@ import pytest
 from mudline.contact import ContactModel, ElementError
 from mudline.curves import ForceCurve
 from tests.builders.contact import CURVE, LINEAR, NONE, PULLING, at_depths, bridge_law, chain, heave, on, suction, walk
+from tests.contact.comparison import plain_loops
 from tests.contact.single import BROKEN, COMPRESSION, DEPTH, FORCE, FREE, SUCTION
 
 pytestmark = pytest.mark.slow
@@ -51,24 +52,6 @@ def test_largest_force_and_breakout(
     assert damping[np.ix_([0, 3], [0, 3])] == pytest.approx(np.full((2, 2), -0.5 * slope), rel=1e-10)
 
 
-def depth(v: float) -> float:
-    """Uplift at breakout, found by lifting."""
-    contact, low, high = pipe(), 0.0, 2.0
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        broken = walk(contact, *heave([0.01, -middle], [0.0, v]))[1].state == BROKEN
-        low, high = (low, middle) if broken else (middle, high)
-    return high
-
-
-@pytest.mark.parametrize("v", [0.002, 0.1, 1.7])
-def test_doubling_the_velocity(v: float) -> None:
-    middle = 0.5 * depth(v)
-    one, two = (walk(pipe(), *heave([0.01, -middle], [0.0, rate]))[1] for rate in (v, 2.0 * v))
-    assert (two.force / one.force).item() == pytest.approx(1.1328838853, rel=1e-10)
-    assert depth(2.0 * v) / depth(v) == pytest.approx(1.1974787046, rel=1e-10)
-
-
 TRAPEZOID = [
     # x / Delta_B, suction, its derivative by penetration
     (0.05, 344.64141487, 42662.876092),
@@ -95,12 +78,6 @@ def test_net_force_on_a_slow_pull_out() -> None:
     expected = [1000.0, 500.0, 0.0, -426.62876092, -FORCE, -FORCE, -920.02564453, 0.0]
     results = walk(pipe(), *heave(depths, [0.1] * 8))
     assert [result.force.item() for result in results] == pytest.approx(expected, rel=1e-9)
-
-
-def test_a_node_between_two_elements_of_two_metres() -> None:
-    contact = ContactModel(chain([LINEAR] * 2, suction(bridge_law(2))))
-    result = walk(contact, *heave([0.01, -0.5 * DEPTH], [0.0, 0.1], nodes=3))[1]
-    assert result.normal_force == pytest.approx([-FORCE, -2757.131319, -FORCE], rel=1e-10)
 
 
 def test_work_to_breakout() -> None:
@@ -174,12 +151,13 @@ def test_a_curve_that_pulls_beside_suction_is_refused_where_it_does(backend: str
     inputs = chain([CURVE] * 2, suction(bridge_law(1), [1]), curves=(PULLS,))
     contact = ContactModel(inputs, backend=backend)  # type: ignore[arg-type]  # from the parameters
     positions, velocities = heave([0.02, 0.04, 0.06, -0.08], [0.0, 0.0, 0.0, 0.1], nodes=3)
-    with pytest.raises(ElementError, match="element 12 at step 2: its curve pulls there, and suction acts") as caught:
-        contact.evaluate(positions, velocities=velocities)
-    assert (caught.value.element, caught.value.step) == (12, 2)
-    _, state = contact.step(positions[1], velocities[1], contact.initial_state())
-    with pytest.raises(ElementError, match="element 12 at step 0: its curve pulls there"):
-        contact.step(positions[2], velocities[2], state)
+    with plain_loops():
+        with pytest.raises(ElementError, match="element 12 at step 2: its curve pulls there, and suction acts") as info:
+            contact.evaluate(positions, velocities=velocities)
+        assert (info.value.element, info.value.step) == (12, 2)
+        _, state = contact.step(positions[1], velocities[1], contact.initial_state())
+        with pytest.raises(ElementError, match="element 12 at step 0: its curve pulls there"):
+            contact.step(positions[2], velocities[2], state)
 
 
 def test_a_curve_that_pulls_is_accepted_where_it_is_cut_or_its_element_has_no_suction() -> None:
