@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from mudline.contact import ContactModel, ContactResult, ContactState, Plan, PositionError
     from mudline.curves import CurveError, ForceCurve
     from mudline.diagnostics import DeckError, Diagnostic, Severity
-    from mudline.results.reading import read_result
     from mudline.results.warnings import ContactWarning
 
 __version__ = "0.1.0"
@@ -53,7 +52,6 @@ __all__ = [
     "lint",
     "read",
     "read_positions",
-    "read_result",
 ]
 
 _HOMES = {
@@ -73,7 +71,6 @@ _HOMES = {
         "contact": ["ContactModel", "ContactResult", "ContactState", "Plan", "PositionError"],
         "curves": ["CurveError", "ForceCurve"],
         "diagnostics": ["DeckError", "Diagnostic", "Severity"],
-        "results.reading": ["read_result"],
         "results.warnings": ["ContactWarning"],
     }.items()
     for name in names

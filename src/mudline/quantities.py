@@ -266,24 +266,12 @@ def finite(value: float | None) -> float | None:
     return value if value is not None and math.isfinite(value) else None
 
 
-_FORMULAS = ("=", "+", "-", "@", "\t", "\r")
-"""Beginnings of a cell that spreadsheets take as a formula, also behind quotation marks."""
-
-
-def text_cell(name: str) -> str:
-    """A name that no spreadsheet takes as a formula: behind an apostrophe, where it could."""
-    return f"'{name}" if name.startswith(_FORMULAS) else name
-
-
-def csv_lines(rows: Iterable[Iterable[object]], *, as_text: bool = False) -> Iterator[str]:
-    """The lines with their ends (LF); None is an empty field, numbers read back to the same double.
-
-    `as_text` writes names for spreadsheets, as `text_cell` does.
-    """
+def csv_lines(rows: Iterable[Iterable[object]]) -> Iterator[str]:
+    """The lines with their ends (LF); None is an empty field, numbers read back to the same double."""
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
     for row in rows:
-        writer.writerow([text_cell(value) if as_text and isinstance(value, str) else csv_value(value) for value in row])
+        writer.writerow([csv_value(value) for value in row])
         yield buffer.getvalue()
         buffer.seek(0)
         buffer.truncate()

@@ -47,7 +47,7 @@ def test_public_name_resolves_and_is_documented(name: str) -> None:
 
 
 CONTRACT = "read lint from_keyword from_json from_yaml Deck DeckError Diagnostic Severity Scene ForceCurve CurveError"
-CONTACT = "ContactModel ContactResult ContactState ContactWarning Plan PositionError contact_warnings read_result"
+CONTACT = "ContactModel ContactResult ContactState ContactWarning Plan PositionError contact_warnings"
 
 
 def test_names_are_those_of_the_contract() -> None:

@@ -60,11 +60,6 @@ def test_rules_are_offered_by_code_and_name() -> None:
     assert offered("rules", "too-f") == ["plain,too-few-points"]
 
 
-def test_panels_are_offered_behind_others_too() -> None:
-    assert offered("evaluate", "--panels", "line,tr") == ["plain,line,traces"]
-    assert offered("plot", "--panels", "e") == ["plain,embedment", "plain,envelope"]
-
-
 def test_formats_and_commands_are_offered() -> None:
     assert offered("lint", "--output-format", "sa") == ["plain,sarif"]
     assert offered("convert", "--to", "y") == ["plain,yaml"]

@@ -147,16 +147,6 @@ def test_diameters_of_lines_come_from_their_sections(place: Place) -> None:
     assert "D=0.2" in both
 
 
-def test_names_for_a_spreadsheet(place: Place) -> None:
-    deck = place(CLEAN.replace("Clay", "=1+1"))
-    options = ("--output-format", "csv", "--spreadsheet")
-    assert rows(run("curves", deck, *options).out)[1] == ["'=1+1", "0.0", "0.0", "10000.0"]
-    assert rows(run("curves", deck, *options[:2]).out)[1][0] == "=1+1"
-    wrong = run("curves", deck, "--spreadsheet")
-    assert (wrong.code, wrong.out) == (2, "")
-    assert "--spreadsheet is for CSV: give --output-format csv" in wrong.err
-
-
 def test_csv_holds_one_table(place: Place) -> None:
     outcome = run("curves", place(), "--at", "1", "--weight", "1", "--output-format", "csv")
     assert outcome.code == 2

@@ -109,7 +109,9 @@ def test_columns_are_for_positions_from_csv(place: Place) -> None:
 def test_columns_of_many_decks(place: Place) -> None:
     Path("p.csv").write_text(LONG, encoding="utf-8")
     decks = [place(name=name) for name in ("a.keyxm", "b.keyxm")]
-    found = run("evaluate", *decks, "--positions", "p.csv", "--columns", MAPPED, "-q", "--output-format", "json")
+    found = run(
+        "batch", *decks, "-o", "out", "--positions", "p.csv", "--columns", MAPPED, "-q", "--output-format", "json"
+    )
     assert [row["reason"] for row in found.json()] == [None, None]
 
 

@@ -146,18 +146,6 @@ def test_nodes_of_steps_are_shown(place: Place, steps: str) -> None:
     assert run("evaluate", place(), "--positions", steps).out.split("\n\n")[0] != outcome.out.split("\n\n")[0]
 
 
-def test_names_for_a_spreadsheet(place: Place) -> None:
-    deck = place(CLEAN.replace("Pipe", "@Pipe"))
-    options = ("--output-format", "csv", "--spreadsheet")
-    assert run("evaluate", deck, *options).out.splitlines()[1].split(",")[1] == "'@Pipe"
-    assert run("evaluate", deck, *options[:2]).out.splitlines()[1].split(",")[1] == "@Pipe"
-    assert run("evaluate", deck, "-o", "out.csv", "--spreadsheet", "-q").code == 0
-    assert Path("out.csv").read_text(encoding="utf-8") == run("evaluate", deck, *options).out
-    wrong = run("evaluate", deck, "-o", "out.json", "--spreadsheet")
-    assert (wrong.code, Path("out.json").exists()) == (2, False)
-    assert "--spreadsheet is for CSV" in wrong.err
-
-
 def test_quiet_writes_all_tables_and_says_nothing(place: Place, folder: Path) -> None:
     assert run("evaluate", place(), "-o", "out.csv", "-q").err == ""
     assert sorted(path.name for path in folder.glob("*.csv")) == ["out-nodes.csv", "out-summary.csv", "out.csv"]

@@ -1,26 +1,18 @@
-"""`mudline evaluate --summary-only`: the extremes of all steps, from any number of processes, and after any stop."""
+"""`mudline evaluate --summary-only`: the extremes of all steps."""
 
 from __future__ import annotations
 
 import json
-import multiprocessing
-import os
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
-from mudline.cli import evaluate_series, processes
-from mudline.contact.result import Part
-from mudline.results.evaluation import Evaluation
 from mudline.results.forms import form_names
 from tests.builders.decks import CLEAN
 from tests.cli.conftest import Place
 from tests.cli.runner import assert_fits, run
 from tests.cli.test_evaluate_states import BOTH, RIGID
-from tests.processes import TIMEOUT, started
 
 STEPS = 700
 DECKS = {"without history": CLEAN, "with history": BOTH, "rigid": RIGID}
@@ -39,31 +31,6 @@ def long(folder: Path) -> Path:
     steps[:, 2, 0] += 0.3
     np.save(folder / "long.npy", steps)
     return folder / "long.npy"
-
-
-@pytest.fixture
-def eager(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Processes are used behind the first chunk, whatever there is to do."""
-    monkeypatch.setattr(processes, "PAYS", dict.fromkeys(processes.PAYS, 0.0))
-
-
-def files(folder: Path) -> dict[str, bytes]:
-    return {path.name: path.read_bytes() for path in folder.iterdir() if path.name.startswith("out")}
-
-
-def stop_after(monkeypatch: pytest.MonkeyPatch, parts: int) -> None:
-    """Ctrl-C after so many parts of the run; each of them is followed by a checkpoint."""
-    monkeypatch.setattr(evaluate_series, "SAVED_EVERY", 0.0)
-    resumed = Evaluation.resumed
-
-    def stopped(evaluation: Evaluation, *given: object) -> Iterator[tuple[Part, Any]]:
-        parts_of_run = resumed(evaluation, *given)  # type: ignore[arg-type] # handed on as they are
-        for number, part in enumerate(parts_of_run):
-            if number == parts:
-                raise KeyboardInterrupt
-            yield part
-
-    monkeypatch.setattr(Evaluation, "resumed", stopped)
 
 
 # ------------------------------------------------------------------------------------------------- what it holds
@@ -149,156 +116,19 @@ def test_terminal_shows_what_a_whole_run_does(place: Place) -> None:
     assert "\n".join(shown[1:]).strip() == whole.out[whole.out.index("Over all steps") :].strip()
 
 
-# ------------------------------------------------------------------------------------------------ processes and stops
-
-
-@pytest.mark.usefixtures("long", "eager")
-def test_processes_and_chunks_change_no_byte(place: Place, folder: Path) -> None:
-    place()
-    assert run("evaluate", *GIVEN, "-o", "out.json", "--jobs", "1").code == 0
-    alone = files(folder)
-    for chunk in ("1", "130"):
-        assert run("evaluate", *GIVEN, "-o", "out.json", "--jobs", "2", "--chunk", chunk).code == 0
-        assert files(folder) == alone
-    assert multiprocessing.active_children() == []
-
-
-@pytest.mark.usefixtures("long")
-@pytest.mark.parametrize("deck", [CLEAN, BOTH])
-@pytest.mark.parametrize("form", form_names())
-def test_a_stopped_run_goes_on(
-    place: Place, folder: Path, monkeypatch: pytest.MonkeyPatch, deck: str, form: str
-) -> None:
-    output = f"out.{form}"
-    place(deck)
-    assert run("evaluate", *GIVEN, "-q", "-o", output).code == 0
-    whole = files(folder)
-    for name in whole:
-        (folder / name).unlink()
-    with monkeypatch.context() as patched:
-        for parts in (5, 2):
-            stop_after(patched, parts)
-            assert run("evaluate", *GIVEN, "-o", output).code == 130
-            assert list(files(folder)) == [f"{output}.unfinished"]
-    outcome = run("evaluate", *GIVEN, "-o", output)
-    assert outcome.code == 0
-    assert f"goes on at step 448 of 700: {output}.unfinished\n" in outcome.err
-    assert files(folder) == whole
-
-
-KILLED = """
-import multiprocessing, os, signal, sys
-from mudline.__main__ import main
-from mudline.cli import evaluate_series, processes
-from mudline.results.checkpoint import Checkpoint
-
-processes.PAYS = dict.fromkeys(processes.PAYS, 0.0)
-evaluate_series.SAVED_EVERY = 0.0
-write, saved = Checkpoint.write, []
-
-def counted(checkpoint, reached):
-    write(checkpoint, reached)
-    saved.append(reached.done)
-    if reached.done > 350:
-        print(reached.done, *(one.pid for one in multiprocessing.active_children()), flush=True)
-        os.kill(os.getpid(), signal.SIGKILL)
-
-Checkpoint.write = counted
-main(sys.argv[1:])
-"""
-
-
-@pytest.mark.usefixtures("long", "eager")
-@pytest.mark.skipif(os.name != "posix", reason="processes are killed in another way")
-@pytest.mark.parametrize("deck", [CLEAN, BOTH], ids=["two processes", "with history"])
-def test_a_killed_run_goes_on(place: Place, folder: Path, deck: str) -> None:
-    place(deck)
-    given = ("evaluate", *GIVEN, "-o", "out.json", "--jobs", "2", "--chunk", "64")
-    assert run(*given).code == 0
-    whole = files(folder)
-    (folder / "out.json").unlink()
-    with started("-c", KILLED, *given) as running:
-        done, *workers = map(int, running.out.readline().split())
-        assert running.process.wait(TIMEOUT) == -9
-        assert running.out.read() == b""  # the processes that it had started have ended too
-    assert len(workers) == (2 if deck == CLEAN else 0)
-    assert list(files(folder)) == ["out.json.unfinished"]
-    assert f"goes on at step {done} of 700" in run(*given).err
-    assert files(folder) == whole
-
-
 # ------------------------------------------------------------------------------------------------------ what is refused
 
 
-@pytest.mark.parametrize("change", ["the positions", "the deck", "an option", "damage"])
-def test_state_of_another_run_is_refused(
-    place: Place, long: Path, monkeypatch: pytest.MonkeyPatch, folder: Path, change: str
-) -> None:
-    place()
-    with monkeypatch.context() as patched:
-        stop_after(patched, 3)
-        assert run("evaluate", *GIVEN, "-o", "out.json").code == 130
-    unfinished = folder / "out.json.unfinished"
-    options: tuple[str, ...] = ()
-    what = f"is the state of another run: {change} changed"
-    if change == "the positions":
-        positions = np.load(long)
-        np.save(long, positions[:-1])
-    elif change == "the deck":
-        place(CLEAN.replace("1000.0", "1001.0"))
-    elif change == "an option":
-        options = ("--tension", "cut")
-    else:
-        data = bytearray(unfinished.read_bytes())
-        data[-30] ^= 1
-        unfinished.write_bytes(data)
-        what = "is damaged, or not the state of an unfinished run"
-    kept = unfinished.read_bytes()
-    outcome = run("evaluate", *GIVEN, *options, "-o", "out.json")
-    assert outcome.code != 0
-    assert f"out.json.unfinished {what}. Delete it, or begin again with --no-cache" in outcome.err
-    assert unfinished.read_bytes() == kept
-    outcome = run("evaluate", *GIVEN, *options, "-o", "out.json", "--no-cache")
-    assert (outcome.code, "goes on" in outcome.err) == (0, False)
-    assert list(files(folder)) == ["out.json"]
-
-
-@pytest.mark.usefixtures("eager")
-@pytest.mark.parametrize("jobs", ["1", "2"])
-def test_a_fault_in_a_late_step_names_it(place: Place, long: Path, folder: Path, jobs: str) -> None:
+def test_a_fault_in_a_late_step_names_it(place: Place, long: Path, folder: Path) -> None:
     positions = np.load(long)
     positions[690, 1, 2] = np.nan
     positions[699, 0, 0] = np.inf
     np.save(long, positions)
     place()
-    outcome = run("evaluate", *GIVEN, "-o", "out.json", "--jobs", jobs, "--chunk", "64")
-    assert (outcome.code, files(folder)) == (1, {})
-    assert "node 2 at step 690: its position" in outcome.err
-
-
-@pytest.mark.parametrize("how", ["shorter", "changed", "cut off"])
-def test_a_file_that_changes_while_it_is_read(
-    place: Place, long: Path, monkeypatch: pytest.MonkeyPatch, folder: Path, how: str
-) -> None:
-    place()
-    resumed = Evaluation.resumed
-
-    def changing(evaluation: Evaluation, *given: object) -> Iterator[tuple[Part, Any]]:
-        parts_of_run = resumed(evaluation, *given)  # type: ignore[arg-type] # handed on as they are
-        for number, part in enumerate(parts_of_run):
-            if number == 2:
-                data = long.read_bytes()
-                long.write_bytes(data[: len(data) // 3] if how == "shorter" else data)
-                os.utime(long, ns=(0, 10**15))
-            yield part
-
-    if how == "cut off":
-        long.write_bytes(long.read_bytes()[:-100])
-    else:
-        monkeypatch.setattr(Evaluation, "resumed", changing)
     outcome = run("evaluate", *GIVEN, "-o", "out.json")
-    assert (outcome.code != 0, files(folder)) == (True, {})
-    assert ("not an NPY array" if how == "cut off" else "changed while it was read: wait until it is") in outcome.err
+    assert outcome.code == 1
+    assert not list(folder.glob("out*"))
+    assert "node 2 at step 690: its position" in outcome.err
 
 
 @pytest.mark.usefixtures("long")
@@ -306,10 +136,8 @@ def test_a_file_that_changes_while_it_is_read(
     ("options", "message"),
     [
         (("--summary-only",), "--summary-only is for time steps: give a series with --positions"),
-        (("--summary-only", "--positions", "state.npy"), "--summary-only is for time steps: state.npy holds one state"),
+        (("--summary-only", "--positions", "state.npy"), "--summary-only is for time steps: state.npy is one state"),
         ((*TIMED, "--summary-only", "--plot", "a.png"), "--plot is not for --summary-only: leave one of them out"),
-        ((*TIMED, "--chunk", "8"), "--chunk is for --summary-only: add it"),
-        (("deck.keyxm", "other.keyxm", "--summary-only"), "--summary-only is for one deck: give a single file"),
     ],
 )
 def test_options_that_do_not_fit(place: Place, folder: Path, options: tuple[str, ...], message: str) -> None:

@@ -21,7 +21,7 @@ def test_list_has_a_line_for_every_rule() -> None:
     assert (outcome.code, outcome.err) == (0, "")
     lines = outcome.out.splitlines()
     assert lines[0] == f"{len(CODES)} rules"
-    assert [line.split()[0] for line in lines[3:-1]] == CODES
+    assert [line.split()[0] for line in lines[3:-1] if line[0] != " "] == CODES
     assert "SYN002 error bad-number A field that needs a number holds none." in [
         " ".join(line.split()) for line in lines
     ]
@@ -48,7 +48,9 @@ def test_page_fits_and_is_harmless(code: str) -> None:
 
 def test_prefix_lists_its_rules() -> None:
     lines = run("rules", "CRV").out.splitlines()
-    assert [line.split()[0] for line in lines[3:-1]] == [code for code in CODES if code.startswith("CRV")]
+    assert [line.split()[0] for line in lines[3:-1] if line[0] != " "] == [
+        code for code in CODES if code.startswith("CRV")
+    ]
 
 
 def test_unknown_rule_is_wrong_usage() -> None:

@@ -12,7 +12,8 @@ from tests.cli.runner import SAMPLES, assert_fits, run
 
 TEXT = """\
 deck.keyxm: metric units, 3 nodes, 2 elements, 20.008 m long, elastic seabed
-  $MODEL: *OCEAN, *NODE, *ELEMENT, *ELEMENT SETS, *GEOMETRIC SETS, *SEABED PROPERTIES, *SEABED STIFFNESS
+  $MODEL: *OCEAN, *NODE, *ELEMENT, *ELEMENT SETS, *GEOMETRIC SETS, *SEABED PROPERTIES, *SEABED
+      STIFFNESS
 
 Element sets
                 length

@@ -223,17 +223,12 @@ def test_message_is_not_broken_in_a_pipe(place: Place, monkeypatch: pytest.Monke
 # --------------------------------------------------------------------------------------------------------------- tables
 
 
-def test_table_in_a_pipe_is_as_wide_as_it_has_to_be(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("COLUMNS", "40")
-    name = place(CLEAN.replace("Pipe", "P" * 250))
-    assert f"\n{'P' * 250}         2" in run("show", name).out
-
-
-def test_table_on_a_terminal_folds_its_texts(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(("terminal", "width"), [(True, 72), (False, 100)])
+def test_table_folds_its_texts(place: Place, monkeypatch: pytest.MonkeyPatch, *, terminal: bool, width: int) -> None:
     monkeypatch.setenv("COLUMNS", "72")
     name = place(CLEAN.replace("Pipe", "The whole of the pipe " * 8))
-    text = plain(run("show", name, terminal=True).out)
-    assert max(map(len, text.splitlines())) <= 72
+    text = plain(run("show", name, terminal=terminal).out)
+    assert max(map(len, text.splitlines())) <= width
     assert " ".join(text.split()).count("The whole of the pipe") >= 8
 
 

@@ -6,7 +6,7 @@ import os
 import textwrap
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 from string import Formatter
 from typing import TYPE_CHECKING, NamedTuple
@@ -17,7 +17,7 @@ from mudline.cli.evaluate_inputs import EvaluateInputs
 from mudline.cli.evaluate_one import MOST_ROWS
 from mudline.cli.inputs import Input
 from mudline.cli.known_results import Kept
-from mudline.cli.result_files import behind, beside, line_watch, result_files
+from mudline.cli.result_files import behind, beside, line_watch, result_files, write_tables
 from mudline.cli.streams import counted, reason
 from mudline.cli.view import View
 from mudline.cluster.storage import exists, is_folder, join, resolved
@@ -28,6 +28,7 @@ from mudline.files import is_url, recording_looks, suffix_of
 from mudline.quantities import CASES, shown
 from mudline.results.cases import CaseSummary, CaseWatch
 from mudline.results.forms import ResultConsumer, form_module
+from mudline.results.series import SeriesSummary, series_tables
 from mudline.results.warnings import ContactWatch
 
 if TYPE_CHECKING:
@@ -177,7 +178,7 @@ class Order(NamedTuple):
     folder: str | None
     inputs: EvaluateInputs
     units: str | None
-    as_text: bool
+    summary_only: bool
 
 
 class Done(NamedTuple):
@@ -207,17 +208,24 @@ def evaluate_case(order: Order) -> Done:
 def _kept(order: Order, path: Path | None) -> Kept:
     """Evaluate a deck; raises DeckError, click.ClickException, OSError."""
     deck = load_bytes(order.data, order.file.name, units=order.units, folder=order.file.folder)
-    evaluation = order.inputs.evaluation(deck, order.positions)
+    evaluation = replace(order.inputs, positions=order.positions).evaluation(deck)
     case, watch = CaseWatch(evaluation), ContactWatch.of(evaluation)
     consumers: list[ResultConsumer] = [case, watch]
     if path is None:
         _run(evaluation.parts(), consumers)
+    elif order.summary_only:
+        if evaluation.time is None:
+            raise click.ClickException("--summary-only is for time steps: the positions are one state")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        series = SeriesSummary(evaluation)
+        _run(evaluation.parts(), [*consumers, series])
+        write_tables(series_tables(series), path)
     else:
         path.parent.mkdir(parents=True, exist_ok=True)
         quiet, elements = View(quiet=True), evaluation.element_table()
         lines = line_watch(evaluation, suffix_of(path), None)
         consumers += [] if lines is None else [lines]
-        with result_files(evaluation, elements, path, quiet, as_text=order.as_text, synced=False) as sink:
+        with result_files(evaluation, elements, path, quiet, synced=False) as sink:
             _run(evaluation.parts(), [*consumers, sink])
             sink.finish(behind(evaluation, watch.warnings(), None, lines))
     warnings = watch.warnings()

@@ -185,7 +185,7 @@ class EvaluateGiven(NamedTuple):
     inputs: EvaluateInputs
     output: str | None
     units: str | None
-    as_text: bool
+    summary_only: bool
     folder: str
 
 
@@ -202,7 +202,7 @@ def evaluate_deck(given: EvaluateGiven) -> Made:
     elements = given.inputs.elements and resolved(given.inputs.elements, given.folder)
     with local_copy(positions) as near, local_copy(elements) as near_elements, _near(given) as output:
         inputs = replace(given.inputs, elements=near_elements)
-        done = evaluate_case(Order(file, data, near, case.result, output, inputs, given.units, given.as_text))
+        done = evaluate_case(Order(file, data, near, case.result, output, inputs, given.units, given.summary_only))
         copies = {near, near_elements} - {positions, elements}
         read = [os.path.abspath(path) for path in done.read if path not in copies]  # noqa: PTH100 - as `look` does
         read += [path for path in (positions, elements) if path and is_url(path)]

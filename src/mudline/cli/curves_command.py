@@ -48,7 +48,6 @@ _SOFTENS = "unstable: the curve softens there, and a pipe that is pushed deeper 
     help="Find the static embedment under this submerged weight per unit length, in the deck's units.",
 )
 @click.option("--plot", "picture", metavar="FILE.png|svg", help="Draw the curves (needs the extra mudline[plot]).")
-@options.spreadsheet
 @options.output_format("text", "json", "csv")
 @takes_deck
 def command(
@@ -57,7 +56,6 @@ def command(
     ratios: tuple[float, ...],
     weight: float | None,
     picture: str | None,
-    spreadsheet: bool,
     output_format: str,
     view: View,
 ) -> int:
@@ -65,8 +63,6 @@ def command(
 
     CSV holds one table: the points, or the values for --at or --weight.
     """
-    if spreadsheet and output_format != "csv":
-        raise click.UsageError(options.CSV_ONLY)
     if weight is not None and weight <= 0.0:
         raise click.UsageError(f"--weight {weight:g}: a line that lies on the seabed has a submerged weight above 0")
     if output_format == "csv" and ratios and weight is not None:
@@ -84,7 +80,7 @@ def command(
     if output_format == "json":
         emit_json(rows)
     elif output_format == "csv":
-        emit(csv_lines(_csv_rows(rows, ratios, weight), as_text=spreadsheet))
+        emit(csv_lines(_csv_rows(rows, ratios, weight)))
     elif rows:
         _print_curves(scene, rows, view)
     else:

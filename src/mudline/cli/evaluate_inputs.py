@@ -1,16 +1,18 @@
-"""What is evaluated: the scene of a deck, and positions and elements from files as the options of `evaluate` say."""
+"""What is evaluated: the scene of a deck, and positions and elements from files, as `evaluate` and `batch` are told."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import wraps
 from math import isfinite
 from pathlib import Path
-from typing import TypeVar
+from typing import TypeVar, cast
 
 import click
 
+from mudline.cli.options import Command
 from mudline.cli.streams import reason
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError
@@ -27,9 +29,10 @@ _Read = TypeVar("_Read")
 
 @dataclass(frozen=True)
 class EvaluateInputs:
-    """The options about what is evaluated, which every deck of a run shares."""
+    """What is evaluated of a deck: `positions` is the file, of `batch` also the folder or pattern, that was given."""
 
     tension: Tension = "keep"
+    positions: str | None = None
     elements: str | None = None
     time_step: float | None = None
     headings: Mapping[str, str] = field(default_factory=dict)
@@ -45,25 +48,19 @@ class EvaluateInputs:
 
             raise DeckError(named_causes(deck, error.diagnostics, rules())) from error
 
-    def evaluation(self, deck: Deck, positions: str | None) -> Evaluation:
+    def evaluation(self, deck: Deck) -> Evaluation:
         """A deck ready to be evaluated, at positions of a file or its own. Raises DeckError, click.ClickException."""
         scene = self.scene(deck)
-        return evaluate_scene(scene, self._placed(positions, scene), self.tension)
+        return evaluate_scene(scene, self._placed(scene), self.tension)
 
-    def prepared(self, deck: Deck, positions: str | None) -> Prepared:
+    def prepared(self, deck: Deck) -> Prepared:
         """The evaluator of a deck, for its plan. Raises DeckError, click.ClickException."""
         scene = self.scene(deck)
-        return prepare(scene, self._placed(positions, scene), self.tension)
+        return prepare(scene, self._placed(scene), self.tension)
 
-    def check(self, positions: str | None) -> None:
-        """Refuse options that do not fit each other; raises click.UsageError."""
-        if self.headings and positions is None:
-            raise click.UsageError("--columns is for positions from a CSV: give --positions too")
-        if self.time_step is not None and not (isfinite(self.time_step) and self.time_step > 0.0):
-            raise click.UsageError(f"--time-step is {self.time_step!r}: it must be greater than 0")
-
-    def _placed(self, path: str | None, scene: Scene) -> Positions | None:
+    def _placed(self, scene: Scene) -> Positions | None:
         """Positions of a scene's nodes; with `time_step` those without times get them."""
+        path = self.positions
         if path is None:
             return None
         if self.headings and Path(path).suffix.lower() in {".npz", ".npy"}:
@@ -75,6 +72,72 @@ class EvaluateInputs:
             what = "has times of its own" if positions.timed and positions.time is not None else "is one state"
             raise click.UsageError(f"--time-step is for positions without times: {path} {what}")
         return replace(positions, time=positions.time * self.time_step, timed=True)
+
+
+def takes_inputs(positions_help: str) -> Callable[[Command], Command]:
+    """Add the options on what is evaluated; they reach the command as `inputs`, an EvaluateInputs."""
+
+    def added(command: Command) -> Command:
+        @wraps(command)
+        def given(
+            *,
+            positions: str | None,
+            columns: tuple[str, ...],
+            time_step: float | None,
+            elements: str | None,
+            tension: str,
+            **others: object,
+        ) -> int:
+            headings = read_headings(columns)
+            if headings and positions is None:
+                raise click.UsageError("--columns is for positions from a CSV: give --positions too")
+            if time_step is not None and not (isfinite(time_step) and time_step > 0.0):
+                raise click.UsageError(f"--time-step is {time_step!r}: it must be greater than 0")
+            inputs = EvaluateInputs(cast("Tension", tension), positions, elements, time_step, headings)
+            return command(inputs=inputs, **others)
+
+        for option in reversed(_INPUTS):
+            given = option(given)
+        return click.option("--positions", metavar="FILE", help=positions_help)(given)
+
+    return added
+
+
+_INPUTS = (
+    click.option(
+        "--columns",
+        multiple=True,
+        metavar="NAME=HEADING,...",
+        help='Name the columns of positions in a CSV of another program: time="Time [s]",node=Node,x=X. Repeatable.',
+    ),
+    click.option(
+        "--time-step", type=float, metavar="DT", help="Set the time between the steps of positions that have no times."
+    ),
+    click.option(
+        "--elements", metavar="FILE", help="Read the elements from a CSV, for decks whose elements come from *LINES."
+    ),
+    click.option(
+        "--tension",
+        type=click.Choice(["keep", "cut"]),
+        default="keep",
+        show_default=True,
+        help="Keep the tension where a curve is negative in contact, or cut force and stiffness to 0.",
+    ),
+)
+
+summary_only = click.option(
+    "--summary-only",
+    is_flag=True,
+    help="Keep of a long series only extremes with their times, counts and envelopes.",
+)
+
+fail_on = click.option(
+    "--fail-on",
+    type=click.Choice(["error", "warning"]),
+    default="error",
+    show_default=True,
+    help="Exit with 1 for warnings about the results too.",
+)
 
 
 def read_file(path: str, read: Callable[[Path], _Read]) -> _Read:

@@ -2,33 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
-from mudline.cli import DONE, FOUND
-from mudline.cli.evaluate_inputs import EvaluateInputs, read_file
-from mudline.cli.evaluate_text import print_comparison, print_evaluation, print_plan
-from mudline.cli.pictures import Pictures
-from mudline.cli.result_files import (
-    behind,
-    beside,
-    form_of_file,
-    has_library,
-    line_watch,
-    result_files,
-)
-from mudline.cli.streams import MOST_REPORTED, counted, emit, emit_json, notify
+from mudline.cli.evaluate_inputs import read_file
+from mudline.cli.evaluate_text import print_comparison, print_evaluation, print_series
+from mudline.cli.pictures import Picture
+from mudline.cli.result_files import behind, beside, form_of_file, line_watch, result_files, write_tables
+from mudline.cli.streams import MOST_REPORTED, counted, emit, notify
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.contact import LawKind
-from mudline.deck.model import Deck
-from mudline.quantities import csv_lines
 from mudline.results.against import Comparison, read_reference
-from mudline.results.evaluation import Evaluation, Prepared
-from mudline.results.forms import ResultConsumer, Sink, Together, plan_rows, text_form
-from mudline.results.plot_data import PlotData
+from mudline.results.evaluation import Evaluation
+from mudline.results.forms import ResultConsumer, Sink, Together, tables_as_text, text_form
+from mudline.results.series import SeriesSummary, series_tables
 from mudline.results.totals import SlowSuction, StepSummary
 from mudline.results.warnings import ContactWarning, ContactWatch, caption
 from mudline.short_repr import listed_numbers
@@ -42,28 +31,20 @@ class Outputs:
     """Where the results of one deck go, and what is shown of them."""
 
     output: str | None
-    pictures: Pictures
+    picture: Picture
     against: str | None
     table: str
     output_format: str
-    spreadsheet: bool
-    fail_on: str
-
-    def have_libraries(self) -> bool:
-        """Whether the libraries for the files are installed; reports one that is not. Raises click.UsageError."""
-        form = form_of_file(self.output)
-        return (not form or has_library(form)) and self.pictures.has_library()
 
 
-def evaluate_one(deck: Deck, inputs: EvaluateInputs, positions: str | None, outputs: Outputs, view: View) -> int:
-    """Evaluate a deck, print or write the results; returns the exit code. Raises DeckError, click.ClickException."""
-    evaluation = inputs.evaluation(deck, positions)
+def evaluate_one(evaluation: Evaluation, outputs: Outputs, view: View) -> list[ContactWarning]:
+    """Evaluate a deck, print or write the results; returns what is doubtful. Raises DeckError, click.ClickException."""
     against, output, output_format = outputs.against, outputs.output, outputs.output_format
     reference = read_file(against, lambda file: read_reference(file, evaluation)) if against else None
     comparison = None if reference is None else Comparison(evaluation, reference)
-    drawing = outputs.pictures.data(partial(PlotData.of_evaluation, evaluation))
+    drawing = outputs.picture.data(evaluation)
     if not view.quiet:
-        notify_before(evaluation, comparison)
+        _notify_before(evaluation, comparison)
     shown = "" if output else output_format
     most = None if view.verbose else MOST_ROWS
     digest = StepSummary(evaluation, most, outputs.table == "nodes") if shown == "text" else None
@@ -76,26 +57,42 @@ def evaluate_one(deck: Deck, inputs: EvaluateInputs, positions: str | None, outp
         warnings = watch.warnings()
         sink.finish(behind(evaluation, warnings, comparison, lines))
     if drawing is not None:
-        outputs.pictures.draw(drawing, caption(warnings), view)
+        outputs.picture.draw(drawing, caption(warnings), view)
     if not view.quiet:
-        notify_warnings(warnings)
-        _notify_after(evaluation, slow, watch.note(), Path(output) if output else None)
+        _notify_warnings(warnings)
+        if note := watch.note():
+            notify(note)
+        _notify_slow(evaluation, slow)
+    if output and not view.quiet:
+        _notify_written(evaluation, Path(output), beside(Path(output)))
     if digest is not None and lines is not None:
         print_evaluation(digest, lines, outputs.table, view)
     if comparison is not None and output_format == "text":
         print_comparison(comparison, view)
-    return FOUND if warnings and outputs.fail_on == "warning" else DONE
+    return warnings
 
 
-def show_plan(prepared: Prepared, form: str, view: View) -> None:
-    """Print what a deck needs, and what is left out."""
-    rows = plan_rows(prepared.model.plan)
-    if form == "json":
-        emit_json({"units": prepared.scene.units, "plan": rows})
-    elif form == "csv":
-        emit(csv_lines([("stage", "active", "why"), *(row.values() for row in rows)]))
-    else:
-        print_plan(prepared.model.plan, view)
+def evaluate_series(
+    evaluation: Evaluation, output: str | None, table: str, output_format: str, view: View
+) -> list[ContactWarning]:
+    """Summarise a series, print or write the summary; returns what is doubtful. Raises what `evaluate_one` does."""
+    if not view.quiet:
+        _notify_before(evaluation, None)
+    summary = SeriesSummary(evaluation)
+    _run(evaluation, [summary], view, bar=True)
+    tables, warnings = series_tables(summary), summary.watch.warnings()
+    if output:
+        written = write_tables(tables, Path(output))
+    elif output_format != "text":
+        emit(tables_as_text(tables, output_format, table))
+    if not view.quiet:
+        _notify_warnings(warnings)
+        _notify_slow(evaluation, summary.slow)
+    if output and not view.quiet:
+        _notify_written(evaluation, Path(output), written)
+    if not output and output_format == "text":
+        print_series(summary.step_summary(), summary.line_watch(None if view.verbose else MOST_ROWS), view)
+    return warnings
 
 
 def _sink(
@@ -103,13 +100,13 @@ def _sink(
 ) -> AbstractContextManager[Sink]:
     """Where the rows go: files, standard output, or nowhere."""
     elements = evaluation.element_table(None if comparison is None else comparison.others)
-    form, as_text = outputs.output_format, outputs.spreadsheet
+    form = outputs.output_format
     if outputs.output:
-        return result_files(evaluation, elements, Path(outputs.output), view, as_text=as_text)
+        return result_files(evaluation, elements, Path(outputs.output), view)
     if form in {"json", "csv"}:
         tables = {"nodes": evaluation.node_table, "summary": evaluation.line_table}
         rows = tables[outputs.table]() if form == "csv" and outputs.table in tables else elements
-        return nullcontext(text_form(form, as_text=as_text)(evaluation, rows, emit))
+        return nullcontext(text_form(form)(evaluation, rows, emit))
     return nullcontext(Together())
 
 
@@ -119,14 +116,13 @@ def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer], view: View
         for part in evaluation.parts():
             for consumer in consumers:
                 consumer.take(part)
-            for _ in range(part.count):
-                progress.advance()
+            progress.advance(part.count)
 
 
 # ----------------------------------------------------------------------------------------------------------- notes
 
 
-def notify_before(evaluation: Evaluation, comparison: Comparison | None) -> None:
+def _notify_before(evaluation: Evaluation, comparison: Comparison | None) -> None:
     """Report what is left out, and what is guessed."""
     missing = len(evaluation.present) - len(evaluation.nodes)
     if missing:
@@ -141,7 +137,7 @@ def notify_before(evaluation: Evaluation, comparison: Comparison | None) -> None
         _notify_unmatched(comparison)
 
 
-def notify_warnings(warnings: Sequence[ContactWarning]) -> None:
+def _notify_warnings(warnings: Sequence[ContactWarning]) -> None:
     """Report what is doubtful in the results."""
     for one in warnings[:MOST_REPORTED]:
         notify(f"warning: {one}")
@@ -149,19 +145,14 @@ def notify_warnings(warnings: Sequence[ContactWarning]) -> None:
         notify(f"{len(warnings) - MOST_REPORTED} more warnings: JSON has all")
 
 
-def _notify_after(evaluation: Evaluation, slow: SlowSuction, note: str, written: Path | None) -> None:
-    """Report which positions these are, where suction is less than its power law gives, and the files written."""
-    if note:
-        notify(note)
-    notify_slow(evaluation, slow)
-    if written is None:
-        return
-    for table, file in beside(written).items():
+def _notify_written(evaluation: Evaluation, path: Path, others: Mapping[str, Path]) -> None:
+    """Report the files of results."""
+    for table, file in others.items():
         notify(f"{table} -> {file.as_posix()}")
-    notify(f"{evaluation.scene.deck.file} -> {written.as_posix()}")
+    notify(f"{evaluation.scene.deck.file} -> {path.as_posix()}")
 
 
-def notify_slow(evaluation: Evaluation, slow: SlowSuction) -> None:
+def _notify_slow(evaluation: Evaluation, slow: SlowSuction) -> None:
     """Report where suction is less than its power law gives."""
     if slow.element is not None:
         number = int(evaluation.scene.element_ids[slow.element])

@@ -88,5 +88,5 @@ def _print_decks(decks: Sequence[PlannedDeck], view: View) -> None:
         for deck in decks
     ]
     printer = view.printer()
-    printer.table("Decks", _COLUMNS, rows, left=_COLUMNS, whole=("file",))
+    printer.table("Decks", _COLUMNS, rows, left=_COLUMNS)
     printer.line(counted(len(decks), "deck"))

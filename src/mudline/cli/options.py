@@ -70,11 +70,6 @@ every_file = click.option(
     "--no-gitignore", "every_file", is_flag=True, help="Include files of directories that a .gitignore hides."
 )
 
-spreadsheet = click.option(
-    "--spreadsheet", is_flag=True, help="Write names that a spreadsheet would take as formulas as text, in CSV."
-)
-CSV_ONLY = "--spreadsheet is for CSV: give --output-format csv, or a .csv file with -o where the command has one"
-
 stdin_name = click.option(
     "--stdin-filename",
     "stdin_name",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import zip_longest
 from types import MappingProxyType
@@ -19,19 +19,21 @@ from mudline.linting.output import visible
 from mudline.quantities import shown
 from mudline.syntax.source import Source
 
+WIDTH = 100
+"""Columns of a table where no terminal sets a limit."""
 EXCERPT_WIDTH = 120
 """Columns of a source line that are shown where no terminal sets a limit."""
 
 _STYLES = {Severity.ERROR: "bold red", Severity.WARNING: "bold yellow", Severity.INFO: "bold blue"}
 _WIDE = 10_000
 _GAP = "  "
-_UNSTYLED: Mapping[str, str] = MappingProxyType({})
 _NARROWEST = 12
 """Columns of text are not folded below this width."""
 
 Part = str | tuple[str, str]
 """A piece of a line: a text, or a text and its style."""
-Cell = str | int | float | None
+Cell = str | int | float | tuple[str, str] | None
+"""What a table shows: a text, a text and its style, a number, nothing."""
 
 
 class _Console(Console):
@@ -41,7 +43,7 @@ class _Console(Console):
 
 
 class Printer:
-    """Prints on standard output. Text of a deck stays plain text, and nothing is cut where no terminal is."""
+    """Prints on standard output. Text of a deck stays plain text, and only tables are folded where no terminal is."""
 
     severity_styles: ClassVar[Mapping[str, str]] = MappingProxyType(
         {one.value: style for one, style in _STYLES.items()}
@@ -62,7 +64,7 @@ class Printer:
             emoji=False,
             soft_wrap=True,
         )
-        self.width = self._console.width
+        self.width = self._console.width if terminal else WIDTH
         self.encoding = self._console.encoding
         self.colored = self._console.color_system is not None and not self._console.legacy_windows
         self.rule = "\u2500" if self.encoding.startswith("utf") else "-"
@@ -99,7 +101,7 @@ class Printer:
 
     def findings(self, found: list[Diagnostic], source: Source, *, following: bool = False) -> None:
         """Print the findings of one file, each with its source line, and with those that follow from it if wanted."""
-        screen = Screen(min(self.width, EXCERPT_WIDTH), self.encoding)
+        screen = Screen(min(self._console.width, EXCERPT_WIDTH), self.encoding)
         self.lines(findings(found, source, screen, following=following))
 
     def summary(self, found: list[Diagnostic], files: int) -> None:
@@ -112,45 +114,48 @@ class Printer:
         columns: Sequence[str],
         rows: Iterable[Sequence[Cell]],
         *,
-        left: Sequence[str] = (),
-        optional: Sequence[str] = (),
+        left: Collection[str] = (),
+        optional: Collection[str] = (),
         note: str = "",
-        styles: Mapping[str, str] = _UNSTYLED,
-        whole: Sequence[str] = (),
     ) -> None:
-        """Print cells under their headings, with a blank line behind. None is an empty cell.
+        """Print cells under their headings, with a blank line behind. None is an empty cell; a cell may have a style.
 
-        Numbers are aligned right, the columns named in `left` left; only these are folded on a narrow terminal, those
-        named in `whole` not even then: rather than cutting a number, a table is wider than the screen. Columns named in
-        `optional` are left out where they are empty. A heading may have several lines. `note` comes below the table;
-        `styles` gives cells that hold just these words a style.
+        Numbers are aligned right, the columns of text named in `left` left; long texts are folded, so the longest
+        belongs into the last column. A number is never cut: rather than that, a table is wider than the screen. Columns
+        named in `optional` are left out where they are empty. A heading may have several lines; `note` comes below.
         """
-        cells = [[self.visible(_text(cell)) for cell in row] for row in rows]
-        filled = [i for i, name in enumerate(columns) if name not in optional or any(row[i] for row in cells)]
-        if len(filled) < len(columns):
-            columns, cells = [columns[i] for i in filled], [[row[i] for i in filled] for row in cells]
-        heads = [name.split("\n") for name in columns]
-        widths = [max(map(cell_len, column)) for column in zip(*_filled(heads), *cells, strict=True)]
-        folds = [name in left and name not in whole for name in columns]
-        layout = _Layout(_fitted(widths, folds, self.width), [name in left for name in columns])
-        width = sum(layout.widths) + len(_GAP) * (len(columns) - 1)
-        self.line((self.visible(title), "bold"))
-        for names in _filled(heads):
-            self.line(layout.line(names), fold=False)
-        self.line((self.rule * width, "dim"), fold=False)
-        lines = (line for row in cells for line in layout.lines(row, self._console))
-        if styles:
+        cells = [[self._cell(cell) for cell in row] for row in rows]
+        filled = [i for i, name in enumerate(columns) if name not in optional or any(row[i][0] for row in cells)]
+        cells = [[row[i] for i in filled] for row in cells]
+        names = [columns[i] for i in filled]
+        depth = max(name.count("\n") for name in names)
+        heads = list(zip(*(("\n" * (depth - name.count("\n")) + name).split("\n") for name in names), strict=True))
+        texts = ([text for text, _ in row] for row in cells)
+        widths = [max(map(cell_len, column)) for column in zip(*heads, *texts, strict=True)]
+        to_left = [name in left for name in names]
+        layout = _Layout(_fitted(widths, to_left, self.width), to_left)
+        if title:
+            self.line((self.visible(title), "bold"))
+        lines: list[Iterable[_Styled]] = [layout.line([(text, "") for text in head]) for head in heads]
+        lines.append([(self.rule * (sum(layout.widths) + len(_GAP) * (len(names) - 1)), "dim")])
+        lines += (layout.line(part) for row in cells for part in layout.folded(row, self._console))
+        if self.colored:
             for line in lines:
-                self._console.print(layout.styled(line, styles))
-        elif cells:
-            self._console.out("\n".join(map(layout.line, lines)), highlight=False)
+                self._console.print(_stripped(Text.assemble(*line)), soft_wrap=True)
+        else:
+            self.write("".join(text for text, _ in line).rstrip() for line in lines)
         if note:
             self.line((self.visible(note), "dim"))
         self._console.print()
 
+    def _cell(self, cell: Cell) -> _Styled:
+        """What a cell shows, and its style."""
+        value, style = cell if isinstance(cell, tuple) else (cell, "")
+        text = value if isinstance(value, str) else str(value) if isinstance(value, int) else shown(value)
+        return self.visible(text), style
 
-def _text(cell: Cell) -> str:
-    return cell if isinstance(cell, str) else str(cell) if isinstance(cell, int) else shown(cell)
+
+_Styled = tuple[str, str]
 
 
 class _Layout(NamedTuple):
@@ -159,48 +164,40 @@ class _Layout(NamedTuple):
     widths: list[int]
     to_left: list[bool]
 
-    def lines(self, row: list[str], printer: Console) -> Iterable[Sequence[str]]:
+    def folded(self, row: Sequence[_Styled], console: Console) -> Iterable[Sequence[_Styled]]:
         """A row as one line of cells, or several where a text is folded."""
-        if all(cell_len(cell) <= width for cell, width in zip(row, self.widths, strict=True)):
+        if all(cell_len(text) <= width for (text, _), width in zip(row, self.widths, strict=True)):
             return [row]
         folded = [
-            [part.plain.rstrip() for part in Text(cell).wrap(printer, width)]
-            for cell, width in zip(row, self.widths, strict=True)
+            [(part.plain.rstrip(), style) for part in Text(text).wrap(console, width)]
+            for (text, style), width in zip(row, self.widths, strict=True)
         ]
-        return zip_longest(*folded, fillvalue="")
+        return zip_longest(*folded, fillvalue=("", ""))
 
-    def line(self, cells: Sequence[str]) -> str:
-        """Cells side by side, without trailing spaces."""
-        return _GAP.join(self._padded(cells)).rstrip()
-
-    def styled(self, cells: Sequence[str], styles: Mapping[str, str]) -> Text:
-        """The same with the cells that have a style."""
-        text = Text()
-        for cell, padded in zip(cells, self._padded(cells), strict=True):
-            text.append(_GAP if text else "").append(padded, styles.get(cell))
-        text.rstrip()
-        return text
-
-    def _padded(self, cells: Sequence[str]) -> Iterator[str]:
-        for cell, width, left in zip(cells, self.widths, self.to_left, strict=True):
-            blanks = " " * (width - cell_len(cell))
-            yield cell + blanks if left else blanks + cell
+    def line(self, cells: Iterable[_Styled]) -> Iterator[_Styled]:
+        """Cells side by side."""
+        gap = ""
+        for (text, style), width, left in zip(cells, self.widths, self.to_left, strict=True):
+            blanks = " " * (width - cell_len(text))
+            yield gap + ("" if left else blanks), ""
+            yield text, style
+            yield blanks if left else "", ""
+            gap = _GAP
 
 
-def _filled(heads: list[list[str]]) -> list[tuple[str, ...]]:
-    """The lines of the headings, aligned at the bottom."""
-    depth = max(len(head) for head in heads)
-    return list(zip(*([""] * (depth - len(head)) + head for head in heads), strict=True))
+def _stripped(text: Text) -> Text:
+    text.rstrip()
+    return text
 
 
-def _fitted(widths: list[int], folds: list[bool], available: int) -> list[int]:
+def _fitted(widths: list[int], to_left: list[bool], available: int) -> list[int]:
     """Take from the widest column of text until the table fits or all of them are narrow."""
     fitted = list(widths)
     while sum(fitted) + len(_GAP) * (len(fitted) - 1) > available:
-        widest = max((width for width, text in zip(fitted, folds, strict=True) if text), default=0)
+        widest = max((width for width, text in zip(fitted, to_left, strict=True) if text), default=0)
         if widest <= _NARROWEST:
             return fitted
-        column = next(i for i, text in enumerate(folds) if text and fitted[i] == widest)
+        column = next(i for i, text in reversed([*enumerate(to_left)]) if text and fitted[i] == widest)
         fitted[column] -= 1
     return fitted
 

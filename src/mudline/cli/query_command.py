@@ -143,7 +143,7 @@ def _list_questions(view: View) -> None:
         for one in QUESTIONS.values()
     ]
     columns = ("question", "answers", "parameters")
-    view.printer().table("Ready questions", columns, rows, left=columns, whole=("question",))
+    view.printer().table("Ready questions", columns, rows, left=columns)
 
 
 def _question(sql: str | None, ask: str | None, param: tuple[str, ...]) -> tuple[str, dict[str, object]]:

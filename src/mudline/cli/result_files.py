@@ -15,7 +15,7 @@ from mudline.contact.columns import ElementTable
 from mudline.files import suffix_of
 from mudline.results.against import Comparison
 from mudline.results.evaluation import Evaluation
-from mudline.results.forms import Output, Sink, form_module, form_names, table_path
+from mudline.results.forms import Output, Sink, Tables, form_module, form_names, table_path
 from mudline.results.lines import LineWatch
 from mudline.results.warnings import ContactWarning
 
@@ -53,7 +53,7 @@ def has_library(form: str) -> bool:
 
 @contextmanager
 def result_files(
-    evaluation: Evaluation, elements: ElementTable, path: Path, view: View, *, as_text: bool, synced: bool = True
+    evaluation: Evaluation, elements: ElementTable, path: Path, view: View, *, synced: bool = True
 ) -> Iterator[Sink]:
     """The file of an evaluation by its suffix, or several files; they exist when all is written, or not at all.
 
@@ -62,7 +62,7 @@ def result_files(
     form = form_module(suffix_of(path))
     with ExitStack() as stack:
         streams = [stack.enter_context(writing(one, synced=synced)) for one in (path, *beside(path).values())]
-        output = Output(evaluation, elements, streams, path.parent, partial(tracked, view=view), as_text)
+        output = Output(evaluation, elements, streams, path.parent, partial(tracked, view=view))
         yield stack.enter_context(form.opened(output))
 
 
@@ -70,6 +70,17 @@ def beside(path: Path) -> dict[str, Path]:
     """The files of the other tables beside that of the elements, by the names of the tables."""
     form = form_module(suffix_of(path))
     return {table: table_path(path, table) for table in form.BESIDE}
+
+
+def write_tables(tables: Tables, path: Path) -> dict[str, Path]:
+    """Write tables into a file, or several; returns those beside it by the names of the tables."""
+    form = form_module(suffix_of(path))
+    _, *others = tables.columns
+    found = {table: table_path(path, table) for table in others} if form.BESIDE else {}
+    with ExitStack() as stack:
+        streams = [stack.enter_context(writing(one)) for one in (path, *found.values())]
+        form.write_tables(tables, streams, path.parent)
+    return found
 
 
 def line_watch(evaluation: Evaluation, form: str, most: int | None) -> LineWatch | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from textwrap import fill, indent
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -14,6 +14,9 @@ from mudline.cli.view import View
 from mudline.linting.output import visible_lines
 from mudline.linting.registry import UnknownRule, origin, rules, select
 from mudline.linting.rule import Rule
+
+if TYPE_CHECKING:
+    from mudline.cli.printing import Printer
 
 _PAGE = 100
 """Columns of the page of a rule."""
@@ -55,9 +58,14 @@ def _object(rule: Rule) -> dict[str, Any]:
 def _print_rules(rules: Sequence[Rule], view: View) -> None:
     """Print a row for each rule: code, severity, name, what it finds."""
     printer = view.printer()
-    rows = [(rule.code.code, rule.code.severity.value, rule.code.slug, _finds(rule)) for rule in rules]
-    styles = printer.severity_styles
-    printer.table(f"{len(rows)} rules", _COLUMNS, rows, left=_COLUMNS, whole=_COLUMNS[:3], styles=styles)
+    rows = [(rule.code.code, _severity(rule, printer), rule.code.slug, _finds(rule)) for rule in rules]
+    printer.table(f"{len(rows)} rules", _COLUMNS, rows, left=_COLUMNS)
+
+
+def _severity(rule: Rule, printer: Printer) -> tuple[str, str]:
+    """The severity of a rule, and its style."""
+    severity = rule.code.severity.value
+    return severity, printer.severity_styles[severity]
 
 
 def _finds(rule: Rule) -> str:
@@ -69,10 +77,8 @@ def _finds(rule: Rule) -> str:
 def _print_rule(rule: Rule, view: View) -> None:
     """Print what a rule finds and why, with a bad and a good deck."""
     printer = view.printer()
-    severity = rule.code.severity.value
-    style = printer.severity_styles[severity]
     width = min(printer.width, _PAGE)
-    printer.line((rule.code.code, "bold"), f" {rule.code.slug} (", (severity, style), ")", fold=False)
+    printer.line((rule.code.code, "bold"), f" {rule.code.slug} (", _severity(rule, printer), ")", fold=False)
     line, column = rule.place
     package = origin(rule.code.code)
     bad, good = (visible_lines(indent(deck, "    ").rstrip("\n")) for deck in (rule.bad, rule.good))

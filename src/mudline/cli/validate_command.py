@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from contextlib import closing
 from dataclasses import asdict, fields
 from textwrap import indent
@@ -22,15 +22,9 @@ from mudline.quantities import csv_lines
 from mudline.syntax.source import Source
 
 if TYPE_CHECKING:
-    from mudline.cli.printing import Printer
     from mudline.cluster.scheduler import Scheduler
 
 _COUNTS = ("errors", "warnings", "sections", "keywords", "curves", "elements")
-_OPTIONAL = ("sections", "keywords", "curves")
-"""Counts that a narrow terminal does not show, in the order in which they are left out."""
-_GAP = "  "
-_SHORTEST = 20
-"""Columns that a file name gets on the narrowest terminal."""
 
 
 @click.command("validate")
@@ -145,43 +139,13 @@ def _print_text(judged: Iterable[Judged], total: Total, view: View) -> None:
             view.printer().findings(found, Source.from_bytes(data, verdict.file), following=view.verbose)
     if verdicts:
         printer = view.printer()
-        printer.write(_lines(verdicts, total, printer))
+        rows = [
+            [(each.verdict, _style(good=each.legal)), *(getattr(each, name) for name in _COUNTS), each.file]
+            for each in verdicts
+        ]
+        printer.table("Decks", ("verdict", *_COUNTS, "file"), rows, left=("verdict", "file"))
+        printer.line((str(total), _style(good=total.legal == total.decks and not total.unreadable)))
 
 
-def _lines(verdicts: Sequence[Verdict], total: Total, printer: Printer) -> Iterator[str]:
-    """A row for each deck, the file last as it may be long, and the total.
-
-    On a narrow terminal the columns that a verdict needs least are left out, and long names are shortened. Ten thousand
-    rows are printed at once, so lines are put together by hand.
-    """
-    verdict_width = max(map(len, ("verdict", *(verdict.verdict for verdict in verdicts))))
-    widths = {name: max(len(name), *(len(str(getattr(each, name))) for each in verdicts)) for name in _COUNTS}
-    for name in _OPTIONAL:
-        if _before(verdict_width, widths) + _SHORTEST > printer.width:
-            del widths[name]
-    before = _before(verdict_width, widths)
-    files = [printer.elided(verdict.file, max(printer.width - before, _SHORTEST)) for verdict in verdicts]
-    yield click.style("Decks", bold=True) if printer.colored else "Decks"
-    yield _row("verdict".ljust(verdict_width), widths, widths, "file")
-    yield printer.rule * (before + max(map(printer.columns, [*files, "file"])))
-    for verdict, file in zip(verdicts, files, strict=True):
-        state = _colored(verdict.verdict.ljust(verdict_width), printer, good=verdict.legal)
-        yield _row(state, (str(getattr(verdict, name)) for name in widths), widths, file)
-    yield ""
-    yield _colored(str(total), printer, good=total.legal == total.decks and not total.unreadable)
-
-
-def _before(verdict_width: int, widths: dict[str, int]) -> int:
-    """Columns of a line before the file."""
-    return verdict_width + sum(widths.values()) + len(_GAP) * (len(widths) + 1)
-
-
-def _row(verdict: str, counts: Iterable[str], widths: dict[str, int], file: str) -> str:
-    numbers = _GAP.join(count.rjust(width) for count, width in zip(counts, widths.values(), strict=True))
-    return f"{verdict}{_GAP}{numbers}{_GAP}{file}"
-
-
-def _colored(text: str, printer: Printer, *, good: bool) -> str:
-    if not printer.colored:
-        return text
-    return click.style(text, fg="green") if good else click.style(text, fg="red", bold=True)
+def _style(*, good: bool) -> str:
+    return "green" if good else "bold red"

@@ -208,10 +208,6 @@ class ContactInput:
             self._lines.append(lines_of(self.element_nodes, self.length, len(self.node_ids)))
         return self._lines[0]
 
-    def keep_lines(self, lines: Lines) -> None:
-        """Take these lines and do not look for any: elements of a file may be a part of those of their lines."""
-        self._lines[:] = [lines]
-
     @property
     def units(self) -> str:
         """The unit system: "metric", "imperial" or "user"."""

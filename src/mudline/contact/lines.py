@@ -24,7 +24,6 @@ class Lines(NamedTuple):
         node_arc: (n,) arc length of each node on its line; NaN for a node without elements.
         elements: for each line its elements (k,) along it.
         nodes: for each line its nodes (k + 1,) along it; a closed line ends with the node that it begins with.
-        start: arc length of the first node of each line; None where it is 0 for all.
     """
 
     of_element: IndexArray
@@ -33,7 +32,6 @@ class Lines(NamedTuple):
     node_arc: FloatArray
     elements: list[IndexArray]
     nodes: list[IndexArray]
-    start: FloatArray | None = None
 
     def __repr__(self) -> str:
         return short_repr(self)
@@ -42,7 +40,7 @@ class Lines(NamedTuple):
         """Arc lengths (k + 1,) of the nodes along a line, from the lengths (m,) of all elements; inf beyond numbers."""
         with np.errstate(over="ignore"):
             arcs: FloatArray = np.append(0.0, np.cumsum(length[self.elements[line]]))
-        return arcs if self.start is None else arcs + self.start[line]
+        return arcs
 
 
 def lines_of(element_nodes: IndexArray, length: FloatArray, nodes: int) -> Lines:
@@ -62,39 +60,6 @@ def lines_of(element_nodes: IndexArray, length: FloatArray, nodes: int) -> Lines
             if closed:
                 node_arc[through[0]] = 0.0
     return Lines(of_element, of_node, element_arc, node_arc, [each for each, _ in found], [each for _, each in found])
-
-
-def lines_in_part(
-    element_nodes: IndexArray,
-    length: FloatArray,
-    numbers: tuple[IndexArray, IndexArray],
-    arcs: tuple[FloatArray, FloatArray],
-) -> Lines:
-    """Return the lines of elements (m, 2) and nodes (n,) that may be a part of those of their lines.
-
-    `numbers` are the lines of elements and nodes as in `Lines`, `arcs` the arc lengths, which are kept. Of a line that
-    lacks elements in its middle, the pieces behind the first get numbers of their own, behind all others.
-    """
-    of_element, of_node = (np.array(each, np.intp) for each in numbers)
-    nothing = np.zeros(0, np.intp)
-    count = int(max(of_element.max(initial=-1), of_node.max(initial=-1))) + 1
-    elements, nodes, start = [nothing] * count, [nothing] * count, [0.0] * count
-    for line in np.unique(of_element).tolist():
-        rows = np.flatnonzero(of_element == line)
-        used, ends = np.unique(element_nodes[rows], return_inverse=True)
-        pieces = lines_of(ends.reshape(-1, 2), length[rows], len(used))
-        for number, (along, through) in enumerate(zip(pieces.elements, pieces.nodes, strict=True)):
-            own, behind = rows[along], used[through]
-            if arcs[0][own[0]] > arcs[0][own[-1]]:
-                own, behind = own[::-1], behind[::-1]
-            at = line if not number else len(elements)
-            if number:
-                elements, nodes, start = [*elements, nothing], [*nodes, nothing], [*start, 0.0]
-                of_element[own] = at
-                of_node[behind[of_node[behind] == line]] = at
-            elements[at], nodes[at] = own, behind
-            start[at] = float(arcs[0][own[0]] - 0.5 * length[own[0]])
-    return Lines(of_element, of_node, *arcs, elements, nodes, np.array(start))
 
 
 def _in_order(ends: IndexArray, nodes: int) -> list[tuple[IndexArray, IndexArray]] | None:

@@ -171,19 +171,16 @@ class ContactResult:
         self,
         path: str | os.PathLike[str] | None = None,
         *,
-        panels: Sequence[str] | None = None,
         elements: Sequence[int] = (),
     ) -> Figure:
         """Return a figure of the results, as `mudline evaluate --plot` draws it.
 
         Args:
             path: a file to write, .png, .svg or .pdf by its suffix.
-            panels: names of panels in their order; None: those that the results have something to show in.
             elements: numbers of elements whose force over penetration is drawn.
 
         Raises:
-            ValueError: the suffix, a panel or an element is unknown, the results have nothing for a panel, or do not
-                know what was evaluated.
+            ValueError: the suffix or an element is unknown, or the results do not know what was evaluated.
             OSError: the file cannot be written.
             ImportError: matplotlib is not installed.
         """
@@ -191,7 +188,7 @@ class ContactResult:
             plots = _module("mudline.results.plots")
         except ImportError as error:
             raise ImportError("a plot needs matplotlib: pip install 'mudline[plot]'") from error
-        found: Figure = plots.plot_result(self, path, panels=panels, elements=elements)
+        found: Figure = plots.plot_result(self, path, elements=elements)
         return found
 
     def summary(self) -> list[LineSummary]:

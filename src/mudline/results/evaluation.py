@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.contact import ContactModel, ContactState, ElementError, PositionError
+from mudline.contact import ContactModel, ElementError, PositionError
 from mudline.contact.columns import ElementTable, NodeTable, Others
 from mudline.contact.result import Part
 from mudline.contact.touchdown import LineTable
@@ -106,14 +106,6 @@ class Evaluation:
                 self.positions, present=self.present, velocities=self.velocities, times=self._clock
             ):
                 yield self._timed(part)
-
-    def resumed(self, steps: range, state: ContactState | None = None) -> Iterator[tuple[Part, ContactState]]:
-        """Evaluate some steps behind a state, as `ContactModel.resume` does. Raises what `parts` does."""
-        with as_deck_errors(self.scene):
-            for part, behind in self.model.resume(
-                self.positions, steps, state, present=self.present, velocities=self.velocities, times=self._clock
-            ):
-                yield self._timed(part), behind
 
     @property
     def _clock(self) -> Floats | None:

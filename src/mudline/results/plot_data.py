@@ -20,23 +20,20 @@ from mudline.results.totals import traces
 from mudline.scene.numbering import Floats, Indices, Mask
 from mudline.short_repr import listed_numbers
 
+PICTURES = ("png", "svg", "pdf")
+"""Forms of a picture."""
 _BINS = 2000
 """Pieces of time of which the least and the largest value are drawn."""
 _POINTS = 4000
 """Evaluated points that are drawn on the curves."""
 _LOOP_STEPS = 5000
 """Steps of a force-penetration loop that are drawn."""
-_FRAME_NODES = 2000
-"""Nodes of a frame of an animation that are drawn."""
 _FOLLOWED_LINES = 64
 """Lines whose touchdown is followed over time."""
 MOST_LOOPS = 6
 """Elements whose force-penetration loop can be asked for."""
-TRACED = ("reaction", "force", "touching", "deepest")
-"""Figures of a step that are drawn over time."""
-TOUCHDOWN = ("first", "last", "contact_length")
+TOUCHDOWN = ("first", "last")
 """Figures of a line (`LineSeries`) that are drawn over time."""
-_ON_CURVE = "curve:"
 
 
 class Points(NamedTuple):
@@ -64,13 +61,9 @@ class Chosen(NamedTuple):
     @property
     def seabed(self) -> Floats:
         """The height (n,) of the seabed right below each node."""
-        return _below(self.heights, self.result)
-
-
-def _below(heights: Floats, result: ContactResult) -> Floats:
-    with np.errstate(all="ignore"):
-        found: Floats = heights - result.gap / result.normal[..., 0]
-    return found
+        with np.errstate(all="ignore"):
+            found: Floats = self.heights - self.result.gap / self.result.normal[..., 0]
+        return found
 
 
 class Band:
@@ -87,28 +80,16 @@ class Band:
 
 
 class Envelope:
-    """The least, largest and mean value of each element over the steps; NaN where there is none."""
+    """The least and the largest value of each element over the steps; NaN where there is none."""
 
     def __init__(self, elements: int) -> None:
         self.least = np.full(elements, np.nan)
         self.most = np.full(elements, np.nan)
-        self._total = np.zeros(elements)
-        self._count = np.zeros(elements, np.intp)
-
-    @property
-    def mean(self) -> Floats:
-        """The mean (m,) over the steps."""
-        with np.errstate(invalid="ignore"):
-            found: Floats = np.where(self._count > 0, self._total / np.maximum(self._count, 1), np.nan)
-        return found
 
     def take(self, values: Floats) -> None:
         """Look at values (steps, m)."""
         self.least = np.fmin(self.least, np.fmin.reduce(values, axis=0))
         self.most = np.fmax(self.most, np.fmax.reduce(values, axis=0))
-        with np.errstate(over="ignore", invalid="ignore"):
-            self._total += np.nansum(values, axis=0)
-        self._count += np.count_nonzero(~np.isnan(values), axis=0)
 
 
 class Loop(NamedTuple):
@@ -117,15 +98,6 @@ class Loop(NamedTuple):
     penetration: Floats
     force: Floats
     state: NDArray[np.int8] | None
-
-
-class Frame(NamedTuple):
-    """A step of an animation: heights of its nodes and of the seabed below them, and forces of its elements."""
-
-    step: int
-    height: Floats
-    seabed: Floats
-    force: Floats
 
 
 class PlotData:
@@ -141,10 +113,9 @@ class PlotData:
         chosen: the step with the largest total reaction; pulled: that with the largest pull of an element, None
             without one; slid: that with the largest friction on a node, None without friction.
         touched: (m,) elements that are in contact at some step.
-        frame_nodes, frame_elements: indices of those that a frame has.
     """
 
-    def __init__(  # noqa: PLR0913 - what is evaluated, and what of it is wanted
+    def __init__(
         self,
         given: ContactInput,
         evaluated: Mask,
@@ -153,12 +124,11 @@ class PlotData:
         times: Floats | None = None,
         *,
         elements: Sequence[int] = (),
-        frames: int = 0,
     ) -> None:
         """Prepare for the results of an input.
 
-        `elements` are the numbers of those whose loop is wanted, `frames` how many steps an animation has at most.
-        Raises ValueError for numbers that no evaluated element has, and for too many of them.
+        `elements` are the numbers of those whose loop is wanted. Raises ValueError for numbers that no evaluated
+        element has, for too many of them, and for a single state, which has no loop.
         """
         self.given = given
         self.steps = steps
@@ -173,29 +143,25 @@ class PlotData:
         self.force, self.depth = Envelope(len(evaluated)), Envelope(len(evaluated))
         self._begin_curves()
         bins = min(_BINS, steps)
-        self.traces = {name: Band(bins) for name in TRACED}
+        self.reaction = Band(bins)
         self.lines: list[int] = np.unique(given.lines.of_element[self.elements]).tolist()[:_FOLLOWED_LINES]
         self.more_lines = len(np.unique(given.lines.of_element[self.elements])) - len(self.lines)
         self.touchdown = {(line, name): Band(bins) for line in self.lines for name in TOUCHDOWN} if steps > 1 else {}
         self._finder = Touchdown(given)
         self._every_loop = max(1, -(-steps // _LOOP_STEPS))
         self._loops: list[Loop] = []
-        self._frame_steps = np.unique(np.linspace(0, steps - 1, min(frames, steps)).round().astype(np.intp))
-        self.frame_nodes = self.nodes[thinned_evenly(len(self.nodes), _FRAME_NODES)]
-        self.frame_elements = self.elements[thinned_evenly(len(self.elements), _FRAME_NODES)]
-        self.frames: list[Frame] = []
         self._largest, self._pull, self._friction = -np.inf, 0.0, 0.0
 
     @classmethod
-    def of_evaluation(cls, evaluation: Evaluation, elements: Sequence[int] = (), frames: int = 0) -> PlotData:
+    def of_evaluation(cls, evaluation: Evaluation, elements: Sequence[int] = ()) -> PlotData:
         """Prepare for the parts of an evaluation; raises as the class does."""
         present = evaluation.present
         evaluated: Mask = np.all(present[evaluation.scene.element_nodes], axis=1)
         given = evaluation.model.input
-        return cls(given, evaluated, present, evaluation.steps, evaluation.time, elements=elements, frames=frames)
+        return cls(given, evaluated, present, evaluation.steps, evaluation.time, elements=elements)
 
     @classmethod
-    def of_result(cls, result: ContactResult, elements: Sequence[int] = (), frames: int = 0) -> PlotData:
+    def of_result(cls, result: ContactResult, elements: Sequence[int] = ()) -> PlotData:
         """Return the data of a whole result, of a state or a series.
 
         Raises ValueError for a result that does not know what was evaluated, and as the class does.
@@ -208,7 +174,6 @@ class PlotData:
             len(series.depth),
             series.times,
             elements=elements,
-            frames=frames,
         )
         data.take(Part(0, series))
         return data
@@ -219,6 +184,8 @@ class PlotData:
         places = {number: index for index, number in enumerate(self.given.element_ids.tolist())}
         known = set(self.elements.tolist())
         wanted = list(dict.fromkeys(elements))
+        if self.steps == 1:
+            raise ValueError("force over penetration needs time steps, and this is one state")
         unknown = [number for number in wanted if places.get(number) not in known]
         if unknown:
             numbers = listed_numbers(unknown)
@@ -228,21 +195,11 @@ class PlotData:
         return np.array([places[number] for number in wanted], np.intp)
 
     def _begin_curves(self) -> None:
-        """Which evaluated elements have a curve: by its object, or by the name of their law in results of a file."""
-        names, laws = list[str](), np.full(len(self.given.element_ids), -1, np.intp)
-        self.curves: Sequence[ForceCurve | None]
-        if self.given.has("curve"):
-            laws, self.curves = self.given.curve_index, self.given.curves
-            names = [str(curve.name) for curve in self.given.curves]
-        else:
-            codes: dict[str, int] = {}
-            for index, name in enumerate(self.given.law_names):
-                if name.startswith(_ON_CURVE):
-                    laws[index] = codes.setdefault(name.removeprefix(_ON_CURVE), len(codes))
-            names, self.curves = list(codes), [None] * len(codes)
-        self.curve_names = names
-        self._curve_of = laws
-        self.on_curve: Indices = self.elements[laws[self.elements] >= 0]
+        """Which evaluated elements have a curve."""
+        curved = self.given.has("curve")
+        self.curves: Sequence[ForceCurve] = self.given.curves if curved else ()
+        self._curve_of = self.given.curve_index
+        self.on_curve: Indices = self.elements[self._curve_of[self.elements] >= 0] if curved else np.zeros(0, np.intp)
         self.points: list[Points] = []
         self._every = max(1, self.steps * len(self.on_curve) // _POINTS)
         self._seen = 0
@@ -253,8 +210,7 @@ class PlotData:
         """Look at some steps."""
         of_part = traces(part)
         bins = np.arange(part.start, part.start + part.count) * min(_BINS, self.steps) // self.steps
-        for name, band in self.traces.items():
-            band.take(bins, of_part[name].values)
+        self.reaction.take(bins, of_part["reaction"].values)
         self._choose(part, of_part["reaction"].values, of_part["pull"].values)
         self.touched |= part.result.contact.any(axis=0) & part.result.evaluated
         self.force.take(part.result.force)
@@ -265,10 +221,6 @@ class PlotData:
                     self.touchdown[line.number, name].take(bins, getattr(line, name))
         self._sample(part)
         self._take_loop(part)
-        for step in self._frame_steps[
-            (self._frame_steps >= part.start) & (self._frame_steps < part.steps.stop)
-        ].tolist():
-            self.frames.append(self._frame(step, part.result.step(step - part.start)))
 
     def _choose(self, part: Part, reaction: Floats, pull: Floats) -> None:
         step = int(np.argmax(reaction))
@@ -319,11 +271,6 @@ class PlotData:
         states = [one.state for one in self._loops if one.state is not None]
         return Loop(depth, force, np.concatenate(states) if states else None)
 
-    def _frame(self, step: int, result: ContactResult) -> Frame:
-        whole = Chosen(step, result)
-        nodes = self.frame_nodes
-        return Frame(step, whole.heights[nodes], whole.seabed[nodes], result.force[self.frame_elements].copy())
-
     # ------------------------------------------------------------------------------------------------ what there is
 
     @property
@@ -339,22 +286,6 @@ class PlotData:
         bins = min(_BINS, self.steps)
         first = -(-np.arange(bins) * self.steps // bins)
         return first.astype(np.float64) if self.times is None else self.times[first]
-
-    @property
-    def pulls(self) -> bool:
-        """Whether a law, or a curve, can hold an element down; once there are results, whether one does."""
-        if self.given.has("suction", "suction spring") or self.pulled is not None:
-            return True
-        if self.chosen is not None:
-            return self.chosen.result.state is not None
-        return any(bool((curve.forces < 0.0).any()) for curve in self.given.curves)
-
-    @property
-    def slides(self) -> bool:
-        """Whether there is friction, or a lateral spring."""
-        if self.chosen is not None:
-            return self.chosen.result.friction is not None
-        return self.given.has("friction", "lateral")
 
 
 def thinned_evenly(count: int, most: int) -> Indices:

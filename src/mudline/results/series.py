@@ -1,12 +1,11 @@
 """What is kept of a long series, as tables too: extremes of elements, nodes and lines, counts, the largest totals.
 
-Memory does not grow with the number of steps. What was kept of some steps and of those behind them adds up to what one
-run keeps of all, bit for bit: extremes and whole numbers do not depend on where the steps are cut.
+Memory does not grow with the number of steps.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -17,13 +16,11 @@ from mudline.contact.result import ContactResult, Part
 from mudline.contact.touchdown import LineTable, Touchdown
 from mudline.quantities import ELEMENTS, LINES, NODES, SLIDING, STEPS, Quantity, time_unit
 from mudline.results.evaluation import Evaluation
-from mudline.results.forms import Tables
+from mudline.results.forms import Tables, plan_rows
 from mudline.results.lines import FOLLOWED, Extent, LineWatch
 from mudline.results.totals import HELD, Peak, SlowSuction, StepSummary, traces
 from mudline.results.warnings import ContactWatch
 from mudline.scene.numbering import Floats, Indices
-
-Arrays = Mapping[str, NDArray[Any]]
 
 FIGURES = {
     "elements": ("force", "depth", "stiffness"),
@@ -61,16 +58,6 @@ class Extremes:
                 row = (values[:, column] == found[column]).argmax(axis=0)
                 value[column], step[column] = values[row, column], start + row
 
-    def arrays(self) -> dict[str, NDArray[Any]]:
-        """Return all that is kept, by name."""
-        return dict(vars(self))
-
-    def add(self, later: Arrays) -> None:
-        """Take the arrays of later steps."""
-        for side, better in (("least", later["least"] < self.least), ("largest", later["largest"] > self.largest)):
-            for name in (side, f"{side}_step"):
-                getattr(self, name)[better] = later[name][better]
-
 
 class _Peaks:
     """The largest of each figure of `STEPS` over steps: value, step and index of the element; -1 for none."""
@@ -90,15 +77,9 @@ class _Peaks:
                 self.rank[place], self.value[place], self.step[place] = ranked[row], values[row], part.start + row
                 self.element[place] = -1 if elements is None else elements[row]
 
-    def add(self, later: Arrays) -> None:
-        """Take the arrays of later steps."""
-        better = later["rank"] > self.rank
-        for name, values in vars(self).items():
-            values[better] = later[name][better]
-
 
 class SeriesSummary:
-    """Takes the steps of an evaluation a few at a time; `add` takes what another one kept of the steps behind them.
+    """Takes the steps of an evaluation a few at a time, and keeps their extremes.
 
     Attributes:
         elements, nodes, lines: indices of what the rows of the tables are about.
@@ -164,33 +145,6 @@ class SeriesSummary:
     def _count(self, table: str, name: str, holds: NDArray[np.bool_]) -> None:
         self.counts[table, name] += np.count_nonzero(holds, axis=0)
 
-    # --------------------------------------------------------------------------------------------- what it has kept
-
-    def arrays(self) -> dict[str, NDArray[Any]]:
-        """Return all that is kept, by name: to be added to what was kept of the steps before."""
-        found: dict[str, NDArray[Any]] = {}
-        for (table, figure), extremes in self.extremes.items():
-            found |= {f"{table}.{figure}.{name}": array for name, array in extremes.arrays().items()}
-        found |= {f"{table}.{name}": array for (table, name), array in self.counts.items()}
-        parts = {"totals": vars(self.peaks), "watch": self.watch.kept(), "slow": self.slow.kept()}
-        return found | {f"{part}.{name}": array for part, arrays in parts.items() for name, array in arrays.items()}
-
-    def add(self, later: Arrays) -> None:
-        """Take the `arrays` of later steps of the same evaluation.
-
-        Raises ValueError for arrays of another one; nothing is taken then.
-        """
-        own = {name: array.shape for name, array in self.arrays().items()}
-        if {name: array.shape for name, array in later.items()} != own:
-            raise ValueError("what was kept is of another evaluation")
-        for (table, figure), extremes in self.extremes.items():
-            extremes.add(_below(later, f"{table}.{figure}."))
-        for table, name in self.counts:
-            self.counts[table, name] += later[f"{table}.{name}"]
-        self.peaks.add(_below(later, "totals."))
-        self.watch.add(_below(later, "watch."))
-        self.slow.add(_below(later, "slow."))
-
     def step_summary(self) -> StepSummary:
         """The largest of all steps, as the terminal shows them; no single step."""
         ids, found = self.evaluation.scene.element_ids, self.peaks
@@ -220,11 +174,6 @@ def _sides(extremes: Extremes) -> tuple[NDArray[Any], ...]:
     return extremes.least, extremes.least_step, extremes.largest, extremes.largest_step
 
 
-def _below(arrays: Arrays, prefix: str) -> dict[str, NDArray[Any]]:
-    """The arrays whose names begin like that, by the rest of their names."""
-    return {name.removeprefix(prefix): array for name, array in arrays.items() if name.startswith(prefix)}
-
-
 # --------------------------------------------------------------------------------------------------------------- tables
 
 SERIES_FORMAT = "mudline-series/1"
@@ -240,7 +189,7 @@ _OF_LINES = {
 _NO_STEP = -1
 
 
-def series_tables(summary: SeriesSummary, more: Mapping[str, object]) -> Tables:
+def series_tables(summary: SeriesSummary) -> Tables:
     """The tables of a summary, with what JSON has besides them."""
     evaluation = summary.evaluation
     given, times = evaluation.model.input, evaluation.time
@@ -251,7 +200,13 @@ def series_tables(summary: SeriesSummary, more: Mapping[str, object]) -> Tables:
     }
     tables = {table: [*facts[table], *_extremes(summary, table, times), *_counts(summary, table)] for table in FIGURES}
     tables["totals"] = _totals(summary, times)
-    return Tables(tables, SERIES_FORMAT, given.units, {"steps": evaluation.steps, **more})
+    more = {
+        "steps": evaluation.steps,
+        "plan": plan_rows(evaluation.model.plan),
+        "positions": "file",
+        "warnings": [one.row() for one in summary.watch.warnings()],
+    }
+    return Tables(tables, SERIES_FORMAT, given.units, more)
 
 
 def _quantity(table: str, figure: str) -> Quantity:
@@ -270,7 +225,7 @@ def _extremes(summary: SeriesSummary, table: str, times: Floats | None) -> Itera
 
 
 def _side(found: Extremes, side: str) -> tuple[Floats, NDArray[np.int64]]:
-    value, step = found.arrays()[side], found.arrays()[f"{side}_step"]
+    value, step = getattr(found, side), getattr(found, f"{side}_step")
     return np.where(step >= 0, value, np.nan), step
 
 

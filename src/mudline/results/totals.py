@@ -5,7 +5,6 @@ Memory does not grow with the number of steps, but for the figures of the steps 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -267,14 +266,3 @@ class SlowSuction:
         self.steps += int(slow.any(axis=1).sum())
         if self.element is None:
             self.element = int(np.argwhere(slow)[0, 1])
-
-    def kept(self) -> dict[str, NDArray[np.int64]]:
-        """What it knows, as arrays."""
-        return {"found": np.array([self.steps, -1 if self.element is None else self.element], np.int64)}
-
-    def add(self, kept: Mapping[str, NDArray[np.int64]]) -> None:
-        """Take what another one kept of later steps."""
-        steps, element = kept["found"].tolist()
-        self.steps += steps
-        if self.element is None and element >= 0:
-            self.element = element

@@ -7,13 +7,12 @@ a flag for each element, and the smallest clearance.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mudline.codes.contact import GEO005, RUN003, RUN004, SBD006
 from mudline.codes.lines import SYN009
@@ -183,19 +182,6 @@ class ContactWatch:
                 self._measure(start, np.atleast_2d(result.gap)[:, self._columns])
         if self._own and start == 0:
             self.balance = self._weigh(contact[0], np.atleast_2d(result.normal_force)[0])
-
-    def kept(self) -> dict[str, NDArray[Any]]:
-        """What `warnings` needs of the steps taken, as arrays; not the balance of the deck's own positions."""
-        return {"touched": self._touched, "acts": np.array(self._acts), "clearance": np.array(self._clearance)}
-
-    def add(self, kept: Mapping[str, NDArray[Any]]) -> None:
-        """Take what another one kept of later steps of the same evaluation."""
-        self._touched |= kept["touched"]
-        self._waiting = self._waiting[~self._touched[self._waiting]]
-        self._acts |= bool(kept["acts"])
-        gap, node, step = kept["clearance"].tolist()
-        if gap < self._clearance.gap:
-            self._clearance = _Clearance(gap, int(node), int(step))
 
     def _is_held(self, result: ContactResult) -> bool:
         """Whether the seabed acts on a node without an element in contact, as a rigid one or a spring of it does."""

@@ -1,16 +1,15 @@
 """The forms of result files, a module each with the name of the suffix, imported when it is asked for.
 
 A module is a form by being here: `SUMMARY` says in the documentation what is in a file, `opened(output)` is a context
-with the `Sink` that writes it, `BESIDE` names the tables that go to files of their own, and `read(path)` is what a file
-holds, as `Stored`; `write_tables(tables, streams, folder)` writes tables without steps. Results come a few steps at a
-time and are written as they come: a long series is never in memory as text.
+with the `Sink` that writes it, `BESIDE` names the tables that go to files of their own; `write_tables(tables, streams,
+folder)` writes tables without steps. Results come a few steps at a time and are written as they come: a long series is
+never in memory as text.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from importlib import import_module
 from itertools import chain, islice
 from pathlib import Path
@@ -26,8 +25,6 @@ from mudline.contact.columns import Column, Table, Values
 from mudline.contact.result import Part
 from mudline.quantities import finite
 from mudline.results.evaluation import Evaluation
-from mudline.results.stored import StoredTable
-from mudline.scene.csv_file import data_error
 
 _BLOCK = 16384
 """Rows spelled at a time: the texts of a large model are never all in memory."""
@@ -35,7 +32,6 @@ _PIECE = 1000
 """Rows written at a time."""
 
 T = TypeVar("T")
-Units = TypeVar("Units", str, str | None)
 Row = tuple[str, ...]
 More = Mapping[str, object]
 """What is known only after the last step, by its key in JSON."""
@@ -76,17 +72,13 @@ class Together:
 
 @dataclass(frozen=True, slots=True)
 class Output:
-    """What is written, and one or two open files of `folder`; `tracked` shows how far a long loop over a list is.
-
-    `as_text`: no name in CSV is a formula for a spreadsheet.
-    """
+    """What is written, and the open files of `folder`; `tracked` shows how far a long loop over a list is."""
 
     evaluation: Evaluation
     elements: Table
     streams: Sequence[BinaryIO]
     folder: Path
     tracked: Callable[[Sequence[Any]], Iterable[Any]] = iter
-    as_text: bool = False
 
     @property
     def tables(self) -> dict[str, Table]:
@@ -102,15 +94,13 @@ class Output:
 class Tables:
     """Tables that are whole, by their names: flat columns (rows,) without steps.
 
-    `format` is the name and the version of their form, `more` what JSON has besides them. `as_text`: no name in CSV is
-    a formula for a spreadsheet.
+    `format` is the name and the version of their form, `more` what JSON has besides them.
     """
 
     columns: Mapping[str, Sequence[Column]]
     format: str
     units: str
     more: More
-    as_text: bool = False
 
 
 def form_names() -> list[str]:
@@ -121,24 +111,6 @@ def form_names() -> list[str]:
 def table_path(path: Path, table: str) -> Path:
     """Return the file of another table beside that of the elements."""
     return path.with_name(f"{path.stem}-{table}{path.suffix}")
-
-
-def tables_of(
-    path: Path, read: Callable[[Path, str], tuple[StoredTable, Units]]
-) -> tuple[StoredTable, StoredTable, Units]:
-    """Return the tables of elements and of nodes, read from the file of the elements and that beside it; their units.
-
-    `read` returns a table and its units, None where it has no row. Raises DeckError where the file of the nodes is
-    missing.
-    """
-    elements, units = read(path, "elements")
-    beside = table_path(path, "nodes")
-    try:
-        nodes, units_beside = read(beside, "nodes")
-    except FileNotFoundError as error:
-        why = f"the nodes are missing: expected them in {beside.name} beside it"
-        raise data_error(path.as_posix(), why) from error
-    return elements, nodes, units or units_beside
 
 
 def form_module(name: str) -> ModuleType:
@@ -159,13 +131,9 @@ def plain_values(column: Column) -> list[Any]:
 # ----------------------------------------------------------------------------------------------------- rows as text
 
 
-def text_form(name: str, *, as_text: bool = False) -> Callable[[Evaluation, Table, Write], Sink]:
-    """Return what writes a table (JSON: that of elements, and the nodes) as text: "csv" or "json".
-
-    `as_text` is for CSV, as in `Output`.
-    """
-    made = cast("Callable[..., Sink]", form_module(name).Text)
-    return partial(made, as_text=True) if as_text else made
+def text_form(name: str) -> Callable[[Evaluation, Table, Write], Sink]:
+    """Return what writes a table (JSON: that of elements, and the nodes) as text: "csv" or "json"."""
+    return cast("Callable[..., Sink]", form_module(name).Text)
 
 
 def tables_as_text(tables: Tables, name: str, table: str) -> Iterator[str]:

@@ -7,15 +7,11 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from functools import partial
 from pathlib import Path
-from typing import Any, BinaryIO, NoReturn
+from typing import BinaryIO
 
-import numpy as np
-
-from mudline.contact.arrays import FloatArray
 from mudline.contact.columns import Column, Table
 from mudline.contact.result import Part
-from mudline.diagnostics import DeckError
-from mudline.quantities import QUANTITIES, RESULT_FORMAT
+from mudline.quantities import RESULT_FORMAT
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import (
     More,
@@ -31,18 +27,6 @@ from mudline.results.forms import (
     step_rows,
     text_into,
 )
-from mudline.results.stored import (
-    TABLES,
-    Stacked,
-    Stored,
-    StoredTable,
-    checked_format,
-    checked_units,
-    column_of,
-    require_names,
-)
-from mudline.scene.csv_file import data_error
-from mudline.short_repr import cut
 
 SUMMARY = "everything: units, plan, elements, nodes, `restrained`, `summary`, `warnings`, `against`"
 BESIDE = ()
@@ -116,81 +100,6 @@ class Text:
         yield f'{{"format": "{RESULT_FORMAT}",\n "units": {json.dumps(self._evaluation.scene.units)},\n "plan": '
         yield from _list(map(_dumped, plan_rows(self._evaluation.model.plan)), "  ")
         yield ",\n" if self._times is None else ',\n "steps": ['
-
-
-def read(path: Path) -> Stored:
-    """What a file holds. Raises OSError, DeckError."""
-    file = path.as_posix()
-    try:
-        held = json.loads(path.read_bytes(), parse_constant=_no_constant)
-    except RecursionError as error:
-        raise data_error(file, "not a file of results: lists within lists within lists") from error
-    except ValueError as error:
-        raise data_error(file, f"not a JSON file: {error}") from error
-    if not isinstance(held, dict):
-        raise data_error(file, f"not a file of results: expected an object, found {type(held).__name__}")
-    checked_format(file, held.get("format"))
-    units = checked_units(file, held.get("units"))
-    steps = held.get("steps", [held])
-    if not isinstance(steps, list) or not all(isinstance(step, dict) for step in steps):
-        raise data_error(file, "steps: expected a list of objects")
-    times = None
-    if "steps" in held:
-        given = [step.get("time", _ABSENT) for step in steps]
-        times = np.asarray(column_of(given, "number", "time", lambda row, why: data_error(file, f"step {row}: {why}")))
-    return Stored(units, *(_stored_table(file, table, steps, times) for table in TABLES))
-
-
-def _stored_table(file: str, table: str, steps: list[dict[str, Any]], times: FloatArray | None) -> StoredTable:
-    """The rows of a table at all steps."""
-    places: list[tuple[int, int]] = []
-    rows: list[dict[str, Any]] = []
-    for number, step in enumerate(steps):
-        listed = step.get(table)
-        if not isinstance(listed, list) or not all(isinstance(row, dict) for row in listed):
-            raise data_error(file, f"step {number}: expected {table} as a list of objects")
-        rows += listed
-        places += [(number, row) for row in range(len(listed))]
-    if rows:
-        _require_keys(file, table, rows[0])
-
-    def fault(index: int, message: str) -> DeckError:
-        step, row = places[index]
-        return data_error(file, f"step {step}, row {row} of {table}: {message}")
-
-    columns: dict[str, Stacked] = {}
-    for quantity in QUANTITIES[table].values():
-        name = quantity.name
-        values = [row.get(name, _ABSENT) for row in rows]
-        if not quantity.vector:
-            columns[name] = column_of(values, quantity.kind, name, fault)
-            continue
-        for index, value in enumerate(values):
-            if not isinstance(value, list) or len(value) != 3:
-                raise fault(index, f"{name}: expected a list of three numbers, found {cut(repr(value), 40)}")
-        for axis, suffix in enumerate(("_x", "_y", "_z")):
-            columns[name + suffix] = column_of([value[axis] for value in values], quantity.kind, name, fault)
-    return StoredTable(file, columns, None if times is None else times[np.array([step for step, _ in places], np.intp)])
-
-
-class _Absent:
-    """Stands for a key that is not there."""
-
-    def __repr__(self) -> str:
-        return "nothing"
-
-
-_ABSENT = _Absent()
-
-
-def _require_keys(file: str, table: str, row: dict[str, Any]) -> None:
-    """Raise DeckError where the first row of a table lacks keys."""
-    vectors = [name for name, value in row.items() if isinstance(value, list)]
-    require_names(file, table, [*row, *(f"{name}_{axis}" for name in vectors for axis in "xyz")])
-
-
-def _no_constant(word: str) -> NoReturn:
-    raise ValueError(f"{word} is not a number of JSON")
 
 
 def _dumped(value: object) -> str:

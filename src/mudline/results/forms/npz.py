@@ -3,24 +3,19 @@
 from __future__ import annotations
 
 import zipfile
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
-from functools import partial
 from pathlib import Path
 from tempfile import TemporaryFile
 from typing import IO, Any, BinaryIO
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mudline.contact.columns import Column, Values
 from mudline.contact.frames import array_name, spelled
 from mudline.contact.result import Part
-from mudline.quantities import QUANTITIES, RESULT_FORMAT
+from mudline.quantities import RESULT_FORMAT
 from mudline.results.forms import More, Output, Sink, Tables
-from mudline.results.stored import TABLES, Stacked, Stored, StoredTable, array_column, checked_format, checked_units
-from mudline.scene.csv_file import data_error
-from mudline.scene.npz_file import read_npz
 
 SUMMARY = (
     "an array of each column: (elements,) or (steps, elements), (nodes,) or (steps, nodes), vectors with a last axis "
@@ -85,50 +80,6 @@ def write_tables(tables: Tables, streams: Sequence[BinaryIO], folder: Path) -> N
     with zipfile.ZipFile(streams[0], "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
         for name, array in arrays.items():
             _pack(archive, name, array.dtype, array.shape, [array])
-
-
-def read(path: Path) -> Stored:
-    """What an archive holds. Raises OSError, DeckError."""
-    file = path.as_posix()
-    arrays = read_npz(path, partial(_wanted, file))
-    checked_format(file, _word(arrays.get("format")))
-    units = checked_units(file, _word(arrays.get("units")))
-    time = arrays.get("time")
-    if time is not None and (time.ndim != 1 or time.dtype.kind not in "fiu"):
-        raise data_error(file, f"time has the shape {time.shape}, expected numbers (steps,)")
-    return Stored(units, *(_stored_table(file, table, arrays) for table in TABLES))
-
-
-def _wanted(file: str, names: list[str]) -> list[str]:
-    """The arrays of elements and nodes, the times, and what says what the archive is."""
-    needed = [array_name(table, name) for table, held in QUANTITIES.items() for name in held]
-    if "format" not in names:
-        return ["units"] if "units" in names else []
-    if missing := [name for name in needed if name not in names]:
-        raise data_error(file, f"no array {missing[0]}: expected those of {RESULT_FORMAT}; evaluate the deck again")
-    return [name for name in ("format", "units", "time", *needed) if name in names]
-
-
-def _word(array: NDArray[np.generic] | None) -> str | None:
-    return None if array is None else str(array)
-
-
-def _stored_table(file: str, table: str, arrays: Mapping[str, NDArray[np.generic]]) -> StoredTable:
-    """The arrays of a table, their steps one behind the other."""
-    time, rows = arrays.get("time"), arrays[TABLES[table]].size
-    steps = 1 if time is None else len(time)
-    columns: dict[str, Stacked] = {}
-    for name, quantity in QUANTITIES[table].items():
-        array = arrays[array_name(table, name)]
-        by_step: tuple[int, ...] = (steps, rows, 3) if quantity.vector else (steps, rows)
-        expected = by_step if time is not None and quantity.over_steps else by_step[1:]
-        if array.shape != expected:
-            raise data_error(file, f"{array_name(table, name)} has the shape {array.shape}, expected {expected}")
-        given = np.broadcast_to(array, by_step)
-        pieces = {f"{name}_{axis}": given[..., i] for i, axis in enumerate("xyz")} if quantity.vector else {name: given}
-        for flat_name, values in pieces.items():
-            columns[flat_name] = array_column(values.reshape(-1), quantity.kind, name, partial(data_error, file))
-    return StoredTable(file, columns, None if time is None else np.repeat(time.astype(np.float64), rows))
 
 
 class _Array:

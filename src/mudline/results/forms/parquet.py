@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager
-from functools import partial
 from pathlib import Path
 from typing import BinaryIO
 
@@ -13,24 +12,10 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from mudline.contact.columns import Table
-from mudline.contact.frames import FORMAT_KEY, UNITS_KEY, arrow_of
+from mudline.contact.frames import FORMAT_KEY, arrow_of
 from mudline.contact.result import Part
-from mudline.quantities import Kind
 from mudline.results.evaluation import Evaluation
-from mudline.results.forms import More, Output, Sink, Tables, Together, tables_of
-from mudline.results.stored import (
-    Stacked,
-    Stored,
-    StoredTable,
-    Texts,
-    array_column,
-    checked_format,
-    checked_units,
-    flat_kinds,
-    require_names,
-)
-from mudline.scene.csv_file import data_error
-from mudline.short_repr import cut
+from mudline.results.forms import More, Output, Sink, Tables, Together
 
 SUMMARY = (
     "the same columns, in groups of rows; the nodes in `...-nodes.parquet`, the lines in `...-summary.parquet`; "
@@ -92,47 +77,3 @@ def write_tables(tables: Tables, streams: Sequence[BinaryIO], folder: Path) -> N
         table = arrow_of(list(columns), 1, {}, tables.units)
         named = table.replace_schema_metadata({**table.schema.metadata, FORMAT_KEY: tables.format})
         pq.write_table(named, stream, compression="zstd")
-
-
-def read(path: Path) -> Stored:
-    """What the file of the elements and that of the nodes beside it hold. Raises OSError, DeckError."""
-    elements, nodes, units = tables_of(path, _read_table)
-    return Stored(units, elements, nodes)
-
-
-def _read_table(path: Path, table: str) -> tuple[StoredTable, str]:
-    """A table and its units."""
-    file = path.as_posix()
-    with path.open("rb") as stream:
-        try:
-            opened_file = pq.ParquetFile(stream)
-            schema = opened_file.schema_arrow
-            checked_format(file, _said(schema, FORMAT_KEY))
-            units = checked_units(file, _said(schema, UNITS_KEY))
-            require_names(file, table, schema.names)
-            kinds = flat_kinds(table)
-            if "time" in schema.names:
-                kinds = {"time": "number", **kinds}
-            held = opened_file.read(columns=list(kinds))
-            columns = {name: _column(file, name, held.column(name), kind) for name, kind in kinds.items()}
-        except (pa.ArrowException, OSError, MemoryError) as error:
-            why = (str(error).splitlines() or [type(error).__name__])[0]
-            raise data_error(file, f"not a Parquet file that can be read: {cut(why, 100)}") from error
-    times = columns.pop("time", None)
-    return StoredTable(file, columns, None if times is None else np.asarray(times)), units
-
-
-def _said(schema: pa.Schema, key: bytes) -> str | None:
-    found = (schema.metadata or {}).get(key)
-    return None if found is None else found.decode(errors="replace")
-
-
-def _column(file: str, name: str, column: pa.ChunkedArray, kind: Kind) -> Stacked:
-    if kind == "text":
-        texts = column.cast(pa.string()).combine_chunks()
-        whole = pa.concat_arrays(texts.chunks) if isinstance(texts, pa.ChunkedArray) else texts
-        coded = whole.dictionary_encode()
-        return Texts(coded.indices.fill_null(-1).to_numpy(zero_copy_only=False), tuple(coded.dictionary.to_pylist()))
-    if kind != "number" and column.null_count:
-        raise data_error(file, f"{name}: a value is missing")
-    return array_column(column.to_numpy(), kind, name, partial(data_error, file))

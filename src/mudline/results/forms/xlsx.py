@@ -6,8 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from datetime import UTC, datetime
-from functools import partial
-from itertools import chain, islice
+from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, BinaryIO
@@ -19,22 +18,10 @@ from xlsxwriter.worksheet import Worksheet
 
 from mudline.contact.columns import Column, Table
 from mudline.contact.result import Part
-from mudline.diagnostics import DeckError
-from mudline.quantities import RESULT_FORMAT, Kind, time_unit
+from mudline.quantities import RESULT_FORMAT, time_unit
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import More, Output, Sink, Tables
-from mudline.results.stored import (
-    TABLES,
-    Stored,
-    StoredTable,
-    checked_format,
-    checked_units,
-    column_of,
-    flat_kinds,
-    require_names,
-)
 from mudline.scene.csv_file import data_error
-from mudline.scene.workbook import cell_fault, opened_workbook
 from mudline.short_repr import cut
 
 SUMMARY = (
@@ -205,42 +192,3 @@ def _write_row(sheet: Any, row: int, values: Sequence[object]) -> None:  # noqa:
             sheet.write_string(row, place, value)
         elif value is not None and not math.isnan(value):  # type: ignore[arg-type] # it is a number
             sheet.write_number(row, place, value)
-
-
-# -------------------------------------------------------------------------------------------------------- reading
-
-
-def read(path: Path) -> Stored:
-    """What a workbook holds. Raises OSError, DeckError, ImportError."""
-    file = path.as_posix()
-    with path.open("rb") as stream, opened_workbook(stream, file) as book:
-        about = {each.name: each.value for each in book.custom_doc_props.props}
-        checked_format(file, about.get(_FORMAT))
-        units = checked_units(file, about.get(_UNITS))
-        if missing := [name for name in TABLES if name not in book.sheetnames]:
-            raise data_error(file, f"no sheet {missing[0]}: expected those of {RESULT_FORMAT}")
-        return Stored(units, *(_stored_table(file, name, book[name]) for name in TABLES))
-
-
-def _stored_table(file: str, table: str, sheet: Any) -> StoredTable:  # noqa: ANN401 - openpyxl has no types
-    sheet.reset_dimensions()
-    rows = sheet.iter_rows(values_only=True)
-    names = [str(name) for name in next(rows, ())]
-    require_names(file, table, names)
-    kinds: dict[str, Kind] = flat_kinds(table)
-    if "time" in names:
-        kinds = {"time": "number", **kinds}
-    held = list(islice(rows, 1, None))
-    places = {name: names.index(name) for name in kinds}
-
-    def fault(name: str, row: int, message: str) -> DeckError:
-        return cell_fault(file, table, (row + 1 + _HEADINGS, places[name] + 1), message)
-
-    columns = {
-        name: column_of(
-            [row[place] if place < len(row) else None for row in held], kinds[name], name, partial(fault, name)
-        )
-        for name, place in places.items()
-    }
-    times = columns.pop("time", None)
-    return StoredTable(file, columns, None if times is None else np.asarray(times))

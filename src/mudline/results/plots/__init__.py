@@ -1,9 +1,8 @@
-"""The pictures: force-embedment curves, results in panels, and their animation. Needs matplotlib (extra `plot`)."""
+"""The pictures: force-embedment curves, and results in panels. Needs matplotlib (extra `plot`)."""
 
 from __future__ import annotations
 
-from mudline.results.plots.animation import draw_animation
 from mudline.results.plots.curves import draw_curves
 from mudline.results.plots.figure import draw_evaluation, figure_of, plot_result
 
-__all__ = ["draw_animation", "draw_curves", "draw_evaluation", "figure_of", "plot_result"]
+__all__ = ["draw_curves", "draw_evaluation", "figure_of", "plot_result"]

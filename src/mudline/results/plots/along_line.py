@@ -1,8 +1,6 @@
-"""Panels over arc length: the line on the seabed; forces, embedment and stiffness of a step; envelopes of all steps."""
+"""Panels over arc length: the line on the seabed; forces, embedment and stiffness of a step, extents of all steps."""
 
 from __future__ import annotations
-
-from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -39,6 +37,8 @@ def force(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     """Draw the seabed reaction of the elements; that on the nodes, where only springs of nodes act."""
     result = data.drawn.result
     units = data.given.units
+    if data.steps > 1:
+        _extents(axes, data, data.force, stretch)
     if not np.nan_to_num(result.force).any() and np.nan_to_num(result.normal_force).any():
         _of_nodes(axes, result.normal_force, stretch)
         axes.set_ylabel(labelled("seabed reaction\non a node", unit_names(units).force))
@@ -49,20 +49,10 @@ def force(axes: Axes, data: PlotData, stretch: Stretch) -> None:
 
 
 def embedment(axes: Axes, data: PlotData, stretch: Stretch) -> None:
-    """Draw the embedment of the elements, downwards."""
-    depth = data.drawn.result.depth
-    _of_elements(axes, data, depth, stretch)
-    _downwards(axes, data)
-
-
-def stiffness(axes: Axes, data: PlotData, stretch: Stretch) -> None:
-    """Draw the stiffness of the seabed under the elements."""
-    _of_elements(axes, data, data.drawn.result.stiffness, stretch)
-    axes.set_ylabel(ELEMENTS["stiffness"].axis(data.given.units))
-
-
-def _downwards(axes: Axes, data: PlotData) -> None:
-    """Embedment grows downwards from the seabed; what hangs high above does not hide how deep the rest lies."""
+    """Draw the embedment of the elements, downwards; what hangs high above does not hide how deep the rest lies."""
+    if data.steps > 1:
+        _extents(axes, data, data.depth, stretch)
+    _of_elements(axes, data, data.drawn.result.depth, stretch)
     axes.axhline(0.0, color=SEABED, linewidth=1.2, zorder=1)
     deepest = float(np.nan_to_num(data.depth.most).max(initial=0.0))
     top, bottom = axes.get_ylim()
@@ -71,6 +61,12 @@ def _downwards(axes: Axes, data: PlotData) -> None:
     if is_number(top) and is_number(bottom):
         axes.set_ylim(bottom, top)
     axes.set_ylabel(ELEMENTS["depth"].axis(data.given.units))
+
+
+def stiffness(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+    """Draw the stiffness of the seabed under the elements."""
+    _of_elements(axes, data, data.drawn.result.stiffness, stretch)
+    axes.set_ylabel(ELEMENTS["stiffness"].axis(data.given.units))
 
 
 def suction(axes: Axes, data: PlotData, stretch: Stretch) -> None:
@@ -167,37 +163,16 @@ def _of_nodes(axes: Axes, values: Floats, stretch: Stretch) -> None:
         )
 
 
-# -------------------------------------------------------------------------------------------------- over all steps
-
-
-def envelope(rows: Sequence[Axes], data: PlotData, stretch: Stretch) -> None:
-    """Draw the largest, mean and least force and embedment of the elements over all steps, each on its axes."""
-    first, second = rows
-    _extents(first, data, data.force, stretch)
-    first.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
-    first.set_ylabel(labelled("reaction per unit\nlength, all steps", unit_names(data.given.units).line_force))
-    legend_above(
-        first,
-        [
-            Line2D([], [], color="0.2", linestyle="-", linewidth=1.3, label="largest"),
-            Line2D([], [], color="0.2", linestyle="--", linewidth=1.3, label="mean"),
-            Line2D([], [], color="0.2", linestyle=":", linewidth=1.3, label="least"),
-        ],
-    )
-    _extents(second, data, data.depth, stretch)
-    _downwards(second, data)
-    second.set_ylabel(labelled("embedment,\nall steps", unit_names(data.given.units).length))
-
-
 def _extents(axes: Axes, data: PlotData, found: Envelope, stretch: Stretch) -> None:
+    """Shade what lies between the least and the largest values of the elements over all steps."""
     for place, number in enumerate(stretch.lines):
         elements = stretch.elements(number)
         drawn = elements[thinned(found.most[elements])]
-        color = stretch.style(place).color
         arcs = data.given.lines.element_arc[drawn]
-        axes.fill_between(arcs, found.least[drawn], found.most[drawn], color=color, alpha=0.12, linewidth=0.0)
-        for values, linestyle in ((found.most, "-"), (found.mean, "--"), (found.least, ":")):
-            axes.plot(arcs, values[drawn], color=color, linestyle=linestyle, linewidth=1.3)
+        color = stretch.style(place).color
+        label = None if place else "least to largest of all steps"
+        axes.fill_between(arcs, found.least[drawn], found.most[drawn], color=color, alpha=0.2, linewidth=0, label=label)
+    above(axes)
 
 
 def _step_note(axes: Axes, data: PlotData, chosen: Chosen) -> None:
@@ -351,3 +326,14 @@ def _line_handles(stretch: Stretch) -> list[Line2D]:
     if stretch.left_out:
         handles.append(Line2D([], [], linestyle="none", label=f"and {stretch.left_out} more lines"))
     return handles
+
+
+PANELS = {
+    "line": line,
+    "force": force,
+    "suction": suction,
+    "friction": friction,
+    "embedment": embedment,
+    "stiffness": stiffness,
+}
+"""By name, in the order in which they are drawn."""

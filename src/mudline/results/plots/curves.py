@@ -108,7 +108,7 @@ _PALEST = 0.65
 def on_curves(axes: Axes, data: PlotData, spelled: Spelled) -> None:
     """Draw the curves with the evaluated points on them, which darken in the order of the steps.
 
-    `spelled` makes names of curves fit to be shown. A curve that only results in a file name is its points alone.
+    `spelled` makes names of curves fit to be shown.
     """
     every = _points(data)
     used = np.unique(every.curve)
@@ -138,7 +138,7 @@ def on_curves(axes: Axes, data: PlotData, spelled: Spelled) -> None:
             zorder=3,
             rasterized=len(mine) > 1000,
         )
-        name = data.curve_names[index]
+        name = data.curves[index].name
         text = cut(spelled(str(name)), 30)
         label = (f" {text}" if text.startswith("_") else text) if place < _MOST_CURVES else None  # _ hides from legends
         axes.plot([], [], color=style.color, linestyle=line, marker=style.marker, markersize=4, label=label)

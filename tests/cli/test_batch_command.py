@@ -1,4 +1,4 @@
-"""`mudline evaluate` of several decks and of folders: a row for each, worst first, and the options that fit them."""
+"""`mudline batch`: a row for each deck, worst first, and the options."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mudline.cli import evaluate_many, processes
+from mudline.cli import batch_run, processes
 from mudline.cli.cases import Done, Order, failed
 from mudline.quantities import CASES
 from tests.builders.decks import BAD_NUMBER, CLEAN, PULLING
@@ -30,7 +30,7 @@ STATE = "node,x,y,z\n1,-0.3,0,0\n2,-0.3,10,0\n3,0.3,20,0\n"
 def eager(monkeypatch: pytest.MonkeyPatch) -> None:
     """Processes are used behind the first deck, whatever there is to do."""
     monkeypatch.setattr(processes, "PAYS", dict.fromkeys(processes.PAYS, 0.0))
-    monkeypatch.setattr(evaluate_many, "TRIED", 0.0)
+    monkeypatch.setattr(batch_run, "TRIED", 0.0)
 
 
 @pytest.fixture
@@ -42,7 +42,7 @@ def four(place: Place) -> str:
 
 def rows(*arguments: str | Path, code: int = 0) -> Json:
     """The rows of a run in JSON, by the names of the decks; their order is kept."""
-    outcome = run("evaluate", *arguments, "--output-format", "json")
+    outcome = run("batch", *arguments, "-o", "out", "--output-format", "json")
     assert outcome.code == code, outcome.err
     found = outcome.json()
     assert_fits(found, "cases")
@@ -53,7 +53,7 @@ def rows(*arguments: str | Path, code: int = 0) -> Json:
 
 
 def test_failed_decks_come_first_then_the_largest_force(four: str) -> None:
-    outcome = run("evaluate", four)
+    outcome = run("batch", four, "-o", "out")
     assert outcome.code == 1
     lines = outcome.out.splitlines()
     assert lines[0] == "Contact of 4 decks in decks"
@@ -84,7 +84,7 @@ def test_row_has_what_is_worst(four: str) -> None:
 
 
 def test_csv_has_the_columns_of_json(four: str) -> None:
-    outcome = run("evaluate", four, "--output-format", "csv")
+    outcome = run("batch", four, "--output-format", "csv", "-o", "out")
     table = list(csv.DictReader(io.StringIO(outcome.out)))
     assert list(table[0]) == list(CASES)
     assert [row["deck"][-7:-6] for row in table] == ["c", "d", "b", "a"]
@@ -103,25 +103,24 @@ def test_series_and_pulls(place: Place, folder: Path) -> None:
     assert pulled["largest_uplift"] < 0.0
     assert (pulled["largest_uplift_element"], pulled["largest_uplift_time"]) == (1, 0.0)
     assert pushed["touchdown_from"] < pushed["touchdown_to"]
-    shown = run("evaluate", "decks", "--positions", "steps.npz", "-q").out
+    shown = run("batch", "decks", "--positions", "steps.npz", "-q", "-o", "out").out
     assert "steps" in shown
     assert "uplift" in shown
 
 
-def test_units_that_differ_are_shown_and_compared(folder: Path) -> None:
-    found = run("evaluate", SAMPLES / "imperial-riser.keyxi", SAMPLES / "scr-touchdown.keyxm", "-q")
+def test_units_that_differ_are_shown_and_compared() -> None:
+    found = run("batch", SAMPLES / "imperial-riser.keyxi", SAMPLES / "scr-touchdown.keyxm", "-q", "-o", "out")
     lines = found.out.splitlines()
     assert [line.split()[:2] for line in lines[-4:-2]] == [
         ["scr-touchdown.keyxm", "metric"],
         ["imperial-riser.keyxi", "imperial"],
     ]
     assert "[" not in found.out
-    assert list(folder.iterdir()) == []
 
 
 def test_decks_after_expand() -> None:
     assert run("expand", "-q", SAMPLES / "variations.keyxm", "-o", "waves").code == 0
-    found = run("evaluate", "waves", "-o", "results", "--form", "npz", "--output-format", "json")
+    found = run("batch", "waves", "-o", "results", "--form", "npz", "--output-format", "json")
     assert found.code == 0
     assert len(found.json()) == 6
     expected = {f"{row['deck'].removeprefix('waves/').removesuffix('.keyxm')}.npz" for row in found.json()}
@@ -133,13 +132,13 @@ def test_only_the_first_of_many_rows_are_listed(place: Place, monkeypatch: pytes
     monkeypatch.setattr("mudline.cli.cases.MOST_ROWS", 2)
     for name in "abc":
         place(CLEAN, f"decks/{name}.keyxm")
-    assert "1 more deck: -v shows all\n" in run("evaluate", "decks").out
-    assert "more deck" not in run("evaluate", "decks", "-v").out
+    assert "1 more deck: -v shows all\n" in run("batch", "decks", "-o", "out").out
+    assert "more deck" not in run("batch", "decks", "-v", "-o", "out").out
 
 
 def test_narrow_terminal_leaves_columns_out(four: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "70")
-    outcome = run("evaluate", four, "--color", "never", terminal=True)
+    outcome = run("batch", four, "--color", "never", "-o", "out", terminal=True)
     lines = outcome.out.splitlines()
     assert all(len(line) <= 70 for line in lines)
     assert "left out on a narrow terminal: in contact" in outcome.out
@@ -149,16 +148,16 @@ def test_narrow_terminal_leaves_columns_out(four: str, monkeypatch: pytest.Monke
 
 
 def test_warnings_fail_only_when_that_is_asked_for(place: Place) -> None:
-    arguments = ("evaluate", place(CLEAN, "a.keyxm"), place(CLEAN, "b.keyxm"))
+    arguments = ("batch", "-o", "out", place(CLEAN, "a.keyxm"), place(CLEAN, "b.keyxm"))
     assert run(*arguments).code == 0
     outcome = run(*arguments, "--fail-on", "warning")
     assert outcome.code == 1
     assert outcome.err.count("RUN003") == 1
-    assert outcome.err.endswith("(1 more deck)\n")
+    assert "(1 more deck)\n" in outcome.err
 
 
 def test_path_that_is_missing_has_a_row(place: Place) -> None:
-    found = run("evaluate", place(), "nowhere.keyxm", "--output-format", "json")
+    found = run("batch", place(), "nowhere.keyxm", "--output-format", "json", "-o", "out")
     assert found.code == 2
     assert [(row["deck"], row["reason"]) for row in found.json()] == [
         ("nowhere.keyxm", "no such file or directory"),
@@ -167,16 +166,14 @@ def test_path_that_is_missing_has_a_row(place: Place) -> None:
 
 
 def test_deck_that_is_given_twice_has_one_row(place: Place) -> None:
-    found = run(
-        "evaluate", place(), "./deck.keyxm", ".", "--output-format", "json", "-o", "out", "--form", "json"
-    ).json()
+    found = run("batch", place(), "./deck.keyxm", ".", "--output-format", "json", "-o", "out", "--form", "json").json()
     assert [(row["deck"], row["result"]) for row in found] == [("deck.keyxm", "deck.json")]
     assert_fits(json.loads(Path("out/deck.json").read_bytes()), "evaluate")
 
 
 def test_folder_without_a_deck(folder: Path) -> None:
     (folder / "empty").mkdir()
-    outcome = run("evaluate", "empty", "-o", "results")
+    outcome = run("batch", "empty", "-o", "results")
     assert (outcome.code, outcome.out) == (2, "")
     assert "no deck in this directory" in outcome.err
     assert not (folder / "results").exists()
@@ -192,29 +189,18 @@ def test_gitignore_hides_decks(four: str, folder: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--plot", "a.png"], "--plot is for one deck: give a single file"),
-        (["--against", "a.csv"], "--against is for one deck: give a single file"),
-        (["--plan"], "--plan is for one deck: give a single file"),
-        (["--table", "elements"], "--table is for one deck: give a single file"),
-        (["-"], "- is one deck, from standard input: give it alone"),
+        (["-"], "- is one deck, from standard input: use mudline evaluate"),
         (["--positions", "{case}.csv"], "--positions: {case} is unknown: use {name} or {folder}"),
         (["--positions", "{name.csv"], "--positions {name.csv: not a pattern: expected '}' before end of string"),
         (["--positions", "nowhere.csv"], "nowhere.csv: no such file or directory"),
         (["--time-step", "0"], "--time-step is 0.0: it must be greater than 0"),
-        (["--spreadsheet"], "--spreadsheet is for CSV: give --output-format csv, or a .csv file with -o where the"),
         (["-o", "decks/a.keyxm"], "decks/a.keyxm: cannot be created: file exists"),
     ],
 )
 def test_options_that_do_not_fit_several_decks(four: str, arguments: list[str], message: str) -> None:
-    outcome = run("evaluate", four, *arguments)
+    outcome = run("batch", four, "-o", "out", *arguments)
     assert (outcome.code, outcome.out) == (2, "")
     assert f"mudline: {message}" in outcome.err
-
-
-def test_form_is_for_several_decks(place: Place) -> None:
-    outcome = run("evaluate", place(), "--form", "csv")
-    assert outcome.code == 2
-    assert "--form is for several decks" in outcome.err
 
 
 # -------------------------------------------------------------------------------------------------------- positions
@@ -244,7 +230,7 @@ def test_folder_of_positions_is_as_that_of_the_decks(place: Place, folder: Path)
         place(CLEAN, f"decks/{where}/case.keyxm")
         (folder / "at" / where).mkdir(parents=True)
         (folder / "at" / where / "case.csv").write_text(STATE.replace("-0.3", depth), encoding="utf-8")
-    found = run("evaluate", "decks", "--positions", "at", "--output-format", "json").json()
+    found = run("batch", "decks", "--positions", "at", "--output-format", "json", "-o", "out").json()
     assert [(row["deck"], row["largest_force"]) for row in found] == [
         ("decks/near/case.keyxm", 3500.0),
         ("decks/far/case.keyxm", 2500.0),
@@ -269,7 +255,7 @@ def test_output_is_the_same_whatever_the_number_of_processes(four: str, place: P
         place((CLEAN, BAD_NUMBER, DEEP)[number % 3], f"{four}/more/{number}.keyxm")
     outcomes = []
     for jobs in ("1", "2"):
-        outcome = run("evaluate", four, "--jobs", jobs, "-o", f"out{jobs}", "--form", "csv", "--output-format", "json")
+        outcome = run("batch", four, "--jobs", jobs, "-o", f"out{jobs}", "--form", "csv", "--output-format", "json")
         written = {
             path.relative_to(f"out{jobs}").as_posix(): path.read_bytes()
             for path in sorted(Path(f"out{jobs}").rglob("*"))
@@ -288,8 +274,8 @@ def test_interrupted_run_ends_its_processes(four: str, folder: Path, monkeypatch
         if multiprocessing.active_children():
             raise KeyboardInterrupt
 
-    monkeypatch.setattr(evaluate_many, "_remember", interrupt)
-    outcome = run("evaluate", four, "--jobs", "2", "-o", "out", "--form", "csv")
+    monkeypatch.setattr(batch_run, "_remember", interrupt)
+    outcome = run("batch", four, "--jobs", "2", "-o", "out", "--form", "csv")
     assert (outcome.code, outcome.out) == (130, "")
     assert multiprocessing.active_children() == []
     assert not list(folder.rglob("*.mudline"))
@@ -303,8 +289,8 @@ def end(order: Order) -> Done:
 
 @pytest.mark.usefixtures("eager")
 def test_process_that_dies_is_reported(four: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(evaluate_many, "_done", lambda task: Done(failed(task.case.file.name, "skipped")))
-    monkeypatch.setattr(evaluate_many, "evaluate_case", end)
-    outcome = run("evaluate", four, "--jobs", "2")
+    monkeypatch.setattr(batch_run, "_done", lambda task: Done(failed(task.case.file.name, "skipped")))
+    monkeypatch.setattr(batch_run, "evaluate_case", end)
+    outcome = run("batch", four, "--jobs", "2", "-o", "out")
     assert outcome.code == 2
     assert "a process that evaluated decks has ended early" in outcome.err

@@ -55,17 +55,16 @@ _AHEAD = 4
 
 
 @dataclass(frozen=True, slots=True)
-class ManyOptions:
+class BatchOptions:
     """The options of a run over many decks; `form` is that of the files of results in the folder `output`."""
 
     inputs: EvaluateInputs
     units: str | None
-    positions: str | None
-    output: str | None
+    output: str
     form: str
+    summary_only: bool
     output_format: str
     fail_on: str
-    spreadsheet: bool
     jobs: int
     no_cache: bool
     scheduler: Scheduler | None = None
@@ -80,28 +79,28 @@ class Task(NamedTuple):
     known: Kept | None = None
 
 
-def evaluate_many(decks: Inputs, options: ManyOptions, view: View) -> int:
+def evaluate_batch(decks: Inputs, options: BatchOptions, view: View) -> int:
     """Evaluate decks, print a row for each and write their results; returns the exit code.
 
     Raises click.ClickException: options that fit no deck, a folder that cannot be written to.
     """
-    placed = PositionFiles(options.positions)
+    placed = PositionFiles(options.inputs.positions)
     placed.check()
     if not decks.files:
         return decks.code
-    common, cases = named_cases(_once(decks.files), options.form if options.output else "")
+    common, cases = named_cases(_once(decks.files), options.form)
     with Progress(len(cases), view, shown=wants_bar(view)) as progress:
         evaluated = _on_cluster if options.scheduler else _here
         rows, taken = evaluated(decks, cases, placed, options, progress)
     ranked = worst_first(one.row for one in rows)
-    written = options.output and _write_summary(ranked, options.output, spreadsheet=options.spreadsheet)
+    written = _write_summary(ranked, options.output)
     if not view.quiet:
         _notify_warnings(rows)
         _notify_written(rows, taken, options.output, written)
     if options.output_format == "json":
         emit_json([row.row() for row in ranked])
     elif options.output_format == "csv":
-        emit(_csv(ranked, spreadsheet=options.spreadsheet))
+        emit(_csv(ranked))
     else:
         print_cases(ranked, common, {case.file.name: case.inside for case in cases}, view)
     failing = any(row.failed or (row.warnings and options.fail_on == "warning") for row in ranked)
@@ -116,20 +115,20 @@ def _once(files: Iterable[Input]) -> list[Input]:
     return list(found.values())
 
 
-def _spelled(options: ManyOptions) -> str:
+def _spelled(options: BatchOptions) -> str:
     """The options on which results depend besides the files."""
-    return repr((options.inputs, options.units, options.form, options.spreadsheet))
+    return repr((options.inputs, options.units, options.form, options.summary_only))
 
 
 # ------------------------------------------------------------------------------------------------- evaluating decks
 
 
 def _here(
-    decks: Inputs, cases: Sequence[Case], placed: PositionFiles, options: ManyOptions, progress: Progress
+    decks: Inputs, cases: Sequence[Case], placed: PositionFiles, options: BatchOptions, progress: Progress
 ) -> tuple[list[Kept], int]:
     """What the decks gave, evaluated on this machine, and how many were taken over from an earlier run."""
-    folder = None if options.output is None else Path(options.output)
-    known = None if folder is None else KnownResults(folder, _spelled(options))
+    folder = Path(options.output)
+    known = KnownResults(folder, _spelled(options))
     rows: list[Kept] = []
     taken = 0
     with _folder(folder, cases, known):
@@ -139,13 +138,13 @@ def _here(
                 rows.append(done.kept)
                 taken += task.known is not None and not done.kept.row.failed
                 progress.advance()
-                if known is not None and task.known is None:
+                if task.known is None:
                     _remember(known, task, done)
     return rows, taken
 
 
 def _on_cluster(
-    decks: Inputs, cases: Sequence[Case], placed: PositionFiles, options: ManyOptions, progress: Progress
+    decks: Inputs, cases: Sequence[Case], placed: PositionFiles, options: BatchOptions, progress: Progress
 ) -> tuple[list[Kept], int]:
     """As `_here`, evaluated by the workers of a cluster; what is done is noted below the results."""
     from mudline.cli.cluster_decks import EvaluateGiven, evaluated_on_cluster  # noqa: PLC0415 - few runs use a cluster
@@ -153,10 +152,10 @@ def _on_cluster(
 
     if options.scheduler is None:
         raise ValueError("no scheduler is given")
-    place = None if options.output is None else storage.join(options.output, CHUNKS)
+    place = storage.join(options.output, CHUNKS)
     cluster = OnCluster(options.scheduler, place, options.no_cache)
     here = os.getcwd()  # noqa: PTH109 - sent as text
-    given = EvaluateGiven(cases[0], placed, options.inputs, options.output, options.units, options.spreadsheet, here)
+    given = EvaluateGiven(cases[0], placed, options.inputs, options.output, options.units, options.summary_only, here)
     rows: list[Kept] = []
     words = f"{_spelled(options)} {options.output} {placed}"
     for one in evaluated_on_cluster(decks, cases, given, words, cluster):
@@ -166,7 +165,7 @@ def _on_cluster(
 
 
 def _tasks(
-    decks: Inputs, cases: Sequence[Case], placed: PositionFiles, options: ManyOptions, known: KnownResults | None
+    decks: Inputs, cases: Sequence[Case], placed: PositionFiles, options: BatchOptions, known: KnownResults
 ) -> Iterator[Task]:
     """What is to do for each deck; a deck that cannot be read has failed."""
     inputs, folder = options.inputs, options.output
@@ -181,9 +180,9 @@ def _tasks(
             yield Task(case, known=failed(case.file.name, str(error)))
             continue
         others = [path for path in (positions, inputs.elements) if path]
-        key = "" if known is None else known.key(case.file.name, data, others)
-        found = None if known is None or options.no_cache else known.find(key, case.result)
-        order = Order(case.file, data, positions, case.result, folder, inputs, options.units, options.spreadsheet)
+        key = known.key(case.file.name, data, others)
+        found = None if options.no_cache else known.find(key, case.result)
+        order = Order(case.file, data, positions, case.result, folder, inputs, options.units, options.summary_only)
         yield Task(case, key, order, found)
 
 
@@ -227,11 +226,8 @@ def _done(task: Task) -> Done:
 
 
 @contextmanager
-def _folder(folder: Path | None, cases: Sequence[Case], known: KnownResults | None) -> Iterator[None]:
+def _folder(folder: Path, cases: Sequence[Case], known: KnownResults) -> Iterator[None]:
     """The folder of results while decks are evaluated: what is done is listed, also when the run is interrupted."""
-    if folder is None or known is None:
-        yield
-        return
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -256,11 +252,11 @@ def _remember(known: KnownResults, task: Task, done: Done) -> None:
         known.put(task.key, task.case.result, done.kept, done.read, done.written)
 
 
-def _write_summary(rows: Sequence[CaseSummary], folder: str, *, spreadsheet: bool) -> str:
+def _write_summary(rows: Sequence[CaseSummary], folder: str) -> str:
     """Write the rows of all decks: in Parquet where that is installed, else as CSV. Returns the path or the URL."""
     if is_url(folder):
         with TemporaryDirectory(prefix="mudline-") as near:
-            path = Path(_write_summary(rows, near, spreadsheet=spreadsheet))
+            path = Path(_write_summary(rows, near))
             target = storage.join(folder, path.name)
             try:
                 storage.write(target, path.read_bytes())
@@ -273,12 +269,12 @@ def _write_summary(rows: Sequence[CaseSummary], folder: str, *, spreadsheet: boo
             write_parquet(rows, stream)
     else:
         path = Path(folder, f"{SUMMARY}.csv")
-        write_text(path, _csv(rows, spreadsheet=spreadsheet))
+        write_text(path, _csv(rows))
     return path.as_posix()
 
 
-def _csv(rows: Sequence[CaseSummary], *, spreadsheet: bool) -> Iterator[str]:
-    return csv_lines([CASES, *(row.row().values() for row in rows)], as_text=spreadsheet)
+def _csv(rows: Sequence[CaseSummary]) -> Iterator[str]:
+    return csv_lines([CASES, *(row.row().values() for row in rows)])
 
 
 # ---------------------------------------------------------------------------------------------------------- notes

@@ -28,7 +28,7 @@ def decks(place: Place) -> str:
 
 
 def evaluated(*options: str) -> Outcome:
-    return run("evaluate", "decks", "-o", "out", "--form", "csv", "--output-format", "json", *options)
+    return run("batch", "decks", "-o", "out", "--form", "csv", "--output-format", "json", *options)
 
 
 def taken(outcome: Outcome) -> int:
@@ -66,15 +66,15 @@ def test_decks_of_one_name_keep_apart(place: Place) -> None:
 
 def test_summary_is_parquet_or_csv(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
     parquet = pytest.importorskip("pyarrow.parquet")
-    found = run("evaluate", decks, "-o", "out", "--output-format", "json").json()
+    found = run("batch", decks, "-o", "out", "--output-format", "json").json()
     assert {"a.parquet", "a-nodes.parquet", "a-summary.parquet", "summary.parquet"} < files()
     assert parquet.read_table("out/summary.parquet").to_pylist() == found
     monkeypatch.setitem(__import__("sys").modules, "pyarrow", None)
     monkeypatch.delitem(__import__("sys").modules, "mudline.results.forms.parquet", raising=False)
-    assert run("evaluate", decks, "-o", "bare").code == 0
+    assert run("batch", decks, "-o", "bare").code == 0
     assert Path("bare/summary.csv").read_text(encoding="utf-8").startswith("deck,verdict,")
     assert Path("bare/a.npz").exists()
-    outcome = run("evaluate", decks, "-o", "bare", "--form", "parquet")
+    outcome = run("batch", decks, "-o", "bare", "--form", "parquet")
     assert (outcome.code, outcome.err) == (1, "mudline: .parquet needs pyarrow: pip install 'mudline[parquet]'\n")
 
 
@@ -146,7 +146,7 @@ def test_what_is_damaged_is_evaluated_anew(damage: Callable[[], object], left: i
 @pytest.mark.usefixtures("decks")
 @pytest.mark.parametrize(
     "options",
-    [("--tension", "cut"), ("--units", "user"), ("--form", "npz"), ("--positions", "state.csv"), ("--spreadsheet",)],
+    [("--tension", "cut"), ("--units", "user"), ("--form", "npz"), ("--positions", "state.csv")],
 )
 def test_other_options_are_other_results(folder: Path, options: tuple[str, ...]) -> None:
     (folder / "state.csv").write_text(STATE, encoding="utf-8")
@@ -205,7 +205,7 @@ def test_deck_that_fails_now_has_no_old_results(place: Place) -> None:
 def test_other_decks_stay_known(place: Place) -> None:
     evaluated()
     place(CLEAN, "decks/c.keyxm")
-    assert run("evaluate", "decks/c.keyxm", "decks/b.keyxm", "-o", "out", "--form", "csv").code == 0
+    assert run("batch", "decks/c.keyxm", "decks/b.keyxm", "-o", "out", "--form", "csv").code == 0
     assert taken(evaluated()) == 3
 
 
