@@ -9,8 +9,8 @@ from mudline.contact.laws.friction import on_ellipse
 from mudline.contact.seabed import PlanesSeabed, SlopingSeabed, heading
 from mudline.diagnostics import DeckError
 from mudline.results.evaluation import as_deck_errors
-from mudline.study import scene_of
-from mudline.study.stability.small_decks import SmallDeck
+from tests.builders.scenes import scene_of
+from tests.builders.small_decks import SmallDeck
 
 RUBS = SmallDeck(coefficients=("0.4", "0.7"))
 

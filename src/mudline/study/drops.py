@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -133,14 +134,14 @@ class Drop:
     def duration(self) -> float:
         """The exact time from touching the seabed to leaving it."""
         stops = [0.0, *self.law.breaks[self.law.breaks < self.deepest].tolist(), self.deepest]
-        return 2.0 * sum(self._passing(start, end) for start, end in zip(stops[:-1], stops[1:], strict=True))
+        return 2.0 * sum(self._passing(start, end) for start, end in pairwise(stops))
 
     def _passing(self, start: float, end: float) -> float:
         """The time from one depth to a deeper one between breaks."""
         if isinstance(self.law, LinearLaw) and end <= 2.0 * self.law.half_width:
             s = start + 0.5 * (end - start) * (_NODES + 1.0)
             return float((0.5 * (end - start) * _WEIGHTS / self._speed(s)).sum())
-        v0, v1 = self._speed(np.array([start, end])).tolist()
+        v0, v1 = map(float, self._speed(np.array([start, end])))
         rate = float(self.law.force(np.array([0.5 * (start + end)]))[1][0]) / self.mass
         if rate == 0.0:
             return 2.0 * (end - start) / (v0 + v1)
@@ -151,7 +152,8 @@ class Drop:
     def _speed(self, s: FloatArray) -> FloatArray:
         """The speed at depths (k,), 0 at the deepest."""
         left = self.law.work(np.array([self.deepest]))[0] - self.law.work(s) - self.weight * (self.deepest - s)
-        return np.sqrt(np.maximum(2.0 / self.mass * left, 0.0))
+        speed: FloatArray = np.sqrt(np.maximum(2.0 / self.mass * left, 0.0))
+        return speed
 
     def largest_force(self, depth: FloatArray) -> FloatArray:
         """The largest force on the way to depths (k,)."""

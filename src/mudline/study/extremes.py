@@ -12,6 +12,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Context, Decimal, localcontext
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -70,7 +71,8 @@ _Case = tuple[str, Callable[[], Iterator[_Number]]]
 
 def extremes(given: ContactInput, contacts: Sequence[Contact]) -> Extremes:
     """Try all cases on the first contacts of a deck."""
-    tried, failed, names = 0, [], dict.fromkeys(())
+    tried, failed = 0, list[Failure]()
+    names: dict[str, None] = {}
     for contact in contacts[:PROBED]:
         for name, numbers in _cases(given, contact):
             tried += 1
@@ -184,15 +186,15 @@ class _Normal:
 
     def cases(self) -> Iterator[_Case]:
         inside, size = self._inside(), self._size
-        yield "at the mudline to the bit", lambda: self._forces([self._onset, np.nextafter(self._onset, -1.0)])
+        yield "at the mudline to the bit", partial(self._forces, [self._onset, float(np.nextafter(self._onset, -1.0))])
         if (curve := self._curve) is not None:
-            yield "at its given points to the bit", lambda: _at_points(curve)
-        yield f"{_power(FAR)} diameters deep", lambda: self._forces([FAR * size])
-        yield f"{_power(FAR)} diameters above", lambda: self._forces([-FAR * size])
+            yield "at its given points to the bit", partial(_at_points, curve)
+        yield f"{_power(FAR)} diameters deep", partial(self._forces, [FAR * size])
+        yield f"{_power(FAR)} diameters above", partial(self._forces, [-FAR * size])
         for factor in (FACTOR, 1.0 / FACTOR):
-            yield f"stiffness x {_power(factor)}", lambda factor=factor: self._scaled(factor)._forces(inside)  # noqa: SLF001
+            yield f"stiffness x {_power(factor)}", partial(_Normal._forces, self._scaled(factor), inside)
         for length in (TINY_LENGTH, FAR):
-            yield f"elements of length {_power(length)}", lambda length=length: self._forces(inside, length)
+            yield f"elements of length {_power(length)}", partial(self._forces, inside, length)
 
     def _inside(self) -> list[float]:
         """Depths between the points of the law."""
@@ -229,7 +231,9 @@ class _Normal:
         curve = self._curve
         if curve is not None:
             ratio = z / Decimal(self._size)
-            points = [(Decimal(r), Decimal(f)) for r, f in zip(curve.ratios.tolist(), curve.forces.tolist(), strict=True)]
+            points = [
+                (Decimal(r), Decimal(f)) for r, f in zip(curve.ratios.tolist(), curve.forces.tolist(), strict=True)
+            ]
             at = max((i for i, point in enumerate(points[:-1]) if point[0] <= ratio), default=0)
             (r0, f0), (r1, f1) = points[at : at + 2]
             rise = (f1 - f0) / (r1 - r0) * (ratio - r0)
@@ -262,10 +266,10 @@ class _Friction:
 
     def cases(self) -> Iterator[_Case]:
         for far in (TINY_LENGTH, FAR):
-            yield f"displaced by {_power(far)}", lambda far=far: self._forces(far)
-        yield f"stiffness x {_power(FACTOR)}", lambda: self._forces(_PRESSED, press=FACTOR)
+            yield f"displaced by {_power(far)}", partial(self._forces, far)
+        yield f"stiffness x {_power(FACTOR)}", partial(self._forces, _PRESSED, press=FACTOR)
         for dt in STEPS:
-            yield f"steps of {_power(dt)} s", lambda dt=dt: self._forces(_PRESSED, dt=dt)
+            yield f"steps of {_power(dt)} s", partial(self._forces, _PRESSED, dt=dt)
 
     def _forces(self, moved: float, press: float = 1.0, dt: float | None = None) -> Iterator[_Number]:
         numbers = {**self.numbers, "angle": math.nan}
@@ -279,10 +283,13 @@ class _Friction:
             for node in range(2):
                 normal = Decimal(float(result.normal_force[node]))
                 limit = Decimal(numbers[f"{side}_coefficient"]) * normal
-                constant, way = numbers[f"{side}_stiffness"], Decimal(float(after[node, axis])) - Decimal(float(points[node, axis]))
+                constant, way = (
+                    numbers[f"{side}_stiffness"],
+                    Decimal(float(after[node, axis])) - Decimal(float(points[node, axis])),
+                )
                 spring = limit / Decimal(numbers[f"{side}_mobilisation"]) if math.isnan(constant) else Decimal(constant)
-                exact = min(spring * way,  limit)
-                yield _Number(-float(result.reaction[node, axis]), exact, max(exact, limit * Decimal(1e-3)))
+                exact = min(spring * way, limit)
+                yield _Number(-float(result.reaction[node, axis]), exact, max(exact, limit / 1000))
 
 
 # -------------------------------------------------------------------------------------------------------------- suction
@@ -298,10 +305,10 @@ class _Suction:
 
     def cases(self) -> Iterator[_Case]:
         for velocity in (FAST, _SLOW):
-            yield f"velocity {_power(velocity)}", lambda v=velocity: self._forces(v)
-        yield f"suction x {_power(FACTOR)}", lambda: self._scaled(FACTOR)._forces(1.0)  # noqa: SLF001
+            yield f"velocity {_power(velocity)}", partial(self._forces, velocity)
+        yield f"suction x {_power(FACTOR)}", partial(_Suction._forces, self._scaled(FACTOR), 1.0)
         for dt in STEPS:
-            yield f"steps of {_power(dt)} s", lambda dt=dt: self._forces(None, dt)
+            yield f"steps of {_power(dt)} s", partial(self._forces, None, dt)
 
     def _scaled(self, factor: float) -> _Suction:
         return replace(self, numbers={**self.numbers, "force_factor": factor * self.numbers["force_factor"]})

@@ -20,7 +20,7 @@ from mudline.scene.model import Scene
 from mudline.study.drops import CurveLaw, drop_to
 from mudline.study.schemes import SCHEMES, Motion, Stepper, System, march
 from mudline.study.slides import Drag, Pull, SuctionNumbers
-from mudline.study.stability import Contact, OwnStep, file_of, landing_on
+from mudline.study.stability import Contact, OwnStep, landing_on
 
 GOALS = (0.01, 0.001)
 """Relative errors for which a step is looked for."""
@@ -151,7 +151,7 @@ def _drop(scene: Scene, contact: Contact) -> Mass:
     depth = _REACH * (diameter if math.isfinite(diameter) else _DIAMETER)
     if not isinstance(law, CurveLaw):
         depth = max(depth, 8.0 * law.half_width)
-    drop = drop_to(law, contact.row.mass, weight if weight > 0.0 else 0.0, depth)
+    drop = drop_to(law, contact.row.mass, float(np.fmax(weight, 0.0)), depth)
     if drop is None:
         raise ValueError("it never stops a mass that falls on it")
     return drop
@@ -262,9 +262,7 @@ def _largest(mass: Mass, step: Stepper, tried: Ladder, goal: float) -> _Reached:
         met = fine.errors <= goal
         first = max(len(met) if met.all() else int(np.argmin(met)), 1)
     at = min(first, len(fine.steps)) - 1
-    return _Reached(
-        float(fine.steps[at]), float(fine.errors[at]), float(fine.evaluations[at]) / float(fine.steps[at])
-    )
+    return _Reached(float(fine.steps[at]), float(fine.errors[at]), float(fine.evaluations[at]) / float(fine.steps[at]))
 
 
 def seconds_per_evaluation(mass: Mass, step: Stepper, dt: float, elements: int, timer: Timer) -> float:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -82,10 +83,13 @@ def pruned(scene: Scene, given: ContactInput, timer: Timer) -> Pruning:
             changed = without(given, stage.stage) if stage.active else with_added(given, stage.stage)
             if changed is not None:
                 models[stage.stage] = ContactModel(changed, backend="numpy")
-    if model.plan["normal law"].active:
+    removable = any(stage.active for stage in model.plan if stage.stage in _LAWS)
+    if removable:
         models["normal law"] = ContactModel(without(given, *_LAWS), backend="numpy")
     taken = seconds_per_step(models, timer)
     whole, floor = taken[""], taken["floor"]
+    if not removable:
+        taken["normal law"] = whole
     rows = []
     for stage in model.plan:
         where = _place(scene, stage.stage) if stage.active else None
@@ -116,7 +120,7 @@ def seconds_per_step(models: Mapping[str, ContactModel], timer: Timer) -> dict[s
         points = model.input.coordinates
         _, state = model.step(points, np.zeros_like(points), model.initial_state())
         rates = np.full_like(points, 1e-3)
-        calls[name] = lambda model=model, points=points, rates=rates, state=state: model.step(points, rates, state)
+        calls[name] = partial(model.step, points, rates, state)
     repeats = max(1, round(_LEAST / max(_seconds(calls.values(), 1, timer)[0], 1e-7)))
     rounds = [_seconds(calls.values(), repeats, timer) for _ in range(_ROUNDS)]
     return dict(zip(calls, np.min(rounds, axis=0).tolist(), strict=True))
@@ -169,7 +173,7 @@ def with_added(given: ContactInput, stage: str) -> ContactInput | None:
     return replace(given, laws=(*given.laws, *added))
 
 
-_ADDED = {"trench": ("friction", "trench peak")}
+_ADDED: dict[str, tuple[str, ...]] = {"trench": ("friction", "trench peak")}
 """The laws of a stage that are added where their name is not that of the stage."""
 
 
@@ -217,8 +221,7 @@ def _usual(given: ContactInput, rows: IndexArray) -> dict[str, Mapping[str, Arra
 def _place(scene: Scene, stage: str) -> Where | None:
     """The first place in the deck that gives a stage to an element."""
     if stage == "normal law":
-        places = [law.where for law in scene.laws.set_laws if law.where is not None]
-        return places[0] if places else None
+        return next((law.where for law in scene.laws.set_laws), None)
     extension = scene.extensions.get(_EXTENSIONS.get(stage, ""))
     if extension is not None and (extension.of_element >= 0).any():
         return extension.places[int(extension.of_element[extension.of_element >= 0].min())]

@@ -16,7 +16,7 @@ import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 
-PHASES: FloatArray = np.linspace(1.0, 127.0, 16) / 128.0
+PHASES: FloatArray = np.linspace(1.0, 511.0, 16) / 512.0
 """Shares of a step at which masses side by side touch the seabed; the worst counts, which is mostly near an end."""
 
 _TOLERANCE = 1e-12

@@ -258,9 +258,7 @@ class Pull:
         gain = self.pull / self.mass
         squared = v * v - 2.0 * gain * (x - exact.uplift)
         speed = np.sqrt(np.where((out > 0.0) & (squared > 0.0), squared, np.nan))
-        found = np.array(
-            [speed / exact.speed, (time - (v - speed) / gain) / duration, largest / exact.suction]
-        )
+        found = np.array([speed / exact.speed, (time - (v - speed) / gain) / duration, largest / exact.suction])
         worst = np.abs(found - 1.0).max(axis=0).reshape(len(dt), -1).max(axis=1)
         return worst, evaluations.reshape(len(dt), -1).mean(axis=1)
 
@@ -269,9 +267,7 @@ _Rate = Callable[[float, float], tuple[float, float]]
 _Event = Callable[[float, float], float]
 
 
-def _to_event(
-    rate: _Rate, state: tuple[float, float], part: float, event: _Event
-) -> tuple[tuple[float, float], float]:
+def _to_event(rate: _Rate, state: tuple[float, float], part: float, event: _Event) -> tuple[tuple[float, float], float]:
     """Integrate to where an event rises above 0: the state there, and the time in parts; NaN where it does not."""
     for number in range(_MOST_PARTS):
         after = _stepped(rate, state, part)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,7 +14,7 @@ from mudline.contact.input import ContactInput, LawKind
 from mudline.diagnostics import Where
 from mudline.scene.model import Scene
 from mudline.scene.oscillation import Oscillation, line_of, oscillations
-from mudline.study.drops import CurveLaw, Drop, Landing, Law, LinearLaw, landings
+from mudline.study.drops import ALLOWED, CurveLaw, Drop, Landing, Law, LinearLaw, landings
 from mudline.study.schemes import HHT, SCHEMES
 
 LANDED = 6
@@ -30,6 +30,7 @@ _SHALLOW = 0.05
 _SMALL_JUMP = 1e-6
 """Of the force of a landing: smaller forces at the mudline are none."""
 _TWO_KINDS = {"suction mobilisation": "suction", "suction damping": "suction"}
+_TWICE = 2.0
 STABLE, FAST, DIVERGES = "stable", "lands fast", "diverges"
 
 
@@ -158,30 +159,54 @@ def _law_of(scene: Scene, given: ContactInput, one: Oscillation) -> Law | None:
 # ------------------------------------------------------------------------------------------------------------- landings
 
 
-def judged(scene: Scene, contacts: list[Contact], own: OwnStep | None) -> list[StabilityRow]:
+class Judged(NamedTuple):
+    """A contact's row, and what the deck's own step does there in words; "" without one."""
+
+    row: StabilityRow
+    words: str
+
+
+def judged(scene: Scene, contacts: Sequence[Contact], own: OwnStep | None) -> list[Judged]:
     """Return the rows of all contacts, with landings on the first `LANDED` that a mass lands on."""
     rows, left = [], LANDED
     for contact in contacts:
-        row, fast = contact.row, False
+        row, landing = contact.row, None
         if contact.law is not None and left:
             left -= 1
-            row, fast = _landed(scene, contact, contact.law, own)
-        if own is not None:
-            outcome = DIVERGES if own.step > row.explicit_step else FAST if fast else STABLE
-            row = row._replace(at_own_step=outcome)
-        rows.append(row)
+            drop = landing_on(scene, contact, contact.law)
+            row = _landed(scene, contact, contact.law, drop)
+            landing = None if own is None else landing_at(drop, own.step)
+        if own is None:
+            rows.append(Judged(row, ""))
+            continue
+        grows, fast = own.step > row.explicit_step, landing is not None and landing.largest[0] > 1.0 + ALLOWED
+        outcome = DIVERGES if grows else FAST if fast else STABLE
+        words = ["explicit diverges"] if grows else []
+        if landing is not None:
+            words += _landing_words(landing)
+        rows.append(Judged(row._replace(at_own_step=outcome), ", ".join(words) or STABLE))
     return rows
 
 
-def _landed(scene: Scene, contact: Contact, law: Law, own: OwnStep | None) -> tuple[StabilityRow, bool]:
-    """The row with its landings, and whether they gain speed at the deck's own step."""
-    drop, row = landing_on(scene, contact, law), contact.row
-    jumps = abs(law.jump) > _SMALL_JUMP * abs(float(law.force(np.array([drop.deepest]))[0][0]))
-    row = row._replace(landing_step=landing_step(drop, row.omega), jump=jumps)
-    if jumps and isinstance(law, CurveLaw):
-        row = row._replace(without_jump=_without_jump(scene, contact, law))
-    at_own = None if own is None else landing_at(drop, own.step)
-    return row, at_own is not None and bool(at_own.largest[0] > 1.0 and not at_own.kept[0])
+def _landing_words(landing: Landing) -> list[str]:
+    """What landings with one step of HHT (-0.3) do; nothing where all keep their speed."""
+    least, largest = float(landing.least[0]), float(landing.largest[0])
+    if math.isnan(largest):
+        return ["does not lift off"]
+    if largest >= _TWICE:
+        return [f"lands {largest:.1f} times too fast"]
+    if largest > 1.0 + ALLOWED:
+        return [f"lands {100.0 * (largest - 1.0):.2g} % too fast"]
+    return [f"loses {100.0 * (1.0 - least):.2g} % of its speed"] if least < 1.0 - ALLOWED else []
+
+
+def _landed(scene: Scene, contact: Contact, law: Law, drop: Drop) -> StabilityRow:
+    """The row of a contact with its landings, and with a jump at the mudline."""
+    row, carried = contact.row, abs(float(law.force(np.array([drop.deepest]))[0][0]))
+    row = row._replace(landing_step=landing_step(drop, row.omega))
+    if isinstance(law, CurveLaw) and abs(law.jump) > _SMALL_JUMP * carried:
+        row = row._replace(jump=True, without_jump=_without_jump(scene, contact, law))
+    return row
 
 
 def _without_jump(scene: Scene, contact: Contact, law: CurveLaw) -> WithoutJump:
