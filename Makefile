@@ -98,8 +98,8 @@ tutorials: $(VENV)/.developer ## execute the notebooks of docs/tutorials again
 pictures: $(VENV)/.developer ## redraw the pictures of docs/images
 	$(BIN)/python -m tests.docs.pictures
 
-studies: $(VENV)/.developer ## regenerate the pictures and numbers of docs/studies/ (minutes)
-	@for study in precision stability pruning; do $(BIN)/mudline study $$study -o docs/studies || exit; done
+studies: $(VENV)/.developer ## measure the tables and pictures of docs/studies/ again (3 minutes)
+	$(BIN)/python -m tests.benchmarks.studies $(ARGS)
 
 dynamics: $(VENV)/.developer ## time integration of a line on the seabed, and other programs: docs/studies/benchmark.md (15 minutes)
 	$(BIN)/python -m tests.benchmarks.dynamics $(ARGS)

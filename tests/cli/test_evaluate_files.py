@@ -4,37 +4,16 @@ from __future__ import annotations
 
 import csv
 import json
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from mudline.results import forms
+from mudline.results.forms import FORMS
 from tests.builders.decks import CLEAN, PULLING
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, assert_fits, no_constant, run
 
-TOY = """
-from contextlib import contextmanager
-
-SUMMARY, BESIDE = "a toy", ()
-
-class Toy:
-    steps = 0
-
-    def take(self, part):
-        self.steps += part.count
-
-    def finish(self, more):
-        self.stream.write(f"{self.steps} step\\n".encode())
-
-@contextmanager
-def opened(output):
-    toy = Toy()
-    toy.stream = output.streams[0]
-    yield toy
-"""
 STEPS = """\
 time,node,x,y,z
 0.0,1,-0.1,0.0,0.0
@@ -277,7 +256,7 @@ def test_velocities_are_accepted(place: Place, folder: Path) -> None:
 def test_other_forms_are_wrong_usage(place: Place, name: str) -> None:
     outcome = run("evaluate", place(), "-o", name)
     assert (outcome.code, outcome.out) == (2, "")
-    *names, last = (f".{form}" for form in forms.form_names())
+    *names, last = (f".{form}" for form in FORMS)
     assert f"{name}: unknown file format: give a name ending in {', '.join(names)} or {last}" in outcome.err
 
 
@@ -307,21 +286,3 @@ def test_json_never_holds_nan(place: Place, steps: str, folder: Path) -> None:
     text = (folder / "out.json").read_text(encoding="utf-8")
     found = json.loads(text, parse_constant=no_constant)
     assert {element["ratio"] for step in found["steps"] for element in step["elements"]} == {None}
-
-
-def test_a_module_is_a_form_of_files(place: Place, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A form of result files is there by its module alone; the others are not imported for it."""
-    toy = folder / "forms"
-    toy.mkdir()
-    (toy / "toy.py").write_text(TOY, encoding="utf-8")
-    *names, last = sorted([*(f".{form}" for form in forms.form_names()), ".toy"])
-    monkeypatch.setattr(forms, "__path__", [*forms.__path__, str(toy)])
-    for name in [name for name in sys.modules if name.startswith(f"{forms.__name__}.")]:
-        monkeypatch.delitem(sys.modules, name)
-    assert run("evaluate", place(), "-o", "out.toy", "-q").code == 0
-    assert Path("out.toy").read_text(encoding="utf-8") == "1 step\n"
-    written = f"give a name ending in {', '.join(names)} or {last}"
-    assert written in run("evaluate", place(), "-o", "out.xls").err
-    imported = {name for name in sys.modules if name.startswith(f"{forms.__name__}.")}
-    monkeypatch.delitem(sys.modules, f"{forms.__name__}.toy")
-    assert imported == {f"{forms.__name__}.toy"}

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mudline.results.forms import form_names
+from mudline.results.forms import FORMS
 from tests.builders.decks import CLEAN
 from tests.cli.conftest import Place
 from tests.cli.runner import assert_fits, run
@@ -74,7 +74,7 @@ def test_extremes_are_those_of_all_results(place: Place, folder: Path, deck: str
 @pytest.mark.usefixtures("long")
 def test_forms_hold_the_same(place: Place, folder: Path) -> None:
     place(BOTH)
-    for form in form_names():
+    for form in FORMS:
         assert run("evaluate", *GIVEN, "-q", "-o", f"out.{form}").code == 0
     found = json.loads((folder / "out.json").read_text(encoding="utf-8"))
     assert_fits(found, "series")

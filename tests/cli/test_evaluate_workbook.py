@@ -66,9 +66,9 @@ def test_more_rows_than_a_sheet_holds(place: Place, steps: str, folder: Path, mo
     monkeypatch.setattr(xlsx, "MOST_ROWS", 10)
     (folder / "out.xlsx").write_bytes(b"old")
     outcome = run("evaluate", place(), "--positions", steps, "-o", "out.xlsx")
-    assert outcome.code == 1
+    assert outcome.code == 2
     assert outcome.err == (
-        "deck.keyxm:1:1: error: RUN001 9 rows of nodes: a sheet of a workbook holds 8; write .parquet instead\n"
+        "mudline: out.xlsx: 9 rows of nodes: a sheet of a workbook holds 8; write .parquet instead\n"
     )
     assert (folder / "out.xlsx").read_bytes() == b"old"
     assert sorted(path.name for path in folder.iterdir()) == ["deck.keyxm", "out.xlsx", "p.npz"]

@@ -28,8 +28,6 @@ EVERY = sorted(COMMANDS)
 def test_version() -> None:
     assert run("--version").out == f"mudline {mudline.__version__}\n"
     assert run("--version").code == 0
-    outcome = process("--version")
-    assert (outcome.code, outcome.out, outcome.err) == (0, f"mudline {mudline.__version__}\n", "")
 
 
 def test_installed_command_is_the_module() -> None:
@@ -87,7 +85,6 @@ def test_docstrings_that_are_stripped_are_refused(place: Place) -> None:
         "mudline: rules are described by docstrings, which python -OO and PYTHONOPTIMIZE=2 strip: "
         "run Python with -O or without\n"
     )
-    assert process("lint", place(), env={"PYTHONOPTIMIZE": "1"}).code == 0
 
 
 def test_unknown_command() -> None:
@@ -153,17 +150,15 @@ def test_too_little_memory(monkeypatch: pytest.MonkeyPatch, place: Place) -> Non
 def test_machine_formats_are_utf_8_and_people_get_what_their_terminal_has(place: Place) -> None:
     name = place(BAD_NUMBER.replace("ten", "z\u00e4hn"))
     ascii_only = {"PYTHONIOENCODING": "ascii"}
-    machine = process("lint", name, "--output-format", "json", env=ascii_only)
+    machine = run("lint", name, "--output-format", "json", encoding="ascii")
     assert (machine.code, machine.err) == (1, "")
     assert "'z\u00e4hn' is not a number" in machine.json()[0]["message"]
     people = process("lint", name, env=ascii_only)
     assert people.code == 1
     assert "'z\\xe4hn' is not a number" in people.out
     assert people.output.isascii()
-    table = process("curves", place(CLEAN), env=ascii_only)
-    assert table.code == 0
-    assert "--------------------" in table.out
-    assert table.output.isascii()
+    table = run("curves", place(CLEAN), encoding="ascii")
+    assert (table.code, "--------------------" in table.out, table.output.isascii()) == (0, True, True)
 
 
 @pytest.mark.parametrize("form", ["json", "text"])

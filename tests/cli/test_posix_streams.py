@@ -12,17 +12,13 @@ import pytest
 
 from tests.builders.decks import BAD_NUMBER
 from tests.cli.conftest import Place
-from tests.cli.runner import SAMPLES, process
+from tests.cli.runner import SAMPLES, process, run
 from tests.processes import TIMEOUT, started
 
 PIPED = {
-    "lint": ["lint", str(SAMPLES), "--output-format", "concise"],
-    "lint-text": ["lint", str(SAMPLES)],
+    "lint": ["lint", str(SAMPLES / "broken.keyxm")],
     "convert": ["convert", str(SAMPLES / "scr-touchdown.keyxm"), "--to", "json"],
-    "evaluate": ["evaluate", str(SAMPLES / "flowline-gen.keyxm"), "-q", "-v"],
-    "curves": ["curves", str(SAMPLES / "scr-touchdown.keyxm")],
     "rules": ["rules"],
-    "help": ["--help"],
     "version": ["--version"],
 }
 
@@ -39,7 +35,7 @@ def test_closed_pipe_ends_quietly(arguments: list[str]) -> None:
 
 
 def test_pipe_that_is_closed_after_the_first_line(folder: Path) -> None:
-    points = "".join(f" {i}.0, {i}.0\n" for i in range(40_000))
+    points = "".join(f" {i}.0, {i}.0\n" for i in range(10_000))
     (folder / "long.keyxm").write_text(f"$MODEL\n*SEABED STIFFNESS\n CURVE=A\n{points}", encoding="utf-8")
     with started("-m", "mudline", "convert", "long.keyxm", "--to", "json") as running:
         assert running.out.readline() == b"{\n"
@@ -57,7 +53,7 @@ def test_standard_error_that_is_closed(folder: Path) -> None:
     assert (done.returncode, done.stdout) == (141, b"")
 
 
-CLOSED = {name: PIPED[name] for name in ("lint", "curves", "rules", "version")}
+CLOSED = {name: PIPED[name] for name in ("rules", "version")}
 
 
 @pytest.mark.parametrize("arguments", CLOSED.values(), ids=CLOSED)
@@ -108,5 +104,4 @@ def test_file_name_that_is_no_utf_8(folder: Path) -> None:
     outcome = process("lint", ".", "--output-format", "json")
     assert (outcome.code, outcome.err) == (1, "")
     assert outcome.json()[0]["file"] == name
-    assert process("lint", name).code == 1
-    assert process("lint", name + "x").err == "mudline: deck-\ufffd.keyxmx: no such file or directory\n"
+    assert run("lint", name + "x").err == "mudline: deck-\ufffd.keyxmx: no such file or directory\n"

@@ -40,7 +40,6 @@ LAWS = (*NORMAL, "nodal", *BESIDE, "friction", *TRENCHES)
 SUBSETS: tuple[tuple[frozenset[str], bool], ...] = (
     (frozenset({"curve", "linear", "smoothed", "unloading", "suction spring", "suction"}), True),
     (frozenset({"linear", "nodal", "friction", "lateral"}), False),
-    (frozenset({"linear", "friction", *TRENCHES}), True),
 )
 """Laws of the scenes of the suite, and whether their seabed is flat: each has loops of its own, compiled once."""
 SIZES = (1e-300, 1e-160, 1e-100, 1e-12, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e12, 1e100, 1e160, 1e300)

@@ -12,11 +12,9 @@ import pytest
 
 from mudline.contact import ContactModel, ContactResult, ContactState
 from mudline.contact import plan as choices
-from mudline.contact.compiled.functions import edition
-from mudline.contact.laws import NormalLaw, law_named
 from mudline.contact.plan import Backend, BackendChoice
 from mudline.contact.tables import Batch
-from tests.builders.contact import CURVE, LINEAR, at_depths, chain, everything, friction, journey, on
+from tests.builders.contact import CURVE, LINEAR, at_depths, chain, everything, friction, on
 from tests.processes import TIMEOUT
 
 pytestmark = pytest.mark.slow
@@ -122,14 +120,6 @@ def test_numpy_alone_does_not_load_numba() -> None:
     assert run.stdout.strip() == "False"
 
 
-def test_the_edition_changes_with_the_laws() -> None:
-    linear, curve = law_named("linear"), law_named("curve")
-    assert isinstance(linear, NormalLaw)
-    assert isinstance(curve, NormalLaw)
-    assert edition(()) == edition(()) > 0
-    assert len({edition(laws) for laws in ((), (linear,), (linear, curve))}) >= 2
-
-
 def test_the_same_laws_have_the_same_loops() -> None:
     one, other = (ContactModel(everything(50, seed), backend="fast")._driver(1) for seed in (1, 2))
     sloping = ContactModel(chain([CURVE]), backend="fast")._driver(1)
@@ -174,13 +164,3 @@ def test_series_of_no_steps_and_lines_of_no_elements() -> None:
     assert empty.force.shape == (0, 50)
     alone = ContactModel(chain([]), backend="fast").evaluate(np.zeros((3, 1, 3)))
     assert alone.reaction.tolist() == [[[0.0, 0.0, 0.0]]] * 3
-
-
-def test_a_stream_takes_a_few_steps_at_a_time() -> None:
-    positions, _, times = journey(50, 150, 2)
-    contact = ContactModel(everything(50, 2), backend="fast")
-    driver = contact._driver(150)
-    assert driver is not None
-    assert 1 < driver.steps < 150
-    sizes = [len(part.result.depth) for part in contact.stream(positions, times=times)]
-    assert sizes == [driver.steps] * (150 // driver.steps) + [150 % driver.steps]

@@ -10,9 +10,30 @@ from mudline.contact.seabed import PlanesSeabed, SlopingSeabed, heading
 from mudline.diagnostics import DeckError
 from mudline.results.evaluation import as_deck_errors
 from tests.builders.scenes import scene_of
-from tests.builders.small_decks import SmallDeck
 
-RUBS = SmallDeck(coefficients=("0.4", "0.7"))
+PIPE = """\
+$MODEL
+*NODE
+ 1, -0.05, 0.0, 0.0
+ 2, -0.05, 2.0, 0.0
+*ELEMENT
+ 1, 1, 2
+*GEOMETRIC SETS
+ OPTION=RIGID
+ SET=ALL
+ 207.0E9, 79.6E9, 0.3, 0.15, 7850.0
+*SEABED PROPERTIES
+ TYPE=ELASTIC
+ SET=ALL
+ STIFFNESS=50000.0
+"""
+RUBS = """\
+*SEABED FRICTION
+ SET=ALL
+ COEFFICIENTS=0.4, 0.7
+ STIFFNESS=40000.0, 20000.0
+ DIRECTIONS=-180.0
+"""
 
 
 @pytest.mark.parametrize(
@@ -60,7 +81,7 @@ def test_an_ellipse_of_an_infinite_limit_has_no_force() -> None:
 
 
 def test_reactions_have_no_zero_with_a_minus() -> None:
-    scene = scene_of(SmallDeck(coefficients=("0.4", "0.7"), angle="-180.0").text, "deck.keyxm")
+    scene = scene_of(PIPE + RUBS)
     points = np.array([[[-0.01, 0.0, 0.0], [-0.01, 2.0, 0.0]], [[-0.01, 0.001, 0.0], [-0.01, 2.001, 0.0]]])
     reaction = scene.contact().evaluate(points).reaction
     assert not np.signbit(reaction[reaction == 0.0]).any()
@@ -68,12 +89,12 @@ def test_reactions_have_no_zero_with_a_minus() -> None:
 
 
 def test_a_lateral_spring_whose_half_a_node_can_bear_touches_down() -> None:
-    scene = scene_of(SmallDeck(lateral="1.5E308").text, "deck.keyxm")
+    scene = scene_of(PIPE + " LATERAL=1.5E308\n")
     assert scene.contact().evaluate().friction is not None
 
 
 def test_what_is_refused_at_a_node_has_its_line() -> None:
-    scene = scene_of(RUBS.text, "deck.keyxm")
+    scene = scene_of(PIPE + RUBS)
     points = np.array([[-0.01, 0.0, 0.0], [np.inf, 2.0, 0.0]])
     with pytest.raises(DeckError, match="node 2 at step 0") as caught, as_deck_errors(scene):
         scene.contact().evaluate(points)
@@ -81,9 +102,7 @@ def test_what_is_refused_at_a_node_has_its_line() -> None:
 
 
 def test_a_friction_spring_without_end_is_refused_at_its_node() -> None:
-    deck = SmallDeck(coefficients=("1E200", "0.7"), mobilisation=("1E-200", "1.0"))
-    with pytest.raises(
-        DeckError, match="node 1: its friction coefficient divided by its mobilisation length"
-    ) as caught:
-        scene_of(deck.text, "deck.keyxm").contact()
+    what = "node 1: its friction coefficient divided by its mobilisation length"
+    with pytest.raises(DeckError, match=what) as caught:
+        scene_of(PIPE + " FRICTION=1E200, 0.7, 1E-200, 1.0\n").contact()
     assert caught.value.diagnostics[0].line == 3

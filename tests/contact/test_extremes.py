@@ -34,7 +34,7 @@ def sound(result: ContactResult) -> bool:
     return not np.isinf(result.gap).any() and all(part is None or bool(np.isfinite(part).all()) for part in floats)
 
 
-@settings(max_examples=50)
+@settings(max_examples=30)
 @given(st.integers(1, 4), st.integers(0, 999), st.tuples(sizes, sizes, sizes), sizes, st.sampled_from(SEABEDS))
 @example(2, 1, (1e300, 0.0, 0.0), 1e6, SEABEDS[0])
 @example(2, 1, (0.0, 0.0, 0.0), 0.0, SEABEDS[1])
@@ -63,7 +63,7 @@ def test_places_and_velocities_of_any_size(
     assert not refused or " at step 0: " in refused
 
 
-@settings(max_examples=60)
+@settings(max_examples=35)
 @given(st.integers(0, 999), st.sampled_from([1e-6, 1e-3, 1.0, 1e3]), sizes, sizes, sizes)
 def test_laws_of_any_size(seed: int, diameter: float, stiffness: float, strength: float, length: float) -> None:
     inputs = everything(3, seed)

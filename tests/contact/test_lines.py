@@ -76,7 +76,7 @@ def test_lengths_that_overflow_are_no_error() -> None:
     assert found.node_arc.tolist() == [0.0, 1.5e308, np.inf]
 
 
-@settings(max_examples=200)
+@settings(max_examples=80)
 @given(st.integers(1, 9).flatmap(lambda n: st.lists(st.tuples(st.integers(0, n), st.integers(0, n)), max_size=14)))
 def test_every_element_is_in_one_line_whose_elements_join(ends: list[tuple[int, int]]) -> None:
     pairs = np.array(ends, dtype=np.intp).reshape(-1, 2)

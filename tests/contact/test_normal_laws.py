@@ -221,12 +221,6 @@ def test_static_penetration_of_a_line_of_one_element(one_sided: bool, static: fl
     assert under(100.0, reaction) == pytest.approx(light, rel=1e-10)
 
 
-def test_a_node_inside_a_line_carries_a_whole_element() -> None:
-    inside = ContactModel(chain([NONE] * 2, on("nodal", 3, stiffness=K)))
-    result = inside.evaluate(at_depths([0.05, 1000.0 * 5.0 / K, 0.05]))
-    assert result.normal_force == pytest.approx([2500.0, 5000.0, 2500.0], rel=1e-12)
-
-
 @pytest.mark.parametrize(("one_sided", "work"), [(False, 62.708333333333), (True, 50.833333333333)])
 def test_work_of_a_node(one_sided: bool, work: float) -> None:
     contact = ContactModel(chain([], on("nodal", 1, stiffness=K, half_width=H, one_sided=one_sided)))

@@ -45,25 +45,6 @@ def test_a_line_goes_through_its_nodes_whichever_way_its_elements_are_written(el
         assert one.reaction == pytest.approx(other.reaction, rel=1e-12, abs=1e-9)
 
 
-@pytest.mark.parametrize("elements", [[[0, 1], [2, 1]], [[1, 0], [1, 2]]])
-def test_the_tangent_of_such_a_line(elements: list[list[int]]) -> None:
-    straight = chain([LINEAR] * 2, friction(3, stiffness=(1e5, 2e4)))
-    contact = ContactModel(replace(straight, element_nodes=np.array(elements, np.intp)))
-    start = along_z(3)
-    start[:, 1] += [0.0, 0.1, 0.3]
-    _, state = contact.step(start, None, contact.initial_state())
-    points = drifted(start, 0.002, 0.001)
-    tangent = contact.tangent(points, None, state).by_position.dense()
-    size, columns = 1e-6, []
-    for place in np.ndindex(points.shape):
-        sides = [points.copy(), points.copy()]
-        sides[0][place] += size
-        sides[1][place] -= size
-        up, down = (contact.step(side, None, state)[0].reaction for side in sides)
-        columns.append((up - down).reshape(-1) / (2.0 * size))
-    assert tangent == pytest.approx(np.column_stack(columns), rel=1e-6, abs=1.0)
-
-
 def bounded(elements: int) -> ContactInput:
     """A chain with friction whose seabed ends at Z = 4.5."""
     seabed = PlanesSeabed([[0.0, 0.0, 0.0]], [0.0], [0.0], [[-100.0, 100.0, -100.0, 4.5]])

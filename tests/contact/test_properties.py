@@ -20,14 +20,10 @@ from tests.builders.contact import (
     changed,
     everything,
     journey,
-    only,
     rearranged,
     renumbered,
-    stepped,
-    walk,
     without,
 )
-from tests.contact.bits import same_bits
 
 seeds = st.integers(0, 2**32 - 1)
 lines = st.integers(1, 9)
@@ -175,24 +171,6 @@ def test_the_order_of_the_nodes_does_not_matter(elements: int, seed: int, other:
     assert close(two.reaction, one.reaction[:, order])
 
 
-@settings(max_examples=20)
-@given(lines, st.integers(1, 12), seeds, st.integers(1, 15), st.booleans())
-def test_parts_and_steps_do_not_change_a_bit(elements: int, steps: int, seed: int, rows: int, timed: bool) -> None:
-    contact = ContactModel(everything(elements, seed))
-    positions, velocities, times = journey(elements, steps, seed)
-    rates, clock = (None, times) if timed else (velocities, None)
-    whole = contact.evaluate(positions, velocities=rates, times=clock)
-    contact._numpy.steps = rows
-    assert same_bits(contact.evaluate(positions, velocities=rates, times=clock), whole)
-    parts = list(contact.stream(positions, velocities=rates, times=clock))
-    assert sum(len(part.result.depth) for part in parts) == steps
-    for start, part in ((each.start, each.result) for each in parts):
-        assert same_bits(part, whole.steps(start, start + len(part.depth)))
-    if not timed:
-        for number, (result, _) in enumerate(stepped(contact, positions, velocities)):
-            assert same_bits(result, whole.step(number))
-
-
 @settings(max_examples=15)
 @given(lines, seeds)
 def test_elements_do_not_know_each_other(elements: int, seed: int) -> None:
@@ -250,14 +228,3 @@ def test_a_scene_may_be_turned_and_shifted(
     two = there.evaluate(spun(positions, degrees) + shift, velocities=spun(velocities, degrees))
     assert close(two.force, one.force, 1e-8)
     assert close(two.reaction, spun(one.reaction, degrees), 1e-8)
-
-
-def test_normal_laws_alone() -> None:
-    inputs = only(everything(4, 3), "curve", "linear", "smoothed")
-    positions, velocities, _ = journey(4, 5, 3)
-    contact = ContactModel(inputs)
-    whole = contact.evaluate(positions)
-    assert whole.force.any()
-    for number, result in enumerate(walk(contact, positions, velocities)):
-        for name in ("force", "reaction", "depth"):
-            assert np.array_equal(getattr(result, name), getattr(whole, name)[number])

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.contact import ContactModel
-from tests.builders.contact import CLAY, CURVE, LINEAR, at_depths, chain, changed, mixed, rearranged
+from tests.builders.contact import CLAY, CURVE, LINEAR, at_depths, chain, mixed
 
 
 @given(st.integers(1, 60), st.integers(0, 2**32 - 1))
@@ -25,24 +25,6 @@ def test_reactions_balance_the_forces_on_the_elements(count: int, seed: int) -> 
     assert result.normal_force @ lever == pytest.approx(load @ (lever[:-1] + 0.5), rel=1e-12, abs=1e-12)
     assert np.array_equal(result.reaction, result.normal_force[..., np.newaxis] * result.normal)
     assert np.array_equal(result.normal, np.broadcast_to([1.0, 0.0, 0.0], (3, count + 1, 3)))
-
-
-def test_an_end_node_takes_half_an_element_and_an_interior_node_two_halves() -> None:
-    inputs = chain([LINEAR] * 3, length=[1.0, 2.0, 4.0])
-    result = ContactModel(inputs).evaluate(at_depths(np.full(4, 0.02)))
-    assert result.normal_force == pytest.approx([500.0, 1500.0, 3000.0, 2000.0])
-
-
-@given(st.integers(1, 60), st.integers(0, 2**32 - 1))
-def test_the_order_of_the_elements_does_not_matter(count: int, seed: int) -> None:
-    inputs = mixed(count, seed)
-    order = np.random.default_rng(seed).permutation(count)
-    shuffled = rearranged(inputs, order, np.ones(count, np.bool_))
-    positions = at_depths(np.random.default_rng(seed).uniform(-0.1, 0.2, count + 1))
-    straight, mingled = ContactModel(inputs).evaluate(positions), ContactModel(shuffled).evaluate(positions)
-    for name in ("depth", "ratio", "contact", "force", "slope", "stiffness", "cut"):
-        assert np.array_equal(getattr(mingled, name), getattr(straight, name)[order])
-    assert np.array_equal(mingled.reaction, straight.reaction)
 
 
 def test_many_elements_may_meet_at_a_node() -> None:
@@ -73,25 +55,3 @@ def test_stiffness_is_the_derivative_of_the_force(count: int) -> None:
     assert smooth.any()
     derivative = (above.force - below.force) / (2.0 * step)
     assert derivative[smooth] == pytest.approx(middle.stiffness[smooth], rel=1e-6)
-
-
-@given(st.integers(-40, 40), st.integers(-40, 40), st.integers(0, 2**32 - 1))
-def test_a_change_of_units_scales_the_results(length_power: int, force_power: int, seed: int) -> None:
-    inputs, length, force = mixed(20, seed), 2.0**length_power, 2.0**force_power
-    per_length = force / length
-    curves = tuple(type(curve)(np.column_stack((curve.ratios, curve.forces * per_length))) for curve in inputs.curves)
-    rescaled = replace(
-        inputs,
-        length=inputs.length * length,
-        diameter=inputs.diameter * length,
-        curves=curves,
-    )
-    if "linear" in inputs.assigned:
-        rescaled = changed(rescaled, "linear", stiffness=inputs.assigned["linear"]["stiffness"] * (per_length / length))
-    positions = at_depths(np.random.default_rng(seed).uniform(-0.1, 0.2, 21))
-    before, after = ContactModel(inputs).evaluate(positions), ContactModel(rescaled).evaluate(positions * length)
-    assert np.array_equal(after.ratio, before.ratio)
-    assert np.array_equal(after.force, before.force * per_length)
-    assert np.array_equal(after.slope, before.slope * per_length)
-    assert np.array_equal(after.stiffness, before.stiffness * (per_length / length))
-    assert np.array_equal(after.reaction, before.reaction * force)

@@ -11,9 +11,8 @@ import numpy as np
 import pytest
 
 from mudline.contact import ContactModel, ContactResult
-from mudline.contact.line_summary import LineSummary
 from mudline.contact.result import Part
-from mudline.contact.touchdown import LineTable, line_summaries
+from mudline.contact.touchdown import LineSummary, LineTable, line_summaries
 from tests.contact.random_scenes import random_scene
 
 SCENES = 120

@@ -10,14 +10,12 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from numpy.typing import ArrayLike
 
-from mudline.contact import ContactInput, ContactModel, ContactState
-from mudline.contact.arrays import FloatArray
+from mudline.contact import ContactModel, ContactState
 from mudline.contact.laws.curve import steepest_slope
 from mudline.contact.laws.unloading import UnloadingHistory, line_stiffness, on_line, trench_bottom
 from mudline.curves import ForceCurve
-from tests.builders.contact import CURVE, LINEAR, NONE, apart, at_depths, chain, on
+from tests.builders.contact import CURVE, LINEAR, NONE, at_depths, chain, on
 
 EPSILON = float(np.finfo(np.float64).eps)
 
@@ -92,14 +90,6 @@ def test_before_the_first_contact() -> None:
     for reaction in reactions:
         assert not np.signbit(reaction.force)
     assert history_of(state).bottom.tolist() == [0.0]
-
-
-def test_the_old_history_is_not_changed() -> None:
-    contact = linear(5.0, 50.0)
-    state = travel(contact, [1.0])[1]
-    kept = history_of(state).numbers.tolist()
-    travel(contact, [2.0, 0.5, 3.0], state)
-    assert history_of(state).numbers.tolist() == kept
 
 
 def test_a_soft_unloading_stiffness_is_raised_to_the_loading_slope() -> None:
@@ -286,36 +276,3 @@ def test_a_closed_loop_takes_work(
     mean, way = 0.5 * (force[1:] + force[:-1]), np.diff(depths)
     within = 0.5 * np.abs(np.diff(force) * way)  # where between two places the kink lies is not seen
     assert np.sum(mean * way) >= -np.sum(within) - 1e-9
-
-
-@given(stiffness=st.floats(1.0, 1e5), path=places, cut=st.integers(0, 12))
-def test_going_on_from_a_history_is_the_whole_path(stiffness: float, path: list[float], cut: int) -> None:
-    contact = curved(SOFTENING, stiffness)
-    whole, last = travel(contact, path)
-    first, middle = travel(contact, path[:cut])
-    second, end = travel(contact, path[cut:], middle)
-    assert forces([*first, *second]) == forces(whole)
-    assert history_of(end).bottom.tolist() == history_of(last).bottom.tolist()
-
-
-def pipes(stiffness: FloatArray) -> ContactInput:
-    """Elements apart from each other."""
-    count = len(stiffness)
-    unloading = on("unloading", count, stiffness=stiffness)
-    return apart(chain([CURVE] * count, unloading, curves=(SOFTENING,), diameter=1.0))
-
-
-def sunk(depths: ArrayLike) -> FloatArray:
-    """Positions of such elements, each level at its depth."""
-    return at_depths(np.repeat(np.asarray(depths, np.float64), 2, axis=-1))
-
-
-@given(path=places, seed=st.integers(0, 1000))
-def test_elements_do_not_know_each_other(path: list[float], seed: int) -> None:
-    random = np.random.default_rng(seed)
-    stiffness, order = random.uniform(1e3, 1e5, 7), random.permutation(7)
-    depths = np.array(path)[:, None] + random.uniform(-0.1, 0.1, (len(path), 7))
-    one = ContactModel(pipes(stiffness)).evaluate(sunk(depths))
-    other = ContactModel(pipes(stiffness[order])).evaluate(sunk(depths[:, order]))
-    for name in ("force", "stiffness", "slope", "depth"):
-        assert np.array_equal(getattr(one, name)[:, order], getattr(other, name))

@@ -9,10 +9,10 @@ from collections.abc import Callable
 import numba
 import numpy as np
 import pytest
-from hypothesis import given, reject, settings
+from hypothesis import given, reject
 from hypothesis import strategies as st
 
-from mudline.curves import Backend, CurveError, ForceCurve, Law, NumpyLaw, QueryError, _loads, compiled, law_for
+from mudline.curves import Backend, CurveError, ForceCurve, Law, NumpyLaw, _loads, compiled, law_for
 from mudline.curves.points import FloatArray
 from mudline.curves.search import BLOCK, BucketTable, Workspace
 from tests.curves.plain import POINTS, near, plain_values, steps
@@ -37,7 +37,6 @@ def curves(draw: st.DrawFn) -> ForceCurve:
         reject()
 
 
-@settings(max_examples=50)
 @given(curves(), st.lists(st.floats(-1e300, 1e300), max_size=20))
 def test_both_backends_follow_the_law_to_the_last_bit(curve: ForceCurve, more: list[float]) -> None:
     query = near(curve.ratios, more)
@@ -61,12 +60,12 @@ def test_both_backends_recompute_and_refuse_the_same(curve: ForceCurve, odd: flo
         try:
             force, slope = curve.evaluate(query, backend=backend)
             answers.append((force.tobytes(), slope.tobytes()))
-        except QueryError as error:
-            answers.append((error.index, repr(error.ratio), str(error)))
+        except ValueError as error:
+            answers.append(str(error))
     assert answers[0] == answers[1]
 
 
-@pytest.mark.parametrize("count", [2, 3, 8, 9, 10, 16, 17, 21, 22, 33, 34, 300, 10_000, 70_000])
+@pytest.mark.parametrize("count", [2, 9, 10, 21, 22, 33, 34, 10_000, 70_000])
 @pytest.mark.parametrize("spacing", ["even", "random", "geometric", "crowded"])
 def test_random_ratios_in_several_blocks(count: int, spacing: str) -> None:
     rng = np.random.default_rng(count)
@@ -119,9 +118,8 @@ def test_a_refusal_names_the_ratio_even_where_results_replace_it(backend: Backen
     assert out[0].tolist() == curve.evaluate(query)[0].tolist()
     out[place][...] = query
     out[place][30_000] = 1e10
-    with pytest.raises(QueryError) as caught:
+    with pytest.raises(ValueError, match=r"ratio 10000000000\.0 \(index 30000\)"):
         curve.evaluate(out[place], out=out, backend=backend)
-    assert (caught.value.index, caught.value.ratio) == (30_000, 1e10)
 
 
 def test_the_loops_mean_the_same_before_they_are_compiled() -> None:

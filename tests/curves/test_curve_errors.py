@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import ArrayLike, NDArray
 
-from mudline.curves import CurveError, ForceCurve, QueryError
+from mudline.curves import CurveError, ForceCurve
 
 LINE = ForceCurve([(0.0, 0.0), (1.0, 1.0)])
 
@@ -67,10 +67,8 @@ def test_a_slope_that_is_just_normal_is_kept() -> None:
 def test_a_query_that_is_not_finite_is_named(value: float) -> None:
     for curve in (LINE, ForceCurve([(0.0, 5.0), (1.0, 5.0)])):
         for ask in (curve.evaluate, curve.segment, curve.extrapolated):
-            with pytest.raises(QueryError, match="it is not finite") as caught:
+            with pytest.raises(ValueError, match=rf"at ratio {value!r} \(index 3\): it is not finite"):
                 ask([[0.0, 1.0], [2.0, value]])
-            assert caught.value.index == 3
-            assert repr(caught.value.ratio) == repr(value)
 
 
 @pytest.mark.parametrize("count", [2, 40])
@@ -79,9 +77,8 @@ def test_a_force_that_overflows_is_named_whatever_block_it_is_in(count: int) -> 
     curve = ForceCurve(np.column_stack((ratios, 1e200 * ratios)))
     query = np.zeros(100_000)
     query[[70_001, 90_000]] = 1e200, -1e200
-    with pytest.raises(QueryError, match="the force there overflows") as caught:
+    with pytest.raises(ValueError, match=r"ratio 1e\+200 \(index 70001\): the force there overflows"):
         curve.evaluate(query)
-    assert (caught.value.index, caught.value.ratio) == (70_001, 1e200)
 
 
 def test_a_query_of_another_kind() -> None:
@@ -110,5 +107,3 @@ def test_no_ratio_has_a_force_that_is_not_finite(force: float) -> None:
 def test_errors_survive_a_process_boundary() -> None:
     curve_error = pickle.loads(pickle.dumps(CurveError("CRV003", 4, "two forces")))  # noqa: S301 - our own bytes
     assert (curve_error.code, curve_error.index, str(curve_error)) == ("CRV003", 4, "two forces")
-    query_error = pickle.loads(pickle.dumps(QueryError(7, 0.5, "no force")))  # noqa: S301 - our own bytes
-    assert (query_error.index, query_error.ratio, str(query_error)) == (7, 0.5, "no force")

@@ -14,7 +14,7 @@ import pytest
 from hypothesis import given, reject, settings
 from hypothesis import strategies as st
 
-from mudline.curves import CurveError, ForceCurve, QueryError
+from mudline.curves import CurveError, ForceCurve
 
 EPS = Fraction(1, 2**52)
 LARGEST = Fraction(sys.float_info.max)
@@ -89,7 +89,7 @@ def assert_force_and_slope(points: list[Point], curve: ForceCurve, ratio: float)
     exact = start + product
     try:
         found_force, found_slope = (Fraction(values.item()) for values in curve.evaluate(ratio))
-    except QueryError:
+    except ValueError:
         assert abs(exact) > LARGEST * (1 - 8 * EPS)
         return
     tolerance = 4 * EPS * (abs(start) + abs(product))
@@ -99,7 +99,6 @@ def assert_force_and_slope(points: list[Point], curve: ForceCurve, ratio: float)
     assert abs(found_slope - slope) <= 3 * Fraction(math.ulp(float(slope)))
 
 
-@settings(max_examples=50)
 @given(evaluable(), st.lists(st.one_of(scaled(307), ANY_FLOAT), max_size=20))
 def test_force_and_slope_are_exact_to_rounding(curve: ForceCurve, more: list[float]) -> None:
     points = list(zip(curve.ratios.tolist(), curve.forces.tolist(), strict=True))
@@ -135,7 +134,6 @@ def test_a_curve_is_refused_only_for_what_a_float64_cannot_hold(points: list[Poi
         assert max(*widths, *slopes) * edge > LARGEST or any(0 < slope < SMALLEST_NORMAL * edge for slope in slopes)
 
 
-@settings(max_examples=50)
 @given(evaluable(), st.randoms(use_true_random=False))
 def test_the_order_of_the_points_does_not_matter(curve: ForceCurve, random: Random) -> None:
     points = list(zip(curve.ratios.tolist(), curve.forces.tolist(), strict=True))
@@ -144,7 +142,6 @@ def test_the_order_of_the_points_does_not_matter(curve: ForceCurve, random: Rand
     assert ForceCurve(points) == curve
 
 
-@settings(max_examples=50)
 @given(evaluable())
 def test_points_are_exact_bit_for_bit(curve: ForceCurve) -> None:
     force, slope = curve.evaluate(curve.ratios)
@@ -153,19 +150,19 @@ def test_points_are_exact_bit_for_bit(curve: ForceCurve) -> None:
     assert slope[-1] == curve.slopes[-1]
 
 
-@settings(max_examples=50)
 @given(evaluable(), st.lists(scaled(290), min_size=2, max_size=30))
 def test_within_a_segment_the_force_follows_the_sign_of_the_slope(curve: ForceCurve, ratios: list[float]) -> None:
     ordered = sorted(ratios)
     try:
         force, slope = curve.evaluate(ordered)
-    except QueryError:
+    except ValueError:
         return
     anchor = np.searchsorted(curve.ratios, ordered, side="right")
     together = np.diff(anchor) == 0
     assert (np.diff(force)[together] * np.sign(slope[:-1][together]) >= 0.0).all()
 
 
+@settings(max_examples=25)
 @given(evaluable(), scaled(25))
 def test_a_root_has_the_force_it_was_asked_for(curve: ForceCurve, force: float) -> None:
     roots = curve.ratios_at_force(force)

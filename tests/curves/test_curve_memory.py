@@ -1,15 +1,17 @@
-"""Workspace arrays have a fixed size, however long the query."""
+"""Workspace arrays have a fixed size, however long the query, and serve one query at a time."""
 
 from __future__ import annotations
 
 import tracemalloc
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
 
 from mudline.curves import Backend, ForceCurve
 from mudline.curves.points import FloatArray
+from mudline.curves.search import workspace
 from tests.curves.plain import steps
 
 CURVES = {
@@ -51,3 +53,23 @@ def test_results_are_all_that_grows(name: str) -> None:
     assert peak(lambda: curve.evaluate(query)) < 16 * QUERY + FIXED
     assert peak(lambda: curve.segment(query)) < 8 * QUERY + FIXED
     assert peak(lambda: curve.extrapolated(query)) < QUERY + FIXED
+
+
+def test_nobody_gets_arrays_that_are_in_use() -> None:
+    with workspace() as one, workspace() as other:
+        assert one is not other
+        assert not np.shares_memory(one.real, other.real)
+    with workspace() as again:
+        assert again is one
+
+
+def test_queries_in_several_threads_do_not_mix() -> None:
+    rng = np.random.default_rng(6)
+    curves = [ForceCurve(np.column_stack((np.sort(rng.random(count)), rng.random(count)))) for count in (5, 50, 500)]
+    jobs = [(curve, rng.random(60_000)) for curve in curves for _ in range(8)]
+    with ThreadPoolExecutor(6) as pool:
+        together = list(pool.map(lambda job: job[0].evaluate(job[1]), jobs))
+    for (curve, query), (force, slope) in zip(jobs, together, strict=True):
+        alone = curve.evaluate(query)
+        assert np.array_equal(force, alone[0])
+        assert np.array_equal(slope, alone[1])

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import copy
 import pickle
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -101,24 +100,3 @@ def test_out_is_written_in_place_and_returned() -> None:
     assert returned[0] is out[0]
     assert returned[1] is out[1]
     assert np.array_equal(both, np.stack(expected, axis=-1))
-
-
-def test_out_may_be_the_memory_of_the_query() -> None:
-    curve = ForceCurve(POINTS)
-    memory = np.random.default_rng(4).uniform(-1.0, 1.0, 50_001)
-    expected = curve.evaluate(memory[:-1])
-    slope = np.empty(50_000)
-    curve.evaluate(memory[:-1], out=(memory[1:], slope))
-    assert np.array_equal(memory[1:], expected[0])
-    assert np.array_equal(slope, expected[1])
-    again = np.random.default_rng(4).uniform(-1.0, 1.0, 50_001)[:-1]
-    curve.evaluate(again, out=(slope, again))
-    assert np.array_equal(slope, expected[0])
-    assert np.array_equal(again, expected[1])
-
-
-def test_a_memory_mapped_query(tmp_path: Path) -> None:
-    query = np.random.default_rng(5).uniform(-1.0, 1.0, 40_000)
-    np.save(tmp_path / "ratios.npy", query)
-    mapped = np.load(tmp_path / "ratios.npy", mmap_mode="r")
-    assert np.array_equal(ForceCurve(POINTS).evaluate(mapped)[0], ForceCurve(POINTS).evaluate(query)[0])

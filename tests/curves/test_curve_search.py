@@ -64,11 +64,6 @@ def test_points_with_a_rule_have_a_bucket_each(points: FloatArray) -> None:
     assert bucket_table(points).crowded == 0
 
 
-def test_points_at_random_seldom_share_a_bucket() -> None:
-    points = np.sort(np.random.default_rng(1).random(10_000))
-    assert bucket_table(points).crowded < 0.15 * len(points)
-
-
 def test_a_table_of_very_many_points_has_wider_numbers() -> None:
     points = np.arange(70_000.0)
     query = near(points, [-1e300, 1e300])[::-20]

@@ -30,13 +30,6 @@ def test_worked_table(ratio: float, force: float, stiffness: float) -> None:
     assert found_slope / DIAMETER == pytest.approx(stiffness, rel=1e-11)
 
 
-def test_given_points_are_exact_and_the_right_segment_holds_there() -> None:
-    curve = ForceCurve(CLAY)
-    force, slope = curve.evaluate(curve.ratios)
-    assert force.tolist() == [0.0, 2000.0, 4500.0, 6000.0]
-    assert slope.tolist() == [*curve.slopes.tolist(), curve.slopes[-1]]
-
-
 def test_segments_and_extrapolation() -> None:
     curve = ForceCurve(CLAY)
     ratios = [-1.0, 0.0, 0.05, 0.1, 0.3, 0.5, 0.6]
@@ -51,29 +44,6 @@ def test_falling_forces_give_negative_slopes() -> None:
     force, slope = ForceCurve([(0.0, 10.0), (1.0, 4.0)]).evaluate([-1.0, 0.5, 2.0])
     assert force.tolist() == [16.0, 7.0, -2.0]
     assert slope.tolist() == [-6.0, -6.0, -6.0]
-
-
-@pytest.mark.parametrize("count", [2, 3, 15, 16, 17, 18, 40, 1000])
-def test_every_way_of_searching_agrees_with_interpolation(count: int) -> None:
-    rng = np.random.default_rng(count)
-    ratios = np.cumsum(rng.random(count) + 1e-3)
-    curve = ForceCurve(np.column_stack((ratios, rng.normal(size=count))))
-    query = rng.uniform(ratios[0], ratios[-1], 50_000)
-    assert np.allclose(curve.evaluate(query)[0], np.interp(query, curve.ratios, curve.forces), rtol=1e-9, atol=1e-12)
-    assert np.array_equal(curve.segment(query), np.searchsorted(ratios, query, side="right") - 1)
-
-
-@pytest.mark.parametrize("count", [4, 40])
-def test_points_one_ulp_apart(count: int) -> None:
-    ratios = [1.0]
-    while len(ratios) < count:
-        ratios.append(float(np.nextafter(ratios[-1], 2.0)))
-    forces = [float(index * index) for index in range(count)]
-    curve = ForceCurve(list(zip(ratios, forces, strict=True)))
-    force, slope = curve.evaluate(ratios)
-    assert force.tolist() == forces
-    assert (slope[:-1] * np.finfo(np.float64).eps).tolist() == [2.0 * index + 1.0 for index in range(count - 1)]
-    assert curve.segment(ratios).tolist() == [*range(count - 1), count - 2]
 
 
 def test_roots_on_a_rising_curve() -> None:

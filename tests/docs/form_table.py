@@ -9,8 +9,7 @@ from pathlib import Path
 from mudline.archive.tables import QUESTIONS, TABLES, Table
 from mudline.linting.output import TEXT, TEXT_SUMMARY, form_module, form_names
 from mudline.quantities import CASES, ELEMENTS, LINES, NODES, Quantity
-from mudline.results.forms import form_module as result_module
-from mudline.results.forms import form_names as result_names
+from mudline.results.forms import FORMS
 from tests.docs.marking import marked
 
 _ROOT = Path(__file__).parents[2]
@@ -35,7 +34,7 @@ def form_table() -> str:
 
 def result_table() -> str:
     """A row a form of result files."""
-    return _RESULTS + "".join(f"| `.{name}` | {result_module(name).SUMMARY} |\n" for name in result_names())
+    return _RESULTS + "".join(f"| `.{name}` | {form.summary} |\n" for name, form in FORMS.items())
 
 
 def quantity_rows(quantities: Iterable[Quantity]) -> str:

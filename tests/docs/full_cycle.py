@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import mudline
-from mudline.results.plots.over_time import Cycle, draw_path
+from mudline.results.plots.curves import Cycle, draw_path
 from mudline.scene.model import resolve
 from mudline.scene.positions import read_positions
 

@@ -22,7 +22,6 @@ CAPABILITIES = types.ClientCapabilities(
                 snippet_support=True, documentation_format=[types.MarkupKind.Markdown]
             )
         ),
-        document_symbol=types.DocumentSymbolClientCapabilities(hierarchical_document_symbol_support=True),
         code_action=types.CodeActionClientCapabilities(
             resolve_support=types.ClientCodeActionResolveOptions(properties=["edit"])
         ),

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from lsprotocol import types
 
 from mudline.diagnostics import Span
-from mudline.lsp.documents import Document, characters_of, differences, file_of, units_of
-from mudline.syntax.edits import apply_edits
+from mudline.lsp.documents import Document, characters_of, file_of, units_of
+from mudline.syntax.edits import TextEdit, apply_edits
 from mudline.syntax.source import Source
 
 ENCODINGS = ["utf-8", "utf-16", "utf-32"]
@@ -75,23 +75,13 @@ def test_changes_keep_lines_and_text(text: str, changes: list[tuple[int, int, st
 
 
 @given(st.lists(LETTERS), st.lists(LETTERS))
-def test_differences_lead_from_one_text_to_the_other(one: list[str], other: list[str]) -> None:
-    old, new = "\n".join(one), "\n".join(other)
-    assert apply_edits(old, differences(old, new)) == new
-
-
-def test_many_different_lines_are_replaced_as_one() -> None:
-    old, new = "".join(f"{n}\n" for n in range(5000)), "".join(f"{n}.0\n" for n in range(5001))
-    assert len(list(differences(old, new))) == 1
-    assert len(list(differences(old, old.replace("17\n", "18\n")))) == sum("17\n" in f"{n}\n" for n in range(5000))
-
-
-def test_very_many_edits_are_joined() -> None:
-    text = "".join(f"{n}\n" for n in range(3000))
-    new = "".join(f"{n}.0\n" if n % 1000 else f"{n}\n" for n in range(3000))
-    (first, *rest) = document(text).differences(new.encode())
-    assert (first.range.start, first.range.end) == (types.Position(1, 0), types.Position(1000, 0))
-    assert len(rest) == 2
+def test_a_difference_leads_from_one_text_to_the_other(one: list[str], other: list[str]) -> None:
+    made = document("\n".join(one), "utf-32")
+    edits = [
+        TextEdit(Span(made.offset(each.range.start), made.offset(each.range.end)), each.new_text)
+        for each in made.difference("\n".join(other).encode())
+    ]
+    assert apply_edits(made.text, edits) == "\n".join(other)
 
 
 def test_halves_of_pairs_are_replaced() -> None:

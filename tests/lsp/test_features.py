@@ -1,4 +1,4 @@
-"""Outline, folding, layout, colours, hints and curves, over the protocol."""
+"""Outline, folding, layout, colours and hints, over the protocol."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pygls.exceptions import JsonRpcException
 from mudline.formatting.document import formatted
 from mudline.lsp.structure import TYPES
 from tests.builders.decks import BAD_NUMBER, CLEAN
-from tests.lsp.editor import Editor, applied, document, position
+from tests.lsp.editor import Editor, applied, document
 
 pytestmark = pytest.mark.asyncio(loop_scope="session")
 
@@ -52,17 +52,6 @@ async def test_a_deck_is_formatted(editor: Editor) -> None:
     options = types.FormattingOptions(tab_size=4, insert_spaces=True)
     edits = await editor.client.text_document_formatting_async(types.DocumentFormattingParams(document(uri), options))
     assert applied(UGLY, list(edits or ())).encode() == formatted(UGLY.encode(), "deck.keyxm")
-
-
-async def test_a_range_is_formatted(editor: Editor) -> None:
-    uri = await editor.open(UGLY)
-    at = position(UGLY, "1,-0.1")
-    options = types.FormattingOptions(tab_size=4, insert_spaces=True)
-    params = types.DocumentRangeFormattingParams(document(uri), types.Range(at, at), options)
-    edits = await editor.client.text_document_range_formatting_async(params)
-    after = applied(UGLY, list(edits or ()))
-    assert "0.1,1000.0\n" in after
-    assert "\n1,-0.1,0.0\n" not in after
 
 
 async def test_a_deck_with_an_error_is_not_formatted(editor: Editor) -> None:
@@ -116,12 +105,6 @@ async def test_words_have_colours(editor: Editor) -> None:
         ("-0.1", "number"),
     ]
     assert [one for one in expected if one not in found] == []
-    at = position(text, " LATERAL")
-    params = types.SemanticTokensRangeParams(document(uri), types.Range(at, types.Position(at.line + 1, 0)))
-    part = await editor.client.text_document_semantic_tokens_range_async(params)
-    assert part is not None
-    assert part.data[0] == at.line
-    assert len(part.data) == 5 * 7
 
 
 async def test_equations_and_sets_have_hints(editor: Editor) -> None:
@@ -136,26 +119,3 @@ async def test_equations_and_sets_have_hints(editor: Editor) -> None:
         (text[: text.index(" SET=Pipe\n STIFF")].count("\n"), "2 elements, D = 0.5 m"),
         (lines.index(" LATERAL==[wide*2]"), "= 100"),
     ]
-
-
-async def test_a_curve_is_shown(editor: Editor) -> None:
-    pytest.importorskip("matplotlib")
-    uri = await editor.open(CLEAN)
-    lenses = await editor.client.text_document_code_lens_async(types.CodeLensParams(document(uri)))
-    (lens,) = lenses or ()
-    assert lens.range.start == position(CLEAN, "CURVE=Clay", "CURVE=")
-    assert lens.command is not None
-    assert lens.command.title == "show curve: 3 points, followed by 2 elements"
-    params = types.ExecuteCommandParams(lens.command.command, lens.command.arguments)
-    shown = await editor.client.workspace_execute_command_async(params)
-    assert shown is not None
-    assert shown["text"].splitlines()[:4] == [
-        "curve Clay",
-        "ratio, force [N/m]",
-        "0, 0",
-        "    slope 10000 N/m, stiffness 20000 N/m2 (D = 0.5 m)",
-    ]
-    assert shown["picture"].endswith(".svg")
-    params = types.ExecuteCommandParams(lens.command.command, [uri, 99])
-    with pytest.raises(JsonRpcException, match="there is no such curve any more"):
-        await editor.client.workspace_execute_command_async(params)

@@ -129,15 +129,9 @@ async def test_inline_settings_follow_a_comma(editor: Editor) -> None:
     assert {"TYPE=", "OPTION="} == items.keys()
 
 
-async def test_files_of_the_workspace_are_completed(editor: Editor) -> None:
+async def test_files_beside_the_deck_are_completed(editor: Editor) -> None:
     (editor.folder / "base.keyxm").write_text(CLEAN, encoding="utf-8")
     assert "base.keyxm" in await complete(editor, DECK, "LAST=base", "LAST=")
-
-
-async def test_labels_are_completed(editor: Editor) -> None:
-    text = CLEAN + "*LINES\n LINE=Riser\n END A={Hang Off}\n$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n {\n"
-    items = await complete(editor, text, " {\n", " {")
-    assert any(label.startswith("{") for label in items), items.keys()
 
 
 async def test_nothing_is_completed_in_a_comment(editor: Editor) -> None:

@@ -19,8 +19,8 @@ import mudline
 from mudline.contact import ContactInput, ContactModel, ContactResult, LawAssignment
 from mudline.contact.touchdown import line_summaries
 from mudline.results.plot_data import PlotData
-from mudline.results.plots.figure import figure_of, panels_of
-from mudline.results.plots.over_time import Cycle, draw_path, reaction
+from mudline.results.plots.curves import Cycle, draw_path
+from mudline.results.plots.figure import figure_of, panels_of, reaction
 from mudline.results.plots.stretch import Stretch
 from mudline.results.plots.style import PlainFormatter, thinned, widened
 from mudline.scene.model import resolve

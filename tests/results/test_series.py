@@ -10,14 +10,13 @@ import pytest
 
 from mudline.contact import numpy_driver
 from mudline.diagnostics import DeckError
-from mudline.results import forms
 from mudline.results.evaluation import Evaluation, Tension, evaluate_scene, prepare
-from mudline.results.forms import plan_rows
+from mudline.results.forms import plan_rows, text
 from mudline.results.totals import StepTotal, Total
 from mudline.scene.positions import Positions
 from tests.builders.decks import CLEAN, ILLEGAL, PULLING
 from tests.builders.scenes import scene_of
-from tests.results.written import arrays_of, csv_of, csv_pieces, json_of, json_pieces, steps_of, totals_of
+from tests.results.written import arrays_of, csv_of, json_of, pieces, steps_of, totals_of
 
 
 def series(steps: int, text: str = CLEAN, tension: Tension = "keep", *, absent: tuple[int, ...] = ()) -> Evaluation:
@@ -56,16 +55,16 @@ def test_formats_agree(absent: tuple[int, ...]) -> None:
 def test_pieces_are_small(monkeypatch: pytest.MonkeyPatch) -> None:
     """With pieces of an eighth of the usual size, so that an eighth of the steps is many pieces."""
     monkeypatch.setattr(numpy_driver, "BLOCK", numpy_driver.BLOCK // 8)
-    monkeypatch.setattr(forms, "_BLOCK", forms._BLOCK // 8)
-    monkeypatch.setattr(forms, "_PIECE", forms._PIECE // 8)
+    monkeypatch.setattr(text, "_BLOCK", text._BLOCK // 8)
+    monkeypatch.setattr(text, "_PIECE", text._PIECE // 8)
     evaluation = series(4_500)
     tracemalloc.start()
     sizes = {
-        name: sum(len(piece) for piece in pieces)
-        for name, pieces in (
-            ("json", json_pieces(evaluation)),
-            ("csv", csv_pieces(evaluation, "elements")),
-            ("nodes", csv_pieces(evaluation, "nodes")),
+        name: sum(len(piece) for piece in found)
+        for name, found in (
+            ("json", pieces(evaluation, "json")),
+            ("csv", pieces(evaluation, "csv")),
+            ("nodes", pieces(evaluation, "csv", "nodes")),
         )
     }
     _, peak = tracemalloc.get_traced_memory()
@@ -78,7 +77,7 @@ def test_pieces_are_small(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_pieces_of_a_large_model_are_small() -> None:
     evaluation = long_model(100_000)
     tracemalloc.start()
-    size = sum(len(piece) for piece in csv_pieces(evaluation, "elements"))
+    size = sum(len(piece) for piece in pieces(evaluation, "csv"))
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert size > 5e6

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from mudline.contact.columns import coded
 from mudline.quantities import csv_lines, finite, headed, shown, unit_names
-from mudline.results.forms import Spelling
+from mudline.results.forms.text import Spelling
 
 JSON = Spelling(json.dumps, "null")
 CSV = Spelling(lambda name: name, "")

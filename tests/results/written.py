@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import io
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from contextlib import ExitStack
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, TypeAlias
@@ -12,18 +12,19 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.contact.columns import Table
 from mudline.results.evaluation import Evaluation
-from mudline.results.forms import Output, Sink, Write, npz, text_form
+from mudline.results.forms import FORMS, Output, Sink, contents_of, table_path, tables_of
+from mudline.results.forms.text import text_writer
 from mudline.results.totals import StepSummary, StepTotal, Total, totals
 
 Json: TypeAlias = Any
 
 
-def pieces(evaluation: Evaluation, form: Callable[[Write], Sink]) -> Iterator[str]:
-    """All that a form writes, piece by piece as it comes."""
+def pieces(evaluation: Evaluation, form: str, table: str = "elements") -> Iterator[str]:
+    """All that a form of text writes, piece by piece as it comes."""
     written: list[Iterator[str]] = []
-    sink = form(written.append)
+    tables = tables_of(evaluation, form, evaluation.element_table(), table)
+    sink = Sink(evaluation, tables, text_writer(form, contents_of(evaluation, tables), written.append, table))
     for part in evaluation.parts():
         sink.take(part)
         yield from written.pop()
@@ -32,42 +33,34 @@ def pieces(evaluation: Evaluation, form: Callable[[Write], Sink]) -> Iterator[st
         yield from rest
 
 
-def json_pieces(evaluation: Evaluation) -> Iterator[str]:
-    """The JSON as it is written."""
-    return pieces(evaluation, lambda write: text_form("json")(evaluation, evaluation.element_table(), write))
-
-
 def json_of(evaluation: Evaluation) -> Json:
     """What the JSON holds."""
-    return json.loads("".join(json_pieces(evaluation)))
-
-
-def csv_pieces(evaluation: Evaluation, table: str) -> Iterator[str]:
-    """The CSV of `elements`, `nodes` or `summary` as it is written."""
-    tables: dict[str, Callable[[], Table]] = {
-        "elements": evaluation.element_table,
-        "nodes": evaluation.node_table,
-        "summary": evaluation.line_table,
-    }
-    return pieces(evaluation, lambda write: text_form("csv")(evaluation, tables[table](), write))
+    return json.loads("".join(pieces(evaluation, "json")))
 
 
 def csv_of(evaluation: Evaluation, table: str) -> str:
-    """The CSV of `elements` or `nodes`."""
-    return "".join(csv_pieces(evaluation, table))
+    """The CSV of `elements`, `nodes` or `summary`."""
+    return "".join(pieces(evaluation, "csv", table))
+
+
+def write(evaluation: Evaluation, path: Path) -> Path:
+    """Write an evaluation in the form of the suffix, as the command does."""
+    form = path.suffix[1:]
+    tables = tables_of(evaluation, form, evaluation.element_table())
+    with ExitStack() as stack:
+        paths = [path, *(table_path(path, table) for table in FORMS[form].beside)]
+        streams = [stack.enter_context(one.open("wb")) for one in paths]
+        writer = stack.enter_context(Output(form, contents_of(evaluation, tables), streams, path.parent).opened())
+        sink = Sink(evaluation, tables, writer)
+        for part in evaluation.parts():
+            sink.take(part)
+        sink.finish({})
+    return path
 
 
 def arrays_of(evaluation: Evaluation) -> dict[str, NDArray[Any]]:
     """What the NPZ archive holds."""
-    stream = io.BytesIO()
-    with (
-        TemporaryDirectory() as folder,
-        npz.opened(Output(evaluation, evaluation.element_table(), [stream], Path(folder))) as sink,
-    ):
-        for part in evaluation.parts():
-            sink.take(part)
-        sink.finish({})
-    with np.load(io.BytesIO(stream.getvalue()), allow_pickle=False) as archive:
+    with TemporaryDirectory() as folder, np.load(write(evaluation, Path(folder) / "out.npz")) as archive:
         return dict(archive)
 
 

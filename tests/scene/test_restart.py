@@ -356,16 +356,3 @@ def test_a_deck_before_is_read_once_until_it_changes(folder: Path) -> None:
         (folder / "static.keyxm").write_text(STATIC.replace("GEN=1, 10", "GEN=1, 8"))
         assert len(scene(folder).element_ids) == 8
         assert reading.call_count == 2
-
-
-def test_few_decks_are_kept(tmp_path: Path) -> None:
-    kept: dict[str, object] = {}
-    with patch.object(restart, "_CACHE", kept), patch.object(restart, "_MOST_KEPT", 3):
-        for number in range(6):
-            (tmp_path / f"static{number}.keyxm").write_text(STATIC)
-            scene(tmp_path, RESTART.format(f"static{number}"))
-        assert [Path(key).stem for key in kept] == ["static3", "static4", "static5"]
-        with patch.object(restart, "_LARGEST_KEPT", 10):
-            (tmp_path / "static6.keyxm").write_text(STATIC)
-            scene(tmp_path, RESTART.format("static6"))
-        assert [Path(key).stem for key in kept] == ["static6"]

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from mudline.deck.loading import load_path
 from mudline.scene.model import Scene, resolve
-from mudline.scene.seabed import ProfileError, SeabedKind, SeabedShape, parse_profile, read_profile
+from mudline.scene.seabed import SeabedKind, SeabedShape, parse_profile, read_profile
 from tests.builders.decks import PIPE
 from tests.builders.scenes import scene_of
 
@@ -139,7 +139,7 @@ def test_a_file_that_may_not_be_read(tmp_path: Path, monkeypatch: pytest.MonkeyP
 def test_a_file_of_enormous_size_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("mudline.scene.seabed.LARGEST_FILE", 3)
     (tmp_path / "bed.txt").write_text("0, 0\n1, 1\n", encoding="utf-8")
-    with pytest.raises(ProfileError, match="is it a profile"):
+    with pytest.raises(ValueError, match="is it a profile"):
         read_profile(tmp_path / "bed.txt", 2)
 
 

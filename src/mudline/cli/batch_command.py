@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 FORMS = ("csv", "json", "npz", "parquet")
 
 
-@click.command("batch")
+@options.command("batch")
 @takes_inputs(
     "Read the positions of the nodes: one file for all decks, a folder with a file NAME.csv, .npz or .npy for each, "
     "or a pattern such as {folder}/{name}.csv."

@@ -27,7 +27,7 @@ from mudline.diagnostics import DeckError, Diagnostic
 from mudline.files import is_url, recording_looks, suffix_of
 from mudline.quantities import CASES, shown
 from mudline.results.cases import CaseSummary, CaseWatch
-from mudline.results.forms import ResultConsumer, form_module
+from mudline.results.forms import FORMS, ResultConsumer
 from mudline.results.series import SeriesSummary, series_tables
 from mudline.results.warnings import ContactWatch
 
@@ -93,7 +93,7 @@ def _inside(path: str, common: str) -> str:
 
 
 def _others(stem: str, form: str) -> list[str]:
-    return [f"{stem}-{table}" for table in form_module(form).BESIDE]
+    return [f"{stem}-{table}" for table in FORMS[form].beside]
 
 
 class MissingPositionsError(Exception):

@@ -20,10 +20,10 @@ from mudline.linting.registry import code_fault
 _DEFAULTS = {EXTEND: "", "fail-on": "warning", "dialect": "mudline"}
 
 
-@click.command("config")
+@options.command("config")
 @click.argument("path", default=".", metavar="[PATH]")
-@click.option("--config", metavar="FILE", help="Use this configuration, not the nearest one.")
-@click.option("--isolated", is_flag=True, help="Use no configuration file.")
+@options.config
+@options.isolated
 @options.output_format("text", "json")
 @options.common
 def command(*, path: str, config: str | None, isolated: bool, output_format: str) -> int:

@@ -8,7 +8,7 @@ from pathlib import Path, PurePath
 import click
 import numpy as np
 
-from mudline.cli import DONE, FOUND
+from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDeck, takes_deck
 from mudline.cli.streams import emit, notify, notify_missing, write_text
 from mudline.cli.view import View
@@ -25,16 +25,16 @@ _WORKBOOKS = {".xlsx", ".xlsm"}
 _OTHER_SHEETS = {".xls", ".xlsb", ".ods"}
 
 
-@click.command("convert")
-@click.option("-o", "--output", metavar="OUT", help="Write to this file; without it, or with -, to standard output.")
-@click.option(
+@options.command("convert")
+@options.option("-o", "--output", metavar="OUT", help="Write to this file; without it, or with -, to standard output.")
+@options.option(
     "--from",
     "source",
     type=_SOURCES,
     help="Read DECK in this format, not in that of its suffix.",
 )
-@click.option("--to", "target", type=_FORMS, help="Write in this format, not in that of the suffix of OUT.")
-@click.option("--sorted", "in_order", is_flag=True, help="Write curves with their points sorted by ratio.")
+@options.option("--to", "target", type=_FORMS, help="Write in this format, not in that of the suffix of OUT.")
+@options.option("--sorted", "in_order", is_flag=True, help="Write curves with their points sorted by ratio.")
 @takes_deck
 def command(
     *, deck: GivenDeck, output: str | None, source: str | None, target: str | None, in_order: bool, view: View

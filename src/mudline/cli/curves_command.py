@@ -32,8 +32,8 @@ _GOES_ON = "Below its first and above its last point a curve goes on with the sl
 _SOFTENS = "unstable: the curve softens there, and a pipe that is pushed deeper sinks on to the next stable embedment"
 
 
-@click.command("curves")
-@click.option(
+@options.command("curves")
+@options.option(
     "--at",
     "ratios",
     type=float,
@@ -41,13 +41,13 @@ _SOFTENS = "unstable: the curve softens there, and a pipe that is pushed deeper 
     metavar="RATIO",
     help="Evaluate the curves at this embedment ratio. Repeatable.",
 )
-@click.option(
+@options.option(
     "--weight",
     type=float,
     metavar="W",
     help="Find the static embedment under this submerged weight per unit length, in the deck's units.",
 )
-@click.option("--plot", "picture", metavar="FILE.png|svg", help="Draw the curves (needs the extra mudline[plot]).")
+@options.option("--plot", "picture", metavar="FILE.png|svg", help="Draw the curves (needs the extra mudline[plot]).")
 @options.output_format("text", "json", "csv")
 @takes_deck
 def command(

@@ -1,32 +1,37 @@
-"""`mudline diff`."""
+"""`mudline diff`: two decks, or the decks of two folders in pairs of one name; and the differences in JSON."""
 
 from __future__ import annotations
 
 import json
 import math
 import os
+from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, dataclass, field
 
 import click
 
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.diff_folders import ComparedDeck, Comparing, Folders, Status
-from mudline.cli.diff_output import difference_lines, folder_lines, of_decks, of_folders, summary_of
-from mudline.cli.inputs import STDIN, refuses_bad_decks
-from mudline.cli.streams import emit
+from mudline.cli.diff_output import ComparedDeck, Status, difference_lines, folder_lines, markdown, summary_of
+from mudline.cli.inputs import STDIN, GivenDeck, Input, collect_any_form, refuses_bad_decks
+from mudline.cli.streams import emit, notify_diagnostics
 from mudline.cli.view import View
+from mudline.comparison.comparing import compare
 from mudline.comparison.model import Difference
-from mudline.comparison.superseded import Comparison
+from mudline.comparison.superseded import Comparison, without_spelling
+from mudline.deck.loading import load_bytes
+from mudline.deck.model import Deck
+from mudline.diagnostics import DeckError
+from mudline.scene.model import resolve
 
 FORMAT = "mudline-diff/1"
 FOLDER_FORMAT = "mudline-diff-folders/1"
 
 
-@click.command("diff")
+@options.command("diff")
 @click.argument("before", metavar="A")
 @click.argument("after", metavar="B")
-@click.option(
+@options.option(
     "--tolerance",
     type=click.FloatRange(min=0, max=1),
     default=0.0,
@@ -34,7 +39,7 @@ FOLDER_FORMAT = "mudline-diff-folders/1"
     metavar="REL",
     help="Ignore differences of numbers up to this one, relative to the larger number.",
 )
-@click.option("--strict", is_flag=True, help="List differences of spelling in superseded keywords too: exit code 1.")
+@options.option("--strict", is_flag=True, help="List differences of spelling in superseded keywords too: exit code 1.")
 @options.output_format("text", "json", "markdown")
 @options.every_file
 @options.stdin_name
@@ -63,32 +68,105 @@ def command(
         raise click.UsageError("only one of the decks can come from standard input")
     if not math.isfinite(tolerance):
         raise click.UsageError("--tolerance: expected a number from 0 to 1")
-    comparing = Comparing(tolerance, strict, units)
     folders = [os.path.isdir(path) for path in (before, after)]  # noqa: PTH112 - Path raises for a long name
-    if any(folders):
-        if not all(folders):
-            raise click.UsageError("one of A and B is a folder, the other is not: give two decks or two folders")
-        return _print_folders(Folders(before, after, comparing, not every_file), output_format, view)
-    first, second = comparing.files(before, after, stdin_name)
-    comparison = comparing.decks(first, second)
+    if any(folders) and not all(folders):
+        raise click.UsageError("one of A and B is a folder, the other is not: give two decks or two folders")
+    if all(folders):
+        return _compare_folders(_Folders(before, after, tolerance, strict, units), output_format, view, every_file)
+    first, second = _pair(before, after, stdin_name, units)
+    comparison = _comparison(first, second, tolerance, strict=strict)
+    summary = summary_of(comparison)
     if output_format == "json":
         emit(_json(first.file, second.file, tolerance, comparison))
     elif output_format == "markdown":
-        emit(of_decks(first.file, second.file, comparison, view))
+        lines = difference_lines("", "", comparison, view)
+        emit(markdown(first.file, second.file, summary, lines, view))
     else:
-        view.printer().lines(difference_lines(first.file, second.file, comparison, view))
-        if not view.quiet:
-            view.printer().lines([summary_of(comparison)])
+        names = ("", "") if view.quiet else (first.file, second.file)
+        view.printer().lines([*difference_lines(*names, comparison, view), *([] if view.quiet else [summary])])
     return FOUND if comparison.differences else DONE
 
 
-def _print_folders(folders: Folders, output_format: str, view: View) -> int:
+def _comparison(first: Deck, second: Deck, tolerance: float, *, strict: bool) -> Comparison:
+    """The differences of two decks. Raises DeckError for one that cannot be compared."""
+    before, after = resolve(first), resolve(second)
+    found = compare(before, after, tolerance)
+    return Comparison(found, []) if strict else without_spelling(before, after, found, tolerance)
+
+
+def _pair(before: str, after: str, stdin_name: str, units: str | None) -> tuple[Deck, Deck]:
+    """The decks of two files; the null device, which git gives for a file that is not there, is an empty one.
+
+    An empty deck has the units of the other one.
+    """
+    decks = [None if path == os.devnull else GivenDeck(path, stdin_name, units).load() for path in (before, after)]
+    there = next((deck.units for deck in decks if deck), units)
+    first, second = (deck or load_bytes(b"", os.devnull, form="keyword", units=there) for deck in decks)
+    return first, second
+
+
+# --------------------------------------------------------------------------------------------------------- two folders
+
+
+@dataclass(slots=True)
+class _Folders:
+    """Two folders and how their decks are compared; `counts` are whole when all of `compared` has been taken."""
+
+    before: str
+    after: str
+    tolerance: float
+    strict: bool
+    units: str | None
+    code: int = DONE
+    counts: Counter[Status] = field(default_factory=Counter)
+
+    def compared(self, *, gitignore: bool) -> Iterator[ComparedDeck]:
+        """Each name of a deck in one of the folders, in sorted order; it may be in none. Sets the exit code."""
+        inputs = [
+            collect_any_form([path], "", gitignore=gitignore, may_be_empty=True) for path in (self.before, self.after)
+        ]
+        old, new = (
+            {file.name.removeprefix(f"{path.replace(os.sep, '/').rstrip('/')}/"): file for file in found.files}
+            for path, found in zip((self.before, self.after), inputs, strict=True)
+        )
+        if not old and not new and not any(found.code for found in inputs):
+            inputs[0].fail(f"{self.before}, {self.after}: no deck in these folders")
+        for name in sorted({*old, *new}):
+            before, after = old.get(name), new.get(name)
+            if before is None or after is None:
+                one = ComparedDeck(name, Status.ADDED if before is None else Status.REMOVED)
+            else:
+                first, second = inputs[0].content(before), inputs[1].content(after)
+                if first is None or second is None:  # which is reported, and sets the exit code
+                    continue
+                one = self._compared(name, (before, first), (after, second))
+            self.counts[one.status] += 1
+            yield one
+        differ = self.counts.total() > self.counts[Status.EQUAL]
+        self.code = max(*(found.code for found in inputs), FOUND if differ else DONE)
+
+    def _compared(self, name: str, *given: tuple[Input, bytes]) -> ComparedDeck:
+        before, after = (file.name for file, _ in given)
+        try:
+            first, second = (load_bytes(data, file.name, units=self.units, folder=file.folder) for file, data in given)
+            comparison = _comparison(first, second, self.tolerance, strict=self.strict)
+        except DeckError as error:
+            notify_diagnostics(error.diagnostics)
+            found = error.diagnostics[0]
+            why = f"{found.file}:{found.line}:{found.column}: {found.code} {found.message}"
+            return ComparedDeck(name, Status.FAILED, before, after, why=why)
+        return ComparedDeck(name, Status.CHANGED if comparison.differences else Status.EQUAL, before, after, comparison)
+
+
+def _compare_folders(folders: _Folders, output_format: str, view: View, every_file: bool) -> int:
+    compared = folders.compared(gitignore=not every_file)
     if output_format == "json":
-        emit(_folders_json(folders))
+        emit(_folders_json(folders, compared))
     elif output_format == "markdown":
-        emit(of_folders(folders, view))
+        *lines, summary = folder_lines(compared, folders.counts, view)
+        emit(markdown(folders.before, folders.after, str(summary), lines, view))
     else:
-        view.printer().lines(folder_lines(folders, view))
+        view.printer().lines(folder_lines(compared, folders.counts, view))
     return folders.code
 
 
@@ -115,29 +193,26 @@ def _listed(differences: Sequence[Difference]) -> Iterator[str]:
     yield "\n ]" if differences else "[]"
 
 
-def _folders_json(folders: Folders) -> Iterator[str]:
+def _folders_json(folders: _Folders, compared: Iterator[ComparedDeck]) -> Iterator[str]:
     """A deck on a line."""
     head = {
         "format": FOLDER_FORMAT,
         "before": folders.before,
         "after": folders.after,
-        "tolerance": folders.comparing.tolerance,
+        "tolerance": folders.tolerance,
     }
     yield json.dumps(head, indent=1, ensure_ascii=False).removesuffix("\n}") + ',\n "decks": ['
     comma = ""
-    for one in folders.compared():
-        yield f"{comma}\n  {json.dumps(_of_deck(one), ensure_ascii=False, allow_nan=False)}"
+    for one in compared:
+        row = {
+            "deck": one.name,
+            "status": one.status.value,
+            "why": one.why or None,
+            "spelling_differences": len(one.comparison.spelling),
+            "differences": [asdict(each) for each in one.comparison.differences],
+        }
+        yield f"{comma}\n  {json.dumps(row, ensure_ascii=False, allow_nan=False)}"
         comma = ","
     counts = {status.value: folders.counts[status] for status in Status}
     end = {"equivalent": folders.counts.total() == folders.counts[Status.EQUAL], "summary": counts}
     yield ("\n ]" if comma else "]") + "," + json.dumps(end, indent=1, ensure_ascii=False).removeprefix("{") + "\n"
-
-
-def _of_deck(one: ComparedDeck) -> dict[str, object]:
-    return {
-        "deck": one.name,
-        "status": one.status.value,
-        "why": one.why or None,
-        "spelling_differences": len(one.comparison.spelling),
-        "differences": [asdict(each) for each in one.comparison.differences],
-    }

@@ -19,16 +19,16 @@ from mudline.cli.view import View
 from mudline.files import is_url
 from mudline.quantities import csv_lines
 from mudline.results.evaluation import Prepared
-from mudline.results.forms import form_names, plan_rows
+from mudline.results.forms import FORMS, plan_rows
 
 
-@click.command("evaluate")
+@options.command("evaluate")
 @takes_inputs("Read the positions of the nodes: CSV, NPZ or NPY, one state or time steps.")
 @click.option("--against", metavar="FILE", help="Compare with another program's element results, a CSV.")
 @click.option(
     "-o",
     "--output",
-    metavar=f"OUT.{'|'.join(form_names())}",
+    metavar=f"OUT.{'|'.join(FORMS)}",
     help="Write the results; CSV and Parquet write OUT-nodes and OUT-summary beside it.",
 )
 @pictures.options

@@ -16,7 +16,8 @@ from mudline.cli.view import Progress, View, wants_bar
 from mudline.contact import LawKind
 from mudline.results.against import Comparison, read_reference
 from mudline.results.evaluation import Evaluation
-from mudline.results.forms import ResultConsumer, Sink, Together, tables_as_text, text_form
+from mudline.results.forms import ResultConsumer, Sink, contents_of, tables_of
+from mudline.results.forms.text import text_writer, write_text
 from mudline.results.series import SeriesSummary, series_tables
 from mudline.results.totals import SlowSuction, StepSummary
 from mudline.results.warnings import ContactWarning, ContactWatch, caption
@@ -84,7 +85,7 @@ def evaluate_series(
     if output:
         written = write_tables(tables, Path(output))
     elif output_format != "text":
-        emit(tables_as_text(tables, output_format, table))
+        write_text(tables, output_format, emit, table)
     if not view.quiet:
         _notify_warnings(warnings)
         _notify_slow(evaluation, summary.slow)
@@ -103,11 +104,11 @@ def _sink(
     form = outputs.output_format
     if outputs.output:
         return result_files(evaluation, elements, Path(outputs.output), view)
-    if form in {"json", "csv"}:
-        tables = {"nodes": evaluation.node_table, "summary": evaluation.line_table}
-        rows = tables[outputs.table]() if form == "csv" and outputs.table in tables else elements
-        return nullcontext(text_form(form)(evaluation, rows, emit))
-    return nullcontext(Together())
+    if form == "text":
+        return nullcontext(Sink(evaluation, {}, None))
+    tables = tables_of(evaluation, form, elements, outputs.table)
+    writer = text_writer(form, contents_of(evaluation, tables), emit, outputs.table)
+    return nullcontext(Sink(evaluation, tables, writer))
 
 
 def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer], view: View, *, bar: bool) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 from mudline.cli.view import View
 from mudline.contact import Plan
 from mudline.contact.input import LawKind
-from mudline.contact.line_summary import LineSummary
+from mudline.contact.lines import LineSummary
 from mudline.contact.result import Part
 from mudline.quantities import SLIDING, STATES, UnitNames, headed, shown, unit_names
 from mudline.results.against import Comparison

@@ -9,23 +9,22 @@ import click
 
 from mudline.cli import DONE, options
 from mudline.cli.inputs import STDIN, GivenDeck, takes_deck
-from mudline.cli.streams import emit, notify, reason, write_bytes, write_text
+from mudline.cli.streams import MOST_REPORTED, emit, notify, reason, write_bytes, write_text
 from mudline.cli.view import View
 from mudline.short_repr import counted
 from mudline.variations.files import MANIFEST, ExpansionPlan, PlannedDeck, conflicts, lacking, manifest_text
 from mudline.variations.planning import plan
 
-_MOST_REPORTED = 5
 _COLUMNS = ("file", "case", "values")
 _NOT_COPIED = "{}: the deck names it and it is not copied: put it beside the new decks"
 
 
-@click.command("expand")
-@click.option(
+@options.command("expand")
+@options.option(
     "-o", "--output", metavar="DIR", help="Write the new decks into this folder; it is created if it does not exist."
 )
-@click.option("--dry-run", is_flag=True, help="Print what would be written, and write nothing.")
-@click.option("--force", is_flag=True, help="Overwrite existing files.")
+@options.option("--dry-run", is_flag=True, help="Print what would be written, and write nothing.")
+@options.option("--force", is_flag=True, help="Overwrite existing files.")
 @options.output_format("text", "json")
 @takes_deck
 def command(*, deck: GivenDeck, output: str | None, dry_run: bool, force: bool, output_format: str, view: View) -> int:
@@ -55,10 +54,10 @@ def command(*, deck: GivenDeck, output: str | None, dry_run: bool, force: bool, 
 
 
 def _notify_some(messages: list[str]) -> None:
-    for message in messages[:_MOST_REPORTED]:
+    for message in messages[:MOST_REPORTED]:
         notify(message)
-    if len(messages) > _MOST_REPORTED:
-        notify(f"and {len(messages) - _MOST_REPORTED} more of the same")
+    if len(messages) > MOST_REPORTED:
+        notify(f"and {len(messages) - MOST_REPORTED} more of the same")
 
 
 def _write(planned: ExpansionPlan, folder: Path, view: View) -> None:

@@ -18,10 +18,12 @@ from mudline.short_repr import counted
 _CHANGED, _SAME, _FAILED = "reformatted", "left unchanged", "not formatted"
 
 
-@click.command("format")
+@options.command("format")
 @options.paths
-@click.option("--check", is_flag=True, help="Write nothing; name the files that would change, and exit with 1 if any.")
-@click.option("--diff", is_flag=True, help="Write nothing; print what would change, and exit with 1 if anything.")
+@options.option(
+    "--check", is_flag=True, help="Write nothing; name the files that would change, and exit with 1 if any."
+)
+@options.option("--diff", is_flag=True, help="Write nothing; print what would change, and exit with 1 if anything.")
 @options.every_file
 @options.stdin_name
 @options.common

@@ -18,7 +18,7 @@ def _complete(context: click.Context, _parameter: click.Parameter, incomplete: s
     return [name for name in _commands(context).list_commands(context) if name.startswith(incomplete)]
 
 
-@click.command("help")
+@options.command("help")
 @click.argument("name", metavar="[COMMAND]", required=False, shell_complete=_complete)
 @options.common
 @click.pass_context

@@ -49,7 +49,7 @@ def lacks_libraries(command: str) -> bool:
     return bool(missing)
 
 
-@click.command("index")
+@options.command("index")
 @options.paths
 @click.option("-o", "--output", required=True, metavar="ARCHIVE", help="The folder of the archive; made if missing.")
 @click.option("--check", is_flag=True, help="Compare contents, of decks and of the archive, not only sizes and dates.")

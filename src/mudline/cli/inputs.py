@@ -8,7 +8,6 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache, wraps
-from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -28,7 +27,6 @@ if TYPE_CHECKING:
 
 STDIN = "-"
 
-_BATCH = 1000
 _HEAD = 4096
 """Bytes at the beginning of a JSON or YAML file that name its format."""
 
@@ -71,43 +69,11 @@ def _folder(path: str) -> Path:
     return Path(path)
 
 
-@dataclass(frozen=True, slots=True)
-class Batch:
-    """Some files of one folder, kept as one text: there may be very many.
-
-    `name` and `path` are what stands before them in the name and the path of an `Input`, `files` their names with NUL
-    between them.
-    """
-
-    name: str
-    path: str
-    files: str
-
-    def __iter__(self) -> Iterator[Input]:
-        return (Input(self.name + file, self.path + file) for file in self.files.split("\0"))
-
-    def __len__(self) -> int:
-        return self.files.count("\0") + 1
-
-
-@dataclass(slots=True)
-class Files:
-    """The files of a run in their order, each made when it is asked for."""
-
-    parts: list[list[Input] | Batch] = field(default_factory=list)
-
-    def __iter__(self) -> Iterator[Input]:
-        return chain.from_iterable(self.parts)
-
-    def __len__(self) -> int:
-        return sum(map(len, self.parts))
-
-
 @dataclass(slots=True)
 class Inputs:
     """The files found, each once, and whether something could not be found or read."""
 
-    files: Files = field(default_factory=Files)
+    files: list[Input] = field(default_factory=list)
     code: int = 0
 
     def contents(self) -> Iterator[tuple[Input, bytes]]:
@@ -214,21 +180,20 @@ def _collect(
         if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
             _directory(Search(given, gitignore), found, taken, may_be_empty=may_be_empty)
         else:
-            found.files.parts.append([_single(given, stdin_name)])
-    if len(paths) > 1:
-        found.files = Files([list(dict.fromkeys(found.files))])
+            found.files.append(_single(given, stdin_name))
+    found.files = list(dict.fromkeys(found.files))
     return found
 
 
 def _below_url(url: str, found: Inputs, taken: Wanted) -> None:
     """The file at a URL, or the wanted ones below a folder; raises OSError."""
     if not storage.is_folder(url):
-        found.files.parts.append([Input(url, url)])
+        found.files.append(Input(url, url))
         return
     files = [Input(one, one) for one in storage.files_below(url) if taken(one)]
     if not files:
         found.fail(f"{url}: no deck in this folder (looked for {', '.join(sorted(SUFFIXES))})")
-    found.files.parts.append(files)
+    found.files += files
 
 
 def _single(given: str, stdin_name: str) -> Input:
@@ -242,17 +207,13 @@ def _slashed(path: str) -> str:
 def _directory(search: Search, found: Inputs, taken: Wanted, *, may_be_empty: bool) -> None:
     given = search.given
     start = "" if given == "." else _slashed(given).rstrip("/") + "/"
-    batches = [
-        Batch(start + inside, path, "\0".join(names[at : at + _BATCH]))
-        for inside, path, names in search.files(taken)
-        for at in range(0, len(names), _BATCH)
-    ]
+    files = [Input(start + inside, path) for inside, path in search.files(taken)]
     for error in search.unreadable:
         found.fail(f"{_slashed(str(error.filename))}: {reason(error)}")
-    if not (batches or search.unreadable or may_be_empty):
+    if not (files or search.unreadable or may_be_empty):
         hidden = "; --no-gitignore takes what a .gitignore hides" if search.hidden else ""
         found.fail(f"{given}: no deck in this directory (looked for {', '.join(sorted(SUFFIXES))}{hidden})")
-    found.files.parts += batches
+    found.files += files
 
 
 # ------------------------------------------------------------------------------------------------ the one deck

@@ -27,7 +27,7 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(word for text in given for word in text.split(",") if word.strip())
 
 
-@click.command("lint")
+@options.command("lint")
 @options.paths
 @_rules("--select", "chosen", help="Run these rules only: codes, prefixes or slugs.")
 @_rules("--extend-select", "also", help="Run these rules too.")

@@ -5,13 +5,11 @@ from __future__ import annotations
 import sys
 from importlib.util import find_spec
 
-import click
-
 from mudline.cli import WRONG_USAGE, options
 from mudline.cli.streams import notify, notify_missing
 
 
-@click.command("lsp")
+@options.command("lsp")
 @options.common
 def command() -> int:
     """Serve an editor: findings, fixes, help, names and formatting of open decks, over the language server protocol.

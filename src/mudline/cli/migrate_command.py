@@ -9,7 +9,7 @@ import click
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_changes
 from mudline.cli.inputs import Input, collect
-from mudline.cli.streams import emit_deck, notify, notify_diagnostics, write_bytes
+from mudline.cli.streams import MOST_REPORTED, emit_deck, notify, notify_diagnostics, write_bytes
 from mudline.cli.view import View
 from mudline.deck.forms import form_of
 from mudline.deck.loading import dump, load_bytes
@@ -18,14 +18,14 @@ from mudline.migration.migrating import Migration, Verdict, legacy_blocks, migra
 from mudline.migration.refusals import Continuations, misspelt
 from mudline.short_repr import counted
 
-_MOST_REPORTED = 20
 
-
-@click.command("migrate")
+@options.command("migrate")
 @options.paths
-@click.option("-o", "--output", metavar="OUT", help="Write to this file instead of the deck itself; for one deck only.")
-@click.option("--diff", is_flag=True, help="Print what would change, and write nothing.")
-@click.option(
+@options.option(
+    "-o", "--output", metavar="OUT", help="Write to this file instead of the deck itself; for one deck only."
+)
+@options.option("--diff", is_flag=True, help="Print what would change, and write nothing.")
+@options.option(
     "--verify",
     "proved",
     is_flag=True,
@@ -103,7 +103,7 @@ class _Run:
         return dump(migration.deck, form).encode()
 
     def _proved(self, verdict: Verdict) -> bool:
-        for difference in verdict.differences[:_MOST_REPORTED]:
+        for difference in verdict.differences[:MOST_REPORTED]:
             notify(f"{self.file.name}: {difference.what}: {difference.text}")
         if verdict.differences:
             count = counted(len(verdict.differences), "difference")

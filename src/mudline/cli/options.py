@@ -3,14 +3,51 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable
-from functools import wraps
+from collections.abc import Callable, Sequence
+from functools import partial, wraps
+from typing import Any
 
 import click
 
 from mudline.cli.view import View
 
 Command = Callable[..., int]
+
+# ----------------------------------------------------------------------------------------------------------------- help
+
+OWN, INPUT, OUTPUT, RUN, COMMON = "Options", "Input", "Output", "Run", "Common options"
+"""Headings in help: options of one command, and those that several share."""
+
+
+class Option(click.Option):
+    """An option that help shows under a heading."""
+
+    def __init__(self, declarations: Sequence[str] | None = None, *, group: str = OWN, **attributes: Any) -> None:  # noqa: ANN401 - as click.Option
+        super().__init__(declarations, **attributes)
+        self.group = group
+
+
+class GroupedCommand(click.Command):
+    """A command whose help shows its options under their headings."""
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the options by heading: those of the command first, those of all commands and --help last."""
+        groups: dict[str, list[tuple[str, str]]] = {OWN: []}
+        for parameter in self.get_params(ctx):
+            record = parameter.get_help_record(ctx) if isinstance(parameter, click.Option) else None
+            if record is not None:
+                heading = COMMON if parameter is self.get_help_option(ctx) else getattr(parameter, "group", OWN)
+                groups.setdefault(heading, []).append(record)
+        for heading in sorted(groups, key=COMMON.__eq__):
+            if groups[heading]:
+                with formatter.section(heading):
+                    formatter.write_dl(groups[heading])
+
+
+command = partial(click.command, cls=GroupedCommand)
+option = partial(click.option, cls=Option)
+
+# -------------------------------------------------------------------------------------------------------------- options
 
 
 def common(command: Command) -> Command:
@@ -22,23 +59,25 @@ def common(command: Command) -> Command:
         view = {"view": View(color, quiet, verbose)} if wanted else {}
         return command(**given, **view)
 
-    for option in (
-        click.option("-v", "--verbose", is_flag=True, help="Print more."),
-        click.option("-q", "--quiet", is_flag=True, help="Print the result only."),
-        click.option(
+    for add in (
+        option("-v", "--verbose", group=COMMON, is_flag=True, help="Print more."),
+        option("-q", "--quiet", group=COMMON, is_flag=True, help="Print the result only."),
+        option(
             "--color",
+            group=COMMON,
             type=click.Choice(["auto", "always", "never"]),
             default="auto",
             show_default=True,
             help="Colour the output; auto: on a terminal, unless NO_COLOR is set.",
         ),
     ):
-        viewed = option(viewed)
+        viewed = add(viewed)
     return viewed
 
 
-units = click.option(
+units = option(
     "--units",
+    group=INPUT,
     type=click.Choice(["metric", "imperial", "user"]),
     help="Read the deck in this unit system, not in that of its suffix, *UNITS or gravity.",
 )
@@ -66,24 +105,34 @@ def complete_rules(_context: click.Context, _parameter: click.Parameter, incompl
     return [f"{before}{comma}{name}" for name in names if name.startswith((word.upper(), word.lower()))]
 
 
-every_file = click.option(
-    "--no-gitignore", "every_file", is_flag=True, help="Include files of directories that a .gitignore hides."
+every_file = option(
+    "--no-gitignore",
+    "every_file",
+    group=INPUT,
+    is_flag=True,
+    help="Include files of directories that a .gitignore hides.",
 )
 
-stdin_name = click.option(
+stdin_name = option(
     "--stdin-filename",
     "stdin_name",
+    group=INPUT,
     default="<stdin>",
     metavar="NAME",
     help="Call standard input (-) by this name in messages; its suffix gives the format and the units.",
 )
 
+config = option("--config", group=INPUT, metavar="FILE", help="Use this configuration, not the nearest one.")
+
+isolated = option("--isolated", group=INPUT, is_flag=True, help="Use no configuration file.")
+
 
 def output_format(*formats: str) -> Callable[[Command], Command]:
     """`--output-format` with the formats that a command has."""
-    return click.option(
+    return option(
         "--output-format",
         "output_format",
+        group=OUTPUT,
         type=click.Choice(formats),
         default=formats[0],
         show_default=True,

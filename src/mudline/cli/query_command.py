@@ -36,7 +36,7 @@ _SAFE = 2**53
 _WHOLE = re.compile(r"[+-]?[0-9]{1,18}")
 
 
-@click.command("query")
+@options.command("query")
 @click.argument("archive", required=False, metavar="ARCHIVE", shell_complete=options.complete_files)
 @click.argument("sql", required=False, metavar="[SQL]")
 @click.option(

@@ -15,12 +15,21 @@ from mudline.contact.columns import ElementTable
 from mudline.files import suffix_of
 from mudline.results.against import Comparison
 from mudline.results.evaluation import Evaluation
-from mudline.results.forms import Output, Sink, Tables, form_module, form_names, table_path
+from mudline.results.forms import (
+    FORMS,
+    Contents,
+    FormError,
+    Output,
+    Sink,
+    Tables,
+    Writer,
+    contents_of,
+    form_module,
+    table_path,
+    tables_of,
+)
 from mudline.results.lines import LineWatch
 from mudline.results.warnings import ContactWarning
-
-_EXTRAS = {"parquet": ("pyarrow", "parquet"), "xlsx": ("xlsxwriter", "excel")}
-"""By form: the library that writes it, and the extra that brings it."""
 
 
 def form_of_file(path: str | None) -> str:
@@ -28,9 +37,9 @@ def form_of_file(path: str | None) -> str:
     if path is None:
         return ""
     form = suffix_of(path)
-    if form not in (known := form_names()):
-        forms = ", ".join(f".{name}" for name in known[:-1])
-        raise click.UsageError(f"{path}: unknown file format: give a name ending in {forms} or .{known[-1]}")
+    if form not in FORMS:
+        *others, last = (f".{name}" for name in FORMS)
+        raise click.UsageError(f"{path}: unknown file format: give a name ending in {', '.join(others)} or {last}")
     return form
 
 
@@ -45,9 +54,9 @@ def is_installed(form: str) -> bool:
 
 def has_library(form: str) -> bool:
     """Whether the library for a form of files is installed; reports it if not."""
-    if form not in _EXTRAS or is_installed(form):
+    if not FORMS[form].library or is_installed(form):
         return True
-    notify_missing(f".{form}", *_EXTRAS[form])
+    notify_missing(f".{form}", FORMS[form].library, FORMS[form].extra)
     return False
 
 
@@ -58,29 +67,41 @@ def result_files(
     """The file of an evaluation by its suffix, or several files; they exist when all is written, or not at all.
 
     Files with a digest of their content, by which a lost one is found, need not be `synced`.
+    Raises click.ClickException where the form has no place for all rows.
     """
-    form = form_module(suffix_of(path))
-    with ExitStack() as stack:
-        streams = [stack.enter_context(writing(one, synced=synced)) for one in (path, *beside(path).values())]
-        output = Output(evaluation, elements, streams, path.parent, partial(tracked, view=view))
-        yield stack.enter_context(form.opened(output))
+    tables = tables_of(evaluation, suffix_of(path), elements)
+    with _opened(path, [*beside(path).values()], contents_of(evaluation, tables), view, synced=synced) as writer:
+        yield Sink(evaluation, tables, writer)
 
 
 def beside(path: Path) -> dict[str, Path]:
     """The files of the other tables beside that of the elements, by the names of the tables."""
-    form = form_module(suffix_of(path))
-    return {table: table_path(path, table) for table in form.BESIDE}
+    return {table: table_path(path, table) for table in FORMS[suffix_of(path)].beside}
 
 
 def write_tables(tables: Tables, path: Path) -> dict[str, Path]:
-    """Write tables into a file, or several; returns those beside it by the names of the tables."""
-    form = form_module(suffix_of(path))
+    """Write tables into a file, or several; returns those beside it by the names of the tables.
+
+    Raises click.ClickException as `result_files` does.
+    """
     _, *others = tables.columns
-    found = {table: table_path(path, table) for table in others} if form.BESIDE else {}
-    with ExitStack() as stack:
-        streams = [stack.enter_context(writing(one)) for one in (path, *found.values())]
-        form.write_tables(tables, streams, path.parent)
+    found = {table: table_path(path, table) for table in others} if beside(path) else {}
+    with _opened(path, [*found.values()], tables.contents, View(quiet=True), synced=True) as writer:
+        tables.write(writer)
     return found
+
+
+@contextmanager
+def _opened(path: Path, others: Sequence[Path], contents: Contents, view: View, *, synced: bool) -> Iterator[Writer]:
+    """What writes a file, and others beside it."""
+    with ExitStack() as stack:
+        streams = [stack.enter_context(writing(one, synced=synced)) for one in (path, *others)]
+        output = Output(suffix_of(path), contents, streams, path.parent, partial(tracked, view=view))
+        try:
+            writer = stack.enter_context(output.opened())
+        except FormError as error:
+            raise click.ClickException(f"{path.as_posix()}: {error}") from error
+        yield writer
 
 
 def line_watch(evaluation: Evaluation, form: str, most: int | None) -> LineWatch | None:

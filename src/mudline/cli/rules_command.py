@@ -23,7 +23,7 @@ _PAGE = 100
 _COLUMNS = ("code", "severity", "name", "finds")
 
 
-@click.command("rules")
+@options.command("rules")
 @click.argument("code", required=False, shell_complete=options.complete_rules)
 @options.output_format("text", "json")
 @options.common

@@ -12,7 +12,7 @@ from mudline.deck.document import json_schema
 from mudline.linting.configuration import EXTEND, KEYS, LISTS, OF_CODES, SEVERITIES, WORDS
 
 
-@click.command("schema")
+@options.command("schema")
 @click.argument("what", type=click.Choice(["deck", "config"]), default="deck")
 @options.common
 def command(*, what: str) -> int:

@@ -3,26 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from itertools import groupby
 from pathlib import Path, PurePath
 from typing import NamedTuple
 
 from mudline.patterns import Pattern, read_pattern
 
 GITIGNORE = ".gitignore"
-
-
-class Run(NamedTuple):
-    """Files of one folder that follow each other: what stands before their names, and these.
-
-    `inside` is the folder as seen from the searched directory, `path` the path to it.
-    """
-
-    inside: str
-    path: str
-    names: list[str]
 
 
 class _Rules(NamedTuple):
@@ -56,18 +44,15 @@ class Search:
     unreadable: list[OSError] = field(default_factory=list)
     hidden: bool = False
 
-    def files(self, taken: Callable[[str], bool]) -> Iterator[Run]:
-        """The files that are taken, sorted by the names in their paths."""
-        return _in_order(self.given, self._walk(taken))
-
-    def _walk(self, taken: Callable[[str], bool]) -> dict[str, _Folder]:
-        """What is taken and not hidden in each folder that has or may have any."""
+    def files(self, taken: Callable[[str], bool]) -> list[tuple[str, str]]:
+        """The files that are taken, sorted by the names in their paths: a path from the directory, one to open it."""
         rules = {self.given: self._above() if self.gitignore else []}
-        walked: dict[str, _Folder] = {}
+        files: list[tuple[str, str]] = []
         for folder, folders, names in os.walk(self.given, onerror=self.unreadable.append):
-            files = names
             found = rules.pop(folder)
-            start = self._start(folder)
+            inside = folder[len(self.given) :].replace(os.sep, "/").strip("/")
+            start = f"{inside}/" if inside else ""
+            shown = names
             if self.gitignore:
                 if GITIGNORE in names:
                     found = [*self._read(Path(folder), "", len(start)), *found]
@@ -75,16 +60,11 @@ class Search:
                     name for name in folders if name != ".git" and not self._hides(found, start + name, folder=True)
                 ]
                 if found:
-                    files = [name for name in names if not self._hides(found, start + name, folder=False)]
+                    shown = [name for name in names if not self._hides(found, start + name, folder=False)]
             rules.update((os.path.join(folder, name), found) for name in folders)  # noqa: PTH118 - as os.walk does
             path = str(PurePath(folder, "-"))[:-1]
-            walked[folder] = _Folder(start, path, [name for name in files if taken(path + name)], list(folders))
-        return walked
-
-    def _start(self, folder: str) -> str:
-        """What stands before the names in a folder, from the searched directory."""
-        inside = folder[len(self.given) :].replace(os.sep, "/").strip("/")
-        return f"{inside}/" if inside else ""
+            files += ((start + name, path + name) for name in shown if taken(path + name))
+        return sorted(files, key=lambda file: os.path.normcase(file[0]).split(os.sep))  # noqa: PTH206 - many files
 
     def _hides(self, rules: Sequence[_Rules], path: str, *, folder: bool) -> bool:
         said = next((hides for one in rules if (hides := one.hides(path, folder=folder)) is not None), False)
@@ -112,33 +92,3 @@ class Search:
             return []
         patterns = [pattern for line in text.split("\n") if (pattern := read_pattern(line))]
         return [_Rules(above, below, patterns[::-1])] if patterns else []
-
-
-class _Folder(NamedTuple):
-    """A folder that was searched: the first two as in a `Run`, the names of files that are taken, and of folders."""
-
-    inside: str
-    path: str
-    files: list[str]
-    folders: list[str]
-
-
-def _in_order(top: str, walked: dict[str, _Folder]) -> Iterator[Run]:
-    """The files of folders: those of a folder come where its name does among the files beside it."""
-    waiting: list[str | Run] = [top]
-    while waiting:
-        one = waiting.pop()
-        if isinstance(one, Run):
-            yield one
-        elif (found := walked.pop(one, None)) is not None:  # not walked: it is a link, or unreadable
-            waiting += reversed(list(_pieces(one, found)))
-
-
-def _pieces(folder: str, found: _Folder) -> Iterator[str | Run]:
-    folders = frozenset(found.folders)
-    names = sorted([*found.files, *folders], key=os.path.normcase)
-    for are_folders, group in groupby(names, folders.__contains__):
-        if are_folders:
-            yield from (os.path.join(folder, name) for name in group)  # noqa: PTH118 - as os.walk does
-        else:
-            yield Run(found.inside, found.path, list(group))

@@ -27,17 +27,19 @@ from mudline.syntax.source import Source
 _CHANGED, _SAME, _WITHOUT, _UNMET, _REFUSED = "changed", "the same already", "without it", "not selected", "refused"
 
 
-@click.command("set")
+@options.command("set")
 @click.argument("assignment", metavar="KEYWORD.FIELD=VALUE")
 @options.paths
-@click.option(
+@options.option(
     "--where",
     "condition",
     metavar="CONDITION",
     help="Change only decks for which this holds, such as 'OCEAN.depth > 100 and UNITS.units == METRIC'.",
 )
-@click.option("--check", is_flag=True, help="Write nothing; name the files that would change, and exit with 1 if any.")
-@click.option("--diff", is_flag=True, help="Write nothing; print what would change, and exit with 1 if anything.")
+@options.option(
+    "--check", is_flag=True, help="Write nothing; name the files that would change, and exit with 1 if any."
+)
+@options.option("--diff", is_flag=True, help="Write nothing; print what would change, and exit with 1 if anything.")
 @options.every_file
 @options.stdin_name
 @options.units

@@ -6,11 +6,9 @@ from collections import Counter
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
-import click
-
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDeck, takes_deck
-from mudline.cli.streams import emit_json, notify
+from mudline.cli.streams import MOST_ROWS, emit_json, notify
 from mudline.cli.view import View
 from mudline.quantities import UnitNames, headed, shown, unit_names
 from mudline.results.summary import summarise
@@ -20,12 +18,10 @@ from mudline.short_repr import counted
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
 
-_WIDEST = 120
-_MOST_DIAMETERS = 10
 _OPEN = "+ a block that is not read may add elements to this set"
 
 
-@click.command("show")
+@options.command("show")
 @options.output_format("text", "json")
 @takes_deck
 def command(*, deck: GivenDeck, output_format: str, view: View) -> int:
@@ -50,7 +46,7 @@ def command(*, deck: GivenDeck, output_format: str, view: View) -> int:
 def _print_summary(summary: dict[str, Any], view: View) -> None:
     """Print sections and keywords, then a table each of sets, curves, diameters and laws."""
     printer = view.printer()
-    most = None if view.verbose else _MOST_DIAMETERS
+    most = None if view.verbose else MOST_ROWS
     names = unit_names(summary["units"])
     _print_head(printer, summary, names)
     _print_sets(printer, summary["sets"], names)
@@ -132,8 +128,7 @@ def _listed(printer: Printer, keywords: list[str]) -> str:
 
 
 def _print_folded(printer: Printer, text: str, indent: str) -> None:
-    width = min(printer.width, _WIDEST)
-    for line in wrap(text, width, initial_indent=indent, subsequent_indent="      "):
+    for line in wrap(text, printer.width, initial_indent=indent, subsequent_indent="      "):
         printer.line(line)
 
 

@@ -19,7 +19,9 @@ from mudline.short_repr import counted as counted  # noqa: PLC0414 - commands th
 from mudline.syntax.source import Source
 
 MOST_REPORTED = 20
-"""Reasons why a deck cannot be used; the rest is counted."""
+"""Lines that a message or a group lists; the rest is counted."""
+MOST_ROWS = 40
+"""Rows of a table on the terminal where there may be very many; -v shows all."""
 
 
 def prepare() -> None:

@@ -33,15 +33,15 @@ _NAME, _WHY = 34, 90
 _DIGITS = 3
 
 
-@click.command("study")
+@options.command("study")
 @options.deck
-@click.option("--only", multiple=True, type=click.Choice(PARTS), help="Study this part alone; repeatable.")
-@click.option(
+@options.option("--only", multiple=True, type=click.Choice(PARTS), help="Study this part alone; repeatable.")
+@options.option(
     "--plot",
     metavar=f"FILE.{'|'.join(_PICTURES)}",
     help="Draw error against run time, with the deck's own step (needs the extra mudline[plot]).",
 )
-@click.option("-o", "--output", metavar="FILE.json", help="Write the study as JSON into this file.")
+@options.option("-o", "--output", metavar="FILE.json", help="Write the study as JSON into this file.")
 @options.output_format("text", "json", "csv")
 @options.stdin_name
 @options.units
@@ -155,7 +155,7 @@ def _at_own(found: Study) -> str:
 
 def _number(value: float) -> str:
     """Three digits, as people write them."""
-    if 1e3 <= value < 1e5:
+    if 1e3 <= value < 1e4:
         return f"{value:.0f}"
     return shown(value, _DIGITS).replace("e+0", "e").replace("e+", "e").replace("e-0", "e-")
 

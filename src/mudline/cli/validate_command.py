@@ -10,8 +10,6 @@ from dataclasses import asdict, fields
 from textwrap import indent
 from typing import TYPE_CHECKING
 
-import click
-
 from mudline.cli import DONE, FOUND, on_cluster, options
 from mudline.cli.inputs import Inputs, collect_any_form
 from mudline.cli.streams import emit, reason
@@ -27,7 +25,7 @@ if TYPE_CHECKING:
 _COUNTS = ("errors", "warnings", "sections", "keywords", "curves", "elements")
 
 
-@click.command("validate")
+@options.command("validate")
 @options.paths
 @options.output_format("text", "json", "csv")
 @on_cluster.options

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from mudline.contact.model import ContactModel
     from mudline.contact.plan import Plan, Stage
     from mudline.contact.result import ContactResult
-    from mudline.contact.tables import ContactState, restored_state, state_arrays
+    from mudline.contact.tables import ContactState
 
 __all__ = [
     "ContactInput",
@@ -30,8 +30,6 @@ __all__ = [
     "PositionError",
     "Stage",
     "Tension",
-    "restored_state",
-    "state_arrays",
 ]
 
 _HOMES = {
@@ -41,7 +39,7 @@ _HOMES = {
         "model": ["ContactModel"],
         "plan": ["Plan", "Stage"],
         "result": ["ContactResult"],
-        "tables": ["ContactState", "restored_state", "state_arrays"],
+        "tables": ["ContactState"],
     }.items()
     for name in names
 }

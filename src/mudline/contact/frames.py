@@ -58,7 +58,9 @@ def arrow_table(result: ContactResult, table: TableName) -> pa.Table:
     return arrow_of(columns, part.count, dict(_leading(result, found.rows)), found.units)
 
 
-def arrow_of(columns: list[Column], steps: int, leading: Mapping[str, Values], units: str) -> pa.Table:
+def arrow_of(
+    columns: list[Column], steps: int, leading: Mapping[str, Values], units: str, form: str = RESULT_FORMAT
+) -> pa.Table:
     """Return flat columns over some steps as an Arrow table, with others in front; raises ImportError."""
     arrow = _library("pyarrow")
     arrays = {name: arrow.array(values) for name, values in leading.items()}
@@ -68,7 +70,7 @@ def arrow_of(columns: list[Column], steps: int, leading: Mapping[str, Values], u
         arrow.field(name, array.type, metadata={UNIT_KEY: named[name]} if named.get(name) else None)
         for name, array in arrays.items()
     ]
-    about = {FORMAT_KEY: RESULT_FORMAT, UNITS_KEY: units}
+    about = {FORMAT_KEY: form, UNITS_KEY: units}
     return arrow.table(list(arrays.values()), schema=arrow.schema(fields, metadata=about))
 
 

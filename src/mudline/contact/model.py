@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,18 +25,6 @@ if TYPE_CHECKING:
 
 
 RealArray = NDArray[np.floating[Any] | np.integer[Any]]
-
-_BATCH = 64
-"""Steps at a time, at most, of a run that can be resumed."""
-
-
-class _Series(NamedTuple):
-    """Positions (steps, n, 3) with what belongs to them: who is present (n,), velocities, and times (steps,)."""
-
-    positions: RealArray | StepReader
-    present: BoolArray
-    velocities: RealArray | None
-    times: FloatArray | None
 
 
 class ContactModel:
@@ -122,82 +110,28 @@ class ContactModel:
 
         Takes and raises what `evaluate` does.
         """
-        given = self._series(positions, present, velocities, times)
-        driver = self._driver(len(given.positions))
-        rows = self._numpy.steps if driver is None else driver.steps
-        steps = range(0, len(given.positions), rows)
-        whole = self._blank(given.positions[:], given.present, given.times) if together else None
-        for part, _ in self._evaluated(given, driver, steps, self._tables.initial_state(), whole):
-            if whole is None:
-                yield part
-        if whole is not None:
-            yield Part(0, whole)
-
-    @property
-    def batch(self) -> int:
-        """How many steps at a time `resume` evaluates, whatever evaluates them."""
-        return min(self._numpy.steps, _BATCH)
-
-    def resume(
-        self,
-        positions: ArrayLike | StepReader,
-        steps: range,
-        state: ContactState | None = None,
-        *,
-        present: ArrayLike | None = None,
-        velocities: ArrayLike | None = None,
-        times: ArrayLike | None = None,
-    ) -> Iterator[tuple[Part, ContactState]]:
-        """Evaluate some steps of a series `batch` steps at a time; each part with the state behind it.
-
-        `state` is that behind the steps before, None at the first step and for scenes without history. It and the
-        states that are given may be written to when the next part is asked for: save them before. The same steps come
-        in the same parts wherever a run begins, if it begins at a multiple of `batch`.
-
-        Takes and raises what `evaluate` does; ValueError for a first step that is no such multiple.
-        """
-        if steps.start % self.batch:
-            raise ValueError(f"a run can begin at multiples of {self.batch} steps, not at step {steps.start}")
-        given = self._series(positions, present, velocities, times)
-        starts = range(steps.start, min(steps.stop, len(given.positions)), self.batch)
-        before = self._tables.initial_state() if state is None else state
-        yield from self._evaluated(given, self._driver(len(given.positions)), starts, before)
-
-    def _series(
-        self,
-        positions: ArrayLike | StepReader,
-        present: ArrayLike | None,
-        velocities: ArrayLike | None,
-        times: ArrayLike | None,
-    ) -> _Series:
         nodes = len(self.input.node_ids)
         series, mask = _as_series(positions, nodes), _as_mask(present, nodes)
         motion = _as_velocities(velocities, series.shape)
         clock = _as_times(times, len(series))
         if self._tables.suction is not None and motion is None and clock is None and len(series) > 1:
             raise ValueError("a series with suction needs velocities, or the times of its steps")
-        return _Series(series, mask, motion, clock)
-
-    def _evaluated(
-        self,
-        given: _Series,
-        driver: CompiledDriver | None,
-        starts: range,
-        state: ContactState,
-        whole: ContactResult | None = None,
-    ) -> Iterator[tuple[Part, ContactState]]:
-        """Evaluate the batches with these first steps, into parts of `whole` if that is given."""
-        for start in starts:
-            steps = range(start, min(start + starts.step, starts.stop))
+        driver, state = self._driver(len(series)), self._tables.initial_state()
+        rows = self._numpy.steps if driver is None else driver.steps
+        whole = self._blank(series[:], mask, clock) if together else None
+        for start in range(0, len(series), rows):
+            stop = min(start + rows, len(series))
             with np.errstate(all="ignore"):  # everything that can overflow is checked
-                points = _read_steps(given.positions, steps, self.input.node_ids, given.present)
-                when = None if given.times is None else given.times[steps.start : steps.stop]
-                part = self._blank(points, given.present, when) if whole is None else whole.steps(start, steps.stop)
-                motion = given.velocities
-                rates = None if motion is None else np.asarray(motion[steps.start : steps.stop], np.float64)
-                spans = None if given.times is None else np.diff(given.times[max(start - 1, 0) : steps.stop])
+                points = _read_steps(series, range(start, stop), self.input.node_ids, mask)
+                when = None if clock is None else clock[start:stop]
+                part = self._blank(points, mask, when) if whole is None else whole.steps(start, stop)
+                rates = None if motion is None else np.asarray(motion[start:stop], np.float64)
+                spans = None if clock is None else np.diff(clock[max(start - 1, 0) : stop])
                 state = self._advance(driver, points, rates, spans, part, state, start)
-            yield Part(start, part), state
+            if whole is None:
+                yield Part(start, part)
+        if whole is not None:
+            yield Part(0, whole)
 
     def initial_state(self) -> ContactState:
         """Return the state before the first step: nothing has touched the seabed."""

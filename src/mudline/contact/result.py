@@ -24,7 +24,7 @@ if TYPE_CHECKING:  # each is imported when it is asked for
     import xarray as xr
     from matplotlib.figure import Figure
 
-    from mudline.contact.line_summary import LineSummary
+    from mudline.contact.lines import LineSummary
 
 TableName = Literal["elements", "nodes", "summary"]
 

@@ -11,7 +11,7 @@ import numpy as np
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.contact.columns import NO_ELEMENT, Column, Table, Values
 from mudline.contact.input import ContactInput, LawKind
-from mudline.contact.line_summary import ElementForce, LineSummary, TouchdownPoint
+from mudline.contact.lines import ElementForce, LineSummary, TouchdownPoint
 from mudline.contact.result import ContactResult, Part
 from mudline.quantities import LINES, finite
 

@@ -31,7 +31,6 @@ from mudline.curves.points import (
     CurveError,
     FloatArray,
     IndexArray,
-    QueryError,
     checked_points,
     difference_quotient,
     read_only,
@@ -40,7 +39,7 @@ from mudline.curves.points import (
 from mudline.curves.search import BLOCK, Knots, Search, Workspace, blocks, search_for, workspace
 from mudline.short_repr import counted, cut
 
-__all__ = ["CurveError", "ForceCurve", "QueryError"]
+__all__ = ["CurveError", "ForceCurve"]
 
 Backend = Literal["auto", "numpy", "fast"]
 
@@ -103,8 +102,8 @@ class ForceCurve:
 
         Raises:
             ImportError: `backend="fast"` without the extra.
-            QueryError: a ratio is NaN or infinite, or the force there overflows.
-            ValueError: `ratios` are not real numbers, or `out` does not fit.
+            ValueError: a ratio is NaN or infinite, or the force there overflows; or `ratios` are not real numbers, or
+                `out` does not fit.
         """
         query = real_numbers(ratios, "ratios")
         force, slope = (np.empty(query.shape), np.empty(query.shape)) if out is None else _checked_out(out, query.shape)
@@ -142,7 +141,7 @@ class ForceCurve:
         """Return which segment applies at `ratios`, from 0: the first also below, the last also beyond the points.
 
         Raises:
-            QueryError: a ratio is NaN or infinite.
+            ValueError: a ratio is NaN or infinite.
         """
         query = real_numbers(ratios, "ratios")
         found = np.empty(query.shape, np.intp)
@@ -159,7 +158,7 @@ class ForceCurve:
         """Return -1 where `ratios` lie below the first point, 1 beyond the last, 0 between them and at them.
 
         Raises:
-            QueryError: a ratio is NaN or infinite.
+            ValueError: a ratio is NaN or infinite.
         """
         query = real_numbers(ratios, "ratios")
         found = np.empty(query.shape, np.int8)
@@ -330,7 +329,7 @@ def _refuse_infinite(ratio: FloatArray, start: int) -> None:
     """Check that ratios are finite, for queries that compute no force.
 
     Raises:
-        QueryError: a ratio is NaN or infinite; `start` is the index of the first ratio in the query.
+        ValueError: a ratio is NaN or infinite; `start` is the index of the first ratio in the query.
     """
     finite = np.isfinite(ratio)
     if not finite.all():
@@ -338,7 +337,7 @@ def _refuse_infinite(ratio: FloatArray, start: int) -> None:
 
 
 def _refuse(ratio: FloatArray, index: int, start: int) -> NoReturn:
-    """Raise the QueryError of a ratio; `start` is the index of the first ratio in the query."""
+    """Raise the error of a ratio; `start` is the index of the first ratio in the query."""
     value = float(ratio[index])
     why = "the force there overflows" if np.isfinite(value) else "it is not finite"
-    raise QueryError(start + index, value, f"no force at ratio {value!r} (index {start + index}): {why}")
+    raise ValueError(f"no force at ratio {value!r} (index {start + index}): {why}")

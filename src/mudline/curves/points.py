@@ -49,23 +49,6 @@ class CurveError(ValueError):
         return type(self), (self.code, self.index, str(self))
 
 
-class QueryError(ValueError):
-    """A ratio that has no force: it is not finite, or the force there overflows.
-
-    Attributes:
-        index: position of the ratio in the flattened query.
-        ratio: the ratio.
-    """
-
-    def __init__(self, index: int, ratio: float, message: str) -> None:
-        super().__init__(message)
-        self.index = index
-        self.ratio = ratio
-
-    def __reduce__(self) -> tuple[type[QueryError], tuple[int, float, str]]:
-        return type(self), (self.index, self.ratio, str(self))
-
-
 _SMALLEST_NORMAL = np.finfo(np.float64).tiny
 
 

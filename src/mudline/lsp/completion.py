@@ -12,9 +12,9 @@ from lsprotocol import types
 from mudline.diagnostics import Span
 from mudline.expression.evaluation import FORMS, FUNCTIONS
 from mudline.keywords import catalogue
-from mudline.keywords.model import Block, FieldSpec, ListRow, Setting, record_schema
-from mudline.keywords.reader import all_keys, schemas_of
-from mudline.keywords.values import Kind, Names
+from mudline.keywords.model import Block, FieldSpec, Setting, record_schema
+from mudline.keywords.reader import all_keys
+from mudline.keywords.values import Names
 from mudline.lsp.decks import Analysis, value_text
 from mudline.lsp.hover import field_help, keyword_help, section_help
 from mudline.lsp.sites import Spot, slot_of_key, spot
@@ -42,7 +42,6 @@ class _Cursor:
     before: str
     spot: Spot
     snippets: bool
-    lists_files: bool
 
     def item(
         self, label: str, kind: types.CompletionItemKind, text: str, start: int, detail: str = ""
@@ -52,21 +51,15 @@ class _Cursor:
         return types.CompletionItem(label, kind=kind, detail=detail or None, text_edit=types.TextEdit(range_, text))
 
 
-def completions(
-    analysis: Analysis, offset: int, *, snippets: bool, lists_files: bool = False
-) -> list[types.CompletionItem]:
-    """What may be written at an offset.
-
-    `snippets` says that the editor takes places to fill in, `lists_files` that names of files beside the deck may be
-    offered.
-    """
+def completions(analysis: Analysis, offset: int, *, snippets: bool) -> list[types.CompletionItem]:
+    """What may be written at an offset; `snippets` says that the editor takes places to fill in."""
     origin = analysis.origin
     if origin is None:
         return []
     document = analysis.document
     line = document.line_span(document.line_at(offset))
     found = spot(origin.tree, max(line.start - 1, 0))
-    cursor = _Cursor(analysis, offset, document.text[line.start : offset], found, snippets, lists_files)
+    cursor = _Cursor(analysis, offset, document.text[line.start : offset], found, snippets)
     if head := _HEAD.match(cursor.before):
         start = line.start + head.start(1)
         return list(_sections(cursor, start) if head[1] == "$" else _keywords(cursor, start))
@@ -177,7 +170,6 @@ def _in_block(cursor: _Cursor, declared: type[Block], line: int) -> Iterator[typ
         first = cursor.before.rpartition(",")[2].strip()
         if not first or first[0].isalpha():
             yield from _settings(cursor, declared, start, inline="," in cursor.before)
-        yield from _labels(cursor, declared, start)
     elif slot is not None:
         values = match[2].split(",")
         field = _field(slot, len(values) - 1)
@@ -205,28 +197,11 @@ def _settings(cursor: _Cursor, declared: type[Block], start: int, *, inline: boo
             yield item
 
 
-def _labels(cursor: _Cursor, declared: type[Block], start: int) -> Iterator[types.CompletionItem]:
-    """Labels of nodes and elements, where a row of the block may have one."""
-    scene = cursor.analysis.scene
-    if scene is not None and any(_takes_labels(slot) for found in schemas_of(declared) for slot in found.slots):
-        for name in _first(scene.context.labels.values()):
-            yield cursor.item(f"{{{name}}}", types.CompletionItemKind.Reference, f"{{{name}}}", start)
-
-
-def _takes_labels(slot: FieldSpec) -> bool:
-    row = getattr(slot.about, "row", None) or slot.row
-    inner = record_schema(row).columns if row and not (isinstance(row, type) and issubclass(row, ListRow)) else []
-    return slot.kind is Kind.IDENT or any(each.kind is Kind.IDENT for each in inner)
-
-
 def _values(cursor: _Cursor, slot: FieldSpec, start: int) -> Iterator[types.CompletionItem]:
     for choice in slot.choices:
         yield cursor.item(choice, types.CompletionItemKind.EnumMember, choice, start)
     kind = types.CompletionItemKind.Reference
     yield from (cursor.item(name, kind, name, start, detail) for name, detail in _named(cursor, slot.about.names))
-    if slot.kind is Kind.IDENT and cursor.analysis.scene is not None:
-        labels = _first(cursor.analysis.scene.context.labels.values())
-        yield from (cursor.item(f"{{{label}}}", kind, f"{{{label}}}", start) for label in labels)
 
 
 def _named(cursor: _Cursor, kind: Names | None) -> Iterator[tuple[str, str]]:
@@ -241,7 +216,7 @@ def _named(cursor: _Cursor, kind: Names | None) -> Iterator[tuple[str, str]]:
         yield from ((each.name, f"{len(each.points)} points") for each in _first(curves))
     elif kind is Names.PARAMETER:
         yield from ((each.name, "") for each in _first(parameters.definitions.values()))
-    elif kind in (Names.FILE, Names.DECK) and cursor.lists_files and cursor.analysis.document.path:
+    elif kind in (Names.FILE, Names.DECK) and cursor.analysis.document.path:
         folder = cursor.analysis.document.path.parent
         files = (path for path in sorted(folder.iterdir()) if path != cursor.analysis.document.path)
         yield from ((path.name, "") for path in _first(path for path in files if path.is_file()))

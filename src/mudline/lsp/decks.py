@@ -10,6 +10,8 @@ from dataclasses import dataclass, field
 from functools import cached_property, partial
 from pathlib import Path
 
+from pygls.exceptions import JsonRpcException
+
 from mudline.deck import MARK
 from mudline.deck.forms import KEYWORD, form_of
 from mudline.deck.model import Deck
@@ -29,6 +31,14 @@ from mudline.lsp.documents import Document
 from mudline.lsp.names import Occurrence, occurrences
 from mudline.patterns import matches
 from mudline.scene.model import Scene
+
+_REQUEST_FAILED = -32803
+"""The protocol's code for such an answer."""
+
+
+def failed(message: str) -> JsonRpcException:
+    """The answer to a request that was understood and cannot be fulfilled."""
+    return JsonRpcException(message, _REQUEST_FAILED)
 
 
 def value_text(value: float | str) -> str:

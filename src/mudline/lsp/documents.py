@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 import re
-from collections.abc import Iterator, Sequence
-from itertools import count, pairwise
+from collections.abc import Iterable
+from itertools import count, pairwise, takewhile
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +14,6 @@ from numpy.typing import NDArray
 from pygls.uris import from_fs_path, to_fs_path
 
 from mudline.diagnostics import Span
-from mudline.syntax.edits import TextEdit
 
 LONG = 1_000_000
 """Characters of a deck from which on it is checked only when typing pauses, and its tables are left out of answers."""
@@ -30,9 +28,6 @@ _SHORT = 20_000
 _CHUNK = 1 << 20
 _LF, _CR = b"\n\r"
 _REVISIONS = count(1)
-_MOST_EDITS = 1000
-_MOST_COMPARED = 4000
-"""Lines that are compared with each other; where more differ, they are replaced as one."""
 
 
 def _valid(text: str) -> str:
@@ -184,58 +179,26 @@ class Document:
 
     # ----------------------------------------------------------------------------------------------------- edits
 
-    def edits(self, edits: Sequence[TextEdit]) -> list[types.TextEdit]:
-        """Changes of the text as the editor makes them; of very many, neighbours are one."""
-        chosen = edits if len(edits) <= _MOST_EDITS else _joined(edits)
-        return [types.TextEdit(self.range(edit.span), edit.text) for edit in chosen]
-
-    def differences(self, content: bytes) -> list[types.TextEdit]:
-        """What makes the text that of a file's content, line by line."""
-        return self.edits(list(differences(self.text, content.decode("utf-8-sig"))))
-
-
-def differences(old: str, new: str) -> Iterator[TextEdit]:
-    """The lines in which two texts differ, as changes of the old one."""
-    before, after = _lines(old), _lines(new)
-    first = next((i for i, (a, b) in enumerate(zip(before, after, strict=False)) if a != b), None)
-    if first is None:
-        first = min(len(before), len(after))
-    last = 0
-    while last < min(len(before), len(after)) - first and before[-1 - last] == after[-1 - last]:
-        last += 1
-    one, other = before[first : len(before) - last], after[first : len(after) - last]
-    at = sum(map(len, before[:first]))
-    if len(one) == len(other):
-        for line, changed in zip(one, other, strict=True):
-            if line != changed:
-                yield TextEdit(Span(at, at + len(line)), changed)
-            at += len(line)
-    elif max(len(one), len(other)) > _MOST_COMPARED:
-        yield TextEdit(Span(at, at + sum(map(len, one))), "".join(other))
-    else:
-        offsets = [at]
-        for line in one:
-            offsets.append(offsets[-1] + len(line))
-        for tag, i, k, j, m in difflib.SequenceMatcher(None, one, other, autojunk=False).get_opcodes():
-            if tag != "equal":
-                yield TextEdit(Span(offsets[i], offsets[k]), "".join(other[j:m]))
+    def difference(self, content: bytes) -> list[types.TextEdit]:
+        """What makes the text that of a file's content, as one change from the first line that differs to the last."""
+        old, new = _lines(self.text), _lines(content.decode("utf-8-sig"))
+        first = _same(zip(old, new, strict=False))
+        last = _same(zip(reversed(old[first:]), reversed(new[first:]), strict=False))
+        start = sum(map(len, old[:first]))
+        replaced, text = "".join(old[first : len(old) - last]), "".join(new[first : len(new) - last])
+        if replaced == text:
+            return []
+        return [types.TextEdit(self.range(Span(start, start + len(replaced))), text)]
 
 
-def _joined(edits: Sequence[TextEdit]) -> list[TextEdit]:
-    """Changes in which those that touch each other are one."""
-    runs: list[list[TextEdit]] = []
-    for edit in sorted(edits, key=lambda edit: edit.span):
-        if runs and runs[-1][-1].span.end == edit.span.start:
-            runs[-1].append(edit)
-        else:
-            runs.append([edit])
-    return [TextEdit(Span(run[0].span.start, run[-1].span.end), "".join(edit.text for edit in run)) for run in runs]
+def _same(pairs: Iterable[tuple[str, str]]) -> int:
+    """How many pairs are of two equal lines, up to the first that is not."""
+    return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
 
 
 def _lines(text: str) -> list[str]:
     """The lines of a text with their ends; `str.splitlines` knows more line ends than decks have."""
-    edges = [0, *(found.end() for found in _LINE_END.finditer(text))]
-    edges += [len(text)] if edges[-1] < len(text) else []
+    edges = [0, *(found.end() for found in _LINE_END.finditer(text)), len(text)]
     return [text[start:end] for start, end in pairwise(edges)]
 
 

@@ -122,4 +122,4 @@ def fix_all(analysis: Analysis) -> types.WorkspaceEdit | None:
     fixed = fix_bytes(document.as_file(), document.name, settings, folder)
     if fixed.changed is None:
         return None
-    return types.WorkspaceEdit(changes={document.uri: document.differences(fixed.changed)})
+    return types.WorkspaceEdit(changes={document.uri: document.difference(fixed.changed)})

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 from lsprotocol import types
@@ -17,8 +16,6 @@ from mudline.lsp.decks import Analysis
 from mudline.lsp.names import at
 from mudline.lsp.sites import Site, Spot, site, spot
 from mudline.syntax.fields import trimmed
-
-_MARKS = re.compile(r"```(?:text)?\n?|\*\*|`|\\(?=\*)|(?<!\\)\*(?=Inferred)|(?<=\.)\*$", re.MULTILINE)
 
 
 def hover(analysis: Analysis, offset: int) -> types.Hover | None:
@@ -40,13 +37,6 @@ def hover(analysis: Analysis, offset: int) -> types.Hover | None:
 def _hover(analysis: Analysis, text: str, span: Span) -> types.Hover | None:
     content = types.MarkupContent(types.MarkupKind.Markdown, text)
     return types.Hover(content, analysis.document.range(span)) if text else None
-
-
-def as_shown(help_: types.MarkupContent, formats: list[types.MarkupKind]) -> types.MarkupContent:
-    """The help as plain text for an editor that shows no Markdown."""
-    if types.MarkupKind.Markdown in formats:
-        return help_
-    return types.MarkupContent(types.MarkupKind.PlainText, _MARKS.sub("", help_.value))
 
 
 # ---------------------------------------------------------------------------------------------- keywords and sections

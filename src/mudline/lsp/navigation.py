@@ -4,29 +4,23 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from functools import cache
-from itertools import islice
 from pathlib import Path
-from typing import NamedTuple, cast
+from typing import NamedTuple
 
 import numpy as np
 from lsprotocol import types
 
-from mudline.deck.forms import SUFFIXES
-from mudline.deck.model import Deck, Opaque
+from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Span
 from mudline.expression.evaluation import CONSTANTS
 from mudline.expression.nodes import ExpressionError
 from mudline.expression.parsing import parse
-from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Rows, record_schema
-from mudline.keywords.places import Path as ValuePath
-from mudline.keywords.table import Table
 from mudline.keywords.text import shown
 from mudline.keywords.values import Names
 from mudline.linting.engine import read_deck
 from mudline.lsp import names
-from mudline.lsp.decks import Analysis, Decks
+from mudline.lsp.decks import Analysis, Decks, failed
 from mudline.lsp.documents import Document, address_of
 from mudline.lsp.names import WORDS, Occurrence, Thing, occurrences
 from mudline.lsp.sites import Site, site
@@ -51,11 +45,8 @@ class Linked(NamedTuple):
     deck: Deck
 
 
-def chain(decks: Decks, analysis: Analysis, folders: list[Path]) -> list[Linked]:
-    """A deck, those that it continues, and those that continue it.
-
-    Of the latter, open ones count, and files beside the deck if that is in one of the `folders` of the workspace.
-    """
+def chain(decks: Decks, analysis: Analysis) -> list[Linked]:
+    """A deck, those that it continues, and the open ones that continue it."""
     if analysis.deck is None or analysis.scene is None:
         return []
     found = [Linked(analysis.document, analysis.deck)]
@@ -65,9 +56,6 @@ def chain(decks: Decks, analysis: Analysis, folders: list[Path]) -> list[Linked]
             found.append(Linked(decks.at(path) or _unopened(path, base.deck.origin), base.deck))
     if analysis.document.path is not None:
         found += _dependents(decks, analysis.document.path)
-        if any(analysis.document.path.is_relative_to(folder) for folder in folders):
-            with decks.reading():
-                found += _beside(decks, analysis.document.path)
     return found
 
 
@@ -90,128 +78,18 @@ def _continues(deck: Deck, path: Path) -> bool:
     return any(os.path.abspath(before) == os.path.abspath(path) for before in decks_before(deck))  # noqa: PTH100 - links stay
 
 
-def _beside(decks: Decks, path: Path) -> Iterator[Linked]:
-    """The decks in the folder of a deck that continue it and are not open."""
-    for number, other in enumerate(sorted(path.parent.iterdir())):
-        if number == _MOST_FILES:
-            return
-        if other == path or other.suffix.lower() not in SUFFIXES or decks.at(other) is not None:
-            continue
-        try:
-            data = other.read_bytes() if other.stat().st_size <= _LARGEST else b""
-        except OSError:
-            continue
-        if _RESTART in data.upper():
-            deck = read_deck(data, other.as_posix(), folder=other.parent)
-            if isinstance(deck.origin, TextOrigin) and _continues(deck, path):
-                yield Linked(_unopened(other, deck.origin), deck)
-
-
-# ---------------------------------------------------------------------------------------- numbers of nodes and elements
-
-KINDS = {Names.NODE: "node", Names.ELEMENT: "element"}
-_MOST = 10_000
-"""Places that are given of one number."""
-
-
-class Use(NamedTuple):
-    """A place where a number is given; `defines` says that the node or element is made there."""
-
-    span: Span
-    defines: bool
-
-
-def uses(deck: Deck, kind: Names, number: int) -> list[Use]:
-    """The first places in a deck of its own, in the order of the text; none in a deck that is no keyword text."""
-    origin = deck.origin
-    if not isinstance(origin, TextOrigin):
-        return []
-    found: list[Use] = []
-    for (i, j), read in origin.read.items():
-        block = deck.sections[i].blocks[j]
-        if type(block) is Opaque or not _leads(type(cast("Block", block)), kind):
-            continue
-        makes = cast("Block", block).facts.defines == f"{KINDS[kind]}s"
-        paths = islice(_paths(cast("Block", block), kind, number, (), makes=makes), _MOST)
-        found += [Use(read.places.find(path), defines) for path, defines in paths]
-    return sorted(found)
-
-
-@cache
-def _leads(part: type[Part], kind: Names) -> bool:
-    return any(_of(slot, kind) or any(_leads(inner, kind) for inner in _inner(slot)) for slot in _slots(part))
-
-
-def _slots(part: type[Part]) -> list[FieldSpec]:
-    return record_schema(part).slots
-
-
-def _of(slot: FieldSpec, kind: Names) -> bool:
-    return kind in (slot.about.names, slot.about.defines)
-
-
-def _inner(slot: FieldSpec) -> list[type[Part]]:
-    row = slot.about.row if isinstance(slot.about, Rows) else slot.row
-    return [each for each in (row, *slot.record.values()) if each]
-
-
-def _paths(part: Part, kind: Names, number: int, path: ValuePath, *, makes: bool) -> Iterator[tuple[ValuePath, bool]]:
-    """The paths below a part that give the number, and whether it is defined there; `makes` is that of the block."""
-    for slot in _slots(type(part)):
-        value = getattr(part, slot.name, None)
-        inner = (*path, slot.json)
-        if isinstance(value, Table):
-            yield from (((*inner, row, column), defines) for row, column, defines in _cells(slot, value, kind, number))
-        elif isinstance(value, ListRow):
-            if any(_of(each, kind) for each in _slots(type(value))) and _holds(value, number):
-                yield inner, makes
-        elif isinstance(value, list) and slot.record:
-            for index, item in enumerate(value):
-                yield from _paths(item, kind, number, (*inner, index), makes=makes)
-        elif isinstance(value, list) and _of(slot, kind):
-            yield from (((*inner, index), False) for index, item in enumerate(value) if item == number)
-        elif _of(slot, kind) and value == number:
-            yield inner, False
-
-
-def _cells(slot: FieldSpec, table: Table, kind: Names, number: int) -> Iterator[tuple[int, int, bool]]:
-    """Row and column of the cells of a table that give the number, and whether it is defined there."""
-    for column, each in enumerate(_slots(_inner(slot)[0])):
-        if _of(each, kind) and column < table.values.shape[1]:
-            rows = np.flatnonzero(table.values[:, column] == number)[:_MOST].tolist()
-            yield from ((row, column, each.about.defines is kind) for row in rows)
-
-
-def _holds(row: ListRow, number: int) -> bool:
-    """Whether a range holds a number: `start, end [, increment]`, or `master, count [, increment]`."""
-    start = getattr(row, "start", getattr(row, "master", None))
-    of_five = getattr(row, "third", None) if getattr(row, "fifth", None) is not None else None  # of *BOUNDARY
-    step = getattr(row, "increment", of_five) or 1
-    end = getattr(row, "end", None)
-    if not isinstance(start, int) or not isinstance(step, int):
-        return False
-    if end is None and isinstance(count := getattr(row, "count", None), int):
-        end = start + (count - 1) * step
-    return isinstance(end, int) and step > 0 and start <= number <= end and (number - start) % step == 0
-
-
 # -------------------------------------------------------------------------------------------------------------- answers
 
 _LONGEST_NAME = 256
 _NOT_IN_NAMES = ',="{}[]%/\r\n'
 
 
-class RenameError(ValueError):
-    """A new name that cannot be given; the message says why and what to do."""
-
-
 class Navigator:
-    """Answers about one open deck; `folders` are those of the workspace."""
+    """Answers about one open deck."""
 
-    def __init__(self, decks: Decks, analysis: Analysis, folders: list[Path]) -> None:
+    def __init__(self, decks: Decks, analysis: Analysis) -> None:
         self.decks = decks
         self.analysis = analysis
-        self.folders = folders
 
     # --------------------------------------------------------------------------------------------- definition and uses
 
@@ -223,7 +101,7 @@ class Navigator:
         found = site(self.analysis, offset)
         if found is not None and (file := self._file(found.slot.about.names, self.analysis.deck, found.value)):
             return [types.Location(address_of(file), types.Range(types.Position(0, 0), types.Position(0, 0)))]
-        return [_location(document, use.span) for document, use in self._numbered(found) if use.defines]
+        return self._numbered(found) if found else []
 
     def references(self, offset: int, *, declaration: bool) -> list[types.Location]:
         """Every place where the thing at an offset is used, and, with `declaration`, where it is defined."""
@@ -234,8 +112,7 @@ class Navigator:
         value = site(self.analysis, offset)
         if value is not None and (file := self._file(value.slot.about.names, self.analysis.deck, value.value)):
             return list(self._named_file(file))
-        uses = self._numbered(value)
-        return [_location(document, use.span) for document, use in uses if declaration or not use.defines]
+        return []
 
     def highlights(self, offset: int) -> list[types.DocumentHighlight]:
         """The places in this deck alone."""
@@ -247,7 +124,7 @@ class Navigator:
         own = thing is not None and thing.kind is Names.PARAMETER
         if own and self.analysis.deck is not None:
             return [Linked(self.analysis.document, self.analysis.deck)]
-        return chain(self.decks, self.analysis, self.folders)
+        return chain(self.decks, self.analysis)
 
     def _named(self, thing: Thing) -> Iterator[tuple[Linked, Occurrence]]:
         for linked in self._linked(thing):
@@ -256,14 +133,23 @@ class Navigator:
                 if one.thing == thing:
                     yield linked, one
 
-    def _numbered(self, found: Site | None) -> Iterator[tuple[Document, Use]]:
-        kind = (found.slot.about.names or found.slot.about.defines) if found else None
-        if found is None or kind not in KINDS or not isinstance(found.value, int | float):
-            return
-        if float(found.value).is_integer():
-            for linked in self._linked():
-                for use in uses(linked.deck, kind, int(found.value)):
-                    yield linked.document, use
+    def _numbered(self, found: Site) -> list[types.Location]:
+        """Where the node or element is defined whose number stands in a field."""
+        scene, kind = self.analysis.scene, found.slot.about.names or found.slot.about.defines
+        if scene is None or kind not in (Names.NODE, Names.ELEMENT) or not isinstance(found.value, int | float):
+            return []
+        table = scene.nodes if kind is Names.NODE else scene.table.numbered
+        index = int(table.indices(np.array([found.value], dtype=np.int64))[0])
+        if index < 0:
+            return []
+        where = table.where(index)
+        deck, where = scene.deck.base_of(where) or (self.analysis.deck, where)
+        document = next((linked.document for linked in self._linked() if linked.deck is deck), None)
+        origin = deck.origin if deck else None
+        if document is None or not isinstance(origin, TextOrigin):
+            return []
+        span = origin.span(where.inside(0)) or origin.span(where)
+        return [_location(document, span)] if span else []
 
     def _named_file(self, file: Path) -> Iterator[types.Location]:
         """Every place in the decks of the chain that names a file."""
@@ -285,23 +171,23 @@ class Navigator:
     # ------------------------------------------------------------------------------------------------------ new names
 
     def renamed(self, offset: int) -> Occurrence:
-        """The name at an offset, if it can be changed; raises RenameError."""
+        """The name at an offset, if it can be changed; raises JsonRpcException."""
         named = names.at(self.analysis.names, offset)
         if named is None:
-            raise RenameError("only sets, curves and parameters can be renamed")
+            raise failed("only sets, curves and parameters can be renamed")
         word = WORDS[named.thing.kind]
         if named.thing == Thing(Names.SET, ALL):
-            raise RenameError("set ALL is predefined and cannot be renamed")
+            raise failed("set ALL is predefined and cannot be renamed")
         found = [one for _, one in self._named(named.thing)]
         if not any(one.defines for one in found):
             where = "by lines that are not read, or nowhere" if word == "set" else "nowhere"
-            raise RenameError(f"{word} {shown(named.name)} is defined {where}: rename it by hand")
+            raise failed(f"{word} {shown(named.name)} is defined {where}: rename it by hand")
         if any(one.composed for one in found):
-            raise RenameError(f"{word} {shown(named.name)} is an item of a list: rename it by hand")
+            raise failed(f"{word} {shown(named.name)} is an item of a list: rename it by hand")
         return named
 
     def rename(self, offset: int, name: str) -> types.WorkspaceEdit:
-        """The changes that give the thing at an offset another name, in every deck of a chain; raises RenameError."""
+        """The changes that rename the thing at an offset in every deck of a chain; raises JsonRpcException."""
         named = self.renamed(offset)
         old, new = named.thing, names.thing(named.thing.kind, name)
         self._check(old, new, name)
@@ -312,22 +198,25 @@ class Navigator:
             text = apply_edits(linked.document.text, changes)
             again = occurrences(read_deck(text.encode(), linked.document.name))
             if sum(one.thing == new for one in again) < len(changes):
-                raise RenameError(f"{shown(name)} would not be read as this name everywhere: choose another one")
-        changes_of = {linked.document.uri: linked.document.edits(changes) for linked, changes in edits.values()}
-        return types.WorkspaceEdit(changes=changes_of)
+                raise failed(f"{shown(name)} would not be read as this name everywhere: choose another one")
+        found = {
+            linked.document.uri: [types.TextEdit(linked.document.range(edit.span), edit.text) for edit in changes]
+            for linked, changes in edits.values()
+        }
+        return types.WorkspaceEdit(changes=found)
 
     def _check(self, old: Thing, new: Thing, name: str) -> None:
         word = WORDS[old.kind]
         if not name or name != name.strip() or any(letter in name for letter in _NOT_IN_NAMES):
-            raise RenameError(f"{shown(name)} cannot be the name of a {word}: leave out commas, =, quotes and brackets")
+            raise failed(f"{shown(name)} cannot be the name of a {word}: leave out commas, =, quotes and brackets")
         if len(name) > _LONGEST_NAME:
-            raise RenameError(f"a name has at most {_LONGEST_NAME} characters, found {len(name)}")
+            raise failed(f"a name has at most {_LONGEST_NAME} characters, found {len(name)}")
         if old.kind is Names.PARAMETER and not _is_parameter(name):
-            raise RenameError(f"{shown(name)} cannot be used in an equation: use letters, digits and _")
+            raise failed(f"{shown(name)} cannot be used in an equation: use letters, digits and _")
         scene = self.analysis.scene
         opaque = scene is not None and old.kind is Names.SET and scene.set_table.find(name) is not None
         if new != old and (opaque or new == Thing(Names.SET, ALL) or any(True for _ in self._named(new))):
-            raise RenameError(f"{word} {shown(name)} is already defined: choose another name")
+            raise failed(f"{word} {shown(name)} is already defined: choose another name")
 
 
 def _is_parameter(name: str) -> bool:

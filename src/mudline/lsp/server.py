@@ -8,75 +8,29 @@ from pathlib import Path
 from typing import Any, cast
 
 from lsprotocol import types
-from pygls.exceptions import JsonRpcException, JsonRpcInvalidRequest, JsonRpcServerNotInitialized
 from pygls.lsp.server import LanguageServer
-from pygls.protocol import JsonRPCNotification, LanguageServerProtocol, lsp_method
+from pygls.protocol import LanguageServerProtocol, lsp_method
 
 from mudline import __version__
 from mudline.deck.forms import SUFFIXES
 from mudline.lsp import findings
 from mudline.lsp.decks import Analysis, Decks
-from mudline.lsp.documents import LARGEST, Document, address_of, file_of
-
-_UNUSABLE = "$/unusable"
-"""The method of a notification that stands for a message which cannot be used; no feature has it."""
+from mudline.lsp.documents import LARGEST, Document, file_of
 
 
 class DeckProtocol(LanguageServerProtocol):
-    """The protocol of pygls with our own documents, which answers whatever is asked in whatever order."""
-
-    ready = False
+    """The protocol of pygls with our own documents."""
 
     @property
     def documents(self) -> DeckServer:
         """The server, which has the open documents."""
         return cast("DeckServer", self._server)
 
-    # ------------------------------------------------------------------------------------------- unusable messages
-
-    def structure_message(self, data: dict[str, Any]) -> Any:  # noqa: ANN401 - as pygls declares it
-        """A message as an object; a request that cannot be one is answered with an error."""
-        try:
-            return super().structure_message(data)
-        except JsonRpcException as error:
-            self._refuse(data.get("id"), data, f"{data.get('method')}: the parameters cannot be used", error)
-        except (TypeError, ValueError, AttributeError, KeyError, RecursionError) as error:
-            self._refuse(data.get("id"), data, f"the message cannot be used: {error}", JsonRpcInvalidRequest())
-        return JsonRPCNotification(method=_UNUSABLE, jsonrpc=self.VERSION, params=None)
-
-    def handle_message(self, message: Any) -> None:  # noqa: ANN401 - as pygls declares it
-        """Handle a message; requests before the beginning and after the end are answered with an error."""
-        number, method = getattr(message, "id", None), getattr(message, "method", None)
-        if method is not None and not isinstance(method, str):
-            return
-        if number is None and not self.ready and method not in (types.EXIT, types.INITIALIZED):
-            return
-        if number is not None and method is not None:
-            if self._shutdown:
-                self._answer_error(number, JsonRpcInvalidRequest("the server has been shut down"))
-                return
-            if self.ready == (method == types.INITIALIZE):
-                twice = JsonRpcInvalidRequest("the server is initialised already")
-                early = JsonRpcServerNotInitialized("initialize is the first request")
-                self._answer_error(number, twice if self.ready else early)
-                return
-        super().handle_message(message)
-
-    def _refuse(self, number: object, data: dict[str, Any], message: str, error: JsonRpcException) -> None:
-        if isinstance(number, int | str) and isinstance(data.get("method"), str):
-            self._answer_error(number, type(error)(message))
-
-    def _answer_error(self, number: int | str, error: JsonRpcException) -> None:
-        self._send_response(number, error=error.to_response_error())
-
-    # ----------------------------------------------------------------------------------------------------- documents
-
     @lsp_method(types.INITIALIZE)
     def lsp_initialize(self, params: types.InitializeParams) -> Generator[Any, Any, types.InitializeResult]:
         """Begin: the position encoding is agreed."""
         result = yield from super().lsp_initialize(params)
-        self.ready = True
-        self.documents.begin(result.capabilities.position_encoding or types.PositionEncodingKind.Utf16, params)
+        self.documents.begin(result.capabilities.position_encoding or types.PositionEncodingKind.Utf16)
         return result
 
     @lsp_method(types.TEXT_DOCUMENT_DID_OPEN)
@@ -114,24 +68,15 @@ class DeckServer(LanguageServer):
     def __init__(self) -> None:
         super().__init__("mudline", __version__, protocol_cls=DeckProtocol)
         self.decks = Decks()
-        self.folders: list[Path] = []
         self._due: dict[str, asyncio.TimerHandle] = {}
         self._waiting: dict[str, list[asyncio.Future[None]]] = {}
 
     # ------------------------------------------------------------------------------------------------ documents
 
-    def begin(self, encoding: types.PositionEncodingKind | str, params: types.InitializeParams) -> None:
-        """Take note of what was agreed and of the folders of the workspace."""
+    def begin(self, encoding: types.PositionEncodingKind | str) -> None:
+        """Take note of what was agreed."""
         self.decks = Decks(encoding.value if isinstance(encoding, types.PositionEncodingKind) else encoding)
-        given = [folder.uri for folder in params.workspace_folders or ()] or [params.root_uri or ""]
         asyncio.get_running_loop().set_exception_handler(self._unexpected)
-        self.folders = [path for uri in given if (path := file_of(uri)) is not None]
-
-    def change_folders(self, change: types.WorkspaceFoldersChangeEvent) -> None:
-        """Take note of folders that join or leave the workspace."""
-        gone = {file_of(folder.uri) for folder in change.removed}
-        new = [path for folder in change.added if (path := file_of(folder.uri)) is not None]
-        self.folders = [path for path in self.folders if path not in gone] + new
 
     def opened(self, item: types.TextDocumentItem) -> None:
         """Take up a document and check it at once."""
@@ -214,34 +159,10 @@ class DeckServer(LanguageServer):
         return bool(item and item.snippet_support)
 
     @property
-    def help_formats(self) -> list[types.MarkupKind]:
-        """The formats of help that the editor shows; Markdown where it does not say."""
-        document = self.client_capabilities.text_document
-        given = document.hover.content_format if document and document.hover else None
-        return [types.MarkupKind.Markdown] if given is None else list(given)
-
-    @property
-    def item_help_formats(self) -> list[types.MarkupKind]:
-        """The formats of help on items of a completion that the editor shows."""
-        item = self._completion_items
-        return list(item.documentation_format or ()) if item else []
-
-    @property
     def _completion_items(self) -> types.ClientCompletionItemOptions | None:
         """What the editor can do with items of a completion."""
         document = self.client_capabilities.text_document
         return document.completion.completion_item if document and document.completion else None
-
-    @property
-    def shows_trees(self) -> bool:
-        """Whether the editor shows an outline as a tree."""
-        document = self.client_capabilities.text_document
-        support = document.document_symbol if document else None
-        return bool(support and support.hierarchical_document_symbol_support)
-
-    def in_workspace(self, path: Path | None) -> bool:
-        """Whether a file lies in a folder of the workspace."""
-        return path is not None and any(path.is_relative_to(folder) for folder in self.folders)
 
     def watch_files(self) -> None:
         """Ask the editor to report changes of decks, of files that they name, and of configurations."""
@@ -253,14 +174,6 @@ class DeckServer(LanguageServer):
             method = types.WORKSPACE_DID_CHANGE_WATCHED_FILES
             registration = types.Registration("mudline.watch", method, options)
             self.client_register_capability(types.RegistrationParams([registration]))
-
-    def show_picture(self, picture: Path | None, text: str) -> None:
-        """Show the picture of a curve in the editor, or else the curve as text."""
-        window = self.client_capabilities.window
-        if picture is not None and window and window.show_document and window.show_document.support:
-            self.window_show_document(types.ShowDocumentParams(address_of(picture), external=True))
-        else:
-            self._show(text if picture is None else f"{text}\n{picture.as_posix()}")
 
     # --------------------------------------------------------------------------------------------------- checks
 

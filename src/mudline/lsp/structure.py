@@ -9,31 +9,24 @@ from typing import cast
 
 from lsprotocol import types
 
-from mudline.deck.forms import KEYWORD, form_of
 from mudline.deck.model import Opaque
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import DeckError, Span
-from mudline.formatting.document import FormatError, formatted, same_meaning
+from mudline.formatting.document import FormatError, formatted
 from mudline.keywords.catalogue import block_class
 from mudline.keywords.model import Block, FieldSpec, Part, record_schema
 from mudline.keywords.reader import ReadBlock, all_keys
 from mudline.keywords.values import Kind as FieldKind
 from mudline.keywords.values import Names
-from mudline.linting.engine import read_deck
-from mudline.lsp.decks import Analysis
-from mudline.lsp.documents import differences, units_of
+from mudline.lsp.decks import Analysis, failed
+from mudline.lsp.documents import units_of
 from mudline.lsp.sites import slot_of_key
-from mudline.syntax.edits import TextEdit, apply_edits
 from mudline.syntax.fields import Field, first_key, read_line, trimmed
 from mudline.syntax.rows import line_spans, read_number
 from mudline.syntax.tree import Kind, Leaf, RawBlock, RawSection
 
 _MOST_RECORDS = 1000
 """Records of a block that the outline shows."""
-
-
-class LayoutError(ValueError):
-    """A deck that cannot be formatted; the message says why."""
 
 
 # ----------------------------------------------------------------------------------------------------------- outline
@@ -120,13 +113,6 @@ def _is_name(slot: FieldSpec) -> bool:
     return named and slot.kind is FieldKind.NAME and not slot.many
 
 
-def flat(uri: str, symbols: list[types.DocumentSymbol], container: str = "") -> Iterator[types.SymbolInformation]:
-    """An outline for editors that show no tree."""
-    for one in symbols:
-        yield types.SymbolInformation(types.Location(uri, one.range), one.name, one.kind, container_name=container)
-        yield from flat(uri, list(one.children or ()), one.name)
-
-
 # ----------------------------------------------------------------------------------------------------------- folding
 
 
@@ -172,37 +158,19 @@ def _folded(analysis: Analysis, spans: list[tuple[Span, types.FoldingRangeKind]]
 # -------------------------------------------------------------------------------------------------------- formatting
 
 
-def formatting(analysis: Analysis, range_: types.Range | None = None) -> list[types.TextEdit]:
-    """The changes that bring a deck, or the lines of a range, into canonical layout; raises LayoutError."""
+def formatting(analysis: Analysis) -> list[types.TextEdit]:
+    """The change that brings a deck into canonical layout; raises JsonRpcException for one that cannot be formatted."""
     document = analysis.document
     if analysis.deck is None:
         return []
-    data = document.as_file()
     try:
-        after = formatted(data, document.name)
+        after = formatted(document.as_file(), document.name)
     except DeckError as error:
         first = error.diagnostics[0]
-        raise LayoutError(f"not formatted: correct the error in line {first.line} first ({first.code})") from error
+        raise failed(f"not formatted: correct the error in line {first.line} first ({first.code})") from error
     except FormatError as error:
-        raise LayoutError(f"not formatted: {error}") from error
-    edits = list(differences(document.text, after.decode("utf-8-sig")))
-    if range_ is not None:
-        edits = _within(analysis, edits, range_)
-    return document.edits(edits)
-
-
-def _within(analysis: Analysis, edits: list[TextEdit], range_: types.Range) -> list[TextEdit]:
-    """The changes of the lines of a range; none where these alone would change what the deck means."""
-    document = analysis.document
-    first, last = (document.line_at(document.offset(place)) for place in (range_.start, range_.end))
-    start = int(document.starts[first])
-    stop = int(document.starts[last + 1]) if last + 1 < len(document.starts) else len(document.text)
-    chosen = [edit for edit in edits if start <= edit.span.start and edit.span.end <= stop]
-    if chosen and form_of(document.name) == KEYWORD and analysis.deck is not None:
-        text = apply_edits(document.text, chosen)
-        if not same_meaning(analysis.deck, read_deck(text.encode(), document.name)):
-            return []
-    return chosen
+        raise failed(f"not formatted: {error}") from error
+    return document.difference(after)
 
 
 # ---------------------------------------------------------------------------------------------------------------- words
@@ -222,7 +190,7 @@ TYPES = [
 """Of a section, a keyword, a setting, and so on; standard names, which every editor has colours for."""
 LEGEND = types.SemanticTokensLegend(TYPES, [])
 LONGEST_RUN = 20_000
-"""Characters of numeric lines that are coloured when the whole deck is asked for."""
+"""Characters of numeric lines that are coloured."""
 _IN_EQUATION = re.compile(
     r'(?P<string>"[^"]*")|(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|(?P<name>[A-Za-z_]\w*)(?P<call>\s*\()?'
     r"|(?P<operator>[-+*/^<>=&|]+)"
@@ -231,19 +199,15 @@ _IN_EQUATION = re.compile(
 Token = tuple[Span, str]
 
 
-def tokens(analysis: Analysis, range_: types.Range | None = None) -> types.SemanticTokens:
-    """The words of a deck, or of a range of it; without a range, long runs of numbers are left out."""
+def tokens(analysis: Analysis) -> types.SemanticTokens:
+    """The words of a deck; long runs of numbers are left out."""
     origin = analysis.origin
     if origin is None:
         return types.SemanticTokens([])
     document = analysis.document
-    within = Span(0, len(document.text))
-    if range_ is not None:
-        within = Span(document.offset(range_.start), document.offset(range_.end))
-    found = _of_deck(analysis, within, whole=range_ is None)
     data: list[int] = []
     line = character = 0
-    for span, kind in found:
+    for span, kind in _of_deck(origin):
         place = document.position(span.start)
         if place.line != line:
             character = 0
@@ -253,10 +217,7 @@ def tokens(analysis: Analysis, range_: types.Range | None = None) -> types.Seman
     return types.SemanticTokens(data)
 
 
-def _of_deck(analysis: Analysis, within: Span, *, whole: bool) -> Iterator[Token]:
-    origin = analysis.origin
-    if origin is None:
-        return
+def _of_deck(origin: TextOrigin) -> Iterator[Token]:
     text = origin.source.unified
     for section in (origin.tree.preamble, *origin.tree.sections):
         leaves: list[tuple[Leaf, type[Block] | None]] = [(section.head, None)] if section.head else []
@@ -265,22 +226,18 @@ def _of_deck(analysis: Analysis, within: Span, *, whole: bool) -> Iterator[Token
             declared = block_class(section.name, block.name)
             leaves += [(leaf, declared) for leaf in (block.head, *block.leaves)]
         for leaf, declared in leaves:
-            if leaf.span.end > within.start and leaf.span.start < within.end:
-                yield from _of_leaf(text, leaf, declared, within, whole=whole)
+            yield from _of_leaf(text, leaf, declared)
 
 
-def _of_leaf(text: str, leaf: Leaf, declared: type[Block] | None, within: Span, *, whole: bool) -> Iterator[Token]:
+def _of_leaf(text: str, leaf: Leaf, declared: type[Block] | None) -> Iterator[Token]:
     kind = leaf.kind
     if kind is Kind.UNDECIDED:
         known = declared is not None and first_key(text, leaf.span) in all_keys(declared)
         kind = Kind.SETTING if known else Kind.COMMENT
     if kind in _WHOLE:
         yield trimmed(text, *leaf.span), _WHOLE[kind]
-    elif kind is Kind.RUN:
-        if whole and leaf.span.end - leaf.span.start > LONGEST_RUN:
-            return
-        begin = max(text.rfind("\n", leaf.span.start, max(within.start, leaf.span.start)) + 1, leaf.span.start)
-        for line in line_spans(text, Span(begin, min(leaf.span.end, within.end))):
+    elif kind is Kind.RUN and leaf.span.end - leaf.span.start <= LONGEST_RUN:
+        for line in line_spans(text, leaf.span):
             yield from _of_line(text, line, declared)
     elif kind in (Kind.SETTING, Kind.TEXT):
         yield from _of_line(text, leaf.span, declared)

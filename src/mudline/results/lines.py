@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mudline.contact.line_summary import LineSummary
+from mudline.contact.lines import LineSummary
 from mudline.contact.result import Part
 from mudline.contact.touchdown import LineSeries, Touchdown
 from mudline.results.evaluation import Evaluation

@@ -14,7 +14,7 @@ import numpy as np
 from mudline.codes import RUN001
 from mudline.contact import ElementError
 from mudline.contact.input import ContactInput, LawAssignment, LawKind
-from mudline.contact.seabed import PlanesSeabed, SeabedError, SlopingSeabed
+from mudline.contact.seabed import PlanesSeabed, SlopingSeabed
 from mudline.diagnostics import DeckError, Problem
 from mudline.scene.numbering import Floats, Indices, Mask
 from mudline.scene.resolved import LawArrays, ResolvedDeck
@@ -179,12 +179,12 @@ def _seabed(scene: ResolvedDeck) -> Seabed | None:
         raise scene.refusal(message, seabed.where)
     try:
         return made_seabed(seabed)
-    except SeabedError as error:
+    except ValueError as error:
         raise scene.refusal(f"{error}{_REFUSED}", seabed.where) from error
 
 
 def made_seabed(seabed: SeabedShape) -> Seabed:
-    """The evaluator's shape of a seabed that is not flat; raises SeabedError for numbers that make none."""
+    """The evaluator's shape of a seabed that is not flat; raises ValueError for numbers that make none."""
     if seabed.kind is SeabedKind.SLOPING:
         return SlopingSeabed(seabed.slope, seabed.direction)
     if seabed.kind is SeabedKind.PROFILE:

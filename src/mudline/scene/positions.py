@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import tokenize
+import warnings
 import weakref
-from collections.abc import Mapping
+import zipfile
+import zlib
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
 from typing import cast
 
@@ -15,7 +19,6 @@ from numpy.typing import NDArray
 from mudline.contact.arrays import StepReader
 from mudline.diagnostics import DeckError
 from mudline.scene.csv_file import NumericTable, data_error, finite, read_numeric_csv, whole_numbers
-from mudline.scene.npz_file import UNREADABLE, from_old_python, read_npz
 from mudline.scene.numbering import Floats, Ids, Indices, Mask, Numbered
 from mudline.short_repr import listed_numbers, short_repr
 
@@ -23,6 +26,21 @@ _AXES = ("x", "y", "z")
 _VELOCITIES = ("vx", "vy", "vz")
 COLUMNS = ("time", "node", *_AXES, *_VELOCITIES)
 """Columns of positions in a CSV."""
+
+_UNREADABLE = (
+    # damaged bytes meet the checks of numpy, of zipfile and of the parser of the header
+    ValueError,
+    EOFError,
+    KeyError,
+    MemoryError,
+    NotImplementedError,
+    OverflowError,
+    RuntimeError,
+    SyntaxError,
+    tokenize.TokenError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
 
 Reals = NDArray[np.floating]
 
@@ -174,11 +192,11 @@ def _from_npy(path: Path, nodes: Numbered) -> Positions:
     """One array; of a series few steps are in memory. Raises OSError, or DeckError for anything else."""
     file = path.as_posix()
     try:
-        with from_old_python():
+        with _from_old_python():
             mapped = np.lib.format.open_memmap(path, mode="r")  # reads the header only
             in_steps = mapped.ndim == 3 and mapped.dtype.kind == "f" and mapped.flags.c_contiguous
             given = mapped if in_steps else np.load(path, allow_pickle=False)
-    except UNREADABLE as error:
+    except _UNREADABLE as error:
         raise data_error(file, f"not an NPY array: {error}") from error
     found = _from_arrays(file, {"positions": _real(file, "positions", given)}, nodes)
     return replace(found, values=StepFile(path, mapped)) if in_steps else found
@@ -187,15 +205,36 @@ def _from_npy(path: Path, nodes: Numbered) -> Positions:
 def _load_npz(path: Path) -> dict[str, Reals]:
     """An archive with `positions` and, if wanted, `node`, `time` and `velocities`. Raises OSError, DeckError."""
     file = path.as_posix()
-    return {name: _real(file, name, array) for name, array in read_npz(path, partial(_checked_names, file)).items()}
+    with path.open("rb") as stream:
+        try:
+            with _from_old_python(), zipfile.ZipFile(stream) as archive:
+                names = [name.removesuffix(".npy") for name in archive.namelist()]
+                _check_names(file, names)
+                return {name: _real(file, name, _member(archive, name)) for name in names}
+        except DeckError:
+            raise
+        except (*_UNREADABLE, OSError) as error:
+            raise data_error(file, f"not an NPZ archive: {error}") from error
 
 
-def _checked_names(file: str, names: list[str]) -> list[str]:
+def _member(archive: zipfile.ZipFile, name: str) -> NDArray[np.generic]:
+    with archive.open(f"{name}.npy") as stream:
+        return cast("NDArray[np.generic]", np.lib.format.read_array(stream, allow_pickle=False))
+
+
+@contextmanager
+def _from_old_python() -> Iterator[None]:
+    """Without the warning of numpy that Python 2 spelled the header, which the file's reader cannot help."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)
+        yield
+
+
+def _check_names(file: str, names: list[str]) -> None:
     if "positions" not in names:
         raise data_error(file, f"no array named positions, only {', '.join(names) or 'nothing'}")
     if unknown := sorted(set(names) - _ARRAYS):
         raise data_error(file, f"unknown arrays: {', '.join(unknown)}; expected {', '.join(sorted(_ARRAYS))}")
-    return names
 
 
 def _from_arrays(file: str, arrays: dict[str, Reals], nodes: Numbered) -> Positions:

@@ -16,7 +16,7 @@ from mudline.deck.loading import load_bytes, load_path
 from mudline.deck.model import Base, BaseProblem, Deck
 from mudline.deck.parameters import Parameters, evaluated
 from mudline.diagnostics import DeckError, Problem, Where
-from mudline.files import Unsaved, look, unsaved
+from mudline.files import look, unsaved
 from mudline.keywords.text import shown
 from mudline.scene.deck_values import LARGEST_FILE, file_name, find_file
 
@@ -29,13 +29,6 @@ MOST_FOLLOWED = 20
 
 _MOST_LISTED = 20_000
 """Files of a folder that are looked through for a name in another case."""
-
-_MOST_KEPT = 32
-_LARGEST_KEPT = 100_000_000
-"""Bytes of all the files that are kept."""
-
-_Version = tuple[int, int]
-"""When a file was changed last, and how long it is; of one that is open in an editor, its negative revision."""
 
 _ADVICE = "correct the name, or put the deck there"
 
@@ -121,10 +114,9 @@ def _follow(deck: Deck) -> _Chain:
             return _Chain(bases, message, is_own=path.name == trail[0])
         if len(bases) == MOST_FOLLOWED:
             return _Chain(bases, f"more than {MOST_FOLLOWED} decks continue each other")
-        try:
-            base = read_base(path)
-        except BaseError as reason:
-            return _Chain(bases, f"the deck that LAST= continues is not read: {reason}; {_ADVICE}", is_own=not bases)
+        base = read_base(path)
+        if isinstance(base, str):
+            return _Chain(bases, f"the deck that LAST= continues is not read: {base}; {_ADVICE}", is_own=not bases)
         seen.add(_identity(path))
         trail.append(path.name)
         bases.append(base)
@@ -146,48 +138,30 @@ def _identity(path: Path) -> Path:
         return path
 
 
-class BaseError(ValueError):
-    """A file that cannot be continued; the text says why."""
-
-
-_CACHE: dict[str, tuple[_Version, Base]] = {}
-"""The decks that were read last, by file."""
-
-
-def read_base(path: Path) -> Base:
-    """The deck of a file in any form, its model evaluated; kept until the file changes. Raises BaseError."""
+def read_base(path: Path) -> Base | str:
+    """The deck of a file in any form, its model evaluated, or why it cannot be continued."""
     try:
         stat = path.stat()
-        edited = unsaved(path)
-        version = (-edited.revision if edited else stat.st_mtime_ns, stat.st_size)
-        key = str(path.absolute())
         if stat.st_size > LARGEST_FILE:
-            raise BaseError(f"{path.as_posix()} has more than {LARGEST_FILE // 10**6} million bytes")
-        found = _CACHE.get(key)
-        if found and found[0] == version:
-            return found[1]
-        base = _read_base(path, edited)
+            return f"{path.as_posix()} has more than {LARGEST_FILE // 10**6} million bytes"
+        edited = unsaved(path)
+        version = (stat.st_ino, -edited.revision if edited else stat.st_mtime_ns, stat.st_size)
+        return _read_base(path, version)
     except OSError as error:
-        raise BaseError(f"{path.as_posix()}: {error.strerror or error}") from error
-    _CACHE.pop(key, None)
-    _CACHE[key] = (version, base)
-    while len(_CACHE) > 1 and (len(_CACHE) > _MOST_KEPT or _kept_bytes() > _LARGEST_KEPT):
-        del _CACHE[next(iter(_CACHE))]
-    return base
+        return f"{path.as_posix()}: {error.strerror or error}"
 
 
-def _kept_bytes() -> int:
-    return sum(size for (_, size), _ in _CACHE.values())
-
-
-def _read_base(path: Path, edited: Unsaved | None) -> Base:
+@lru_cache(maxsize=8)
+def _read_base(path: Path, _version: tuple[int, ...]) -> Base | str:
+    """The same for a version of the file: many decks continue the same ones."""
+    edited = unsaved(path)
     try:
         content = edited and edited.content()
         deck = load_path(path) if content is None else load_bytes(content, path.as_posix(), folder=path.parent)
     except DeckError as error:
-        raise BaseError(f"{error.diagnostics[0]}") from error
+        return f"{error.diagnostics[0]}"
     if not deck.sections:
-        raise BaseError(f"{path.as_posix()} has no section: it is not a deck")
+        return f"{path.as_posix()} has no section: it is not a deck"
     ready, problems = evaluated(deck)
     model = {number: section for number, section in enumerate(ready.sections) if section.name == "MODEL"}
     return Base(deck, model, (*deck.problems, *problems))

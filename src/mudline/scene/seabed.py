@@ -135,7 +135,7 @@ def _read_points(context: Context, name: str, columns: int, where: Where) -> tup
         if path is None and not name.lower().endswith(COMPILED):
             return _NO_POINTS, f"{shown(name)} was not found", ""
         return read_profile(path or Path(name), columns), "", ""
-    except ProfileError as error:
+    except ValueError as error:
         fault = str(error)
     except OSError as error:
         fault = str(error.strerror)
@@ -150,22 +150,18 @@ def _plane(plane: Plane) -> SeabedPlane:
     return SeabedPlane(plane.name, (x, y, z), slope, direction, (y_min, y_max, z_min, z_max))
 
 
-class ProfileError(ValueError):
-    """A file that holds no profile that can be read; the text says why."""
-
-
 def read_profile(path: Path, columns: int) -> Floats:
     """The points (k, columns) in the order of the file; lines with C in column 1 are comments, blank ones count not.
 
-    `columns` is 2 for Y and elevation of a profile, 3 for X, Y and Z of a surface. Raises OSError, or ProfileError for
+    `columns` is 2 for Y and elevation of a profile, 3 for X, Y and Z of a surface. Raises OSError, or ValueError for
     a compiled file and for the first line that is not a point.
     """
     if path.suffix.lower() == COMPILED:
-        raise ProfileError(
+        raise ValueError(
             f"a compiled profile ({COMPILED}) is binary, and its format is not public: give a text file instead"
         )
     if path.stat().st_size > LARGEST_FILE:
-        raise ProfileError(f"the file has more than {LARGEST_FILE // 10**6} million bytes: is it a profile?")
+        raise ValueError(f"the file has more than {LARGEST_FILE // 10**6} million bytes: is it a profile?")
     return parse_profile(path.read_bytes(), path.name, columns)
 
 
@@ -173,22 +169,22 @@ def parse_profile(data: bytes, name: str, columns: int) -> Floats:
     """As `read_profile`, of a file's content."""
     source = Source.from_bytes(data, name)
     if not source.readable:
-        raise ProfileError(source.problems[0].message)
+        raise ValueError(source.problems[0].message)
     wanted = "Y, elevation" if columns == 2 else "X, Y, Z"
     rows: list[list[float]] = []
     for at, line in enumerate(source.unified.split("\n"), 1):
         if line.strip() and not line.startswith("C"):
             words = _PARTS.split(line.strip(" \t\r\n,"))
             if len(words) != columns:
-                raise ProfileError(f"line {at}: expected {columns} numbers (`{wanted}`), found {len(words)}")
+                raise ValueError(f"line {at}: expected {columns} numbers (`{wanted}`), found {len(words)}")
             rows.append([_number(word, at) for word in words])
     if len(rows) < 2:
-        raise ProfileError(f"the file has {counted(len(rows), 'point')}: a profile needs at least two lines `{wanted}`")
+        raise ValueError(f"the file has {counted(len(rows), 'point')}: a profile needs at least two lines `{wanted}`")
     return np.array(rows, dtype=np.float64)
 
 
 def _number(word: str, line: int) -> float:
     value = read_number(word)
     if value is None:
-        raise ProfileError(f"line {line}: {shown(word)} is not a number")
+        raise ValueError(f"line {line}: {shown(word)} is not a number")
     return value

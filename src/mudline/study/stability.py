@@ -197,7 +197,7 @@ def _landing_words(landing: Landing) -> list[str]:
         return [f"lands {largest:.1f} times too fast"]
     if largest > 1.0 + ALLOWED:
         return [f"lands {100.0 * (largest - 1.0):.2g} % too fast"]
-    return [f"loses {100.0 * (1.0 - least):.2g} % of its speed"] if least < 1.0 - ALLOWED else []
+    return [f"loses {100.0 * (1.0 - least):.2g} % of speed"] if least < 1.0 - ALLOWED else []
 
 
 def _landed(scene: Scene, contact: Contact, law: Law, drop: Drop) -> StabilityRow:

@@ -1,7 +1,7 @@
 """Run the dynamic benchmark and write its page: python -m tests.benchmarks.dynamics [--only PART ...] [--no-peers]
 
 The parts are the reference, the schemes, the chains and the bouncing beam. Tables of parts that are not run, and of
-programs that are not installed, stay as they are; the page is written from the tables.
+programs that are not installed, stay as they are; the tables of the page are made from them.
 """
 
 from __future__ import annotations
@@ -10,10 +10,10 @@ import argparse
 import sys
 from os import times
 
-from tests.benchmarks.dynamics import limits, peers, schemes
-from tests.benchmarks.dynamics.page import write
-from tests.benchmarks.dynamics.tables import load, save
+from tests.benchmarks.dynamics import limits, peers, pictures, schemes
+from tests.benchmarks.dynamics.page import TABLES
 from tests.benchmarks.peers import Environment, Peer, installed
+from tests.benchmarks.tables import FOLDER, load, rewrite, save
 
 PARTS = ("reference", "schemes", "chains", "bouncing")
 COST = ("part", "processor time [s]", "elapsed time [s]")
@@ -49,10 +49,11 @@ def main() -> None:
         if given.no_peers:
             continue
         own = [round(end - start, 1) for start, end in zip(begin, spent(), strict=True)]
-        kept = {row["part"]: (float(row[COST[1]]), float(row[COST[2]])) for row in load("cost")}
+        kept = {row["part"]: (float(row[COST[1]]), float(row[COST[2]])) for row in load("benchmark-cost")}
         cost = {**kept, part: own}
-        save("cost", COST, [(name, *cost[name]) for name in PARTS if name in cost])
-    write()
+        save("benchmark-cost", COST, [(name, *cost[name]) for name in PARTS if name in cost])
+    rewrite(FOLDER / "benchmark.md", TABLES)
+    pictures.run()
 
 
 def spent() -> tuple[float, float]:
@@ -63,31 +64,26 @@ def spent() -> tuple[float, float]:
 
 def references() -> None:
     """The limits of steps and the reference."""
-    save("limits", limits.LIMITS, limits.limits())
+    save("benchmark-limits", limits.LIMITS, limits.limits())
     rows, path = schemes.integrate(say)
-    save("reference", schemes.REFERENCE, rows)
-    save("path", schemes.PATH, path)
+    save("benchmark-reference", schemes.REFERENCE, rows)
+    save("benchmark-path", schemes.PATH, path)
 
 
 def runs() -> None:
-    """All schemes with all steps, and the damping that they meet."""
-    truth, done = schemes.Truth.of(load("path")), []
+    """All schemes with all steps."""
+    truth, done = schemes.Truth.of(load("benchmark-path")), []
     for name, steps in schemes.wanted():
         say(f"{name}, {steps} steps in {schemes.EVERY:g} s")
         done.append(schemes.row(name, steps, *schemes.measure(name, steps), truth))
-        save("schemes", schemes.RUNS, done)
-    rows = []
-    for name, steps in limits.WATCHED:
-        say(f"damping by suction in {name}, {steps} steps in {schemes.EVERY:g} s")
-        rows.append(limits.suction(name, steps))
-    save("suction", limits.SUCTION, rows)
+        save("benchmark-schemes", schemes.RUNS, done)
 
 
 def chains(moordyn: Environment) -> None:
     """The chain in three depths."""
-    tensions, shares = peers.chains(say, moordyn, load("chains"))
-    save("chains", peers.CHAINS, tensions)
-    save("anchor", peers.ANCHOR, shares)
+    tensions, shares = peers.chains(say, moordyn, load("benchmark-chains"))
+    save("benchmark-chains", peers.CHAINS, tensions)
+    save("benchmark-anchor", peers.ANCHOR, shares)
 
 
 def bounces(exudyn: Environment) -> None:
@@ -96,8 +92,8 @@ def bounces(exudyn: Environment) -> None:
         say(f"Exudyn was not run ({exudyn.reason}): the tables of the bouncing beam stay as they are")
         return
     found, path = peers.bounces(say, exudyn)
-    save("bouncing", peers.BOUNCES, found)
-    save("bouncing-path", peers.BOUNCE_PATH, path)
+    save("benchmark-bouncing", peers.BOUNCES, found)
+    save("benchmark-bouncing-path", peers.BOUNCE_PATH, path)
 
 
 if __name__ == "__main__":

@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 
-from mudline.study.report import Cell
 from tests.benchmarks.dynamics.bouncing import DECK, EVERY, TIMES, fall, for_exudyn
 from tests.benchmarks.dynamics.chains import (
     CASES,
@@ -28,9 +27,9 @@ from tests.benchmarks.dynamics.chains import (
     read_chain,
 )
 from tests.benchmarks.dynamics.reference import Tolerance
-from tests.benchmarks.dynamics.tables import Row
 from tests.benchmarks.peers import Environment, Peer
 from tests.benchmarks.runner import ROOT
+from tests.benchmarks.tables import Cell, Row
 
 MOORDYN = Peer("moordyn", ("moordyn==2.7.2", "numpy==2.4.6"), "static chain, and its fairlead pulled away")
 EXUDYN = Peer("exudyn", ("exudyn==1.13.6", "numpy==2.4.6"), "bouncing beam")

@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from pathlib import Path
-from typing import TYPE_CHECKING
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
-from mudline.study.pictures import Picture, label, legend_below, panels
-from mudline.study.schemes import SCHEMES, STYLES
-from tests.benchmarks.dynamics.tables import FOLDER, column, load
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+from tests.benchmarks.drawing import draw, label, legend_below, panels, style
+from tests.benchmarks.studies.schemes import SCHEMES
+from tests.benchmarks.tables import column, load
 
 SHOWN = ("velocity-verlet", "rk4", "newmark", "generalised-alpha-0.5", "generalised-alpha-0", "backward-euler")
 """Schemes in the picture; the others are in the tables of the page: they lie on one of these lines, or grow."""
@@ -24,7 +19,7 @@ _BOTTOM = {"touchdown rms [m]": 1e-4, "peak force": 1e-5, "seabed work": 1e-6, "
 
 def draw_path(figure: Figure) -> None:
     """The reference over time: touchdown, force of the hoist, and works."""
-    rows = load("path")
+    rows = load("benchmark-path")
     time = column(rows, "time [s]")
     above, middle, below = panels(figure, 3, 1)
     above.plot(time, column(rows, "touchdown [m]"), color="#0072b2")
@@ -42,7 +37,7 @@ def draw_path(figure: Figure) -> None:
 
 def draw_schemes(figure: Figure) -> None:
     """Errors against work."""
-    rows = [row for row in load("schemes") if not row["failure"]]
+    rows = [row for row in load("benchmark-schemes") if not row["failure"]]
     wanted = (
         ("touchdown rms [m]", "Touchdown: root mean square error", "[m]"),
         ("peak force", "Peak force of the hoist: error", "share of the peak"),
@@ -55,7 +50,7 @@ def draw_schemes(figure: Figure) -> None:
             own = [row for row in rows if row["scheme"] == name]
             work = [float(row["evaluations"]) + float(row["tangents"]) for row in own]
             errors = [max(abs(error), 1e-12) for error in column(own, heading)]
-            axes.loglog(work, errors, label=SCHEMES[name].title, **STYLES[SCHEMES[name].title])
+            axes.loglog(work, errors, label=SCHEMES[name].title, **style(SCHEMES[name].title))
         axes.set_ylim(bottom=_BOTTOM[heading])
         if heading == "energy balance":
             axes.text(0.03, 0.04, "Newmark: below 1e-10, at every step", transform=axes.transAxes, fontsize="small")
@@ -65,7 +60,7 @@ def draw_schemes(figure: Figure) -> None:
 
 def draw_bounces(figure: Figure) -> None:
     """The last node of the bouncing beam by three models."""
-    rows = load("bouncing-path")
+    rows = load("benchmark-bouncing-path")
     time = column(rows, "time [s]")
     (axes,) = panels(figure, 1, 1)
     axes.plot(time, column(rows, "last node [m]"), color="#000000", linewidth=2.5, label="mudline, reference")
@@ -79,14 +74,8 @@ def draw_bounces(figure: Figure) -> None:
     label(axes, "Height of the last node above the seabed", "time [s]", "[m]")
 
 
-PICTURES: dict[str, tuple[Callable[[Figure], None], tuple[float, float]]] = {
-    "path": (draw_path, (9.0, 8.0)),
-    "schemes": (draw_schemes, (9.0, 8.0)),
-    "bouncing": (draw_bounces, (9.0, 4.5)),
-}
-
-
-def draw(folder: Path = FOLDER) -> None:
+def run() -> None:
     """Write all pictures."""
-    for name, (function, size) in PICTURES.items():
-        (folder / f"benchmark-{name}.png").write_bytes(Picture(name, name, function, size).png())
+    draw("benchmark-path", draw_path, (9.0, 8.0))
+    draw("benchmark-schemes", draw_schemes, (9.0, 8.0))
+    draw("benchmark-bouncing", draw_bounces, (9.0, 4.5))

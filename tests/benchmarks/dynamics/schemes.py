@@ -8,13 +8,12 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.study.report import Cell
-from mudline.study.schemes import SCHEMES
 from tests.benchmarks.dynamics.beam import read_beam
 from tests.benchmarks.dynamics.lifting import Hoist, Lifting, touchdown
 from tests.benchmarks.dynamics.reference import Path, Reference, Tolerance
 from tests.benchmarks.dynamics.stepping import Run, run
-from tests.benchmarks.dynamics.tables import Row, column
+from tests.benchmarks.studies.schemes import SCHEMES
+from tests.benchmarks.tables import Cell, Row, column
 
 DECK = "lay-and-lift.keyxm"
 HOIST = Hoist(stiffness=50e3, height=1.2, lift_period=3.0, pull=0.03, pull_period=6.0)

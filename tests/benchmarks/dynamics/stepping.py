@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.study.motion import Forces, History, Motion, Scheme, System
-from mudline.study.schemes import OneStep
 from tests.benchmarks.dynamics.lifting import Lifting
 from tests.benchmarks.dynamics.reference import Path
+from tests.benchmarks.studies.motion import Forces, History, Motion, Scheme, System
+from tests.benchmarks.studies.schemes import OneStep
 
 _NEWTON = 1e-9
 """Of the largest force in the balance: a residual below that has converged."""

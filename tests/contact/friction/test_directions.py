@@ -43,12 +43,6 @@ def test_along_a_bent_line() -> None:
     np.testing.assert_allclose(second, np.cross(UP, first), atol=1e-15)
 
 
-def test_a_vertical_line_takes_y() -> None:
-    points = np.array([[0.0, 0.0, 0.0], [5.0, 0.0, 0.0]])
-    first, _ = axes(points, np.repeat(UP, 2, axis=0))
-    assert first.tolist() == [[0.0, 1.0, 0.0]] * 2
-
-
 def test_a_wall_across_y_takes_z() -> None:
     first, _ = projected(np.array([[0.0, 1.0, 0.0]]), np.array([[0.0, 1.0, 0.0]]))
     assert first.tolist() == [[0.0, 0.0, 1.0]]

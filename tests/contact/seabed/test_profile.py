@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.seabed import SeabedError
 from mudline.contact.seabed.profile import Interpolation, ProfileSeabed
 from tests.contact.seabed.shapes import PROFILE_X, PROFILE_Y, level, located
 
@@ -145,11 +144,11 @@ def test_points_given_twice_count_once() -> None:
 )
 @every_kind
 def test_what_is_no_profile_is_refused(kind: Interpolation, y: list[float], x: list[float], message: str) -> None:
-    with pytest.raises(SeabedError, match=message):
+    with pytest.raises(ValueError, match=message):
         ProfileSeabed(y, x, kind)
 
 
 def test_an_unknown_interpolation_is_refused() -> None:
     kind: Interpolation = "CUBIC"  # type: ignore[assignment]  # what a caller without types may pass
-    with pytest.raises(SeabedError, match="'CUBIC'; expected LINEAR, CUBIC SPLINE, CUBIC BESSEL"):
+    with pytest.raises(ValueError, match="'CUBIC'; expected LINEAR, CUBIC SPLINE, CUBIC BESSEL"):
         ProfileSeabed([0.0, 1.0], [0.0, 1.0], kind)

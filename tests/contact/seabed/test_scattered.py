@@ -14,7 +14,7 @@ from scipy.interpolate import CloughTocher2DInterpolator, LinearNDInterpolator
 from scipy.spatial import Delaunay
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.seabed import SeabedError, scattered
+from mudline.contact.seabed import scattered
 from mudline.contact.seabed.scattered import ScatteredSeabed
 from tests.contact.seabed.shapes import CLOUD, cloud, level, located
 
@@ -124,11 +124,11 @@ def test_points_given_twice_count_once() -> None:
     ],
 )
 def test_what_is_no_surface_is_refused(points: list[list[float]], message: str) -> None:
-    with pytest.raises(SeabedError, match=message):
+    with pytest.raises(ValueError, match=message):
         ScatteredSeabed(points)
 
 
 def test_an_unknown_interpolation_is_refused() -> None:
     kind: Kind = "SPLINE"  # type: ignore[assignment]  # what a caller without types may pass
-    with pytest.raises(SeabedError, match="'SPLINE'; expected LINEAR or CUBIC"):
+    with pytest.raises(ValueError, match="'SPLINE'; expected LINEAR or CUBIC"):
         ScatteredSeabed(CLOUD, kind)

@@ -57,6 +57,12 @@ def test_pull_out_and_return() -> None:
     assert forces == pytest.approx([1000.0, -FORCE, 0.0, 0.0, 0.0, 0.0, 500.0, -FORCE], rel=1e-9)
 
 
+def test_velocities_in_compression_and_in_an_earlier_episode_do_not_count() -> None:
+    rise = [(0.02, 5.0), (0.01, 5.0), (-0.1 * DEPTH, 0.1)]
+    forces, _ = life(pipe(), [*rise, (-0.05, 2.0), *rise])
+    assert forces[2] == forces[6] == pytest.approx(-FORCE / 2, rel=1e-9)
+
+
 def test_slowing_down_keeps_the_depth_and_lowers_the_force() -> None:
     forces, states = life(pipe(), [(0.02, 0.0), (-0.05, 0.1), (-0.1, 0.01), (-0.12, 0.001), (-0.9 * DEPTH, 0.01)])
     assert states == [COMPRESSION, *[SUCTION] * 4]

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from mudline.contact import ElementError
-from mudline.contact.laws.suction import SuctionFactors, from_cohesion
+from mudline.contact.laws.suction import from_cohesion
 from tests.builders.contact import LINEAR, bridge_law, chain, floats, suction
 from tests.contact.single import DEPTH, FORCE, breakout, largest, pull
 
@@ -36,8 +34,6 @@ SLOW = [
 ]
 
 FOOT, POUND = 0.3048, 4.4482216152605
-
-speeds = st.floats(1e-2, 1e3)
 
 
 def test_worked_table_of_constants() -> None:
@@ -71,13 +67,6 @@ def test_cap_below_the_regularisation_velocity(v: float, force: float, slope: fl
         assert values[1].item() == pytest.approx(slope, rel=1e-10)
 
 
-def test_cap_meets_the_power_with_one_value_and_one_slope() -> None:
-    law = bridge_law(2)
-    values = zip(*largest(law, np.array([1e-3 * (1 - 1e-12), 1e-3])), strict=True)
-    below, above = (np.array(pair) for pair in values)
-    assert below == pytest.approx(above, rel=1e-10)
-
-
 def test_cap_is_on_the_force_only() -> None:
     assert breakout(bridge_law(), floats(1e-9)).item() == pytest.approx(0.048791855079, rel=1e-10)
     assert breakout(bridge_law(), floats(0.0)).item() == pytest.approx(0.048791855079, rel=1e-10)
@@ -90,20 +79,6 @@ def test_capped_force_never_falls_below_zero(exponent: float) -> None:
     assert (force >= 0.0).all()
     assert (np.diff(force) >= -1e-15).all()
     assert (slope >= -1e-12).all()
-
-
-@given(v=speeds)
-def test_doubling_the_velocity(v: float) -> None:
-    law = bridge_law(2)
-    force, depth = largest(law, np.array([v, 2 * v]))[0], breakout(law, np.array([v, 2 * v]))
-    assert force[1] / force[0] == pytest.approx(1.1328838853, rel=1e-10)
-    assert depth[1] / depth[0] == pytest.approx(1.1974787046, rel=1e-10)
-
-
-@given(v=speeds, diameter=st.floats(0.01, 10.0))
-def test_relative_depth_depends_on_the_velocity_alone(v: float, diameter: float) -> None:
-    ratio = breakout(bridge_law(diameter=diameter), floats(v)) / diameter
-    assert ratio.item() == pytest.approx(0.98 * v**0.26, rel=1e-13)
 
 
 def test_cyclic_factor_scales_the_force_and_nothing_else() -> None:
@@ -136,13 +111,6 @@ def test_a_deck_in_other_units_describes_the_same_soil(length: float, force: flo
         assert got[0] * (force / length) == pytest.approx(expected[0], rel=1e-13)
         assert got[1] * (force / length**2) == pytest.approx(expected[1], rel=1e-13)
         assert breakout(own, speed / length) * length == pytest.approx(breakout(si, speed), rel=1e-13)
-
-
-def test_factors_name_their_values() -> None:
-    factors = from_cohesion(floats(5000.0, 3), floats(0.3, 3))
-    assert isinstance(factors, SuctionFactors)
-    assert factors.force_exponent.tolist() == [0.18] * 3
-    assert factors.depth_exponent.tolist() == [0.26] * 3
 
 
 @pytest.mark.parametrize(

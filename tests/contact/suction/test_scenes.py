@@ -51,24 +51,6 @@ def test_largest_force_and_breakout(
     assert damping[np.ix_([0, 3], [0, 3])] == pytest.approx(np.full((2, 2), -0.5 * slope), rel=1e-10)
 
 
-def depth(v: float) -> float:
-    """Uplift at breakout, found by lifting."""
-    contact, low, high = pipe(), 0.0, 2.0
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        broken = walk(contact, *heave([0.01, -middle], [0.0, v]))[1].state == BROKEN
-        low, high = (low, middle) if broken else (middle, high)
-    return high
-
-
-@pytest.mark.parametrize("v", [0.002, 0.1, 1.7])
-def test_doubling_the_velocity(v: float) -> None:
-    middle = 0.5 * depth(v)
-    one, two = (walk(pipe(), *heave([0.01, -middle], [0.0, rate]))[1] for rate in (v, 2.0 * v))
-    assert (two.force / one.force).item() == pytest.approx(1.1328838853, rel=1e-10)
-    assert depth(2.0 * v) / depth(v) == pytest.approx(1.1974787046, rel=1e-10)
-
-
 TRAPEZOID = [
     # x / Delta_B, suction, its derivative by penetration
     (0.05, 344.64141487, 42662.876092),
@@ -95,12 +77,6 @@ def test_net_force_on_a_slow_pull_out() -> None:
     expected = [1000.0, 500.0, 0.0, -426.62876092, -FORCE, -FORCE, -920.02564453, 0.0]
     results = walk(pipe(), *heave(depths, [0.1] * 8))
     assert [result.force.item() for result in results] == pytest.approx(expected, rel=1e-9)
-
-
-def test_a_node_between_two_elements_of_two_metres() -> None:
-    contact = ContactModel(chain([LINEAR] * 2, suction(bridge_law(2))))
-    result = walk(contact, *heave([0.01, -0.5 * DEPTH], [0.0, 0.1], nodes=3))[1]
-    assert result.normal_force == pytest.approx([-FORCE, -2757.131319, -FORCE], rel=1e-10)
 
 
 def test_work_to_breakout() -> None:

@@ -53,20 +53,6 @@ def test_sign_of_the_velocity_tangent_on_a_growing_trapezoid() -> None:
     assert grows.by_velocity[2] < latched.by_velocity[2]
 
 
-def test_below_the_regularisation_velocity_the_depth_stands_still() -> None:
-    law = bridge_law()
-    fresh, latched = pull(law, 0.005, 5e-4), pull(law, 0.005, 5e-4, 9e-4)
-    assert fresh == latched
-
-
-@pytest.mark.parametrize("x", [-1.0, 0.0])
-def test_at_the_start_of_the_uplift_nothing_acts_yet(x: float) -> None:
-    suction = pull(bridge_law(), x, 0.1)
-    for values in suction[:3]:
-        assert values.item() == 0.0
-        assert not np.signbit(values.item())
-
-
 def test_extremes_are_finite_and_quiet() -> None:
     caps, velocities, latched = (0.0, 1e-300, 1e-3), (0.0, 5e-324, 1e-300, 1e-3, 1.0, 1e6, 1e100), (0.0, 0.1, 1e100)
     uplifts = (-1.0, 0.0, 5e-324, 1e-300, 1e-60, 0.01, 1.0, 1e300, 1.7e308)
@@ -90,10 +76,3 @@ def test_the_least_velocity_still_follows_the_power() -> None:
     assert suction.depth.item() == pytest.approx(depth, rel=1e-12)
     force = 2086.5435606 * 1e-54 * (1e-90 / (0.2 * depth))
     assert -suction.force.item() == pytest.approx(force, rel=1e-10)
-
-
-def test_a_soil_without_strength_gives_nothing() -> None:
-    suction = pull(bridge_law(cohesion=0.0), 0.01, 0.1)
-    for values in suction[:3]:
-        assert values.item() == 0.0
-        assert not np.signbit(values.item())

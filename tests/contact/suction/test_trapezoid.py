@@ -8,52 +8,7 @@ import pytest
 from mudline.contact.laws.linear import spring_suction
 from mudline.contact.laws.suction import step, trapezoid
 from tests.builders.contact import bridge_law, floats
-from tests.contact.single import BROKEN, DEPTH, FORCE, SUCTION, lift, lifted, pull
-
-# share of the uplift at breakout, uplift, suction at 0.1 m/s
-WORKED = [
-    (0.05, 0.0080782508457, 344.64141487),
-    (0.1, 0.016156501691, 689.28282974),
-    (0.2, 0.032313003383, 1378.5656595),
-    (0.5, 0.080782508457, 1378.5656595),
-    (0.8, 0.12925201353, 1378.5656595),
-    (0.9, 0.14540851522, 689.28282974),
-    (0.95, 0.15348676607, 344.64141487),
-    (1.0, 0.16156501691, 0.0),
-]
-
-
-def test_worked_table() -> None:
-    share, _, suction = np.array(WORKED).T
-    law = bridge_law(len(share))
-    exact = pull(law, 0.0, 0.1).depth * share
-    assert exact == pytest.approx(np.array(WORKED)[:, 1], rel=1e-10)
-    assert -pull(law, exact, 0.1).force == pytest.approx(suction, rel=1e-10, abs=1e-6)
-
-
-def test_slopes_of_rise_plateau_and_release() -> None:
-    suction = pull(bridge_law(3), DEPTH * np.array([0.1, 0.5, 0.9]), 0.1)
-    assert suction.by_uplift == pytest.approx([-42662.876092, 0.0, 42662.876092], rel=1e-10)
-
-
-def test_work_to_breakout() -> None:
-    law = bridge_law(100_001)
-    uplift = np.linspace(0.0, 1.0, 100_001) * pull(law, 0.0, 0.1).depth
-    force = -pull(law, uplift, 0.1).force
-    work = float(np.sum(0.5 * (force[1:] + force[:-1]) * np.diff(uplift)))
-    assert work == pytest.approx(178.18238727, rel=1e-10)
-
-
-def test_nodal_force_of_two_metres() -> None:
-    assert -2.0 * pull(bridge_law(), 0.08, 0.1).force.item() == pytest.approx(2757.131319, rel=1e-10)
-
-
-def test_net_force_with_a_linear_seabed_on_a_slow_pull_out() -> None:
-    z = [0.02, 0.01, 0.0, -0.01, -0.032313003383, -0.08, -0.14, -0.17]
-    net = [1000.0, 500.0, 0.0, -426.62876092, -1378.5656595, -1378.5656595, -920.02564453, 0.0]
-    path = lift(bridge_law(), [(-depth, 0.1) for depth in z])
-    reaction = [50000.0 * max(depth, 0.0) for depth in z]
-    assert [a + b for a, b in zip(reaction, path.forces, strict=True)] == pytest.approx(net, rel=1e-10)
+from tests.contact.single import BROKEN, FORCE, SUCTION, lifted, pull
 
 
 def test_corners_exactly() -> None:

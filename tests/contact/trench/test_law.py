@@ -12,7 +12,6 @@ from mudline.contact.laws.friction import ExtraLimit
 from mudline.contact.laws.trench import on_wall, peak_share, peak_slope, wall_coefficient
 from mudline.contact.trenches import tabulated
 from tests.builders.contact import ALONG_Y, LINEAR, chain, on
-from tests.contact.single import SLIP, anchored, coulomb, move
 
 PEAK = 900.0
 INNER, OUTER = 0.25, 0.85
@@ -43,16 +42,6 @@ def test_share_of_the_peak(offset: float, share: float) -> None:
 def test_slope_of_the_limit(offset: float) -> None:
     ahead, behind = (limit(offset + step).force[0] for step in (1e-6, -1e-6))
     assert limit(offset).by_offset[0] == pytest.approx((ahead - behind) / 2.0e-6, abs=1e-3)
-
-
-def test_it_acts_against_outward_motion_only() -> None:
-    held = coulomb((0.5, 0.5), 1.0e5)
-    history = anchored(held)
-    out = move(held, history, (0.0, 0.55), 1000.0, limit(0.55))
-    assert -out.force[0, 1] == pytest.approx(500.0 + PEAK)
-    assert out.history.states[0, 1] == SLIP
-    back = move(held, out.history, (0.0, 0.45), 1000.0, limit(0.45))
-    assert -back.force[0, 1] == pytest.approx(-500.0)
 
 
 def test_worked_wall() -> None:

@@ -169,9 +169,3 @@ def test_a_wall_that_locks_itself_is_refused_and_the_node_named(depth: float, mu
     inputs = chain([LINEAR] * 2, friction(3, (0.5, mu), 1e5), on("trench wall", [1], depth=depth, **WIDTHS))
     with pytest.raises(ValueError, match="node 102 lies in a trench whose wall locks itself"):
         ContactModel(inputs)
-
-
-def test_a_trench_of_some_elements() -> None:
-    """Of the middle node the peak is that of one of its elements, 500 N at each end of it."""
-    inputs = chain([LINEAR] * 2, friction(3, (0.5, 0.5), 1e5), trench([1], 0.02, 0.42, 500.0))
-    assert lateral(inputs, 0.11) == pytest.approx([500.0, 1000.0 + 500.0, 500.0 + 500.0])

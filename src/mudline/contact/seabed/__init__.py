@@ -20,28 +20,24 @@ LARGEST = 1e150
 """Largest magnitude of a coordinate of a seabed: differences and squares stay finite."""
 
 
-class SeabedError(ValueError):
-    """A seabed cannot be made from the numbers given."""
-
-
 def checked(what: str, values: ArrayLike, *shape: int | None) -> FloatArray:
-    """Return a copy of `values` as finite floats of `shape` (None: any length), or raise SeabedError."""
+    """Return a copy of `values` as finite floats of `shape` (None: any length), or raise ValueError."""
     array = np.array(values, np.float64)
     if array.ndim != len(shape) or any(n not in (None, m) for n, m in zip(shape, array.shape, strict=True)):
         wanted = ", ".join("n" if n is None else str(n) for n in shape)
-        raise SeabedError(f"{what} has shape {array.shape}; expected ({wanted})")
+        raise ValueError(f"{what} has shape {array.shape}; expected ({wanted})")
     wrong = np.argwhere(~(np.abs(array) <= LARGEST))
     if len(wrong):
         index = tuple(wrong[0].tolist())
         place = f" of point {index[0] + 1}" if index else ""
-        raise SeabedError(f"{what}{place} is {array[index]}; expected a finite number of magnitude up to {LARGEST:g}")
+        raise ValueError(f"{what}{place} is {array[index]}; expected a finite number of magnitude up to {LARGEST:g}")
     return array
 
 
 def checked_slope(what: str, degrees: float) -> None:
-    """Raise SeabedError when a slope in degrees is not between -90 and 90, both excluded."""
+    """Raise ValueError when a slope in degrees is not between -90 and 90, both excluded."""
     if not abs(degrees) < 90.0:
-        raise SeabedError(f"{what} is {degrees:g} degrees; expected more than -90 and less than 90")
+        raise ValueError(f"{what} is {degrees:g} degrees; expected more than -90 and less than 90")
 
 
 _CHUNK = 8192
@@ -187,7 +183,7 @@ class SlopingSeabed(Seabed):
         direction_degrees: direction from +Y, counter-clockwise about X (Y turns to Z).
 
     Raises:
-        SeabedError: the slope is 90 degrees or more, or a value is not finite.
+        ValueError: the slope is 90 degrees or more, or a value is not finite.
     """
 
     same_normal: FloatArray
@@ -235,7 +231,7 @@ class PlanesSeabed(SurfaceSeabed):
         bounds: ymin, ymax, zmin, zmax of each plane (k, 4), edges included; infinite for no bound; None for no bounds.
 
     Raises:
-        SeabedError: no planes, lengths that differ, a wall, an empty extent, or a value that is not finite.
+        ValueError: no planes, lengths that differ, a wall, an empty extent, or a value that is not finite.
     """
 
     def __init__(
@@ -244,7 +240,7 @@ class PlanesSeabed(SurfaceSeabed):
         self._points = checked("the planes' points", points, None, 3)
         planes = len(self._points)
         if not planes:
-            raise SeabedError("the seabed has no plane; expected one or more")
+            raise ValueError("the seabed has no plane; expected one or more")
         angles = checked("the planes' slopes", slopes, planes)
         for number, angle in enumerate(angles.tolist(), 1):
             checked_slope(f"slope of plane {number}", angle)
@@ -298,10 +294,10 @@ def _checked_bounds(bounds: ArrayLike | None, planes: int) -> FloatArray:
     free = np.broadcast_to([-np.inf, np.inf, -np.inf, np.inf], (planes, 4))
     given = np.array(free if bounds is None else bounds, np.float64)
     if given.shape != (planes, 4):
-        raise SeabedError(f"the planes' bounds have shape {given.shape}; expected ({planes}, 4)")
+        raise ValueError(f"the planes' bounds have shape {given.shape}; expected ({planes}, 4)")
     for axis, low, high in (("Y", 0, 1), ("Z", 2, 3)):
         least, most = given[:, low], given[:, high]
         for number in np.flatnonzero(~((least <= most) & (least < np.inf) & (most > -np.inf))).tolist():
             extent = f"{axis} from {least[number]:g} to {most[number]:g}"
-            raise SeabedError(f"plane {number + 1} has {extent}; expected the smallest, then the largest")
+            raise ValueError(f"plane {number + 1} has {extent}; expected the smallest, then the largest")
     return given

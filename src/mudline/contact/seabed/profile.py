@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.seabed import STEEPEST, SeabedError, SurfaceSeabed, checked, heading
+from mudline.contact.seabed import STEEPEST, SurfaceSeabed, checked, heading
 
 Interpolation = Literal["LINEAR", "CUBIC SPLINE", "CUBIC BESSEL"]
 _NAMES = {"LINEAR": "straight lines", "CUBIC SPLINE": "a cubic spline", "CUBIC BESSEL": "Bessel's cubics"}
@@ -26,7 +26,7 @@ class ProfileSeabed(SurfaceSeabed):
         direction_degrees: turns the profile from +Y counter-clockwise about X: it is taken at Y cos + Z sin.
 
     Raises:
-        SeabedError: fewer than two points, one Y with two elevations, a slope beyond 1e149, an unknown interpolation,
+        ValueError: fewer than two points, one Y with two elevations, a slope beyond 1e149, an unknown interpolation,
             or a value that is not finite. (A point that is given twice counts once.)
     """
 
@@ -38,7 +38,7 @@ class ProfileSeabed(SurfaceSeabed):
         direction_degrees: float = 0.0,
     ) -> None:
         if interpolation not in _NAMES:
-            raise SeabedError(f"interpolation of the profile is {interpolation!r}; expected {', '.join(_NAMES)}")
+            raise ValueError(f"interpolation of the profile is {interpolation!r}; expected {', '.join(_NAMES)}")
         self._how, self.faceted = interpolation, interpolation == "LINEAR"
         self._direction = float(checked("direction of the profile", direction_degrees))
         self._heading = heading(self._direction)
@@ -74,9 +74,9 @@ def _sorted_points(y: ArrayLike, elevation: ArrayLike) -> tuple[FloatArray, Floa
     twice = np.flatnonzero(np.diff(points[:, 0]) == 0.0)
     if twice.size:
         (place, one), (_, other) = points[twice[0] : twice[0] + 2].tolist()
-        raise SeabedError(f"the profile has elevations {one:g} and {other:g} at Y = {place!r}; expected one for each Y")
+        raise ValueError(f"the profile has elevations {one:g} and {other:g} at Y = {place!r}; expected one for each Y")
     if len(points) < 2:
-        raise SeabedError(f"the profile has {len(points)} different points; expected two or more")
+        raise ValueError(f"the profile has {len(points)} different points; expected two or more")
     return points[:, 0].copy(), points[:, 1].copy()
 
 
@@ -98,7 +98,7 @@ def _pieces(y: FloatArray, x: FloatArray, interpolation: Interpolation) -> tuple
     steep = np.flatnonzero(~(9.0 * largest < STEEPEST))
     if steep.size:
         one, other = y[steep[0] : steep[0] + 2].tolist()
-        raise SeabedError(f"the profile is too steep from Y = {one!r} to {other!r}; expected points further apart")
+        raise ValueError(f"the profile is too steep from Y = {one!r} to {other!r}; expected points further apart")
     columns = {"origin": (y[0], y[:-1], y[-1]), "level": (x[0], x[:-1], x[-1]), "first": (0.0, slopes[:-1], 0.0)}
     if interpolation != "LINEAR":
         columns |= {"width": (1.0, h, 1.0), "second": (0.0, second, 0.0), "third": (0.0, third, 0.0)}

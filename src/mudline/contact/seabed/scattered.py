@@ -10,7 +10,7 @@ from scipy.interpolate import CloughTocher2DInterpolator
 from scipy.spatial import Delaunay, QhullError
 
 from mudline.contact.arrays import FloatArray, IndexArray
-from mudline.contact.seabed import STEEPEST, SeabedError, SurfaceSeabed, checked
+from mudline.contact.seabed import STEEPEST, SurfaceSeabed, checked
 
 _STEP = 1e-5
 """Step of a difference, as a part of the way to a corner of the triangle."""
@@ -36,13 +36,13 @@ class ScatteredSeabed(SurfaceSeabed):
         interpolation: LINEAR or CUBIC.
 
     Raises:
-        SeabedError: fewer than three points, all on a line, two elevations at one place, points too close to
+        ValueError: fewer than three points, all on a line, two elevations at one place, points too close to
             distinguish, an unknown interpolation, or a value that is not finite. (A point given twice counts once.)
     """
 
     def __init__(self, points: ArrayLike, interpolation: Literal["LINEAR", "CUBIC"] = "LINEAR") -> None:
         if interpolation not in ("LINEAR", "CUBIC"):
-            raise SeabedError(f"interpolation of the surface is {interpolation!r}; expected LINEAR or CUBIC")
+            raise ValueError(f"interpolation of the surface is {interpolation!r}; expected LINEAR or CUBIC")
         self._how, self.faceted = interpolation, interpolation == "LINEAR"
         given = _different_points(points)
         low, high = given[:, 1:].min(axis=0), given[:, 1:].max(axis=0)
@@ -52,7 +52,7 @@ class ScatteredSeabed(SurfaceSeabed):
         self._triangles = _triangulated(self._places)
         self._gradients = _plane_gradients(self._places, self._levels, self._triangles.simplices.astype(np.intp))
         if not (np.abs(self._gradients) < 1e-3 * STEEPEST * self._scale).all():
-            raise SeabedError("the surface is too steep to compute with; expected its points further apart")
+            raise ValueError("the surface is too steep to compute with; expected its points further apart")
         self._cubic = (
             None if self.faceted else CloughTocher2DInterpolator(self._triangles, self._levels, tol=_TOLERANCE)
         )
@@ -108,9 +108,9 @@ def _different_points(points: ArrayLike) -> FloatArray:
     twice = np.flatnonzero((np.diff(given[:, 1:], axis=0) == 0.0).all(axis=1))
     if twice.size:
         (one, y, z), other = given[twice[0]].tolist(), float(given[twice[0] + 1, 0])
-        raise SeabedError(f"the surface has elevations {one:g} and {other:g} at Y = {y!r}, Z = {z!r}; expected one")
+        raise ValueError(f"the surface has elevations {one:g} and {other:g} at Y = {y!r}, Z = {z!r}; expected one")
     if len(given) < 3:
-        raise SeabedError(f"the surface has {len(given)} different points; expected three or more, not on a line")
+        raise ValueError(f"the surface has {len(given)} different points; expected three or more, not on a line")
     return given
 
 
@@ -118,9 +118,9 @@ def _triangulated(places: FloatArray) -> Delaunay:
     try:
         triangles = Delaunay(places)
     except QhullError as error:
-        raise SeabedError("the points of the surface lie on a line; expected one beside it, or a 2D profile") from error
+        raise ValueError("the points of the surface lie on a line; expected one beside it, or a 2D profile") from error
     if len(triangles.coplanar):
-        raise SeabedError(f"the surface has {len(triangles.coplanar)} points too close to others to distinguish")
+        raise ValueError(f"the surface has {len(triangles.coplanar)} points too close to others to distinguish")
     return triangles
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mudline.curves import ForceCurve, QueryError
+from mudline.curves import ForceCurve
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.linting.rule import STEEPEST, LintContext, rule
@@ -29,7 +29,7 @@ def _at_zero(curve: ForceCurve) -> float:
     """The force at ratio 0; 0 where it is small beside the largest force of the curve, or overflows."""
     try:
         force = float(curve.evaluate(np.zeros(1))[0][0])
-    except QueryError:
+    except ValueError:
         return 0.0
     return force if abs(force) > _SMALL * float(np.abs(curve.forces).max()) else 0.0
 

@@ -1,42 +1,126 @@
-"""The forms of result files, a module each with the name of the suffix, imported when it is asked for.
+"""The forms of result files: what each holds, and what all of them are given.
 
-A module is a form by being here: `SUMMARY` says in the documentation what is in a file, `opened(output)` is a context
-with the `Sink` that writes it, `BESIDE` names the tables that go to files of their own; `write_tables(tables, streams,
-folder)` writes tables without steps. Results come a few steps at a time and are written as they come: a long series is
-never in memory as text.
+A form has a module, imported when it is asked for, with `opened(output)`: a context with a `Writer`. It takes columns
+of a few steps at a time and writes them as they come, so that a long series is never in memory as text.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, field
 from importlib import import_module
-from itertools import chain, islice
 from pathlib import Path
-from pkgutil import iter_modules
 from types import ModuleType
-from typing import Any, BinaryIO, Protocol, TypeVar, cast
+from typing import Any, BinaryIO, NamedTuple, Protocol
 
 import numpy as np
-from pydantic_core import to_json
 
 from mudline.contact import Plan
-from mudline.contact.columns import Column, Table, Values
+from mudline.contact.columns import Column, Table
+from mudline.contact.frames import array_name
 from mudline.contact.result import Part
-from mudline.quantities import finite
+from mudline.quantities import RESULT_FORMAT, time_unit
 from mudline.results.evaluation import Evaluation
+from mudline.scene.numbering import Floats
 
-_BLOCK = 16384
-"""Rows spelled at a time: the texts of a large model are never all in memory."""
-_PIECE = 1000
-"""Rows written at a time."""
 
-T = TypeVar("T")
-Row = tuple[str, ...]
+class Form(NamedTuple):
+    """A form of result files.
+
+    Attributes:
+        summary: what is in a file, for the documentation, Markdown.
+        beside: the tables that go to files of their own.
+        library, extra: what writes it, and the extra of mudline that brings it; "" where nothing is needed.
+    """
+
+    summary: str
+    beside: tuple[str, ...] = ()
+    library: str = ""
+    extra: str = ""
+
+
+FORMS = {
+    "csv": Form("elements; the nodes in `...-nodes.csv`, the lines in `...-summary.csv`", ("nodes", "summary")),
+    "json": Form("everything: units, plan, elements, nodes, `restrained`, `summary`, `warnings`, `against`"),
+    "npz": Form(
+        "an array of each column: (elements,) or (steps, elements), (nodes,) or (steps, nodes), vectors with a last "
+        "axis of 3; `node_` before what elements have too, `summary_` before (lines,) or (steps, lines); `units` and "
+        "`format`"
+    ),
+    "parquet": Form(
+        "the same columns, in groups of rows; the nodes in `...-nodes.parquet`, the lines in `...-summary.parquet`; "
+        "`pip install 'mudline[parquet]'`",
+        ("nodes", "summary"),
+        "pyarrow",
+        "parquet",
+    ),
+    "xlsx": Form(
+        "sheets `elements`, `nodes` and `summary`, with units below the names of the columns; "
+        "`pip install 'mudline[excel]'`",
+        (),
+        "xlsxwriter",
+        "excel",
+    ),
+}
+"""By suffix."""
+TEXTS = ("csv", "json")
+"""Forms that standard output has too."""
+
 More = Mapping[str, object]
-"""What is known only after the last step, by its key in JSON."""
+"""Further keys of JSON with their values."""
+Columns = Mapping[str, Sequence[Column]]
+"""The columns of some steps, by the names of their tables."""
 Write = Callable[[Iterator[str]], None]
 """Writes text in pieces."""
+
+
+class FormError(ValueError):
+    """A form has no place for so many rows."""
+
+
+@dataclass(frozen=True, slots=True)
+class Contents:
+    """What a file holds, whatever its form.
+
+    Attributes:
+        rows: the number of rows of a step, by the names of the tables.
+        units: the unit system.
+        format: name and version.
+        head: what JSON has in front of the tables.
+        times: (steps,) the time of each step; None where there are no steps.
+        array_name: gives the name of an array from those of a table and a column.
+    """
+
+    rows: Mapping[str, int]
+    units: str
+    format: str = RESULT_FORMAT
+    head: More = field(default_factory=dict)
+    times: Floats | None = None
+    array_name: Callable[[str, str], str] = array_name
+
+    @property
+    def steps(self) -> int:
+        """Number of steps; 1 without times."""
+        return 1 if self.times is None else len(self.times)
+
+    def timed(self, table: str, columns: Sequence[Column], start: int, count: int) -> list[Column]:
+        """The flat columns of a table, with one of times in front if there are any."""
+        flat = [part for column in columns for part in column.flat()]
+        if self.times is None:
+            return flat
+        times = np.broadcast_to(self.times[start : start + count, np.newaxis], (count, self.rows[table]))
+        return [Column("time", times, unit=time_unit(self.units)), *flat]
+
+
+class Writer(Protocol):
+    """Writes the columns of all tables of a file, or of several, a few steps at a time."""
+
+    def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
+        """Write the steps from `start` on; `beside` are values for each of them, for which only JSON has a place."""
+
+    def finish(self, more: More) -> None:
+        """Write what is known only after the last step."""
 
 
 class ResultConsumer(Protocol):
@@ -46,66 +130,67 @@ class ResultConsumer(Protocol):
         """Take some steps."""
 
 
-class Sink(ResultConsumer, Protocol):
-    """A file or standard output."""
-
-    def finish(self, more: More) -> None:
-        """Write what comes after the last step."""
-
-
 @dataclass(frozen=True, slots=True)
-class Together:
-    """Several tables, or none, as one; a table has no place for more."""
+class Sink:
+    """Passes the results of an evaluation on to a writer, as the columns of tables; to nothing without tables."""
 
-    tables: Sequence[Sink] = ()
+    evaluation: Evaluation
+    tables: Mapping[str, Table]
+    writer: Writer | None
 
     def take(self, part: Part) -> None:
-        """Pass some steps on to each table."""
-        for table in self.tables:
-            table.take(part)
+        """Write some steps. Raises OSError."""
+        if self.writer is None:
+            return
+        columns = {name: table.columns(part) for name, table in self.tables.items()}
+        restrained, beside = part.result.restrained, {}
+        if restrained is not None:
+            ids = self.evaluation.scene.node_ids
+            beside = {"restrained": [ids[step].tolist() for step in restrained]}
+        self.writer.write(columns, part.start, part.count, beside)
 
     def finish(self, more: More) -> None:
-        """End each table."""
-        for table in self.tables:
-            table.finish(more)
+        """Write what comes behind the last step. Raises OSError."""
+        if self.writer is not None:
+            self.writer.finish(more)
+
+
+def tables_of(evaluation: Evaluation, form: str, elements: Table, only: str | None = None) -> dict[str, Table]:
+    """Return the tables of results in a form, or one of CSV; JSON has the lines behind the last step."""
+    made = {"elements": lambda: elements, "nodes": evaluation.node_table, "summary": evaluation.line_table}
+    names = ("elements", "nodes") if form == "json" else made if only is None else (only,)
+    return {name: made[name]() for name in names}
+
+
+def contents_of(evaluation: Evaluation, tables: Mapping[str, Table]) -> Contents:
+    """Return what a file with these tables of results holds."""
+    rows = {name: table.rows for name, table in tables.items()}
+    plan = {"plan": plan_rows(evaluation.model.plan)}
+    return Contents(rows, evaluation.scene.units, head=plan, times=evaluation.time)
 
 
 @dataclass(frozen=True, slots=True)
 class Output:
-    """What is written, and the open files of `folder`; `tracked` shows how far a long loop over a list is."""
+    """Where the contents of a file go: its form, and open files of a folder, one for each table or one for all.
 
-    evaluation: Evaluation
-    elements: Table
+    `tracked` shows how far a long loop over a list is.
+    """
+
+    form: str
+    contents: Contents
     streams: Sequence[BinaryIO]
     folder: Path
     tracked: Callable[[Sequence[Any]], Iterable[Any]] = iter
 
-    @property
-    def tables(self) -> dict[str, Table]:
-        """The tables of elements, nodes and lines, by their names."""
-        return {
-            "elements": self.elements,
-            "nodes": self.evaluation.node_table(),
-            "summary": self.evaluation.line_table(),
-        }
+    def opened(self) -> AbstractContextManager[Writer]:
+        """Return a context with what writes. Raises FormError, and ImportError as `form_module` does."""
+        found: AbstractContextManager[Writer] = form_module(self.form).opened(self)
+        return found
 
 
-@dataclass(frozen=True, slots=True)
-class Tables:
-    """Tables that are whole, by their names: flat columns (rows,) without steps.
-
-    `format` is the name and the version of their form, `more` what JSON has besides them.
-    """
-
-    columns: Mapping[str, Sequence[Column]]
-    format: str
-    units: str
-    more: More
-
-
-def form_names() -> list[str]:
-    """Return the name of every form, found without importing one."""
-    return sorted(found.name for found in iter_modules(__path__))
+def form_module(form: str) -> ModuleType:
+    """Return the module of a form; raises ImportError without the library that it needs."""
+    return import_module(f"{__name__}.{'text' if form in TEXTS else form}")
 
 
 def table_path(path: Path, table: str) -> Path:
@@ -113,103 +198,30 @@ def table_path(path: Path, table: str) -> Path:
     return path.with_name(f"{path.stem}-{table}{path.suffix}")
 
 
-def form_module(name: str) -> ModuleType:
-    """Return the module of a form; raises ImportError without the library that it needs."""
-    return import_module(f"{__name__}.{name}")
-
-
-def plain_values(column: Column) -> list[Any]:
-    """The values of a flat column (rows,) as those of Python; None for no value."""
-    values: list[Any] = column.values.tolist()
-    if column.names:
-        return [column.names[code] for code in values]
-    if column.blank is not None:
-        return [None if value == column.blank else value for value in values]
-    return [finite(value) for value in values] if column.values.dtype.kind == "f" else values
-
-
-# ----------------------------------------------------------------------------------------------------- rows as text
-
-
-def text_form(name: str) -> Callable[[Evaluation, Table, Write], Sink]:
-    """Return what writes a table (JSON: that of elements, and the nodes) as text: "csv" or "json"."""
-    return cast("Callable[..., Sink]", form_module(name).Text)
-
-
-def tables_as_text(tables: Tables, name: str, table: str) -> Iterator[str]:
-    """The text of tables as "json", or of one of them as "csv"."""
-    found: Iterator[str] = form_module(name).tables_text(tables, table)
-    return found
-
-
-def text_into(stream: BinaryIO) -> Write:
-    """Return what writes text into a file as UTF-8; half a surrogate pair, as a name may hold, is escaped."""
-    return lambda pieces: stream.writelines(piece.encode("utf-8", "backslashreplace") for piece in pieces)
-
-
-@dataclass(frozen=True, slots=True)
-class Spelling:
-    """How a form spells a name, and that there is no value."""
-
-    name: Callable[[str], str]
-    nothing: str
-
-    def column(self, values: Values, names: tuple[str | None, ...] = (), blank: int | None = None) -> list[str]:
-        """The values of a column; numbers read back to the same double; NaN, inf and `blank` are no value."""
-        if not values.size:
-            return []
-        if blank is not None:
-            return [self.nothing if number == blank else str(number) for number in values.tolist()]
-        if names:
-            spelled = [self.nothing if name is None else self.name(name) for name in names]
-            return [spelled[code] for code in values.tolist()]
-        numbers = to_json(values.tolist(), inf_nan_mode="null")[1:-1].decode().split(",")
-        if self.nothing == "null" or values.dtype.kind != "f" or np.isfinite(values).all():
-            return numbers
-        return [self.nothing if text == "null" else text for text in numbers]
-
-
-def step_rows(columns: list[Column], steps: int, rows: int, spelling: Spelling) -> Iterator[Iterable[Row]]:
-    """The rows of each step, spelled; take those of a step before the next."""
-    flat = [part for column in columns for part in column.flat()]
-    if rows > _BLOCK:
-        for step in range(steps):
-            yield chain.from_iterable(_long(flat, step, rows, spelling))
-        return
-    together = max(1, _BLOCK // max(rows, 1))
-    constant = {
-        column.name: spelling.column(column.values, column.names, column.blank) for column in flat if column.steady
-    }
-    for first in range(0, steps, together):
-        last = min(steps, first + together)
-        texts = [
-            constant[column.name] * (last - first)
-            if column.steady
-            else spelling.column(column.cut(first, last).ravel(), column.names, column.blank)
-            for column in flat
-        ]
-        spelled = zip(*texts, strict=True)
-        for _ in range(first, last):
-            yield islice(spelled, rows)
-
-
-def _long(columns: list[Column], step: int, rows: int, spelling: Spelling) -> Iterator[Iterator[Row]]:
-    """The rows of one step of a large model, block by block."""
-    for start in range(0, rows, _BLOCK):
-        block = slice(start, start + _BLOCK)
-        texts = [
-            spelling.column(column.cut(step, step + 1)[0, block], column.names, column.blank) for column in columns
-        ]
-        yield zip(*texts, strict=True)
-
-
-def batched(rows: Iterable[T]) -> Iterator[list[T]]:
-    """Rows in lists that are written at once."""
-    rest = iter(rows)
-    while piece := list(islice(rest, _PIECE)):
-        yield piece
-
-
 def plan_rows(plan: Plan) -> list[dict[str, Any]]:
     """The stages of a plan."""
     return [{"stage": stage.stage, "active": stage.active, "why": stage.why} for stage in plan]
+
+
+# --------------------------------------------------------------------------------------------------------- whole tables
+
+
+@dataclass(frozen=True, slots=True)
+class Tables:
+    """Tables that are whole, by their names: flat columns (rows,) without steps; `more` is what JSON has besides."""
+
+    columns: Columns
+    format: str
+    units: str
+    more: More
+
+    @property
+    def contents(self) -> Contents:
+        """What a file with them holds; arrays have the name of the table in front."""
+        rows = {name: len(columns[0].values) for name, columns in self.columns.items()}
+        return Contents(rows, self.units, self.format, self.more, array_name=lambda table, name: f"{table}_{name}")
+
+    def write(self, writer: Writer) -> None:
+        """Write them. Raises OSError."""
+        writer.write(self.columns, 0, 1, {})
+        writer.finish({})

@@ -2,78 +2,57 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, closing, contextmanager
-from pathlib import Path
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
 from typing import BinaryIO
 
-import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from mudline.contact.columns import Table
-from mudline.contact.frames import FORMAT_KEY, arrow_of
-from mudline.contact.result import Part
-from mudline.results.evaluation import Evaluation
-from mudline.results.forms import More, Output, Sink, Tables, Together
-
-SUMMARY = (
-    "the same columns, in groups of rows; the nodes in `...-nodes.parquet`, the lines in `...-summary.parquet`; "
-    "`pip install 'mudline[parquet]'`"
-)
-BESIDE = ("nodes", "summary")
+from mudline.contact.frames import arrow_of
+from mudline.results.forms import Columns, Contents, More, Output, Writer
 
 GROUP = 1 << 18
 """Rows of a group, as soon as there are so many."""
 
 
 @contextmanager
-def opened(output: Output) -> Iterator[Sink]:
-    """What takes the results."""
-    pairs = zip(output.tables.values(), output.streams, strict=True)
+def opened(output: Output) -> Iterator[Writer]:
+    """What writes a file for each table."""
     with ExitStack() as files:
-        yield Together([files.enter_context(closing(ParquetFile(output.evaluation, *pair))) for pair in pairs])
+        yield ParquetWriter(output.contents, dict(zip(output.contents.rows, output.streams, strict=True)), files)
 
 
-class ParquetFile:
+class ParquetWriter:
     """The columns of CSV: vectors as three, no value as null; texts are kept once in each group of rows."""
 
-    def __init__(self, evaluation: Evaluation, table: Table, stream: BinaryIO) -> None:
-        self._table, self._times, self._stream = table, evaluation.time, stream
-        self._writer: pq.ParquetWriter | None = None
-        self._waiting: list[pa.Table] = []
+    def __init__(self, contents: Contents, streams: Mapping[str, BinaryIO], files: ExitStack) -> None:
+        self._contents, self._streams, self._files = contents, streams, files
+        self._writers: dict[str, pq.ParquetWriter] = {}
+        self._waiting: dict[str, list[pa.Table]] = {table: [] for table in streams}
 
-    def take(self, part: Part) -> None:
+    def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
         """Write some steps. Raises OSError."""
-        flat = [column for vector in self._table.columns(part) for column in vector.flat()]
-        times = {} if self._times is None else {"time": np.repeat(self._times[part.steps], self._table.rows)}
-        self._waiting.append(arrow_of(flat, part.count, times, self._table.units))
-        if sum(len(table) for table in self._waiting) >= GROUP:
-            self._flush()
+        del beside
+        for table, waiting in self._waiting.items():
+            flat = self._contents.timed(table, columns[table], start, count)
+            waiting.append(arrow_of(flat, count, {}, self._contents.units, self._contents.format))
+            if sum(len(each) for each in waiting) >= GROUP:
+                self._flush(table)
 
     def finish(self, more: More) -> None:
         """Write what waits; a table has no place for more. Raises OSError."""
         del more
-        self._flush()
+        for table in self._waiting:
+            self._flush(table)
 
-    def close(self) -> None:
-        """End the file, after a fault too."""
-        if self._writer is not None:
-            self._writer.close()
-
-    def _flush(self) -> None:
+    def _flush(self, table: str) -> None:
         """Write what waits as one group of rows."""
-        if self._waiting:
-            group = pa.concat_tables(self._waiting)
-            self._writer = self._writer or pq.ParquetWriter(self._stream, group.schema, compression="zstd")
-            self._writer.write_table(group, row_group_size=max(len(group), 1))
-            self._waiting = []
-
-
-def write_tables(tables: Tables, streams: Sequence[BinaryIO], folder: Path) -> None:
-    """Write a file for each table."""
-    del folder
-    for columns, stream in zip(tables.columns.values(), streams, strict=True):
-        table = arrow_of(list(columns), 1, {}, tables.units)
-        named = table.replace_schema_metadata({**table.schema.metadata, FORMAT_KEY: tables.format})
-        pq.write_table(named, stream, compression="zstd")
+        if not self._waiting[table]:
+            return
+        group = pa.concat_tables(self._waiting[table])
+        if table not in self._writers:
+            made = pq.ParquetWriter(self._streams[table], group.schema, compression="zstd")
+            self._writers[table] = self._files.enter_context(made)
+        self._writers[table].write_table(group, row_group_size=max(len(group), 1))
+        self._waiting[table] = []

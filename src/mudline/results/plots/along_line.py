@@ -14,20 +14,19 @@ from mudline.results.plot_data import Chosen, Envelope, PlotData
 from mudline.results.plots.stretch import Stretch
 from mudline.results.plots.style import (
     LIGHT,
-    MOST,
+    MOST_POINTS,
     SEABED,
     STATE_STYLES,
     Style,
     above,
     is_number,
-    legend_above,
-    marked,
+    marker_of,
     style_of,
     thinned,
     when,
     widen,
 )
-from mudline.scene.numbering import Floats
+from mudline.scene.numbering import Floats, Indices
 
 _MOST_SLIPPING = 80
 """Slipping nodes of a line that are marked."""
@@ -35,24 +34,22 @@ _MOST_SLIPPING = 80
 
 def force(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     """Draw the seabed reaction of the elements; that on the nodes, where only springs of nodes act."""
-    result = data.drawn.result
-    units = data.given.units
-    if data.steps > 1:
-        _extents(axes, data, data.force, stretch)
+    result, units = data.drawn.result, data.given.units
+    _extents(axes, data, data.force, stretch)
     if not np.nan_to_num(result.force).any() and np.nan_to_num(result.normal_force).any():
-        _of_nodes(axes, result.normal_force, stretch)
+        for place, number in enumerate(stretch.lines):
+            _plot(axes, stretch.nodes(number), result.normal_force, stretch.style(place))
         axes.set_ylabel(labelled("seabed reaction\non a node", unit_names(units).force))
     else:
-        _of_elements(axes, data, result.force, stretch)
+        _of_elements(axes, result.force, stretch)
         axes.set_ylabel(ELEMENTS["force"].axis(units))
-    axes.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
+    _zero(axes)
 
 
 def embedment(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     """Draw the embedment of the elements, downwards; what hangs high above does not hide how deep the rest lies."""
-    if data.steps > 1:
-        _extents(axes, data, data.depth, stretch)
-    _of_elements(axes, data, data.drawn.result.depth, stretch)
+    _extents(axes, data, data.depth, stretch)
+    _of_elements(axes, data.drawn.result.depth, stretch)
     axes.axhline(0.0, color=SEABED, linewidth=1.2, zorder=1)
     deepest = float(np.nan_to_num(data.depth.most).max(initial=0.0))
     top, bottom = axes.get_ylim()
@@ -65,7 +62,7 @@ def embedment(axes: Axes, data: PlotData, stretch: Stretch) -> None:
 
 def stiffness(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     """Draw the stiffness of the seabed under the elements."""
-    _of_elements(axes, data, data.drawn.result.stiffness, stretch)
+    _of_elements(axes, data.drawn.result.stiffness, stretch)
     axes.set_ylabel(ELEMENTS["stiffness"].axis(data.given.units))
 
 
@@ -73,27 +70,17 @@ def suction(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     """Draw what holds the line down per unit length, with the states of suction, when the pull is largest."""
     chosen = data.pulled or data.drawn
     pull = np.maximum(0.0 - chosen.result.force, 0.0)
-    _of_elements(axes, data, pull, stretch, mark=False)
+    _of_elements(axes, pull, stretch, mark=False)
     states = chosen.result.state
     if states is not None:
+        drawn = np.concatenate([stretch.elements(number)[0] for number in stretch.lines])
         for index, (name, style) in enumerate(STATE_STYLES.items()):
-            mine = np.concatenate([stretch.elements(number) for number in stretch.lines])
-            mine = mine[states[mine] == index]
-            if not mine.size:
-                continue
-            shown = mine[thinned(pull[mine], 400)]
-            axes.plot(
-                data.given.lines.element_arc[shown],
-                pull[shown],
-                linestyle="none",
-                marker=style.marker,
-                markersize=5 if marked(len(mine)) else 3,
-                color=style.color,
-                label=name,
-                zorder=4,
-            )
-        above(axes, 5)
-    _step_note(axes, data, chosen)
+            mine = drawn[states[drawn] == index]
+            if mine.size:
+                shown = mine[thinned(pull[mine], 400)]
+                points = data.given.lines.element_arc[shown], pull[shown]
+                axes.plot(*points, style.marker, markersize=4, color=style.color, label=name, zorder=4)
+    above(axes, note=_step_note(data, chosen))
     axes.set_ylabel(labelled("suction\nper unit length", unit_names(data.given.units).line_force))
 
 
@@ -103,83 +90,71 @@ def friction(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     result = chosen.result
     if result.friction is None:
         return
-    slips = 0
+    slips = False
     for side, name in enumerate(("axial", "lateral")):
-        style = style_of(side)
+        style, values = style_of(side)._replace(marker=""), result.friction[:, side]
         for place, number in enumerate(stretch.lines):
             nodes, arcs = stretch.nodes(number)
-            values = result.friction[nodes, side]
-            drawn = thinned(values)
-            label = name if place == 0 else None
-            axes.plot(arcs[drawn], values[drawn], color=style.color, linestyle=style.linestyle, label=label)
+            _plot(axes, (nodes, arcs), values, style, None if place else name)
             at = np.flatnonzero(result.friction_state_of(side)[nodes] == SLIDING.index("slip"))
-            slips += len(at)
             at = at[:: max(1, len(at) // _MOST_SLIPPING)]
-            axes.plot(arcs[at], values[at], linestyle="none", marker="x", markersize=4, color=style.color)
+            slips = slips or bool(at.size)
+            axes.plot(arcs[at], values[nodes[at]], "x", markersize=4, color=style.color)
     if slips:
-        axes.plot([], [], linestyle="none", marker="x", markersize=4, color="0.2", label="slips")
-    _step_note(axes, data, chosen)
-    axes.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
-    axes.set_ylabel(labelled("friction on a node", unit_names(data.given.units).force).replace(" [", "\n["))
-    above(axes)
+        axes.plot([], [], "x", markersize=4, color="0.2", label="slips")
+    _zero(axes)
+    axes.set_ylabel(labelled("friction on a node", unit_names(data.given.units).force))
+    above(axes, note=_step_note(data, chosen))
 
 
-def _of_elements(axes: Axes, data: PlotData, values: Floats, stretch: Stretch, *, mark: bool = True) -> None:
+def _of_elements(axes: Axes, values: Floats, stretch: Stretch, *, mark: bool = True) -> None:
     """Draw values (m,) of the elements over the arc length of their middles."""
     seen = [np.zeros(0)]
     for place, number in enumerate(stretch.lines):
-        elements = stretch.elements(number)
-        drawn = elements[thinned(values[elements])]
+        rows, arcs = stretch.elements(number)
         style = stretch.style(place)
-        points = style.marker if mark and marked(len(drawn)) else ""
-        axes.plot(
-            data.given.lines.element_arc[drawn],
-            values[drawn],
-            color=style.color,
-            linestyle=style.linestyle,
-            linewidth=1.3,
-            marker=points,
-            markersize=3.5,
-        )
-        seen.append(values[drawn])
+        _plot(axes, (rows, arcs), values, style if mark else style._replace(marker=""))
+        seen.append(values[rows])
     widen(axes, np.concatenate(seen))
 
 
-def _of_nodes(axes: Axes, values: Floats, stretch: Stretch) -> None:
-    """Draw values (n,) of the nodes over their arc length."""
-    for place, number in enumerate(stretch.lines):
-        nodes, arcs = stretch.nodes(number)
-        drawn = thinned(values[nodes])
-        style = stretch.style(place)
-        points = style.marker if marked(len(drawn)) else ""
-        axes.plot(
-            arcs[drawn],
-            values[nodes[drawn]],
-            color=style.color,
-            linestyle=style.linestyle,
-            linewidth=1.3,
-            marker=points,
-            markersize=3.5,
-        )
+def _plot(axes: Axes, along: tuple[Indices, Floats], values: Floats, style: Style, label: str | None = None) -> None:
+    """Draw values of some rows of elements or nodes, given with their arc lengths."""
+    rows, arcs = along
+    kept = thinned(values[rows])
+    points = marker_of(style, len(kept))
+    axes.plot(
+        arcs[kept],
+        values[rows[kept]],
+        color=style.color,
+        linestyle=style.linestyle,
+        linewidth=1.3,
+        marker=points,
+        markersize=3,
+        label=label,
+    )
 
 
 def _extents(axes: Axes, data: PlotData, found: Envelope, stretch: Stretch) -> None:
-    """Shade what lies between the least and the largest values of the elements over all steps."""
+    """Shade what lies between the least and the largest values of the elements over the steps of a series."""
+    if data.steps == 1:
+        return
     for place, number in enumerate(stretch.lines):
-        elements = stretch.elements(number)
-        drawn = elements[thinned(found.most[elements])]
-        arcs = data.given.lines.element_arc[drawn]
-        color = stretch.style(place).color
+        rows, arcs = stretch.elements(number)
+        kept = thinned(found.most[rows])
+        edges, color = (found.least[rows[kept]], found.most[rows[kept]]), stretch.style(place).color
         label = None if place else "least to largest of all steps"
-        axes.fill_between(arcs, found.least[drawn], found.most[drawn], color=color, alpha=0.2, linewidth=0, label=label)
+        axes.fill_between(arcs[kept], *edges, color=color, alpha=0.2, linewidth=0.0, label=label)
     above(axes)
 
 
-def _step_note(axes: Axes, data: PlotData, chosen: Chosen) -> None:
-    """Write the time of a step on a panel of a series that shows another one than the others do."""
-    if data.steps > 1:
-        text = f"at {when(data, chosen.step)}"
-        axes.text(1.0, 1.02, text, transform=axes.transAxes, ha="right", va="bottom", fontsize="small")
+def _zero(axes: Axes) -> None:
+    axes.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
+
+
+def _step_note(data: PlotData, chosen: Chosen) -> str:
+    """The time of a step, for a panel of a series that shows another one than the others do."""
+    return f"at {when(data, chosen.step)}" if data.steps > 1 else ""
 
 
 # ----------------------------------------------------------------------------------------------- the line on the seabed
@@ -196,31 +171,31 @@ def line(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     heights, seabed = chosen.heights, chosen.seabed
     for place, number in enumerate(stretch.lines):
         nodes, arcs = stretch.nodes(number)
-        drawn = thinned(chosen.result.gap[nodes])
-        axes.plot(arcs[drawn], seabed[nodes[drawn]], color=SEABED, linewidth=1.2, linestyle="-", zorder=1)
-        style = stretch.style(place)
-        axes.plot(
-            arcs[drawn], heights[nodes[drawn]], color=style.color, linestyle=style.linestyle, linewidth=1.1, zorder=3
-        )
-        _thick(axes, data, heights, number, stretch, style)
+        drawn, style = thinned(chosen.result.gap[nodes]), stretch.style(place)
+        axes.plot(arcs[drawn], seabed[nodes[drawn]], color=SEABED, linewidth=1.2, zorder=1)
+        look = {"color": style.color, "linestyle": style.linestyle}
+        axes.plot(arcs[drawn], heights[nodes[drawn]], linewidth=1.1, zorder=3, **look)  # type: ignore[arg-type]
+        _thick(axes, data, heights, number, style)
     _crop(axes, data, chosen, stretch)
     _touchdown_points(axes, data, chosen, stretch)
     if len(stretch.lines) == 1:
         _soil(axes, chosen, stretch)
     axes.set_ylabel(NODES["x"].axis(data.given.units))
-    handles: list[Artist] = [*_line_handles(stretch)]
-    handles += [
+    handles: list[Artist] = [
+        *_line_handles(stretch),
         Line2D([], [], color=stretch.style(0).color, linewidth=3.5, label="in contact"),
         Line2D([], [], color=SEABED, linewidth=1.2, label="seabed"),
+        *axes.get_legend_handles_labels()[0],
     ]
-    handles += axes.get_legend_handles_labels()[0]
-    legend_above(axes, handles)
+    above(axes, handles)
 
 
 def _crop(axes: Axes, data: PlotData, chosen: Chosen, stretch: Stretch) -> None:
     """Leave out what hangs so high that nothing would be seen of how the line lies on the seabed."""
+    sizes = (np.nan_to_num(data.depth.most), np.nan_to_num(data.given.diameter))
+    most = max(times * float(values.max(initial=0.0)) for times, values in zip(_HIGHEST, sizes, strict=True))
     nodes = np.concatenate([stretch.nodes(number)[0] for number in stretch.lines])
-    near = nodes[chosen.result.gap[nodes] <= highest(data)]
+    near = nodes[chosen.result.gap[nodes] <= most]
     if not near.size:
         return
     drawn = np.concatenate([chosen.heights[near], chosen.seabed[near]])
@@ -229,23 +204,14 @@ def _crop(axes: Axes, data: PlotData, chosen: Chosen, stretch: Stretch) -> None:
         axes.set_ylim(low - 0.05 * (high - low), high)
 
 
-def highest(data: PlotData) -> float:
-    """How high above the seabed a line is drawn, if something touches the seabed."""
-    sizes = (np.nan_to_num(data.depth.most), np.nan_to_num(data.given.diameter))
-    return max(times * float(values.max(initial=0.0)) for times, values in zip(_HIGHEST, sizes, strict=True))
-
-
-def _thick(axes: Axes, data: PlotData, heights: Floats, number: int, stretch: Stretch, style: Style) -> None:
+def _thick(axes: Axes, data: PlotData, heights: Floats, number: int, style: Style) -> None:
     """Draw the elements of a line that touch the seabed over it."""
     lines = data.given.lines
-    shown = np.zeros(len(data.given.element_ids), np.bool_)
-    shown[stretch.elements(number)] = True
-    shown &= data.drawn.result.contact
-    here = np.flatnonzero(shown[lines.elements[number]])
+    here = np.flatnonzero(data.drawn.result.contact[lines.elements[number]])
     if not here.size:
         return
     arcs, along = lines.node_arcs(number, data.given.length), heights[lines.nodes[number]]
-    here = here[thinned(np.nan_to_num(along[here]), MOST)]
+    here = here[thinned(np.nan_to_num(along[here]), MOST_POINTS)]
     none = np.full(len(here), np.nan)
     x, y = (np.column_stack([values[here], values[here + 1], none]).ravel() for values in (arcs, along))
     axes.plot(x, y, color=style.color, linewidth=3.5, solid_capstyle="butt", zorder=2)
@@ -253,31 +219,22 @@ def _thick(axes: Axes, data: PlotData, heights: Floats, number: int, stretch: St
 
 def _touchdown_points(axes: Axes, data: PlotData, chosen: Chosen, stretch: Stretch) -> None:
     """Mark where the lines come down on the seabed or leave it."""
-    series = chosen.result.as_series()
-    finder, part = Touchdown(data.given), Part(chosen.step, series)
+    finder, part = Touchdown(data.given), Part(chosen.step, chosen.result.as_series())
     wanted = [one for one in finder.series(part) if one.number in stretch.lines]
-    points = [point for summary in finder.summaries(part, wanted) for point in summary.touchdown]
     low, high = stretch.limits
-    points = [point for point in points if low <= point.arc_length <= high]
+    points = [
+        point
+        for summary in finder.summaries(part, wanted)
+        for point in summary.touchdown
+        if low <= point.arc_length <= high
+    ]
     if not points:
         return
-    x, y = [point.arc_length for point in points], [point.x for point in points]
-    size = 8.0 if len(points) <= 12 else 5.0
-    axes.plot(
-        x,
-        y,
-        linestyle="none",
-        marker="v",
-        markersize=size,
-        color="black",
-        markerfacecolor="white",
-        zorder=5,
-        label="touchdown point",
-    )
-    if len(points) > _LABELLED_POINTS:
-        return
+    places = [point.arc_length for point in points], [point.x for point in points]
+    size, look = (8.0 if len(points) <= 12 else 5.0), {"color": "black", "markerfacecolor": "white", "zorder": 5}
+    axes.plot(*places, "v", markersize=size, label="touchdown point", **look)  # type: ignore[arg-type]
     unit = unit_names(data.given.units).length
-    for point in points:
+    for point in points if len(points) <= _LABELLED_POINTS else ():
         right = point.arc_length < 0.5 * (low + high)
         axes.annotate(
             f"TDP {point.arc_length:.5g} {unit}".rstrip(),
@@ -309,20 +266,11 @@ def _soil(axes: Axes, chosen: Chosen, stretch: Stretch) -> None:
 
 def _line_handles(stretch: Stretch) -> list[Line2D]:
     """What a legend has of the lines: nothing for a single one."""
-    handles = []
-    for place, number in enumerate(stretch.lines if len(stretch.lines) > 1 else ()):
-        style = stretch.style(place)
-        handles.append(
-            Line2D(
-                [],
-                [],
-                color=style.color,
-                linestyle=style.linestyle,
-                marker=style.marker,
-                markersize=4,
-                label=stretch.name(number),
-            )
-        )
+    styles = [(number, stretch.style(place)) for place, number in enumerate(stretch.lines)]
+    handles = [
+        Line2D([], [], color=style.color, linestyle=style.linestyle, marker=style.marker, label=stretch.name(number))
+        for number, style in (styles if len(styles) > 1 else ())
+    ]
     if stretch.left_out:
         handles.append(Line2D([], [], linestyle="none", label=f"and {stretch.left_out} more lines"))
     return handles
@@ -336,4 +284,4 @@ PANELS = {
     "embedment": embedment,
     "stiffness": stiffness,
 }
-"""By name, in the order in which they are drawn."""
+"""By name."""

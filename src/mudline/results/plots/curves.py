@@ -1,19 +1,30 @@
-"""Force-embedment curves: the picture of `mudline curves`, and the panel with evaluated points on their curves."""
+"""Force over embedment: the picture of `mudline curves`, evaluated points on their curves, paths of chosen elements."""
 
 from __future__ import annotations
 
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from numpy.typing import NDArray
 
-from mudline.quantities import ELEMENTS, labelled, unit_names
+from mudline.quantities import ELEMENTS, STATES, labelled, unit_names
 from mudline.results.plot_data import PlotData, Points
-from mudline.results.plots.style import Spelled, plain_texts, style_of, write
-from mudline.scene.numbering import Floats, Indices
+from mudline.results.plots.style import (
+    COLORS,
+    MOST_MARKED,
+    STATE_STYLES,
+    Spelled,
+    Style,
+    above,
+    plain_texts,
+    style_of,
+    write,
+)
+from mudline.scene.numbering import Floats, Indices, Mask
 from mudline.short_repr import cut
 
 _MARGIN = 0.15
@@ -22,8 +33,6 @@ _CYCLE = 10
 """Colours that matplotlib gives one after the other."""
 _MARKERS = ("o", "s", "^", "v", "P")
 """The next one when the colours are used up."""
-_MOST_MARKED = 60
-"""Points of longer curves are not marked one by one."""
 
 _DASHED = Line2D([], [], color="0.3", linestyle="--", linewidth=1.2)
 _ASKED = Line2D([], [], color="0.3", linestyle="none", marker="x", markersize=8, markeredgewidth=1.5)
@@ -53,7 +62,7 @@ def _curves(rows: list[dict[str, Any]], units: str) -> Figure:
 def _curve(axes: Axes, row: dict[str, Any], shape: str) -> Line2D:
     """One curve with its marks; returns what stands for it in the legend."""
     ratios, forces = np.array(row["points"]).T
-    marker = shape if len(ratios) <= _MOST_MARKED else None
+    marker = shape if len(ratios) <= MOST_MARKED else None
     (line,) = axes.plot(ratios, forces, marker=marker, markersize=3.5)
     color = line.get_color()
     static = [(each["ratio"], each["force"]) for each in row.get("static", [])]
@@ -100,7 +109,7 @@ def _legend(figure: Figure, handles: list[Line2D], rows: list[dict[str, Any]]) -
 
 # ------------------------------------------------------------------------------------------- with evaluated points
 
-_MOST_CURVES = 8
+_MOST_CURVES = 6
 _PALEST = 0.65
 """How much of the colour of a point is white at the first step; none is at the last."""
 
@@ -139,15 +148,14 @@ def on_curves(axes: Axes, data: PlotData, spelled: Spelled) -> None:
             rasterized=len(mine) > 1000,
         )
         name = data.curves[index].name
-        text = cut(spelled(str(name)), 30)
+        text = cut(spelled(str(name)), 24)
         label = (f" {text}" if text.startswith("_") else text) if place < _MOST_CURVES else None  # _ hides from legends
         axes.plot([], [], color=style.color, linestyle=line, marker=style.marker, markersize=4, label=label)
     if len(used) > _MOST_CURVES:
         axes.plot([], [], " ", label=f"and {len(used) - _MOST_CURVES} more curves")
     axes.set_xlabel(labelled(ELEMENTS["ratio"].label, "-"))
     axes.set_ylabel(ELEMENTS["force"].axis(data.given.units))
-    title = "curves, evaluated points" + ("\npale: first steps, dark: last steps" if data.steps > 1 else "")
-    plain_texts(axes.legend(loc="best", fontsize="small", title=title, title_fontsize="small"))
+    above(axes, note="pale: first steps, dark: last" if data.steps > 1 else "", columns=2)
 
 
 def _points(data: PlotData) -> Points:
@@ -167,3 +175,99 @@ def _shades(color: str, steps: Indices, count: int) -> Floats:
     pale = _PALEST * (1.0 - part[:, np.newaxis])
     shades: Floats = pale + (1.0 - pale) * np.array(to_rgb(color))
     return shades
+
+
+# ----------------------------------------------------------------------------------------------- force over penetration
+
+_ARROWS = 12
+"""Arrow heads on a path."""
+_STOP = STATES.index("hold")
+"""A pipe that hangs still is a point of its path, and marked as one."""
+_GOING = (("moving down", Style(COLORS[0], "-", "")), ("moving up", Style(COLORS[1], "--", "")))
+
+
+class Cycle(NamedTuple):
+    """An element over the steps: penetration, force per unit length, and state of suction, None without."""
+
+    penetration: Floats
+    force: Floats
+    state: NDArray[np.int8] | None
+
+
+def loop(axes: Axes, data: PlotData, place: int) -> None:
+    """Draw the path of one of the chosen elements."""
+    found = data.loop
+    states = None if found.state is None else found.state[:, place]
+    if states is not None and (states < 0).all():
+        states = None
+    draw_path(axes, Cycle(found.penetration[:, place], found.force[:, place], states))
+    names = unit_names(data.given.units)
+    number = int(data.given.element_ids[data.looped[place]])
+    axes.set_xlabel(labelled(f"penetration of element {number}", names.length))
+    axes.set_ylabel(labelled("seabed reaction\nper unit length", names.line_force).replace(" [", "\n["))
+    above(axes)
+
+
+def draw_path(axes: Axes, path: Cycle) -> None:
+    """Draw a path with arrow heads: by state where there are states, else by whether the pipe moves down or up."""
+    groups: list[tuple[str, Style, Mask]] = []
+    if path.state is not None:
+        for index, (name, style) in enumerate(STATE_STYLES.items()):
+            groups.append((name, style if index == _STOP else style._replace(marker=""), path.state == index))
+    else:
+        down = np.diff(path.penetration, prepend=path.penetration[0]) >= 0.0
+        groups = [(name, style, way) for (name, style), way in zip(_GOING, (down, ~down), strict=True)]
+    arrows = _arrow_steps(path)
+    for name, style, mine in groups:
+        here = np.flatnonzero(mine)
+        if here.size:
+            _ways(axes, path, here, style, name)
+            for at in arrows[mine[arrows]].tolist():
+                start, end = ((path.penetration[k], path.force[k]) for k in (at - 1, at))
+                shape = {"arrowstyle": "-|>", "color": style.color, "mutation_scale": 13.0, "shrinkA": 0, "shrinkB": 0}
+                axes.annotate("", end, start, arrowprops=shape, zorder=4)
+    limits = axes.axis()
+    axes.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
+    axes.axvline(0.0, color="0.4", linewidth=0.8, linestyle=":", zorder=1)
+    axes.axis(limits)  # the path fills the panel, wherever 0 is
+
+
+def _ways(axes: Axes, path: Cycle, here: Indices, style: Style, name: str) -> None:
+    """Draw the way to each of some steps, from the step before; a stop is a point."""
+    back = np.maximum(here - 1, 0)
+    gap = np.full(len(here), np.nan)
+    x, y = (np.column_stack([values[back], values[here], gap]) for values in (path.penetration, path.force))
+    joined = np.append(here[1:] == here[:-1] + 1, False)
+    kept = np.column_stack([np.append(True, ~joined[:-1]), np.ones(len(here), bool), ~joined]).ravel()
+    axes.plot(
+        x.ravel()[kept],
+        y.ravel()[kept],
+        color=style.color,
+        linestyle=style.linestyle,
+        linewidth=1.8,
+        marker=style.marker,
+        markersize=5,
+        markevery=[-2] if style.marker else None,
+        label=name,
+        zorder=3 if style.marker else 2,
+    )
+
+
+def _arrow_steps(path: Cycle) -> Indices:
+    """Steps at even distances on the path, as it is seen: each direction is a part of its span."""
+    with np.errstate(all="ignore"):
+        moves = [
+            np.diff(np.nan_to_num(values)) / (float(np.nanmax(values) - np.nanmin(values)) or 1.0)
+            for values in (path.penetration, path.force)
+            if np.isfinite(values).any()
+        ]
+    if not moves:
+        return np.zeros(0, np.intp)
+    far = np.append(0.0, np.cumsum(np.nan_to_num(np.hypot.reduce(moves) if len(moves) > 1 else moves[0])))
+    places = (np.arange(_ARROWS) + 0.5) / _ARROWS * far[-1]
+    steps = np.unique(np.searchsorted(far, places))
+    steps = steps[(steps > 0) & (steps < len(far))]
+    moved = np.diff(far)[steps - 1] > 0.0
+    known = np.isfinite(path.force[steps]) & np.isfinite(path.force[steps - 1])
+    found: Indices = steps[moved & known]
+    return found

@@ -1,4 +1,4 @@
-"""The figure of results: which panels it has, where they stand, what they share, and the title."""
+"""The figure of results: which panels it has, where they stand, what they share, the title; panels over time."""
 
 from __future__ import annotations
 
@@ -10,16 +10,18 @@ from pathlib import Path
 from typing import BinaryIO, Literal, NamedTuple
 
 import matplotlib as mpl
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mudline.contact import ContactResult
 from mudline.files import replacement, suffix_of
-from mudline.results.plot_data import PICTURES, PlotData
-from mudline.results.plots import along_line, over_time
-from mudline.results.plots.curves import on_curves
+from mudline.quantities import STEPS, labelled, unit_names
+from mudline.results.plot_data import PICTURES, Band, PlotData
+from mudline.results.plots import along_line
+from mudline.results.plots.curves import loop, on_curves
 from mudline.results.plots.stretch import Stretch
-from mudline.results.plots.style import SETTINGS, Spelled, finish, when, write
+from mudline.results.plots.style import COLORS, SETTINGS, Spelled, Style, above, finish, time_label, when, widen, write
 
 MOST_PANELS = 6
 """More have letters that nobody reads on half a page."""
@@ -44,7 +46,7 @@ def panels_of(data: PlotData, spelled: Spelled) -> list[Panel]:
     Of more than that, those are left out that an engineer would miss least: the last ones below.
     """
     stretch, touched, lined = Stretch(data), bool(data.touched.any()), data.elements.size > 0
-    loops = [Panel("loop", "own", partial(over_time.loop, data=data, place=place)) for place in range(len(data.looped))]
+    loops = [Panel("loop", "own", partial(loop, data=data, place=place)) for place in range(len(data.looped))]
     along = {
         name: Panel(name, "arc length", partial(draw, data=data, stretch=stretch))
         for name, draw in along_line.PANELS.items()
@@ -53,10 +55,10 @@ def panels_of(data: PlotData, spelled: Spelled) -> list[Panel]:
         (lined, along["line"]),
         (touched, along["force"]),
         (
-            over_time.touches_down(data),
-            Panel("touchdown", "time", partial(over_time.touchdown, data=data, stretch=stretch)),
+            touches_down(data),
+            Panel("touchdown", "time", partial(touchdown, data=data, stretch=stretch)),
         ),
-        (data.steps > 1, Panel("reaction", "time", partial(over_time.reaction, data=data))),
+        (data.steps > 1, Panel("reaction", "time", partial(reaction, data=data))),
         (lined and data.pulled is not None, along["suction"]),
         (lined and data.slid is not None, along["friction"]),
         (touched and data.on_curve.size, Panel("curves", "own", partial(on_curves, data=data, spelled=spelled))),
@@ -138,3 +140,64 @@ def plot_result(
             with replacement(Path(path)) as stream:
                 write(lambda: figure, form, stream)
     return figure
+
+
+# ----------------------------------------------------------------------------------------------------- panels over time
+
+
+def touches_down(data: PlotData) -> bool:
+    """Whether a line has a touchdown point at some step of a series."""
+    return any(np.isfinite(band.most).any() for band in data.touchdown.values())
+
+
+def touchdown(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+    """Draw the arc length of the first and the last touchdown point of each line over time."""
+    several = len(stretch.lines) > 1
+    for place, number in enumerate(stretch.lines):
+        style = stretch.style(place)
+        name = stretch.name(number) if several else "touchdown point"
+        first, last = (data.touchdown[number, end] for end in ("first", "last"))
+        two = not np.array_equal(first.most, last.most, equal_nan=True)
+        _band(axes, data, first, style, name if several or not two else "first touchdown point")
+        if two:
+            other = Style(style.color if several else COLORS[1], ":" if several else "--", style.marker)
+            _band(axes, data, last, other, None if several else "last touchdown point")
+    axes.set_ylabel(labelled("arc length of touchdown", unit_names(data.given.units).length))
+    above(axes)
+    _time_axis(axes, data)
+
+
+def reaction(axes: Axes, data: PlotData) -> None:
+    """Draw the total reaction over time."""
+    _band(axes, data, data.reaction, Style(COLORS[0], "-", "o"), None)
+    axes.set_ylabel(STEPS["reaction"].axis(data.given.units))
+    _time_axis(axes, data)
+
+
+def _band(axes: Axes, data: PlotData, values: Band, style: Style, label: str | None) -> None:
+    """Draw a figure over time; where steps are too many, the band between its least and largest values."""
+    times = data.bin_times
+    if np.array_equal(values.least, values.most, equal_nan=True):
+        mark = style.marker if len(times) <= 25 else ""
+        axes.plot(
+            times,
+            values.most,
+            color=style.color,
+            linestyle=style.linestyle,
+            linewidth=1.2,
+            marker=mark,
+            markersize=3.5,
+            label=label,
+        )
+    else:
+        axes.fill_between(times, values.least, values.most, color=style.color, linewidth=0.6, label=label)
+    widen(axes, np.concatenate([values.least, values.most]))
+
+
+def _time_axis(axes: Axes, data: PlotData) -> None:
+    """Set the horizontal axis of a panel over time."""
+    times = data.bin_times
+    last = float(data.steps - 1) if data.times is None else float(data.times[-1])
+    beside = 0.01 * (last - float(times[0])) or 0.5
+    axes.set_xlim(float(times[0]) - beside, last + beside)
+    axes.set_xlabel(time_label(data))

@@ -58,12 +58,14 @@ class Stretch:
         beside = max(_BESIDE * (high - low), 2.0 * float(given.length[touching].max()))
         return max(first, low - beside), min(last, high + beside)
 
-    def elements(self, line: int) -> Indices:
-        """The evaluated elements of a line within the stretch and one beside it, along the line."""
+    def elements(self, line: int) -> tuple[Indices, Floats]:
+        """The evaluated elements of a line within the stretch and one beside it, and the arc lengths there."""
         lines = self.data.given.lines
         along = lines.elements[line]
         along = along[self._evaluated[along]]
-        return along[self._within(lines.element_arc[along])]
+        arcs = lines.element_arc[along]
+        within = self._within(arcs)
+        return along[within], arcs[within]
 
     def nodes(self, line: int) -> tuple[Indices, Floats]:
         """The nodes of a line within the stretch and one beside it, along the line, and their arc lengths."""

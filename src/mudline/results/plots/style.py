@@ -13,6 +13,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
+from matplotlib.lines import Line2D
 from matplotlib.ticker import AutoLocator, Formatter, MaxNLocator
 from numpy.typing import NDArray
 
@@ -20,7 +21,7 @@ from mudline.quantities import STATES, unit_names
 from mudline.results.plot_data import PlotData
 from mudline.scene.numbering import Floats, Indices
 
-MOST = 4000
+MOST_POINTS = 4000
 """Points of a line that are drawn."""
 MOST_MARKED = 60
 """Points of longer lines are not marked one by one."""
@@ -120,32 +121,23 @@ def plain_texts(legend: Legend) -> None:
         text.set_parse_math(False)
 
 
-def above(axes: Axes, columns: int = 4) -> None:
-    """A legend above the axes, where it covers nothing."""
+def above(axes: Axes, handles: Sequence[Artist] | None = None, *, note: str = "", columns: int = 3) -> None:
+    """A legend above the axes, where it covers nothing, of these or all labelled ones; a note is its last text."""
+    found = list(axes.get_legend_handles_labels()[0] if handles is None else handles)
+    if note:
+        found.append(Line2D([], [], linestyle="none", label=note))
     legend = axes.legend(
+        handles=found,
         loc="lower left",
         bbox_to_anchor=(0.0, 1.0),
-        ncols=columns,
+        ncols=columns if len(found) <= columns else 2,
         fontsize="small",
         frameon=False,
         borderaxespad=0.1,
-        handlelength=2.6,
+        handlelength=2.2,
+        columnspacing=1.2,
     )
     plain_texts(legend)
-
-
-def legend_above(axes: Axes, handles: Sequence[Artist]) -> None:
-    """A legend of these above the axes."""
-    axes.legend(
-        handles=list(handles),
-        loc="lower left",
-        bbox_to_anchor=(0.0, 1.0),
-        ncols=3 if len(handles) <= 3 else 2,
-        fontsize="small",
-        frameon=False,
-        borderaxespad=0.1,
-        handlelength=2.6,
-    )
 
 
 def time_label(data: PlotData) -> str:
@@ -186,7 +178,7 @@ def widen(axes: Axes, values: Floats) -> None:
         axes.set_ylim(*widened(known))
 
 
-def thinned(values: Floats, most: int = MOST) -> Indices:
+def thinned(values: Floats, most: int = MOST_POINTS) -> Indices:
     """Rows to draw of many: the least and the largest value of each of `most` / 2 pieces, and both ends."""
     if len(values) <= most:
         return np.arange(len(values))
@@ -202,9 +194,9 @@ def thinned(values: Floats, most: int = MOST) -> Indices:
     return np.flatnonzero(drawn)
 
 
-def marked(count: int) -> bool:
-    """Whether so many points are marked one by one."""
-    return count <= MOST_MARKED
+def marker_of(style: Style, count: int) -> str:
+    """The marker of each of so many points; none where there are too many."""
+    return style.marker if count <= MOST_MARKED else ""
 
 
 def is_number(value: float) -> bool:

@@ -252,11 +252,10 @@ def _repeated(scene: ResolvedDeck) -> Iterator[Problem]:
 
 def _fault(scene: ResolvedDeck) -> str:
     """Why the seabed cannot be made from its numbers, or ""."""
-    from mudline.contact.seabed import SeabedError  # noqa: PLC0415 - a flat seabed does without it
     from mudline.scene.contact_input import made_seabed  # noqa: PLC0415 - as above
 
     try:
         made_seabed(scene.seabed)
-    except SeabedError as error:
+    except ValueError as error:
         return str(error)
     return ""
