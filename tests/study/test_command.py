@@ -21,7 +21,7 @@ def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(precision, "SMALLEST", 0.1)
     monkeypatch.setattr(stability, "_COARSE", 1.5)
     monkeypatch.setattr(stability, "_FINE", 1.1)
-    monkeypatch.setattr(report.study, "__kwdefaults__", {**report.study.__kwdefaults__, "timer": Ticking()})
+    monkeypatch.setattr(report.study, "__kwdefaults__", {**(report.study.__kwdefaults__ or {}), "timer": Ticking()})
 
 
 @pytest.fixture

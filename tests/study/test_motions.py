@@ -112,8 +112,9 @@ def test_the_work_of_a_law_is_the_integral_of_its_force() -> None:
 
 
 def pull() -> Pull:
-    factors = (float(value) for value in from_cohesion(np.array(5000.0), np.array(0.3)))
-    return Pull(LinearLaw(5e4), SuctionNumbers(*factors, 0.2, 0.8, 1.0, 1e-3), 170.0, 0.01, 0.1)
+    force, force_exponent, depth, depth_exponent = map(float, from_cohesion(np.array(5000.0), np.array(0.3)))
+    suction = SuctionNumbers(force, force_exponent, depth, depth_exponent, 0.2, 0.8, 1.0, 1e-3)
+    return Pull(LinearLaw(5e4), suction, 170.0, 0.01, 0.1)
 
 
 def test_breakout_is_that_of_an_integration_with_stops() -> None:
