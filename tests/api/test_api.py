@@ -16,6 +16,7 @@ import pytest
 import mudline
 from mudline.deck.loading import load_path
 from tests.builders.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED, UNUSED
+from tests.contact.comparison import plain_loops
 
 EMPTY = '{"format": "mudline-deck/1", "source": "", "units": "user", "sections": []}'
 NAMES = [name for name in mudline.__all__ if name != "__version__"]
@@ -275,7 +276,8 @@ def test_both_backends_of_a_scene_with_history(path: Path) -> None:
     down = np.array([0.0, 0.2, 0.1, 0.15])[:, np.newaxis, np.newaxis] * [1.0, 0.0, 0.0]
     moved = scene.coordinates - down
     plain = scene.contact(backend="numpy").evaluate(moved)
-    fast = scene.contact(backend="fast").evaluate(moved)
+    with plain_loops():
+        fast = scene.contact(backend="fast").evaluate(moved)
     assert plain.force[2, 0] == 0.0
     np.testing.assert_allclose(fast.force, plain.force, rtol=1e-13)
     with pytest.raises(ValueError, match="backend must be auto, numpy or fast"):

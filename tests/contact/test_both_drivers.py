@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mudline.contact import ContactInput, ContactModel, ContactResult, Tension
+from mudline.contact import ContactInput, ContactModel, ContactResult
 from mudline.contact.arrays import FloatArray
 from mudline.contact.plan import Backend
 from mudline.contact.seabed import FlatSeabed, PlanesSeabed, Seabed, SlopingSeabed
@@ -29,15 +29,12 @@ from tests.builders.contact import (
     friction,
     journey,
     on,
-    only,
-    rearranged,
-    renumbered,
     suction,
     trench,
 )
 from tests.contact.bits import EVALUATED, arrays_of, differences, equal_bits, same_bits
 from tests.contact.comparison import Scene, Sizes, compare, plain_loops
-from tests.contact.random_scenes import LARGEST, LAWS, SUBSETS, main, random_scene
+from tests.contact.random_scenes import LARGEST, LAWS, SUBSETS, random_scene
 
 pytestmark = pytest.mark.slow
 
@@ -50,7 +47,6 @@ SEABEDS: list[Seabed] = [
     ),
     ProfileSeabed([0.0, 5.0, 9.0], [0.0, -0.1, 0.1], "CUBIC SPLINE"),
 ]
-TENSIONS: tuple[Tension, ...] = ("keep", "cut")
 BACKENDS: tuple[Backend, ...] = ("numpy", "fast")
 USUAL = Sizes(16384, 4096, 16, 2)
 seeds = st.integers(0, 2**32 - 1)
@@ -121,54 +117,7 @@ def test_any_scene_with_everything(seed: int) -> None:
     assert compare(random_scene(seed, frozenset(LAWS), flat=seed % 2 == 0)) == []
 
 
-def test_a_long_run_says_how_many_scenes_agree(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("sys.argv", ["random_scenes", "--scenes", "3", "--seed", "20", "--compiled", "0"])
-    assert main() in {0, 1}
-    assert capsys.readouterr().out.endswith(" of 3 scenes agree\n")
-
-
-def test_a_long_run_names_the_first_scene_that_differs(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("sys.argv", ["random_scenes", "--scenes", "3", "--seed", "7", "--compiled", "0"])
-    monkeypatch.setattr(
-        "tests.contact.random_scenes.compare", lambda _scene, *, plain: ["force[0] is 1, and 2"] * plain
-    )
-    assert main() == 1
-    assert capsys.readouterr().out == "seed 7 differs:\n  force[0] is 1, and 2\n0 of 3 scenes agree\n"
-
-
 # ------------------------------------------------------------------------------------------------ everything, and parts
-
-
-@settings(max_examples=20)
-@given(st.integers(1, 9), st.integers(0, 9999), st.sampled_from(SEABEDS), st.booleans(), st.booleans())
-def test_everything_at_once(elements: int, seed: int, seabed: Seabed, timed: bool, gaps: bool) -> None:
-    positions, velocities, times = journey(elements, 20, seed)
-    present = np.random.default_rng(seed).random(elements + 1) < (0.8 if gaps else 2.0)
-    inputs = everything(elements, seed, seabed)
-    given_scene = Scene(inputs, positions, None if timed else velocities, times, present if gaps else None, USUAL)
-    assert compare(given_scene, plain=True) == []
-
-
-@settings(max_examples=10)
-@given(st.integers(2, 8), st.integers(0, 9999))
-def test_elements_and_nodes_in_any_order(elements: int, seed: int) -> None:
-    rng = np.random.default_rng(seed)
-    inputs = rearranged(everything(elements, seed), rng.permutation(elements), rng.random(elements) < 0.5)
-    order = rng.permutation(elements + 1)
-    positions, velocities, _ = journey(elements, 12, seed)
-    assert compare(scene(renumbered(inputs, order), positions[:, order], velocities[:, order]), plain=True) == []
-
-
-@settings(max_examples=20)
-@given(st.integers(0, 9999), st.sets(st.sampled_from(LAWS), min_size=1), st.sampled_from(TENSIONS))
-def test_any_choice_of_laws(seed: int, names: set[str], tension: Tension) -> None:
-    inputs = only(everything(8, seed), *names)
-    inputs = replace(inputs, curves=(PULLING, CLAY), tension=tension)
-    assert compare(scene(inputs, journey(8, 12, seed)[0]), plain=True) == []
 
 
 sizes = st.sampled_from([0.0, 5e-324, 1e-300, 1e-160, 1e-12, 1.0, 1e3, 1e12, 1e150, 1e300, LARGEST])

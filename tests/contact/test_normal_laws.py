@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -197,40 +196,6 @@ def test_an_element_on_springs_of_its_nodes_is_in_contact_from_the_wider_zone_on
     assert result.contact[:, 0].tolist() == [False, False, True]
     assert result.contact[:, 1].tolist() == [depth > 0.0 for depth in depths]  # its second node has no spring
     assert not result.force.any()
-
-
-def under(load: float, reaction: Callable[[float], float]) -> float:
-    """The depth at which the reaction carries a load."""
-    low, high = -0.01, 1.0
-    for _ in range(80):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if reaction(middle) < load else (low, middle)
-    return 0.5 * (low + high)
-
-
-@pytest.mark.parametrize(
-    ("one_sided", "static", "light"), [(False, 0.05, 0.0013245553203), (True, 0.055, 0.0063245553203)]
-)
-def test_static_penetration_of_a_line_of_one_element(one_sided: bool, static: float, light: float) -> None:
-    contact = ContactModel(chain([NONE], on("nodal", 2, stiffness=K, half_width=H, one_sided=one_sided)))
-
-    def reaction(depth: float) -> float:
-        return float(contact.evaluate(at_depths([depth, depth])).reaction[0, 0])
-
-    assert under(0.5 * 1000.0 * 5.0, reaction) == pytest.approx(static, rel=1e-12)
-    assert under(100.0, reaction) == pytest.approx(light, rel=1e-10)
-
-
-@pytest.mark.parametrize(("one_sided", "work"), [(False, 62.708333333333), (True, 50.833333333333)])
-def test_work_of_a_node(one_sided: bool, work: float) -> None:
-    contact = ContactModel(chain([], on("nodal", 1, stiffness=K, half_width=H, one_sided=one_sided)))
-    # Simpson's rule is exact on each of the pieces
-    start, end = (0.0, 2.0 * H) if one_sided else (-H, H)
-    done = 0.0
-    for low, high in ((start, end), (end, 0.05)):
-        force = contact.evaluate(at_depths([[low], [0.5 * (low + high)], [high]])).normal_force[:, 0]
-        done += (high - low) / 6.0 * float(force[0] + 4.0 * force[1] + force[2])
-    assert done == pytest.approx(work, rel=1e-11)
 
 
 def on_slope(kind: str, degrees: float) -> tuple[ContactModel, FloatArray]:

@@ -130,14 +130,6 @@ def test_a_node_of_three_elements_rubs_once_under_all_their_weight() -> None:
     assert sideways == pytest.approx(np.array([[-1500.0, 0.0]] + [[-500.0, 0.0]] * 3), abs=1e-6)
 
 
-def test_an_element_written_twice_counts_twice() -> None:
-    twice = chain([LINEAR] * 2, friction(3), trench(2, 0.02, 0.4, 50.0))
-    twice = replace(twice, element_nodes=np.array([[0, 1], [0, 1]], np.intp))
-    results = walk(ContactModel(twice), drawn([(0.0, 0.0), (0.01, 0.0)], nodes=3))
-    assert results[1].normal_force == pytest.approx([2000.0, 2000.0, 0.0])
-    assert results[1].friction == pytest.approx(np.array([[-1000.0, 0.0]] * 2 + [[0.0, 0.0]]))
-
-
 def test_an_element_between_a_node_and_itself() -> None:
     loop = chain([LINEAR] * 2, friction(3), trench(2, 0.02, 0.4, 0.0, {}))
     loop = replace(loop, element_nodes=np.array([[0, 0], [1, 2]], np.intp))

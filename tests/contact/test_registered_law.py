@@ -1,4 +1,9 @@
-"""A normal law of a module of its own is evaluated, stepped, planned and differentiated like the others."""
+"""A normal law of a module of its own is evaluated, stepped and planned like the others.
+
+It is hyperbolic, as the resistance of soft clay is often drawn, with the initial stiffness k:
+
+    F = k z / (1 + z / z0),  dF/dz = k / (1 + z / z0)^2
+"""
 
 from __future__ import annotations
 
@@ -34,13 +39,40 @@ from tests.builders.contact import (
     walk,
 )
 from tests.contact.comparison import Scene, Sizes, compare
-from tests.contact.hyperbolic import HYPERBOLIC
 from tests.contact.single import COMPRESSION, DEPTH, FORCE, SUCTION
 
 pytestmark = pytest.mark.slow
 
 K, Z0 = 5e4, 0.04
 HELD = {"stiffness": K, "reference": Z0}
+
+
+def hyperbolic_reaction(z: Value, _diameter: Value, stiffness: Value, reference: Value) -> tuple[Value, Value]:
+    """Return F and dF/dz."""
+    share = 1.0 / (1.0 + z / reference)
+    return stiffness * z * share, stiffness * share * share
+
+
+def hyperbolic_steepest(_z: Value, _diameter: Value, stiffness: Value, _reference: Value) -> Value:
+    """Return k, the stiffness at the mudline."""
+    return stiffness
+
+
+HYPERBOLIC = register(
+    NormalLaw(
+        name="hyperbolic",
+        summary="hyperbolic resistance",
+        acts_on="elements",
+        parameters=(
+            Parameter("stiffness", "F/L2", "initial stiffness k"),
+            Parameter("reference", "L", "penetration z0 at which half of the largest force acts", above=True),
+        ),
+        reaction=hyperbolic_reaction,
+        steepest=hyperbolic_steepest,
+        equation="F = k z / (1 + z / z0)",
+        source="Duncan and Chang (1970), in the form of a p-y curve",
+    )
+)
 
 
 @pytest.fixture(autouse=True)
@@ -124,40 +156,19 @@ def everything_beside(elements: int, seabed: SlopingSeabed | None = None) -> Con
     )
 
 
-@settings(max_examples=15)
+@settings(max_examples=10)
 @given(st.integers(2, 12), st.integers(0, 9999), st.booleans())
 def test_both_drivers_give_the_same_bits(elements: int, seed: int, slopes: bool) -> None:
     positions, velocities, _ = journey(elements, 12, seed)
     inputs = everything_beside(elements, SlopingSeabed(0.2, 30.0) if slopes else None)
     scene = Scene(inputs, positions, velocities, None, None, Sizes(8, 3, 5, 2))
     assert compare(scene, plain=True) == []
-    if slopes:  # a flat seabed has loops of its own, which take seconds to compile
-        assert compare(scene) == []
 
 
-@pytest.mark.untraced
-@pytest.mark.parametrize("seed", range(4))
-def test_its_tangent_is_that_of_central_differences(seed: int) -> None:
-    contact = ContactModel(everything_beside(4))
-    positions, velocities, _ = journey(4, 4, seed)
-    state = contact.initial_state()
-    for place, rate in zip(positions[:-1], velocities[:-1], strict=True):
-        _, state = contact.step(place, rate, state)
-    points, moving = positions[-1] - np.array([0.05, 0.0, 0.0]), velocities[-1]
-    tangent = contact.tangent(points, moving, state).by_position.dense()
-    columns, smooth = [], []
-    for place in np.ndindex(points.shape):
-        sides = []
-        for size in (1e-7, -1e-7, 2e-7, -2e-7):
-            changed = points.copy()
-            changed[place] += size
-            sides.append(contact.step(changed, moving, state)[0].reaction.ravel())
-        near, far = (sides[0] - sides[1]) / 2e-7, (sides[2] - sides[3]) / 4e-7
-        smooth.append(bool(np.abs(near - far).max() < 1e-4 * (np.abs(near).max() + 1.0)))
-        columns.append(near)
-    expected, known = np.column_stack(columns), np.array(smooth)
-    assert known.mean() > 0.6
-    np.testing.assert_allclose(tangent[:, known], expected[:, known], rtol=0.0, atol=1e-5 * np.abs(expected).max())
+def test_its_loops_are_compiled() -> None:
+    """Alone: with more laws that takes seconds."""
+    inputs = chain([NONE, LINEAR, NONE], on("hyperbolic", [0, 2], stiffness=[K, 2e4], reference=Z0))
+    assert compare(Scene(inputs, journey(3, 12, 1)[0], None, None, None, Sizes(8, 3, 5, 2))) == []
 
 
 def test_what_a_time_step_has_to_resolve() -> None:
@@ -246,7 +257,7 @@ def test_a_law_with_many_parameters_runs_with_numpy_and_the_plan_says_so() -> No
     assert contact.evaluate(at_depths([0.01, 0.01])).force.tolist() == [70.0]
 
 
-@pytest.mark.parametrize("count", range(1, 7))
+@pytest.mark.parametrize("count", [1, 2, 6])
 def test_laws_of_up_to_six_parameters_have_loops(count: int) -> None:
     names = [f"k{number}" for number in range(count)]
 
@@ -275,14 +286,8 @@ def with_an_object(_z: Value, _diameter: Value, stiffness: Value) -> tuple[Value
     return factor * stiffness * _z, factor * stiffness
 
 
-def with_a_format(_z: Value, _diameter: Value, stiffness: Value) -> tuple[Value, Value]:
-    factor = float(f"{1.0:.1f}")  # numba knows no formats of numbers
-    return factor * stiffness * _z, factor * stiffness
-
-
-@pytest.mark.parametrize("reaction", [with_an_object, with_a_format])
-def test_a_law_that_cannot_be_compiled_warns_once_and_is_evaluated_with_numpy(reaction: object) -> None:
-    register(plain_law("of Python", reaction))
+def test_a_law_that_cannot_be_compiled_warns_once_and_is_evaluated_with_numpy() -> None:
+    register(plain_law("of Python", with_an_object))
     contact = ContactModel(chain([NONE], on("of Python", 1, stiffness=1e4)), backend="fast")
     with pytest.warns(RuntimeWarning, match="the laws cannot be compiled and are evaluated with numpy: ") as told:
         result = contact.evaluate(at_depths([[0.01] * 2, [0.02] * 2]))
@@ -319,8 +324,3 @@ def test_a_name_is_given_once() -> None:
         register(plain_law("hyperbolic"))
     with pytest.raises(ValueError, match="contact law 'linear' is already registered"):
         register(plain_law("linear"))
-
-
-def test_an_unknown_law_is_refused_with_those_that_are_known() -> None:
-    with pytest.raises(ValueError, match=r"unknown contact law 'parabolic'; known are linear, .*, hyperbolic"):
-        chain([NONE], on("parabolic", 1, stiffness=1.0))

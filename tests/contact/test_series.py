@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import tracemalloc
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from mudline.contact import ContactModel
-from tests.builders.contact import CURVE, LINEAR, at_depths, chain, everything, journey, mixed
+from tests.builders.contact import CURVE, LINEAR, at_depths, chain, everything, mixed
 from tests.contact.bits import same_bits
 
 
@@ -93,22 +94,32 @@ def test_what_stands_at_an_absent_node_is_not_looked_at() -> None:
     assert same_bits(contact.evaluate(blank, present=present), contact.evaluate(wild, present=present))
 
 
-def test_all_nodes_present_is_the_same_as_not_saying_so() -> None:
-    contact, positions = ContactModel(mixed(6, seed=5)), series(4, 7)
-    assert same_bits(contact.evaluate(positions, present=np.ones(7, bool)), contact.evaluate(positions))
+SLACK = 2**16
+NODES = 10_001
 
 
-@pytest.mark.parametrize("name", ["force", "depth", "gap", "contact"])
-def test_a_series_with_history_has_the_types_and_shapes_of_one_without(name: str) -> None:
-    positions, velocities, times = journey(5, 4, 2)
-    with_history = ContactModel(everything(5, 2))
-    assert with_history.plan.history
-    parts = (
-        with_history.evaluate(positions, velocities=velocities),
-        with_history.evaluate(positions, times=times),
-        with_history.evaluate(positions[0]),
-    )
-    for result, steps in zip(parts, ((4,), (4,), ()), strict=True):
-        plain = ContactModel(mixed(5, seed=2)).evaluate(positions if steps else positions[0])
-        assert getattr(result, name).shape == getattr(plain, name).shape
-        assert getattr(result, name).dtype == getattr(plain, name).dtype
+def peak(model: ContactModel, node_steps: int, *, clock: bool) -> int:
+    """Largest memory while the results of a line that lies still are looked at one part after the other."""
+    points = model.input.coordinates
+    steps = node_steps // len(points)
+    series = np.broadcast_to(points, (steps, *points.shape))
+    times = np.arange(float(steps)) if clock else None
+    tracemalloc.start()
+    try:
+        seen = sum(len(part.result.depth) for part in model.stream(series, times=times))
+        assert seen == steps
+        return tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+
+
+def test_ten_million_node_steps_need_no_more_than_one_million() -> None:
+    model = ContactModel(mixed(NODES - 1, 3), backend="numpy")
+    peak(model, 10**5, clock=False)  # tables are made, work arrays lent
+    assert peak(model, 10**7, clock=False) < peak(model, 10**6, clock=False) + SLACK
+
+
+def test_a_scene_with_history_keeps_the_last_state_only() -> None:
+    model = ContactModel(everything(4000, 3), backend="numpy")  # a few steps at a time
+    peak(model, 10**4, clock=True)
+    assert peak(model, 4 * 10**5, clock=True) < peak(model, 10**5, clock=True) + SLACK

@@ -20,11 +20,9 @@ from tests.builders.contact import (
     at_depths,
     bridge_law,
     chain,
-    everything,
     floats,
     friction,
     heave,
-    journey,
     law_of,
     on,
     suction,
@@ -210,20 +208,6 @@ def test_suction_at_positions_and_velocities() -> None:
     assert found.damping == pytest.approx([1.82 * 601.76573615 / 1e-3])  # at rest, as it moved down
     moving = law_of(contact.stiffest(*heave([0.02, -0.05, -0.06], [0.1, 0.1, 0.01])), "suction")
     assert moving.damping == pytest.approx([16394.56738], rel=1e-9)
-
-
-def test_what_knows_no_positions_is_the_same_at_all_of_them() -> None:
-    inputs = everything(40, 3)
-    positions, velocities, _ = journey(40, 4, 3)
-    contact = ContactModel(inputs)
-    anywhere, there = contact.stiffest(), contact.stiffest(positions, velocities)
-    assert [law.law for law in anywhere.laws] == [law.law for law in there.laws]
-    for law in ("unloading", "suction spring", "lateral"):
-        np.testing.assert_array_equal(law_of(anywhere, law).stiffness, law_of(there, law).stiffness)
-    for law in ("linear", "smoothed", "curve", "nodal", "suction"):
-        known = ~np.isnan(law_of(anywhere, law).stiffness)
-        assert (law_of(there, law).stiffness[known] <= law_of(anywhere, law).stiffness[known] * (1.0 + 1e-12)).all()
-        np.testing.assert_array_equal(np.isnan(law_of(there, law).stiffness), ~known)
 
 
 def test_the_stiffest_of_all_laws_per_length() -> None:

@@ -9,7 +9,8 @@ import pytest
 
 from mudline.contact import ContactInput, ContactModel, LawAssignment
 from mudline.contact.result import Part
-from mudline.contact.touchdown import LineSummary, LineTable, TouchdownPoint, line_summaries
+from mudline.contact.lines import LineSummary, TouchdownPoint
+from mudline.contact.touchdown import LineTable, line_summaries
 from mudline.quantities import LINES
 
 STIFFNESS, WEIGHT = 1000.0, 100.0

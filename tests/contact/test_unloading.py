@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from mudline.contact import ContactModel, ContactState
@@ -262,17 +261,3 @@ def test_unloading_and_reloading_meet_the_virgin_path(
     around = [travel(contact, [z], state)[0][0] for z in (bottom, float(np.nextafter(bottom, 2.0)))]
     assert around[0].force == 0.0
     assert around[1].force <= 1e-6 * scale
-
-
-@settings(max_examples=30)
-@given(pieces=segments, start=starts, stiffness=st.floats(1.0, 1e5), path=places)
-def test_a_closed_loop_takes_work(
-    pieces: list[tuple[float, int]], start: float, stiffness: float, path: list[float]
-) -> None:
-    legs = [np.linspace(here, there, 40) for here, there in pairwise([-0.2, *path, -0.2])]
-    depths = np.concatenate(legs)
-    result = curved(path_of(pieces, start), stiffness).evaluate(at_depths(np.column_stack([depths, depths])))
-    force = result.force[:, 0]
-    mean, way = 0.5 * (force[1:] + force[:-1]), np.diff(depths)
-    within = 0.5 * np.abs(np.diff(force) * way)  # where between two places the kink lies is not seen
-    assert np.sum(mean * way) >= -np.sum(within) - 1e-9

@@ -7,6 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from mudline.contact import ContactInput, ContactModel
 from mudline.contact.arrays import FloatArray
@@ -15,7 +18,7 @@ from mudline.contact.tables import Tables
 from mudline.deck.loading import load_bytes, load_path
 from mudline.diagnostics import DeckError
 from mudline.scene.model import resolve
-from tests.builders.decks import CURVED_BED, LINEAR_BED, METRIC, line_deck
+from tests.builders.decks import CURVED_BED, FOOT, IMPERIAL, LINEAR_BED, METRIC, POUND, Units, full_bed, line_deck
 from tests.builders.scenes import scene_of
 
 RUBBING = LINEAR_BED + " FRICTION=0.3, 0.5\n"
@@ -342,3 +345,34 @@ def test_a_surface_without_scipy_names_the_extra(tmp_path: Path, monkeypatch: py
     path.write_text(line_deck(METRIC, LINEAR_BED + "*SEABED PROFILE\n TYPE=3D\n FILE=bed.txt\n"))
     with pytest.raises(DeckError, match=r"mudline\[study\]"):
         resolve(load_path(path)).contact()
+
+
+def model(units: Units) -> ContactModel:
+    return scene_of(line_deck(units, full_bed(units), span=5.0), f"deck.{units.suffix}").contact()
+
+
+METRES, FEET = model(METRIC), model(IMPERIAL)
+
+
+@settings(max_examples=15)
+@given(st.lists(st.tuples(*(st.floats(-0.3, 0.3),) * 3), min_size=2, max_size=5))
+def test_every_feature_is_the_same_in_feet_and_pounds(moves: list[tuple[float, float, float]]) -> None:
+    start = METRES.input.coordinates
+    series = np.array([start + np.array([0.2 * up, along, across]) for up, along, across in moves])
+    times = np.arange(len(moves), dtype=np.float64)
+    metric = METRES.evaluate(series, times=times)
+    imperial = FEET.evaluate(series / FOOT, times=times)
+
+    def same(ours: NDArray[np.float64], theirs: NDArray[np.float64], factor: float, least: float = 1.0) -> None:
+        # relative to the largest value; forces at least to the weight of the line:
+        # round-off of positions times a stiffness is a force
+        scale = max(float(np.nanmax(np.abs(ours))), least)
+        assert np.allclose(theirs * factor / scale, ours / scale, rtol=0.0, atol=1e-12, equal_nan=True)
+
+    same(metric.depth, imperial.depth, FOOT)
+    same(metric.ratio, imperial.ratio, 1.0)
+    same(metric.force, imperial.force, POUND / FOOT, 1000.0)
+    same(metric.normal_force, imperial.normal_force, POUND, 1000.0)
+    assert metric.friction is not None
+    assert imperial.friction is not None
+    same(metric.friction, imperial.friction, POUND, 1000.0)

@@ -55,19 +55,9 @@ def test_a_generator_that_runs_beyond_the_nodes_is_told_once() -> None:
     assert len(ends_of(scene_of(text))) == 25
 
 
-def test_two_generators_are_told_each() -> None:
-    text = ELEMENT + " 1, 1, 2\n GEN=1, 25\n 101, 1, 2\n GEN=101, 25\n"
-    assert reported(text) == [("E", "REF006", NODES_END + 3, 2), ("E", "REF006", NODES_END + 5, 2)]
-
-
 def test_the_later_definition_holds() -> None:
     text = ELEMENT + " 1, 1, 2\n 1, 3, 4\n"
     assert ends_of(scene_of(text)) == {1: [3, 4]}
-    assert reported(text) == [("E", "REF007", NODES_END + 3, 2)]
-
-
-def test_an_overridden_row_is_not_looked_at() -> None:
-    text = ELEMENT + " 1, 1, 99\n 1, 3, 4\n"
     assert reported(text) == [("E", "REF007", NODES_END + 3, 2)]
 
 

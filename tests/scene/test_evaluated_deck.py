@@ -62,12 +62,12 @@ def in_deck(scene: Scene, *, written: bool = False) -> list[Equation]:
 @pytest.mark.untraced
 def test_no_equation_is_left_in_random_decks() -> None:
     met = 0
-    for seed in range(200):
+    for seed in range(60):
         number = re.compile(r"(?<=[ ,=])\d+\.\d+(?=[,\n])")
         scene = resolve(load_bytes(number.sub("=[soil]", random_deck(seed)).encode(), NAME))
         assert in_deck(scene) == []
         met += len(in_deck(scene, written=True))
-    assert met > 2000
+    assert met > 500
 
 
 @pytest.mark.parametrize("package", WITHOUT)

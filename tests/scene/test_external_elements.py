@@ -82,11 +82,6 @@ def test_field_that_is_too_long_for_csv(file: Path) -> None:
         read(file, f'{HEADER}\n1,1,2,0.5,,"{"x" * 200_000}"\n')
 
 
-def test_missing_file(file: Path) -> None:
-    with pytest.raises(FileNotFoundError):
-        read_external(file)
-
-
 def test_scene_takes_the_elements(file: Path) -> None:
     deck = load_bytes(
         b"$MODEL\n*LINES\n LINE=Riser\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=Upper\n STIFFNESS=1000.0\n", "d.keyxm"

@@ -13,22 +13,6 @@ RESTART = "$LOAD CASE\n*RESTART\n LAST=static\n"
 # -------------------------------------------------------------------------------- what is not read may define a name
 
 
-@pytest.mark.parametrize(
-    "lines",
-    [
-        "*LINES\n LINE=SCR, SECTION=Top, 100.0, ADDITIONAL=Upper, Coated Pipe\n",
-        "*LINES\n LINE = SCR\n SECTION = Top\n ADDITIONAL= Upper , Coated Pipe\n",
-        "*LINE PATH SECTIONS\n LINE=scr\n SECTION=top, 0, 100\n ADDITIONAL=UPPER,COATED PIPE\n",
-        "*LINE SECTION GROUPS\n NAME=scr\n SECTION=Top, 100\n ADDITIONAL=Upper\n ADDITIONAL=Coated Pipe\n",
-    ],
-)
-@pytest.mark.parametrize("name", ["SCR", "Top", "upper", "COATED PIPE"])
-def test_names_of_lines_are_sets(lines: str, name: str) -> None:
-    text = f"$MODEL\n{lines}*SEABED PROPERTIES\n TYPE=ELASTIC\n SET={name}\n STIFFNESS=1\n"
-    assert reported(text) == []
-    assert scene_of(text).laws.uncertain
-
-
 def test_a_set_of_the_deck_goes_before_one_of_a_line() -> None:
     text = PIPE + "*LINES\n LINE=SCR\n*ELEMENT SETS\n SET=scr\n 1\n"
     named = scene_of(text).set_table.named["scr"]

@@ -128,7 +128,7 @@ _line = st.one_of(
 
 
 @given(st.lists(_line, max_size=14))
-@settings(max_examples=75)
+@settings(max_examples=40)
 def test_no_block_of_lines_raises(lines: list[str]) -> None:
     scene = scene_of("".join(f"{line}\n" for line in ("$MODEL", *lines)))
     found = scene.deck.diagnose(scene.problems)

@@ -148,11 +148,3 @@ def test_a_generator_of_which_a_value_is_not_known_makes_nothing(increment: str)
 def test_coordinates_that_overflow_warn_of_nothing() -> None:
     scene = scene_of(NODE + " 1, 1.7E308, 0\n 3, -1.7E308, 0\n GEN=1, 3\n*ELEMENT\n 1, 1, 3\n")
     assert not np.isfinite(scene.length).any()
-
-
-def test_only_the_first_thousand_are_listed() -> None:
-    text = NODE + "".join(f" {1 + row % 10}, 0, {row}\n" for row in range(3000))
-    scene = scene_of(text)
-    assert len(scene.problems) == 1001
-    assert scene.problems[-1].message == "and more of the same: the first 1000 are listed"
-    assert scene.coordinates[:, 1].tolist() == list(range(2990, 3000))

@@ -55,23 +55,6 @@ def test_a_range_holds_the_indices_of_its_numbers(batches: list[list[int]], star
     assert settled.between(start, start + span, step).tolist() == expected
 
 
-@given(_BATCHES)
-def test_found_is_the_definition_that_holds_so_far(batches: list[list[int]]) -> None:
-    found = Definitions()
-    held: dict[int, float] = {}
-    row = 0
-    for ids in batches:
-        values = np.arange(row, row + len(ids), dtype=np.float64)[:, np.newaxis]
-        found.add(Batch(np.array(ids, dtype=np.int64), values, Where()))
-        held |= dict(zip(ids, values[:, 0].tolist(), strict=True))
-        row += len(ids)
-        for number in range(-6, 42):
-            given_values = found.find(number)
-            assert (None if given_values is None else given_values.tolist()) == (
-                [held[number]] if number in held else None
-            )
-
-
 def test_large_and_small_batches_are_found_alike() -> None:
     """More rows than a dictionary takes go into a sorted table, which later ones override."""
     found = Definitions()

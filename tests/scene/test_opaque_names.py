@@ -81,7 +81,7 @@ _CASES = st.sampled_from([str.upper, str.lower, str.title])
 
 
 @given(_KEYWORDS, names, names, st.lists(names, min_size=1, max_size=4), st.data())
-@settings(max_examples=50)
+@settings(max_examples=25)
 def test_any_name_is_found(keyword: str, line: str, section: str, more: list[str], data: st.DataObject) -> None:
     key = "NAME" if keyword == "LINE SECTION GROUPS" else "LINE"
     listed = ",".join(data.draw(pads) + name + data.draw(pads) for name in more)
@@ -115,7 +115,7 @@ _pieces = st.lists(
 
 @given(_pieces | texts)
 @example('ADDITIONAL=a, "b, c" d, {e, "f}, g, LINE={h')
-@settings(max_examples=150)
+@settings(max_examples=80)
 def test_lines_are_cut_as_the_reader_of_fields_does(line: str) -> None:
     line = " " + line.replace("$", "").replace("*", "")
     wanted = {folded(bare(name)) for name in _slowly(line)} - {""}
@@ -128,20 +128,7 @@ def test_a_line_of_very_many_names() -> None:
 
 
 @pytest.mark.untraced
-@pytest.mark.slow
-def test_very_many_lines() -> None:
-    section = " SECTION=Joint {0}, 12.2, ADDITIONAL=Riser, Joints {0}\n"
-
-    def lines(count: int) -> Deck:
-        return deck_of("*LINES\n LINE=SCR\n" + "".join(section.format(index) for index in range(count)))
-
-    assert call_growth(opaque_set_names, lines(1_000), lines(2_000)) < TWOFOLD
-    assert growth(opaque_set_names, lines(2_500), lines(10_000)) < FOURFOLD
-    assert len(opaque_set_names(lines(10_000))) == 20_002
-
-
-@pytest.mark.untraced
-@pytest.mark.parametrize("unit", ["a=", "a ", '"', "{", '{"', "= ", "LINE=", "[=", "=[", "a,"])
+@pytest.mark.parametrize("unit", ["a=", '{"', "=[", "a,"])
 def test_no_line_takes_long(unit: str, monkeypatch: pytest.MonkeyPatch) -> None:
     def line(count: int) -> Deck:
         return deck_of(f"*LINES\n LINE={unit * count}\n LINE=SCR\n")

@@ -142,14 +142,6 @@ def test_archive_of_all_nodes(tmp_path: Path) -> None:
     assert found.velocities is None
 
 
-def test_archive_of_one_state(tmp_path: Path) -> None:
-    found = read_positions(saved(tmp_path, positions=STATE, velocities=2 * STATE), NODES)
-    assert_same(found, STATE[np.newaxis])
-    assert found.time is None
-    assert found.velocities is not None
-    assert np.array_equal(found.velocities[0], 2 * STATE)
-
-
 def test_archive_of_one_state_at_a_time(tmp_path: Path) -> None:
     found = read_positions(saved(tmp_path, positions=STATE, time=np.array(2.5)), NODES)
     assert found.time is not None
@@ -233,12 +225,6 @@ def test_member_that_is_no_array(tmp_path: Path) -> None:
     with zipfile.ZipFile(tmp_path / "p.npz", "w") as archive:
         archive.writestr("positions.npy", b"no array")
     assert refusal(tmp_path / "p.npz").message.startswith("not an NPZ archive: ")
-
-
-def test_missing_file(tmp_path: Path) -> None:
-    for suffix in (".npy", ".npz"):
-        with pytest.raises(FileNotFoundError):
-            read_positions(tmp_path / f"nowhere{suffix}", NODES)
 
 
 def archive_bytes(*, compressed: bool) -> bytes:

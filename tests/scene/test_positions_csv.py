@@ -70,10 +70,6 @@ def test_spelling_does_not_matter(file: Path, text: str) -> None:
     assert_same(read_positions(write(file, text), NODES), np.array([[[1.0, 2, 3], [4, 5, 6], [7, 8, 9]]]))
 
 
-def test_other_suffixes_are_csv(tmp_path: Path) -> None:
-    assert read_positions(write(tmp_path / "positions.txt", ONE), NODES).missing == 0
-
-
 def test_velocities(file: Path) -> None:
     text = "time,node,x,y,z,vx,vy,vz\n0,10,1,2,3,0.1,0.2,0.3\n"
     found = read_positions(write(file, text), NODES)
@@ -149,11 +145,6 @@ def test_sparse_series_does_not_fill_the_memory(file: Path) -> None:
     tracemalloc.stop()
     assert found.message == "node 2 is missing at time 1.0"
     assert peak < 20e6
-
-
-def test_missing_file(tmp_path: Path) -> None:
-    with pytest.raises(FileNotFoundError):
-        read_positions(tmp_path / "nowhere.csv", NODES)
 
 
 @given(values=st.lists(st.tuples(*[st.floats(allow_nan=False, allow_infinity=False)] * 3), min_size=3, max_size=3))

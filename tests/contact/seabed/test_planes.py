@@ -16,17 +16,6 @@ ANGLES = st.floats(-89.9, 89.9)
 TURNS = st.floats(-720.0, 720.0)
 
 
-def test_worked_slope_of_ten_degrees() -> None:
-    gap, normal = located(SlopingSeabed(10.0), [[-0.05, 0.0, 3.0]])
-    assert -gap[0] == pytest.approx(0.049240387651, rel=1e-11)
-    force = 50000.0 * -gap[0] * normal[0]
-    assert force == pytest.approx([2424.615776, -427.52517916, 0.0], rel=1e-9)
-    tangent = 50000.0 * np.outer(normal[0], normal[0])
-    assert tangent[1, 1] == pytest.approx(1507.6844804, rel=1e-10)
-    assert tangent[0, 1] == pytest.approx(-8550.5035831, rel=1e-10)
-    assert tangent[0, 0] == pytest.approx(48492.31552, rel=1e-10)
-
-
 def test_a_flat_seabed_is_a_slope_of_nothing() -> None:
     assert np.array_equal(located(FlatSeabed(), cloud())[0], located(SlopingSeabed(0.0, 33.0), cloud())[0])
 

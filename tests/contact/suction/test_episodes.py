@@ -187,15 +187,6 @@ def test_full_cycle_on_a_curve() -> None:
     assert states == [COMPRESSION, COMPRESSION, SUCTION, SUCTION, HOLD, *[COMPRESSION] * 3]
 
 
-def test_a_closed_cycle_takes_work() -> None:
-    down = np.linspace(-0.3, 0.05, 351)
-    depths = np.concatenate([down, down[-2::-1]])
-    rates = np.where(np.arange(len(depths)) < len(down), -0.1, 0.1)
-    forces = np.array(life(pipe(unloading=True), list(zip(depths.tolist(), rates.tolist(), strict=True)))[0])
-    lost = np.sum(0.5 * (forces[1:] + forces[:-1]) * np.diff(depths))
-    assert lost == pytest.approx(0.5 * 2500.0**2 * (1.0 / K - 1.0 / KU) + 178.18238727, rel=2e-3)
-
-
 def test_a_spring_against_uplift_acts_above_the_seabed_whatever_the_trench() -> None:
     """Trench bottom 0.045 m; the spring of 800 N/m2 reaches 0.1 m above the mudline, with and without unloading."""
     spring = on("suction spring", 1, stiffness=800.0, extent=0.1)

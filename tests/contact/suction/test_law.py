@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from mudline.contact import ElementError
-from mudline.contact.laws.suction import from_cohesion
+from mudline.contact.laws.linear import spring_suction
+from mudline.contact.laws.suction import from_cohesion, step, trapezoid
 from tests.builders.contact import LINEAR, bridge_law, chain, floats, suction
-from tests.contact.single import DEPTH, FORCE, breakout, largest, pull
+from tests.contact.single import BROKEN, DEPTH, FORCE, SUCTION, breakout, largest, lifted, pull
 
 # D, cu, v, alpha_f, alpha_D, F_max, Delta_B, dF/dv
 WORKED = [
@@ -22,17 +23,6 @@ WORKED = [
     (0.27305, 10000.0, 0.05, 3863.1058759, 0.267589, 2252.9482273, 0.12280059122, 8110.6136184),
 ]
 
-# v, F_max, Delta_B, slope of the rise, dF/dv, without a cap
-SLOW = [
-    (1e-6, 173.55113405, 0.0080974323878, 107164.29958, 31239204.13),
-    (1e-5, 262.68027113, 0.014734904669, 89135.38195, 4728244.8803),
-    (1e-4, 397.58267911, 0.026813118677, 74139.581429, 715648.82239),
-    (1e-3, 601.76573615, 0.048791855079, 61666.617838, 108317.83251),
-    (1e-2, 910.80929887, 0.08878658058, 51292.058604, 16394.56738),
-    (1e-1, 1378.5656595, 0.16156501691, 42662.876092, 2481.4181871),
-    (1.0, 2086.5435606, 0.294, 35485.434704, 375.57784091),
-]
-
 FOOT, POUND = 0.3048, 4.4482216152605
 
 
@@ -44,16 +34,6 @@ def test_worked_table_of_constants() -> None:
     assert largest(law, v)[0] == pytest.approx(force, rel=1e-10)
     assert largest(law, v)[1] == pytest.approx(slope, rel=1e-9)
     assert breakout(law, v) == pytest.approx(depth, rel=1e-10)
-
-
-def test_table_of_small_velocities_without_a_cap() -> None:
-    v, force, depth, rise, slope = np.array(SLOW).T
-    law = bridge_law(len(v), regularisation=0.0)
-    assert largest(law, v)[0] == pytest.approx(force, rel=1e-10)
-    assert largest(law, v)[1] == pytest.approx(slope, rel=1e-9)
-    found = pull(law, 0.1 * depth, v)
-    assert found.depth == pytest.approx(depth, rel=1e-10)
-    assert -found.by_uplift == pytest.approx(rise, rel=1e-10)
 
 
 @pytest.mark.parametrize(
@@ -135,3 +115,56 @@ def test_a_value_out_of_range_is_refused_and_the_element_named(field: str, value
     with pytest.raises(ElementError, match=f"element 12 has a suction law.*{what}") as caught:
         chain([LINEAR] * 3, suction(law))
     assert caught.value.element == 12
+
+
+def test_corners_exactly() -> None:
+    first, second = np.array([0.25, 0.5]), np.array([0.75, 0.5])
+    part, slope = trapezoid(first, first, second)
+    assert part.tolist() == [1.0, 1.0]
+    assert slope.tolist() == [0.0, 0.0]
+    assert trapezoid(second, first, second)[0].tolist() == [1.0, 1.0]
+    for end in (0.0, 1.0):
+        ends = trapezoid(np.full(2, end), first, second)
+        assert [values.tolist() for values in ends] == [[0.0, 0.0], [0.0, 0.0]]
+
+
+@pytest.mark.parametrize("share", [-np.inf, -1.0, 1.0 + 1e-15, 2.0, 1e300, np.inf])
+def test_nothing_outside(share: float) -> None:
+    values = trapezoid(floats(share), floats(0.01), floats(0.99))
+    assert [array.item() for array in values] == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("corner", [0.2, 0.8])
+def test_on_a_corner_the_whole_force_acts_and_the_slope_is_that_of_the_plateau(corner: float) -> None:
+    law = bridge_law(corners=(corner, corner))._replace(depth_exponent=floats(0.0), depth_factor=floats(1.0))
+    suction = pull(law, corner, 0.1)
+    assert suction.force.item() == pytest.approx(-FORCE, rel=1e-10)
+    assert suction.by_uplift.item() == 0.0
+    assert not np.signbit(suction.by_uplift.item())
+
+
+def test_breakout_exactly_at_the_end() -> None:
+    law = bridge_law(2)._replace(depth_exponent=floats(0.0, 2), depth_factor=floats(1.0, 2))
+    uplift = np.array([np.nextafter(1.0, 0.0), 1.0])
+    suction, after = step(law, lifted(law), uplift, floats(0.1, 2), np.zeros(2, np.bool_))
+    assert after.state.tolist() == [SUCTION, BROKEN]
+    assert after.armed.tolist() == [True, False]
+    assert suction.force[0] < 0.0
+    assert suction.force[1] == 0.0
+
+
+def test_a_spring_against_uplift_has_an_extent_and_no_history() -> None:
+    uplift = np.array([-0.1, 0.0, 1e-3, 0.05, np.nextafter(0.05, 1.0), 1e308])
+    with np.errstate(over="ignore"):  # as the drivers ask
+        force, stiffness = spring_suction(uplift, floats(15000.0, 6), floats(0.05, 6))
+        twice, _ = spring_suction(np.stack([uplift, uplift]), floats(15000.0, 6), floats(0.05, 6))
+    assert force == pytest.approx([0.0, 0.0, -15.0, -750.0, 0.0, 0.0], rel=1e-15)
+    assert stiffness.tolist() == [0.0, 0.0, 15000.0, 15000.0, 0.0, 0.0]
+    assert not np.signbit(force[[0, 1, 4, 5]]).any()
+    assert np.array_equal(twice[1], force)
+
+
+def test_no_spring_against_uplift_without_a_stiffness() -> None:
+    for values in spring_suction(floats(0.01), floats(0.0), floats(0.05)):
+        assert values.item() == 0.0
+        assert not np.signbit(values.item())

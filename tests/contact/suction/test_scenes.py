@@ -8,6 +8,7 @@ import pytest
 from mudline.contact import ContactModel, ElementError
 from mudline.curves import ForceCurve
 from tests.builders.contact import CURVE, LINEAR, NONE, PULLING, at_depths, bridge_law, chain, heave, on, suction, walk
+from tests.contact.comparison import plain_loops
 from tests.contact.single import BROKEN, COMPRESSION, DEPTH, FORCE, FREE, SUCTION
 
 pytestmark = pytest.mark.slow
@@ -150,12 +151,13 @@ def test_a_curve_that_pulls_beside_suction_is_refused_where_it_does(backend: str
     inputs = chain([CURVE] * 2, suction(bridge_law(1), [1]), curves=(PULLS,))
     contact = ContactModel(inputs, backend=backend)  # type: ignore[arg-type]  # from the parameters
     positions, velocities = heave([0.02, 0.04, 0.06, -0.08], [0.0, 0.0, 0.0, 0.1], nodes=3)
-    with pytest.raises(ElementError, match="element 12 at step 2: its curve pulls there, and suction acts") as caught:
-        contact.evaluate(positions, velocities=velocities)
-    assert (caught.value.element, caught.value.step) == (12, 2)
-    _, state = contact.step(positions[1], velocities[1], contact.initial_state())
-    with pytest.raises(ElementError, match="element 12 at step 0: its curve pulls there"):
-        contact.step(positions[2], velocities[2], state)
+    with plain_loops():
+        with pytest.raises(ElementError, match="element 12 at step 2: its curve pulls there, and suction acts") as info:
+            contact.evaluate(positions, velocities=velocities)
+        assert (info.value.element, info.value.step) == (12, 2)
+        _, state = contact.step(positions[1], velocities[1], contact.initial_state())
+        with pytest.raises(ElementError, match="element 12 at step 0: its curve pulls there"):
+            contact.step(positions[2], velocities[2], state)
 
 
 def test_a_curve_that_pulls_is_accepted_where_it_is_cut_or_its_element_has_no_suction() -> None:
