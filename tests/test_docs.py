@@ -38,7 +38,7 @@ JSON = {
         "evaluate -q samples/slope-friction.keyxm --positions samples/slope-friction.csv",
     ),
     "series": ("evaluate -q samples/scr-touchdown.keyxm --positions samples/positions.csv --summary-only",),
-    "cases": ("evaluate -q samples", "evaluate -q samples --positions samples/{name}.csv"),
+    "cases": ("batch -q samples -o results", "batch -q samples -o results --positions samples/{name}.csv"),
     "diff": (
         "diff samples/parametric.keyxm samples/variations.keyxm",
         "diff samples/variations.keyxm samples/variations.keyxm",

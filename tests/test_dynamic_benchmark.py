@@ -186,16 +186,6 @@ def test_the_bouncing_beam_comes_out_as_it_is_in_the_table() -> None:
     assert last + beam.start[-1, 0] == pytest.approx(column(kept, "last node [m]"), abs=1e-6)
 
 
-def test_the_beam_element_comes_closer_with_the_square_of_its_length() -> None:
-    off = {
-        row["parts of an element"]: float(row["to 0.5 s [m]"])
-        for row in kept_rows("bouncing")
-        if row["model"] == "cable"
-    }
-    for parts in (2, 3):
-        assert off[str(parts)] * parts**2 == pytest.approx(off["1"], rel=0.2)
-
-
 def test_rows_of_other_programs_name_the_versions_that_are_installed() -> None:
     programs = {row["source"] for row in kept_rows("chains")} | {row["program"] for row in kept_rows("bouncing")}
     for peer, name in ((MOORDYN, "MoorDyn"), (EXUDYN, "Exudyn")):

@@ -76,7 +76,9 @@ def test_results_are_those_of_evaluate(decks: Path, archive: Path) -> None:
     index(decks, archive=archive)
     (row,) = ask(archive, "SELECT * FROM results WHERE file = 'decks/a.keyxm'")
     (found,) = [
-        one for one in run("evaluate", decks, "--output-format", "json").json() if one["deck"].endswith("a.keyxm")
+        one
+        for one in run("batch", decks, "-o", "out", "--output-format", "json").json()
+        if one["deck"].endswith("a.keyxm")
     ]
     names = (set(row) & set(found)) - {"deck"}
     assert {name: row[name] for name in names} == {name: found[name] for name in names}

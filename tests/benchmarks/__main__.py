@@ -15,7 +15,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from tests.benchmarks import archive, commands, decks, editor, evaluation, reading, start
+from tests.benchmarks import commands, decks, editor, evaluation, reading, start
 from tests.benchmarks.bench import Bench, Results
 from tests.benchmarks.page import QUICK, write
 from tests.benchmarks.peers import FOLDER, PEERS, Environment, installed
@@ -27,7 +27,6 @@ SUBJECTS: dict[str, Callable[[Bench], None]] = {
     "growth": reading.growth,
     "start": start.run,
     "decks": decks.run,
-    "archive": archive.run,
     "commands": commands.run,
     "evaluation": evaluation.run,
     "editor": editor.run,

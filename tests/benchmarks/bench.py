@@ -161,4 +161,4 @@ class Bench:
         self.results.series[panel] = series
 
 
-_SUFFIXES = {"abaqus": ".inp", "opm-curve": ".data", "opm-nodes": ".data", "nastran": ".bdf", "dyna": ".k"}
+_SUFFIXES = {"abaqus": ".inp", "opm-curve": ".data", "opm-nodes": ".data"}

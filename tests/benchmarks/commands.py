@@ -1,20 +1,15 @@
-"""Commands and conversions of large tables, and chains of subsets and of parameters."""
+"""Commands and conversions of large tables."""
 
 from __future__ import annotations
 
 import shutil
 from dataclasses import replace
-from pathlib import Path
 from statistics import median
 
 from tests.benchmarks.bench import Bench, Table, Work
 from tests.benchmarks.reading import ROWS
-from tests.benchmarks.runner import Job, cpu, figure
+from tests.benchmarks.runner import cpu, figure
 
-LINKS = 10**5
-GENERATED = 10**7
-
-_MODEL = "$MODEL\n*NODE\n 1, 0.0, 0.0\n 2, 0.0, 1.0\n*ELEMENT\n 1, 1, 2\n"
 _OURS = {
     "json write": ("", "return deck.to_json()"),
     "json read": ("; text = deck.to_json()", "return mudline.from_json(text)"),
@@ -45,7 +40,6 @@ def run(bench: Bench) -> None:
     """Measure all of it."""
     _format(bench)
     _conversions(bench)
-    _chains(bench)
 
 
 def _format(bench: Bench) -> None:
@@ -76,51 +70,3 @@ def _conversions(bench: Bench) -> None:
             rows.append([what, step, f"{times.median:.2f}", peer, f"{other:.2f}", f"{other / times.median:.1f}"])
     heads = ["table", "step", "s", "peer", "s of the peer", "peer / mudline"]
     bench.results.tables[f"Forms of a deck, {count:,} rows"] = Table(heads, rows)
-
-
-def sets(count: int) -> str:
-    """Sets of which each has the next as its subset."""
-    links = "".join(f" SET=S{i}\n SUBSET=S{i + 1}\n" for i in range(count))
-    return f"{_MODEL}*ELEMENT SETS\n{links} SET=S{count}\n 1\n"
-
-
-def parameters(count: int) -> str:
-    """Parameters of which each is defined by the next."""
-    links = "".join(f" p{i}, =[p{i + 1} + 1]\n" for i in range(count))
-    return f"$PREPROCESSOR\n*PARAMETERS\n{links} p{count}, 1.0\n{_MODEL}"
-
-
-def generated(step: int) -> str:
-    """A set of very many numbers."""
-    return f"{_MODEL}*ELEMENT SETS\n SET=A\n GEN=1, {GENERATED * step}, {step}\n"
-
-
-def _chains(bench: Bench) -> None:
-    """Decks that are easily read in time that grows with the square of their length."""
-    count = bench.size(LINKS)
-
-    def written(name: str, text: str) -> Path:
-        path = bench.folder / name
-        path.write_text(text, encoding="utf-8")
-        return path
-
-    def lint(name: str, text: str) -> Job:
-        return bench.mudline("lint", "--no-cache", written(name, text))
-
-    def diff(step: int) -> Job:
-        sides = (written(f"generated-{step}-{side}.keyxm", generated(step)) for side in "ab")
-        return bench.mudline("diff", *sides)
-
-    jobs = {
-        f"`lint`, a chain of {count:,} subsets": lint("subsets.keyxm", sets(count)),
-        f"`lint`, a chain of {count:,} parameters": lint("parameters.keyxm", parameters(count)),
-        "`lint`, one set": lint("one-set.keyxm", sets(1)),
-        "`diff`, sets of 10^7 elements by GEN=": diff(1),
-        "`diff`, the same with an increment of 2": diff(2),
-    }
-    found = bench.costs(jobs, 3, warm=False)
-    rows = [
-        [name, f"{median(cpu(costs)):.2f}", f"{max(cost.memory for cost in costs):.0f}"]
-        for name, costs in found.items()
-    ]
-    bench.results.tables["Chains and generated sets"] = Table(["command", "s of processor time", "peak MB"], rows)

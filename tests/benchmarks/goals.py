@@ -25,11 +25,6 @@ SPELLINGS = {
 """Ways to spell a number or a row: what the page calls them, and how many times as fast as np.loadtxt the reader was
 before it was rewritten in numpy (medians of the same benchmark)."""
 
-SPELLINGS_BEFORE = (
-    "The goal of a row is what the reader reached before it was rewritten, in the same comparison: no spelling may\n"
-    "have become slower. np.loadtxt reads the same text, but for the exponent D, which it reads as E."
-)
-
 BAD_FIELDS = (1, 10, 100, 500)
 
 
@@ -88,9 +83,6 @@ GOALS = (
     Goal("linear", _DECKS, "each of 10 000 decks / each of 1000", "at most", 1.1),
     Goal("cached", _DECKS, "10 000 decks: first run / second run, from the cache", "at least", 15.0),
     Goal("flat", _DECKS, "peak memory: 10^5 decks / 10^4 decks", "at most", 1.25),
-    Goal("index first", _DECKS, "10 000 decks: first `mudline index` / `mudline validate`", "at most", 3.0),
-    Goal("index second", _DECKS, "10 000 decks: first `mudline index` / second", "at least", 10.0),
-    Goal("questions", _DECKS, "slowest ready question about 10 000 decks, whole process", "at most", 1.0, "s"),
     Goal("format", _COMMANDS, "`mudline format`, 2 columns", "at most", 1.2, "s"),
     *(
         Goal(f"{form} {step} {table}", _COMMANDS, f"{form.upper()}, {step} {what}", "at most", 2.0, "s")

@@ -76,18 +76,6 @@ def opm_nodes(count: int) -> Iterator[str]:
     yield "/\n"
 
 
-def nastran(count: int) -> Iterator[str]:
-    """The same nodes as GRID cards in free field; a real number needs its point there."""
-    yield from lines("GRID,%d,,%.6f,%.6f,%.6f\n", numbers(count, 4))
-
-
-def dyna(count: int) -> Iterator[str]:
-    """The same nodes in the fixed columns of LS-DYNA."""
-    yield "*KEYWORD\n*NODE\n"
-    yield from lines("%8d%16.9g%16.9g%16.9g\n", numbers(count, 4))
-    yield "*END\n"
-
-
 def equations(count: int) -> Iterator[str]:
     """A curve whose every tenth row has an equation."""
     yield "$PREPROCESSOR\n*PARAMETERS\n su, 2.5\n" + CURVE_HEAD
@@ -147,8 +135,6 @@ _KINDS: dict[str, Callable[[int], Iterator[str]]] = {
     "abaqus": abaqus,
     "opm-curve": opm_curve,
     "opm-nodes": opm_nodes,
-    "nastran": nastran,
-    "dyna": dyna,
     "equations": equations,
 }
 

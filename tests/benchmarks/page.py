@@ -1,4 +1,7 @@
-"""docs/benchmarks.md: the goals beside what was measured, and everything else that a run found."""
+"""The tables of docs/benchmarks.md: the goals beside what was measured, and everything else that a run found.
+
+The text of the page is written by hand.
+"""
 
 from __future__ import annotations
 
@@ -11,63 +14,40 @@ from math import log
 from pathlib import Path
 
 from tests.benchmarks.bench import Results
-from tests.benchmarks.goals import GOALS, SPELLINGS_BEFORE, Goal
+from tests.benchmarks.goals import GOALS, Goal
 from tests.benchmarks.peers import Environment
-from tests.benchmarks.runner import Figure
+from tests.benchmarks.runner import ROOT, Figure
+from tests.benchmarks.tables import inserted, table
 
-PICTURE = "images/benchmarks.svg"
+PAGE, PICTURE = ROOT / "docs" / "benchmarks.md", "images/benchmarks.svg"
 _OURS = ("mudline", "numpy", "pydantic", "lark", "pyyaml", "pyarrow", "numba")
-
-_TEXT = """\
-# Benchmarks
-
-`make bench` measures all of this on your machine and writes this page and its picture; it takes about 25 minutes and a
-gigabyte or two of disk. `make bench ARGS=--quick` tries all of it on small inputs, in `.bench/quick`; with
-`ARGS="--only reading start"` the other subjects keep what they had. The programs are in `tests/benchmarks`.
-
-Times are processor time, user and system, of a process and those that it started and waited for, unless "by the clock"
-is said. What is compared runs in turn, once in each round, after a round that does not count; a ratio is that of two
-times of one round. Given are the median over the rounds, the lowest and the highest value, and the same quantity from
-the least times of all rounds. A goal is met if the median meets it.
-
-Times of reading are those of the reading alone, in a process that has read a table of 200 rows before: imports and the
-making of grammars do not count, for any program. `mudline.read` runs without pyarrow unless it is named. Times of
-commands are those of whole processes. Byte code is compiled before. "Cold" is a start with an empty cache folder. MB
-are 10^6 bytes; peak memory is that of the whole process.
-"""
-_OF_SUBJECT = {
-    "Spellings of numbers": SPELLINGS_BEFORE,
-    "Many decks": (
-        "Decks have 41 lines and no findings. Those that share nothing differ in names, numbers and layout; those\n"
-        "that share blocks differ in a comment and the depth. yamllint reads as many lines of YAML with the same\n"
-        "contents, in its default configuration. By the clock, mudline uses as many processes as it likes and no\n"
-        "cache; the other rows are those of one process."
-    ),
-}
-
 
 QUICK = "a quick run"
 """What `Results.runs` has for a subject that was measured on small inputs."""
 
 
 def page(results: Results, environments: Iterable[Environment]) -> str:
-    """The text of the page."""
-    parts = [_TEXT, *_goals(results), *_growth(results), *_tables(results), *_circumstances(results, environments)]
-    return "\n".join(parts)
+    """The page with its tables made again."""
+    found = {
+        "goals": lambda: _goals(results),
+        "growth": lambda: _growth(results),
+        "figures": lambda: _tables(results),
+        "machine": lambda: _machine(results, environments),
+    }
+    return inserted(PAGE.read_text(encoding="utf-8"), found)
 
 
-def _goals(results: Results) -> Iterator[str]:
+def _goals(results: Results) -> str:
     measured = [goal for goal in GOALS if goal.key in results.figures]
     met = sum(goal.met(results.figures[goal.key].median) for goal in measured)
     missing = len(GOALS) - len(measured)
-    yield f"## Goals\n\nOf {len(GOALS)} goals {met} are met, {len(measured) - met} missed, {missing} not measured.\n"
+    parts = [f"Of {len(GOALS)} goals {met} are met, {len(measured) - met} missed, {missing} not measured.\n"]
     if QUICK in results.runs.values():
-        yield "This was a quick run: the inputs were small, and no goal can be judged by it.\n"
+        parts.append("This was a quick run: the inputs were small, and no goal can be judged by it.\n")
     for subject, goals in groupby(GOALS, key=lambda goal: goal.subject):
-        yield f"### {subject}\n"
-        yield from (f"{text}\n" for name, text in _OF_SUBJECT.items() if subject.startswith(name))
         head = ["what", "goal", "median", "lowest to highest", "of the least times", "met"]
-        yield _table(head, [_row(goal, results.figures.get(goal.key)) for goal in goals])
+        parts += [f"### {subject}\n", table(head, [_row(goal, results.figures.get(goal.key)) for goal in goals])]
+    return "\n".join(parts)
 
 
 def _row(goal: Goal, found: Figure | None) -> list[str]:
@@ -80,19 +60,13 @@ def _row(goal: Goal, found: Figure | None) -> list[str]:
     return [goal.what, wanted, f"{_short(found.median)}{unit}", spread, _short(found.least), verdict]
 
 
-def _growth(results: Results) -> Iterator[str]:
-    if not results.series:
-        return
-    yield f"## Time against size\n\n![Time against size, in logarithmic scales]({PICTURE})\n"
-    yield "The exponent p of a fit of n^p: least squares on logarithmic scales, at sizes from a hundred times the"
-    yield "smallest, after the time of the smallest was taken off, which is mostly a start. A series ends where a run"
-    yield "would take minutes. Times of decks are by the clock.\n"
+def _growth(results: Results) -> str:
     rows = [
         [panel, name, f"{sizes[0][0]:,} to {sizes[-1][0]:,}", f"{sizes[-1][1]:.3g}", _exponent_cell(sizes)]
         for panel, series in results.series.items()
         for name, sizes in series.items()
     ]
-    yield _table(["size", "program", "sizes", "s at the largest", "exponent"], rows)
+    return table(["size", "program", "sizes", "s at the largest", "exponent"], rows)
 
 
 def exponent(points: Sequence[tuple[int, float]]) -> float | None:
@@ -111,22 +85,21 @@ def _exponent_cell(points: Sequence[tuple[int, float]]) -> str:
     return "" if found is None else f"{found:.2f}"
 
 
-def _tables(results: Results) -> Iterator[str]:
-    if results.tables:
-        yield "## Other figures\n"
-    for title, (head, rows) in results.tables.items():
-        yield f"### {title}\n"
-        yield _table(head, rows)
+def _tables(results: Results) -> str:
+    return "\n".join(f"### {title}\n\n{table(head, rows)}" for title, (head, rows) in results.tables.items())
 
 
-def _circumstances(results: Results, environments: Iterable[Environment]) -> Iterator[str]:
-    yield "## Machine and versions\n"
-    yield f"{_processor()}, {os.cpu_count()} cores; {platform.system()}; {platform.python_implementation()}"
-    yield f"{platform.python_version()}; {', '.join(_versions(_OURS))}.\n"
-    yield _table(["subject", "measured in"], [[subject, run] for subject, run in results.runs.items()])
-    yield "The other programs, each in an environment of its own:\n"
+def _machine(results: Results, environments: Iterable[Environment]) -> str:
     rows = [[place.peer.name, _state(place, results), place.peer.compared] for place in environments]
-    yield _table(["program", "versions", "what it reads"], rows)
+    return "\n".join(
+        [
+            f"{_processor()}, {os.cpu_count()} cores; {platform.system()}; {platform.python_implementation()}",
+            f"{platform.python_version()}; {', '.join(_versions(_OURS))}.\n",
+            table(["subject", "measured in"], [[subject, run] for subject, run in results.runs.items()]),
+            "The other programs, each in an environment of its own:\n",
+            table(["program", "versions", "what it reads"], rows),
+        ]
+    )
 
 
 def _state(place: Environment, results: Results) -> str:
@@ -158,11 +131,6 @@ def _versions(names: Iterable[str]) -> Iterator[str]:
 def _short(value: float) -> str:
     """Three digits."""
     return f"{value:.0f}" if value >= 100 else f"{value:.3g}"
-
-
-def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    lines = [head, ["---"] * len(head), *rows]
-    return "".join(f"| {' | '.join(cells)} |\n" for cells in lines)
 
 
 def write(results: Results, environments: Mapping[str, Environment], folder: Path) -> None:

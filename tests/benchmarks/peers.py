@@ -32,8 +32,6 @@ PEERS = (
         ("opm==2026.4", "numpy==2.4.6"),
         "`Parser().parse` of a table keyword: RSVD for 2 columns, SWOF for 4; the values stay where OPM keeps them",
     ),
-    Peer("pyNastran", ("pyNastran==1.4.1", "numpy==1.26.4"), "GRID cards in free field"),
-    Peer("ansys-dyna-core", ("ansys-dyna-core==0.12.1", "numpy==2.4.6"), "`*NODE` of an LS-DYNA keyword file"),
     Peer(
         "yamllint", ("yamllint==1.38.0", "pyyaml==6.0.3"), "decks as YAML, line for line, in its default configuration"
     ),

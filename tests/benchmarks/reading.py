@@ -40,23 +40,12 @@ _NODES = {
     "np.loadtxt": "nodes",
     "opm": "opm-nodes",
     "meshio": "abaqus",
-    "pyNastran": "nastran",
-    "ansys-dyna-core": "dyna",
 }
 """The kind of table that each program reads."""
 
-_SLOW = ("pyNastran", "ansys-dyna-core")
 _PROGRAMS = {
     "meshio": Work("import meshio", "return meshio.read(path, file_format='abaqus')"),
     "opm": Work("from opm.io.parser import Parser", "return Parser().parse(path)"),
-    "pyNastran": Work(
-        "from pyNastran.bdf.bdf import BDF",
-        "model = BDF(debug=None); model.read_bdf(path, xref=False, punch=True); return model",
-    ),
-    "ansys-dyna-core": Work(
-        "from ansys.dyna.core import Deck",
-        "deck = Deck(); deck.loads(open(path).read()); return deck, list(deck.keywords)[0].nodes",
-    ),
 }
 
 
@@ -83,8 +72,7 @@ def _files(bench: Bench) -> None:
     cells: dict[str, list[str]] = {}
     for columns, kinds in ((2, _CURVE), (4, _NODES)):
         jobs = {name: maker(count) for name, maker in _readers(bench, kinds).items()}
-        slow = {name: jobs.pop(name) for name in _SLOW if name in jobs}
-        found = bench.costs(jobs, 5) | bench.costs(slow, 1, warm=False)
+        found = bench.costs(jobs, 5)
         ours = cpu(found["mudline"])
         figures[f"memory {columns}"] = figure([cost.memory for cost in found["mudline"]])
         if "meshio" in found:

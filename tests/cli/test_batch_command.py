@@ -1,4 +1,4 @@
-"""`mudline batch`: a row for each deck, worst first, and the options."""
+"""`mudline batch`: a row for each deck, worst first, a result file each, and what a second run takes over."""
 
 from __future__ import annotations
 
@@ -7,30 +7,36 @@ import io
 import json
 import multiprocessing
 import os
+import signal
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from mudline.cli import batch_run, processes
-from mudline.cli.cases import Done, Order, failed
+from mudline.cli import batch_cases, batch_command
+from mudline.cli.batch_cases import Order, named_cases
+from mudline.cli.inputs import Input
 from mudline.quantities import CASES
+from mudline.results.cases import CaseSummary
+from mudline.running import executors, remembered
 from tests.builders.decks import BAD_NUMBER, CLEAN, PULLING
 from tests.cli.conftest import Place
-from tests.cli.runner import SAMPLES, Json, assert_fits, run
+from tests.cli.runner import SAMPLES, Json, Outcome, assert_fits, run
 
 DEEP = CLEAN.replace("-0.1,", "-0.2,")
 """Twice as deep as CLEAN: twice the force."""
 HIGH = CLEAN.replace("-0.1,", "0.1,")
 """Nothing is in contact."""
 STATE = "node,x,y,z\n1,-0.3,0,0\n2,-0.3,10,0\n3,0.3,20,0\n"
+MEMORY = Path("out", batch_command._MEMORY)
 
 
 @pytest.fixture
 def eager(monkeypatch: pytest.MonkeyPatch) -> None:
     """Processes are used behind the first deck, whatever there is to do."""
-    monkeypatch.setattr(processes, "PAYS", dict.fromkeys(processes.PAYS, 0.0))
-    monkeypatch.setattr(batch_run, "TRIED", 0.0)
+    monkeypatch.setattr(executors, "PAYS", dict.fromkeys(executors.PAYS, 0.0))
+    monkeypatch.setattr(executors, "TRIED", 0.0)
 
 
 @pytest.fixture
@@ -40,28 +46,54 @@ def four(place: Place) -> str:
     return "decks"
 
 
+@pytest.fixture
+def two(place: Place) -> str:
+    for name in "ab":
+        place(CLEAN, f"decks/{name}.keyxm")
+    return "decks"
+
+
+def batch(*arguments: str | Path) -> Outcome:
+    return run("batch", "-o", "out", *arguments)
+
+
 def rows(*arguments: str | Path, code: int = 0) -> Json:
     """The rows of a run in JSON, by the names of the decks; their order is kept."""
-    outcome = run("batch", *arguments, "-o", "out", "--output-format", "json")
+    outcome = batch(*arguments, "--output-format", "json")
     assert outcome.code == code, outcome.err
     found = outcome.json()
     assert_fits(found, "cases")
     return {Path(row["deck"]).stem: row for row in found}
 
 
+def again(*options: str) -> Outcome:
+    return batch("decks", "--form", "csv", "--output-format", "json", *options)
+
+
+def taken(outcome: Outcome) -> int:
+    """How many results a run has taken over."""
+    (line,) = (line for line in outcome.err.splitlines() if "taken over" in line)
+    return int(line.split(", ")[1].split()[0])
+
+
+def files(folder: str = "out") -> dict[str, bytes]:
+    found = sorted(path for path in Path(folder).rglob("*") if path.is_file())
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in found}
+
+
 # ----------------------------------------------------------------------------------------------------------- rows
 
 
 def test_failed_decks_come_first_then_the_largest_force(four: str) -> None:
-    outcome = run("batch", four, "-o", "out")
+    outcome = batch(four)
     assert outcome.code == 1
     lines = outcome.out.splitlines()
-    assert lines[0] == "Contact of 4 decks in decks"
-    table = lines[lines.index(next(line for line in lines if line.startswith("──"))) + 1 :]
-    assert [line[:7] for line in table[:4]] == ["c.keyxm", "d.keyxm", "b.keyxm", "a.keyxm"]
-    assert table[0].startswith("c.keyxm  failed: line 6: SYN002 'ten' is not a number: ")
+    assert (lines[0], lines[1].split()) == ("Failed in decks", ["deck", "reason"])
+    assert lines[3].startswith("c.keyxm  line 6: SYN002 'ten' is not a number: ")
+    assert "Contact of 3 decks in decks" in lines
+    assert [line[:7] for line in lines[-5:-2]] == ["d.keyxm", "b.keyxm", "a.keyxm"]
     assert lines[-1] == "4 decks: 3 evaluated, 3 with warnings, 1 failed"
-    assert "Traceback" not in outcome.err
+    assert max(map(len, lines)) <= 100
 
 
 def test_row_has_what_is_worst(four: str) -> None:
@@ -79,16 +111,11 @@ def test_row_has_what_is_worst(four: str) -> None:
     assert row["warnings"] == len(one["warnings"])
     assert row["warning_codes"].split() == sorted({each["code"] for each in one["warnings"]})
     assert (found["a"]["largest_force"], found["a"]["touchdown_from"], found["a"]["in_contact"]) == (None, None, 0)
-    failed = {name: value for name, value in found["c"].items() if value is not None}
-    assert set(failed) == {"deck", "verdict", "reason"}
-
-
-def test_csv_has_the_columns_of_json(four: str) -> None:
-    outcome = run("batch", four, "--output-format", "csv", "-o", "out")
-    table = list(csv.DictReader(io.StringIO(outcome.out)))
+    assert {name for name, value in found["c"].items() if value is not None} == {"deck", "verdict", "reason"}
+    table = list(csv.DictReader(io.StringIO(batch(four, "--output-format", "csv").out)))
     assert list(table[0]) == list(CASES)
     assert [row["deck"][-7:-6] for row in table] == ["c", "d", "b", "a"]
-    assert float(table[1]["largest_force"]) == rows(four, code=1)["d"]["largest_force"]
+    assert float(table[1]["largest_force"]) == row["largest_force"]
 
 
 def test_series_and_pulls(place: Place, folder: Path) -> None:
@@ -103,13 +130,24 @@ def test_series_and_pulls(place: Place, folder: Path) -> None:
     assert pulled["largest_uplift"] < 0.0
     assert (pulled["largest_uplift_element"], pulled["largest_uplift_time"]) == (1, 0.0)
     assert pushed["touchdown_from"] < pushed["touchdown_to"]
-    shown = run("batch", "decks", "--positions", "steps.npz", "-q", "-o", "out").out
+    shown = batch("decks", "--positions", "steps.npz", "-q").out
     assert "steps" in shown
     assert "uplift" in shown
 
 
+def test_summary_only_writes_what_evaluate_does(two: str, folder: Path) -> None:
+    np.save(folder / "steps.npy", np.array([[[-0.1, 0.0, 0.0], [-0.1, 10.0, 0.0], [0.3, 20.0, 0.0]]] * 3))
+    np.save(folder / "state.npy", np.zeros((3, 3)))
+    options = ("--positions", "steps.npy", "--time-step", "0.5", "--summary-only")
+    assert rows(two, *options, "--form", "json")["a"]["steps"] == 3
+    assert run("evaluate", "decks/a.keyxm", *options, "-q", "-o", "one.json").code == 0
+    assert Path("one.json").read_bytes() == Path("out/a.json").read_bytes()
+    state = rows(two, "--positions", "state.npy", "--summary-only", code=1)
+    assert state["a"]["reason"] == "--summary-only is for time steps: state.npy is one state"
+
+
 def test_units_that_differ_are_shown_and_compared() -> None:
-    found = run("batch", SAMPLES / "imperial-riser.keyxi", SAMPLES / "scr-touchdown.keyxm", "-q", "-o", "out")
+    found = batch(SAMPLES / "imperial-riser.keyxi", SAMPLES / "scr-touchdown.keyxm", "-q")
     lines = found.out.splitlines()
     assert [line.split()[:2] for line in lines[-4:-2]] == [
         ["scr-touchdown.keyxm", "metric"],
@@ -118,46 +156,28 @@ def test_units_that_differ_are_shown_and_compared() -> None:
     assert "[" not in found.out
 
 
-def test_decks_after_expand() -> None:
-    assert run("expand", "-q", SAMPLES / "variations.keyxm", "-o", "waves").code == 0
-    found = run("batch", "waves", "-o", "results", "--form", "npz", "--output-format", "json")
-    assert found.code == 0
-    assert len(found.json()) == 6
-    expected = {f"{row['deck'].removeprefix('waves/').removesuffix('.keyxm')}.npz" for row in found.json()}
-    assert {path.relative_to("results").as_posix() for path in Path("results").rglob("*.npz")} == expected
-    assert "Near/Wave 08s.npz" in expected
-
-
-def test_only_the_first_of_many_rows_are_listed(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mudline.cli.cases.MOST_ROWS", 2)
-    for name in "abc":
-        place(CLEAN, f"decks/{name}.keyxm")
-    assert "1 more deck: -v shows all\n" in run("batch", "decks", "-o", "out").out
-    assert "more deck" not in run("batch", "decks", "-v", "-o", "out").out
-
-
-def test_narrow_terminal_leaves_columns_out(four: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("COLUMNS", "70")
-    outcome = run("batch", four, "--color", "never", "-o", "out", terminal=True)
-    lines = outcome.out.splitlines()
-    assert all(len(line) <= 70 for line in lines)
-    assert "left out on a narrow terminal: in contact" in outcome.out
+def test_only_the_first_of_many_rows_are_listed(four: str, place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mudline.cli.batch_text.MOST_ROWS", 1)
+    place(BAD_NUMBER, "decks/e.keyxm")
+    outcome = batch(four).out
+    assert "1 more deck: -v shows all\n" in outcome
+    assert "2 more decks: -v shows all\n" in outcome
+    assert "more deck" not in batch(four, "-v").out
 
 
 # ------------------------------------------------------------------------------------------------------- exit codes
 
 
-def test_warnings_fail_only_when_that_is_asked_for(place: Place) -> None:
-    arguments = ("batch", "-o", "out", place(CLEAN, "a.keyxm"), place(CLEAN, "b.keyxm"))
-    assert run(*arguments).code == 0
-    outcome = run(*arguments, "--fail-on", "warning")
+def test_warnings_fail_only_when_that_is_asked_for(two: str) -> None:
+    assert batch(two).code == 0
+    outcome = batch(two, "--fail-on", "warning")
     assert outcome.code == 1
     assert outcome.err.count("RUN003") == 1
     assert "(1 more deck)\n" in outcome.err
 
 
 def test_path_that_is_missing_has_a_row(place: Place) -> None:
-    found = run("batch", place(), "nowhere.keyxm", "--output-format", "json", "-o", "out")
+    found = batch(place(), "nowhere.keyxm", "--output-format", "json")
     assert found.code == 2
     assert [(row["deck"], row["reason"]) for row in found.json()] == [
         ("nowhere.keyxm", "no such file or directory"),
@@ -165,18 +185,12 @@ def test_path_that_is_missing_has_a_row(place: Place) -> None:
     ]
 
 
-def test_deck_that_is_given_twice_has_one_row(place: Place) -> None:
-    found = run("batch", place(), "./deck.keyxm", ".", "--output-format", "json", "-o", "out", "--form", "json").json()
-    assert [(row["deck"], row["result"]) for row in found] == [("deck.keyxm", "deck.json")]
-    assert_fits(json.loads(Path("out/deck.json").read_bytes()), "evaluate")
-
-
 def test_folder_without_a_deck(folder: Path) -> None:
     (folder / "empty").mkdir()
-    outcome = run("batch", "empty", "-o", "results")
+    outcome = batch("empty")
     assert (outcome.code, outcome.out) == (2, "")
     assert "no deck in this directory" in outcome.err
-    assert not (folder / "results").exists()
+    assert not (folder / "out").exists()
 
 
 def test_gitignore_hides_decks(four: str, folder: Path) -> None:
@@ -189,38 +203,41 @@ def test_gitignore_hides_decks(four: str, folder: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["-"], "- is one deck, from standard input: use mudline evaluate"),
+        (["-"], "- is one deck, from standard input: mudline evaluate takes it"),
         (["--positions", "{case}.csv"], "--positions: {case} is unknown: use {name} or {folder}"),
         (["--positions", "{name.csv"], "--positions {name.csv: not a pattern: expected '}' before end of string"),
         (["--positions", "nowhere.csv"], "nowhere.csv: no such file or directory"),
         (["--time-step", "0"], "--time-step is 0.0: it must be greater than 0"),
+        (["--summary-only"], "--summary-only is for time steps: give series with --positions"),
         (["-o", "decks/a.keyxm"], "decks/a.keyxm: cannot be created: file exists"),
+        (["--form", "xlsx"], "Invalid value for '--form': 'xlsx' is not one of 'csv', 'json', 'npz', 'parquet'."),
     ],
 )
-def test_options_that_do_not_fit_several_decks(four: str, arguments: list[str], message: str) -> None:
-    outcome = run("batch", four, "-o", "out", *arguments)
+def test_options_that_do_not_fit(four: str, arguments: list[str], message: str) -> None:
+    outcome = batch(four, *arguments)
     assert (outcome.code, outcome.out) == (2, "")
     assert f"mudline: {message}" in outcome.err
+    missing = run("batch", four)
+    assert (missing.code, "Missing option '-o'" in missing.err) == (2, True)
 
 
 # -------------------------------------------------------------------------------------------------------- positions
 
 
-def test_positions_from_one_file(place: Place, folder: Path) -> None:
+def test_positions_from_one_file(two: str, folder: Path) -> None:
     (folder / "all.csv").write_text(STATE, encoding="utf-8")
-    for name in "ab":
-        place(CLEAN, f"decks/{name}.keyxm")
-    assert [row["largest_force"] for row in rows("decks", "--positions", "all.csv").values()] == [3500.0] * 2
+    assert [row["largest_force"] for row in rows(two, "--positions", "all.csv").values()] == [3500.0] * 2
+    (folder / "all.csv").write_text(STATE + "9,0,0,0\n", encoding="utf-8")
+    found = rows(two, "--positions", "all.csv", code=1)
+    assert found["a"]["reason"] == "all.csv:5: DAT001 node 9 is not defined in the deck"
 
 
 @pytest.mark.parametrize("given", ["{folder}/{name}.csv", "at/{name}.csv", "at"])
-def test_positions_by_name(place: Place, folder: Path, given: str) -> None:
-    for name in "ab":
-        place(CLEAN, f"decks/{name}.keyxm")
+def test_positions_by_name(two: str, folder: Path, given: str) -> None:
     where = folder / ("decks" if "{folder}" in given else "at")
     where.mkdir(exist_ok=True)
     (where / "a.csv").write_text(STATE, encoding="utf-8")
-    found = rows("decks", "--positions", given, code=1)
+    found = rows(two, "--positions", given, code=1)
     assert found["a"]["largest_force"] == 3500.0
     assert found["b"]["reason"].startswith("its positions were not found: ")
 
@@ -230,7 +247,7 @@ def test_folder_of_positions_is_as_that_of_the_decks(place: Place, folder: Path)
         place(CLEAN, f"decks/{where}/case.keyxm")
         (folder / "at" / where).mkdir(parents=True)
         (folder / "at" / where / "case.csv").write_text(STATE.replace("-0.3", depth), encoding="utf-8")
-    found = run("batch", "decks", "--positions", "at", "--output-format", "json", "-o", "out").json()
+    found = batch("decks", "--positions", "at", "--output-format", "json").json()
     assert [(row["deck"], row["largest_force"]) for row in found] == [
         ("decks/near/case.keyxm", 3500.0),
         ("decks/far/case.keyxm", 2500.0),
@@ -240,13 +257,153 @@ def test_folder_of_positions_is_as_that_of_the_decks(place: Place, folder: Path)
     assert rows("decks/far", "decks/near", "--positions", "at", code=1)["case"]["reason"] in (message, None)
 
 
-def test_bad_positions_name_their_file(place: Place, folder: Path) -> None:
-    (folder / "all.csv").write_text(STATE + "9,0,0,0\n", encoding="utf-8")
-    found = rows(place(CLEAN, "a.keyxm"), place(CLEAN, "b.keyxm"), "--positions", "all.csv", code=1)
-    assert found["a"]["reason"] == "all.csv:5: DAT001 node 9 is not defined in the deck"
+# ------------------------------------------------------------------------------------------------------------ names
 
 
-# -------------------------------------------------------------------------------------------------------- processes
+def results(*paths: str, form: str = "npz") -> list[str]:
+    return [case.result for case in named_cases([Input(path, path) for path in paths], form)[1]]
+
+
+def test_results_are_named_as_the_decks_below_their_common_folder() -> None:
+    assert results("a/b/c.keyxm", "a/d.keyxm") == ["b/c.npz", "d.npz"]
+    assert results("a/b/c.d.keyxm") == ["c.d.npz"]
+    assert results("c.keyxm", "C.keyx", "d.keyxm") == ["c.keyxm.npz", "C.keyx.npz", "d.npz"]
+    assert results("c.keyxm", "c-nodes.keyxm", form="csv") == ["c.keyxm.csv", "c-nodes.keyxm.csv"]
+    assert results("c.keyxm", "c-nodes.keyxm") == ["c.npz", "c-nodes.npz"]
+    assert results("summary.keyxm", "e/summary.keyxm") == ["summary.keyxm.npz", "e/summary.npz"]
+
+
+def test_decks_of_several_drives(monkeypatch: pytest.MonkeyPatch) -> None:
+    def no_common(paths: list[str]) -> str:
+        raise ValueError(f"{len(paths)} paths on different drives")
+
+    monkeypatch.setattr(os.path, "commonpath", no_common)
+    common, (case,) = named_cases([Input("c.keyxm", os.path.abspath("/e/c.keyxm"))], "npz")  # noqa: PTH100 - with a drive
+    assert common == ""
+    assert case.result.endswith("/e/c.npz")
+    assert not os.path.isabs(case.result)  # noqa: PTH117 - as above
+
+
+def test_decks_after_expand_keep_their_folders() -> None:
+    assert run("expand", "-q", SAMPLES / "variations.keyxm", "-o", "waves").code == 0
+    found = batch("waves", "--form", "npz", "--output-format", "json").json()
+    expected = {f"{row['deck'].removeprefix('waves/').removesuffix('.keyxm')}.npz" for row in found}
+    assert {name for name in files() if name.endswith(".npz")} == expected
+    assert (len(found), "Near/Wave 08s.npz" in expected) == (6, True)
+
+
+def test_deck_that_is_given_twice_has_one_row(place: Place) -> None:
+    found = batch(place(), "./deck.keyxm", ".", "--output-format", "json", "--form", "json").json()
+    assert [(row["deck"], row["result"]) for row in found] == [("deck.keyxm", "deck.json")]
+    assert_fits(json.loads(Path("out/deck.json").read_bytes()), "evaluate")
+
+
+def test_results_do_not_replace_what_they_are_made_from(two: str, folder: Path) -> None:
+    (folder / "decks" / "a.csv").write_text(STATE, encoding="utf-8")
+    arguments = ("batch", two, "-o", "decks", "--form", "csv", "--positions", "{folder}/{name}.csv")
+    found = run(*arguments, "--output-format", "json").json()
+    assert found[0]["reason"] == "its results would replace decks/a.csv: give another folder with -o"
+    assert (folder / "decks" / "a.csv").read_text(encoding="utf-8") == STATE
+
+
+def test_summary_is_parquet_or_csv(two: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    found = batch(two, "--output-format", "json").json()
+    assert {"a.parquet", "a-nodes.parquet", "a-summary.parquet", "summary.parquet"} < set(files())
+    assert parquet.read_table("out/summary.parquet").to_pylist() == found
+    monkeypatch.setattr(batch_command, "is_installed", lambda _: False)
+    assert run("batch", two, "-o", "bare").code == 0
+    assert Path("bare/summary.csv").read_text(encoding="utf-8").startswith("deck,verdict,")
+    assert Path("bare/a.npz").exists()
+
+
+# ------------------------------------------------------------------------------------------------------- taken over
+
+
+@pytest.mark.usefixtures("two")
+def test_second_run_takes_over_what_has_not_changed(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    first = again()
+    before = files()
+    assert taken(first) == 0
+    with monkeypatch.context() as patch:
+        patch.setattr(batch_cases, "load_bytes", None)  # nothing is read again
+        second = again()
+    assert (taken(second), second.out) == (2, first.out)
+    assert files() == before
+    assert taken(again("--no-cache")) == 0
+    place(CLEAN.replace("-0.1, 0.0", "-0.12, 0.0"), "decks/b.keyxm")
+    changed = again()
+    assert taken(changed) == 1
+    assert changed.out != first.out
+
+
+def spoil(path: str) -> Callable[[], object]:
+    return lambda: Path(path).write_bytes(Path(path).read_bytes()[:-5])
+
+
+DAMAGE: dict[str, tuple[Callable[[], object], int]] = {
+    "file": (spoil("out/a.csv"), 1),
+    "missing": (lambda: Path("out/a-summary.csv").unlink(), 1),
+    "memory": (spoil(str(MEMORY)), 0),
+}
+
+
+@pytest.mark.usefixtures("two")
+@pytest.mark.parametrize(("damage", "left"), DAMAGE.values(), ids=DAMAGE)
+def test_what_is_damaged_is_evaluated_anew(damage: Callable[[], object], left: int) -> None:
+    first = again()
+    good = Path("out/a.csv").read_bytes()
+    damage()
+    second = again()
+    assert (second.code, second.out, taken(second)) == (0, first.out, left)
+    assert Path("out/a.csv").read_bytes() == good
+    assert taken(again()) == 2
+
+
+@pytest.mark.usefixtures("two")
+@pytest.mark.parametrize(
+    "options", [("--tension", "cut"), ("--units", "user"), ("--form", "npz"), ("--positions", "state.csv")]
+)
+def test_other_options_are_other_results(
+    folder: Path, options: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(remembered, "changed_since", lambda *_: False)
+    (folder / "state.csv").write_text(STATE, encoding="utf-8")
+    again()
+    assert taken(again(*options)) == 0
+    assert taken(again(*options)) == 2
+    (folder / "state.csv").write_text(STATE.replace("-0.3", "-0.2"), encoding="utf-8")
+    assert taken(again(*options)) == (0 if "state.csv" in options else 2)
+
+
+def test_deck_that_another_one_names_is_looked_at(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(remembered, "changed_since", lambda *_: False)
+    for name in ("scr-dynamic.keyxm", "scr-touchdown.keyxm"):
+        place((SAMPLES / name).read_bytes(), f"decks/{name}")
+    again()
+    assert taken(again()) == 2
+    place((SAMPLES / "scr-touchdown.keyxm").read_bytes() + b"C\n", "decks/scr-touchdown.keyxm")
+    assert taken(again()) == 0
+
+
+@pytest.mark.usefixtures("two")
+def test_deck_that_fails_now_has_no_old_results(place: Place) -> None:
+    again()
+    place(BAD_NUMBER, "decks/a.keyxm")
+    outcome = again()
+    assert (outcome.code, taken(outcome)) == (1, 1)
+    assert not [name for name in files() if name.startswith("a")]
+
+
+@pytest.mark.usefixtures("two")
+def test_other_decks_stay_known(place: Place) -> None:
+    again()
+    place(CLEAN, "decks/c.keyxm")
+    assert batch("decks/c.keyxm", "decks/b.keyxm", "--form", "csv").code == 0
+    assert taken(again()) == 3
+
+
+# ------------------------------------------------------------------------------------------- processes, interruption
 
 
 @pytest.mark.usefixtures("eager")
@@ -256,41 +413,70 @@ def test_output_is_the_same_whatever_the_number_of_processes(four: str, place: P
     outcomes = []
     for jobs in ("1", "2"):
         outcome = run("batch", four, "--jobs", jobs, "-o", f"out{jobs}", "--form", "csv", "--output-format", "json")
-        written = {
-            path.relative_to(f"out{jobs}").as_posix(): path.read_bytes()
-            for path in sorted(Path(f"out{jobs}").rglob("*"))
-            if path.is_file()
-        }
+        written = {name: data for name, data in files(f"out{jobs}").items() if name != MEMORY.name}
         outcomes.append((outcome.code, outcome.out, outcome.err.replace(f"out{jobs}", "out"), written))
     assert outcomes[0] == outcomes[1]
     assert multiprocessing.active_children() == []
-    assert len(outcomes[0][3]) == 3 * 8 + 2
+    assert len(outcomes[0][3]) == 3 * 8 + 1
     assert not list(folder.rglob("*.mudline"))
 
 
-@pytest.mark.usefixtures("eager")
-def test_interrupted_run_ends_its_processes(four: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def interrupt(*_: object) -> None:
-        if multiprocessing.active_children():
-            raise KeyboardInterrupt
+@pytest.mark.usefixtures("two")
+def test_interrupted_run_keeps_what_is_done(monkeypatch: pytest.MonkeyPatch) -> None:
+    work = batch_cases._evaluated
 
-    monkeypatch.setattr(batch_run, "_remember", interrupt)
-    outcome = run("batch", four, "--jobs", "2", "-o", "out", "--form", "csv")
+    def second_is_interrupted(order: Order, near: Path) -> object:
+        if order.case.name == "b":
+            signal.raise_signal(signal.SIGINT)
+        return work(order, near)
+
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # it may be ignored in the background
+    with monkeypatch.context() as patch:
+        patch.setattr(batch_cases, "_evaluated", second_is_interrupted)
+        outcome = again("--jobs", "1")  # a slow machine would start processes, which the patch does not reach
+    signal.signal(signal.SIGINT, before)
     assert (outcome.code, outcome.out) == (130, "")
-    assert multiprocessing.active_children() == []
-    assert not list(folder.rglob("*.mudline"))
-    assert not Path("out/summary.csv").exists()
+    assert set(files()) == {"a.csv", "a-nodes.csv", "a-summary.csv", MEMORY.name}
+    assert taken(again()) == 1
 
 
-def end(order: Order) -> Done:
-    """A worker that dies."""
-    os._exit(len(order.data))
+def test_rows_that_are_known_are_those_of_this_program() -> None:
+    """A row is kept as JSON and made from it again."""
+    row = CaseSummary("a", "failed", "why")
+    assert CaseSummary(**json.loads(json.dumps(row.row()))) == row
 
 
-@pytest.mark.usefixtures("eager")
-def test_process_that_dies_is_reported(four: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(batch_run, "_done", lambda task: Done(failed(task.case.file.name, "skipped")))
-    monkeypatch.setattr(batch_run, "evaluate_case", end)
-    outcome = run("batch", four, "--jobs", "2", "-o", "out")
-    assert outcome.code == 2
-    assert "a process that evaluated decks has ended early" in outcome.err
+# ------------------------------------------------------------------------------------------------------------- URLs
+
+
+def test_decks_positions_and_results_at_urls(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
+    fsspec = pytest.importorskip("fsspec")
+    monkeypatch.setattr("fsspec.implementations.memory.MemoryFileSystem.store", {})
+    memory = fsspec.filesystem("memory")
+    for name, deck in {"a": CLEAN, "b": BAD_NUMBER, "more/c": DEEP}.items():
+        memory.pipe(f"/decks/{name}.keyxm", deck.encode())
+        memory.pipe(f"/decks/{name}.csv", STATE.encode())
+    arguments = ("batch", "memory://decks", "--form", "json", "--jobs", "1", "--output-format", "json")
+    first = run(*arguments, "-o", "memory://results")
+    assert first.code == 1
+    found = {row["deck"]: (row["verdict"], row["result"]) for row in first.json()}
+    assert found == {
+        "memory:///decks/b.keyxm": ("failed", None),
+        "memory:///decks/more/c.keyxm": ("evaluated", "more/c.json"),
+        "memory:///decks/a.keyxm": ("evaluated", "a.json"),
+    }
+    assert_fits(json.loads(memory.cat("/results/more/c.json")), "evaluate")
+    assert memory.exists("/results/summary.parquet") or memory.exists("/results/summary.csv")
+    second = run(*arguments, "-o", "memory://results")
+    assert (taken(second), second.out) == (2, first.out)
+    assert "results of 2 decks -> memory://results" in second.err
+    placed = run(*arguments, "-o", (folder / "near").as_uri(), "--positions", "{folder}/{name}.csv").json()
+    assert [row["largest_force"] for row in placed[1:]] == [3500.0] * 2
+    assert Path("near/more/c.json").exists()
+
+
+def test_url_that_cannot_be_used(place: Place) -> None:
+    pytest.importorskip("fsspec")
+    outcome = run("batch", place(), "-o", "nothing://results")
+    assert (outcome.code, outcome.out) == (2, "")
+    assert "nothing://results" in outcome.err

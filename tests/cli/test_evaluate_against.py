@@ -116,11 +116,6 @@ def test_the_time_of_the_largest_difference_in_a_series_of_several_parts(
     assert column["largest_difference"]["time"] == column["largest_relative"]["time"] == 4.0
 
 
-def test_one_time_is_met_by_one_state(place: Place) -> None:
-    other = place("time,element,force\n5,1,1500\n", "other.csv")
-    assert run("evaluate", place(), "--against", other, "-q").code == 0
-
-
 def test_elements_without_positions_are_not_compared() -> None:
     other = "o.csv"
     Path(other).write_text("time,element,force\n" + "".join(f"0,{n},1\n" for n in range(1, 201)), encoding="utf-8")
@@ -156,11 +151,6 @@ def test_series_need_times(place: Place) -> None:
     assert (outcome.code, "no column time, to compare with 2 time steps" in outcome.err) == (1, True)
     outcome = run("evaluate", *options, place("time,element,force\n7,1,2\n", "o.csv"))
     assert (outcome.code, "none of its times is evaluated: these are from 0.0 to 2.5" in outcome.err) == (1, True)
-
-
-def test_file_that_is_missing(place: Place) -> None:
-    outcome = run("evaluate", place(), "--against", "nowhere.csv")
-    assert (outcome.code, outcome.err) == (2, "mudline: nowhere.csv: no such file or directory\n")
 
 
 def test_differences_that_overflow(place: Place) -> None:

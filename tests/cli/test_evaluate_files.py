@@ -88,30 +88,19 @@ def test_text_of_many_steps(place: Place, folder: Path) -> None:
     assert len(run("evaluate", place(), "--positions", "steps.npy", "-v").out.splitlines()) == 71
 
 
-def test_csv_of_steps(place: Place, steps: str) -> None:
-    rows = list(
-        csv.DictReader(run("evaluate", place(), "--positions", steps, "--output-format", "csv").out.splitlines())
-    )
-    assert [(row["time"], row["element"], row["force"]) for row in rows] == [
-        ("0.0", "1", "1500.0"),
-        ("0.0", "2", "0.0"),
-        ("2.5", "1", "1000.0"),
-        ("2.5", "2", "1000.0"),
-    ]
-
-
 def test_written_csv_has_tables_of_nodes_and_lines_beside_it(place: Place, steps: str, folder: Path) -> None:
     outcome = run("evaluate", place(), "--positions", steps, "-o", "out.csv")
     assert (outcome.code, outcome.out) == (0, "")
     assert outcome.err == (
         "mudline: nodes -> out-nodes.csv\nmudline: summary -> out-summary.csv\nmudline: deck.keyxm -> out.csv\n"
     )
-    for name, options in (
-        ("out.csv", ()),
-        *((f"out-{table}.csv", ("--table", table)) for table in ("nodes", "summary")),
-    ):
-        printed = run("evaluate", place(), "--positions", steps, "--output-format", "csv", *options)
+    given = ("evaluate", place(), "--positions", steps)
+    for table in ("elements", "nodes", "summary"):
+        printed = run(*given, "--output-format", "csv", "--table", table)
+        name = "out.csv" if table == "elements" else f"out-{table}.csv"
         assert (folder / name).read_bytes() == printed.output
+    assert run(*given, "-o", "out.json", "-q").err == ""
+    assert (folder / "out.json").read_bytes() == run(*given, "--output-format", "json").output
 
 
 def test_nodes_of_steps_are_shown(place: Place, steps: str) -> None:
@@ -123,17 +112,6 @@ def test_nodes_of_steps_are_shown(place: Place, steps: str) -> None:
     assert first == ["0", "2", "1", "2", "-0.1", "7500", "15000"]
     assert (second[0], second[2:4]) == ("2.5", ["1", "3"])
     assert run("evaluate", place(), "--positions", steps).out.split("\n\n")[0] != outcome.out.split("\n\n")[0]
-
-
-def test_quiet_writes_all_tables_and_says_nothing(place: Place, folder: Path) -> None:
-    assert run("evaluate", place(), "-o", "out.csv", "-q").err == ""
-    assert sorted(path.name for path in folder.glob("*.csv")) == ["out-nodes.csv", "out-summary.csv", "out.csv"]
-
-
-def test_written_json_is_what_is_printed(place: Place, steps: str, folder: Path) -> None:
-    assert run("evaluate", place(), "--positions", steps, "-o", "out.json", "-q").err == ""
-    printed = run("evaluate", place(), "--positions", steps, "--output-format", "json")
-    assert (folder / "out.json").read_bytes() == printed.output
 
 
 def test_npz_of_steps(place: Place, steps: str, folder: Path) -> None:
@@ -244,12 +222,6 @@ def test_position_that_is_not_finite_names_node_and_step(place: Place, folder: P
     outcome = run("evaluate", place(), "--positions", "p.npy")
     assert (outcome.code, outcome.out) == (1, "")
     assert "RUN001 node 3 at step 1: its position (nan, 0.0, 0.0) is not finite" in outcome.err
-
-
-def test_velocities_are_accepted(place: Place, folder: Path) -> None:
-    lines = [line + (",vx,vy,vz" if line.startswith("time") else ",0.1,0,0") for line in STEPS.splitlines()]
-    (folder / "p.csv").write_text("\n".join(lines), encoding="utf-8")
-    assert run("evaluate", place(), "--positions", "p.csv").code == 0
 
 
 @pytest.mark.parametrize("name", ["out.txt", "out", "out.npy", "-"])

@@ -115,15 +115,3 @@ def test_bar_on_a_terminal(place: Place, long: str, monkeypatch: pytest.MonkeyPa
     assert "/12000" in run(*options, terminal=True).err
     assert "/12000" not in run(*options, "-q", terminal=True).err
     assert "/12000" not in run(*options).err
-
-
-def test_npz_of_many_chunks(place: Place, long: str, folder: Path) -> None:
-    assert run("evaluate", place(), "--positions", long, "-o", "out.npz", "-q").code == 0
-    steps = np.load(folder / long)
-    with np.load(folder / "out.npz", allow_pickle=False) as archive:
-        assert archive["gap"].shape == (12_000, 3)
-        assert np.array_equal(archive["gap"], steps[:, :, 0])
-        assert archive["normal"].shape == (12_000, 3, 3)
-        assert (archive["law"] == "curve:Clay").all()
-        assert np.array_equal(archive["contact"], archive["depth"] > 0.0)
-        assert archive["time"].tolist() == list(range(12_000))

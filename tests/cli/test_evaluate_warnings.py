@@ -17,7 +17,6 @@ WARNING = (
     "PROPERTIES?), and element 1 is in contact without a seabed law: correct the name\n"
 )
 OWN = "mudline: the positions are the deck's own coordinates, not a solved shape\n"
-BOTH = "node,x,y,z\n1,-0.1,0,0\n2,-0.1,10,0\n3,0.3,20,0\n"
 ABOVE = "time,node,x,y,z\n" + "".join(f"{step},{node},{5 - step},{node},0\n" for step in (0, 1) for node in (1, 2, 3))
 
 
@@ -35,10 +34,6 @@ def test_steps_without_a_law_are_no_table_of_zeros(place: Place) -> None:
     outcome = run("evaluate", place(MISSPELT), "--positions", place(ABOVE.replace(",5", ",-5"), "below.csv"))
     assert "none of 2 elements has a seabed law" in outcome.out
     assert len(outcome.out.splitlines()) == 1
-
-
-def test_quiet_prints_the_result_only(place: Place) -> None:
-    assert run("evaluate", place(MISSPELT), "-q").err == ""
 
 
 @pytest.mark.parametrize(("options", "code"), [((), 0), (("--fail-on", "error"), 0), (("--fail-on", "warning"), 1)])
@@ -70,11 +65,6 @@ def test_json_of_time_steps(place: Place) -> None:
     assert found["positions"] == "file"
     assert [(each["code"], each["elements"], each["first"]) for each in found["warnings"]] == [("GEO005", 2, 1)]
     assert "the smallest clearance is 4 m, of node 1 at time 1" in found["warnings"][0]["message"]
-
-
-def test_positions_of_a_file_have_no_note(place: Place) -> None:
-    outcome = run("evaluate", place(), "--positions", place(BOTH, "both.csv"), "--fail-on", "warning")
-    assert (outcome.code, outcome.err) == (0, "")
 
 
 def test_refused_deck_has_no_warnings(place: Place) -> None:

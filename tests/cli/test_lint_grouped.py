@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 from mudline import cache_folder
-from mudline.cli import processes
 from mudline.diagnostics import Diagnostic
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules
+from mudline.running import executors
 from tests.cli.runner import run
 from tests.linting.test_causes import changed
 
@@ -20,7 +20,7 @@ STARLESS = changed(("*ELEMENT\n", "ELEMENT\n"))
 
 
 def test_jobs_cache_and_baseline_agree(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(processes, "PAYS", dict.fromkeys(processes.PAYS, 0.0))
+    monkeypatch.setattr(executors, "PAYS", dict.fromkeys(executors.PAYS, 0.0))
     monkeypatch.setenv(cache_folder.PLACE, str(folder / "cache"))
     for name, text in (("a", ROWS), ("b", STARLESS)):
         (folder / f"{name}.keyxm").write_text(text, encoding="utf-8")

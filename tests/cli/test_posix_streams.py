@@ -13,6 +13,7 @@ import pytest
 from tests.builders.decks import BAD_NUMBER
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, process, run
+from tests.cli.test_expand_command import STUDY, files
 from tests.processes import TIMEOUT, started
 
 PIPED = {
@@ -105,3 +106,23 @@ def test_file_name_that_is_no_utf_8(folder: Path) -> None:
     assert (outcome.code, outcome.err) == (1, "")
     assert outcome.json()[0]["file"] == name
     assert run("lint", name + "x").err == "mudline: deck-\ufffd.keyxmx: no such file or directory\n"
+
+
+# --------------------------------------------------------------------------------------------- mudline expand and links
+
+
+def test_links_are_not_followed_out_of_the_folder(place: Place, folder: Path) -> None:
+    name = place(STUDY)
+    (folder / "outside").mkdir()
+    (folder / "out").mkdir()
+    (folder / "out/Near").symlink_to(folder / "outside")
+    outcome = run("expand", name, "-o", "out", "--force")
+    assert outcome.code == 2
+    assert "out/Near/at 50.keyxm: a link in its path leads out of the folder" in outcome.err
+    (folder / "out/Near").unlink()
+    (folder / "out/Near").mkdir()
+    (folder / "out/Near/at 50.keyxm").symlink_to(folder / "outside/file")
+    outcome = run("expand", name, "-o", "out", "--force")
+    assert outcome.code == 2
+    assert "exists already and is not a regular file: it is not overwritten" in outcome.err
+    assert files(folder) == ["deck.keyxm"]

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import json
 import re
 
 import pytest
 from rich.cells import cell_len
 
+from mudline.cli.printing import excerpt
+from mudline.diagnostics import Diagnostic, Edit, Fix, Severity
+from mudline.linting.output import LONGEST, form, visible, visible_lines
+from mudline.syntax.source import Source
 from tests.builders.decks import BAD_NUMBER, CLEAN, UNUSED
 from tests.cli.conftest import Place
-from tests.cli.runner import Outcome, process, run
+from tests.cli.runner import Outcome, assert_fits, process, run
 
 ESCAPE = re.compile(r"\x1b\[[0-9;]*m")
 COMMANDS = [("lint",), ("validate",), ("show",), ("curves",), ("evaluate",)]
@@ -61,10 +66,6 @@ def test_colours_change_nothing_else(place: Place, command: tuple[str, ...]) -> 
 def test_machine_formats_have_no_colours(place: Place, form: str) -> None:
     outcome = run("lint", place(BAD_NUMBER), "--output-format", form, "--color", "always", terminal=True)
     assert "\x1b" not in outcome.out
-
-
-def test_unknown_colour(place: Place) -> None:
-    assert run("lint", place(), "--color", "sometimes").code == 2
 
 
 def test_dumb_terminal(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -238,3 +239,83 @@ def test_number_is_never_cut(place: Place, monkeypatch: pytest.MonkeyPatch) -> N
     text = plain(run("curves", place(deck), terminal=True).out)
     assert "0.123456" in text
     assert "123456" in text
+
+
+# ---------------------------------------------------------------- forms of findings, for what no deck makes yet: fixes,
+
+
+WIDTH = 80
+TEXT = Source.from_bytes(b"first\n second, x\n", "deck.keyxm")
+
+
+def found(line: int = 2, column: int = 2, end_line: int = 2, end_column: int = 8, fix: Fix | None = None) -> Diagnostic:
+    place = (line, column, end_line, end_column)
+    return Diagnostic("deck.keyxm", "SYN004", "unknown-setting", Severity.ERROR, "no such setting", *place, fix)
+
+
+def lines(diagnostic: Diagnostic, source: Source = TEXT) -> list[str]:
+    return [text.plain for text in excerpt(diagnostic, source, WIDTH)]
+
+
+def test_excerpt() -> None:
+    assert lines(found()) == [" 2 |  second, x", "   |  ^^^^^^"]
+
+
+@pytest.mark.parametrize(
+    ("diagnostic", "under"),
+    [
+        (found(end_column=2), "   |  ^"),
+        (found(column=10, end_column=11), "   |          ^"),
+        (found(column=99, end_column=120), "   |           ^"),
+        (found(end_line=3, end_column=1), "   |  ^^^^^^^^^"),
+    ],
+    ids=["empty", "last", "beyond", "to the next line"],
+)
+def test_mark(diagnostic: Diagnostic, under: str) -> None:
+    assert lines(diagnostic)[1] == under
+
+
+@pytest.mark.parametrize("line", [3, 4, 99])
+def test_line_that_is_blank_or_not_there(line: int) -> None:
+    assert lines(found(line=line, column=1, end_line=line, end_column=1)) == [""]
+
+
+@pytest.mark.parametrize(
+    ("text", "encoding", "shown"),
+    [
+        ("plain [x]", "utf-8", "plain [x]"),
+        ("a\tb\x1bc\x9bd\x7f\u202e", "utf-8", "a b\ufffdc\ufffdd\ufffd\ufffd"),
+        ("\u00e4\u6f22", "utf-8", "\u00e4\u6f22"),
+        ("\u00e4\u6f22", "latin-1", "\u00e4\\u6f22"),
+        ("\u00e4\x07", "ascii", "\\xe4\\ufffd"),
+        ("\udcff", "utf-8", "\ufffd"),
+    ],
+)
+def test_visible_text(text: str, encoding: str, shown: str) -> None:
+    assert visible(text, encoding) == shown
+
+
+def test_text_that_nobody_reads_to_its_end_is_cut() -> None:
+    assert visible("x" * LONGEST) == "x" * LONGEST
+    assert visible("x" * (LONGEST + 1)) == "x" * (LONGEST - 3) + "..."
+    assert len(visible("\x1b" * 10_000_000)) == LONGEST
+
+
+def test_visible_lines_keep_their_ends() -> None:
+    assert visible_lines("a\n\tb\n") == "a\n\tb\n"
+    assert visible_lines("a\n\tb\x1b\r\n") == "a\n\tb\ufffd\ufffd\n"
+
+
+def test_fix_in_json() -> None:
+    fix = Fix("unsafe", "write SET=", (Edit((2, 2), (2, 8), "SET"), Edit((3, 1), (3, 1), "\n")))
+    objects = json.loads("".join(form("json", [], "")([found(fix=fix), found()])))
+    assert_fits(objects, "lint")
+    assert objects[0]["fix"] == {
+        "applicability": "unsafe",
+        "message": "write SET=",
+        "edits": [
+            {"start": [2, 2], "end": [2, 8], "text": "SET"},
+            {"start": [3, 1], "end": [3, 1], "text": "\n"},
+        ],
+    }
+    assert [json.loads(line) for line in form("jsonl", [], "")([found(fix=fix), found()])] == objects

@@ -60,6 +60,12 @@ def test_sarif_is_written_besides(folder: Path) -> None:
     assert '"version": "2.1.0"' in (folder / "mudline.sarif").read_text(encoding="utf-8")
 
 
+def test_an_input_is_never_run(folder: Path) -> None:
+    bad = "$(touch run);`touch run`;touch run *"
+    assert steps(folder, paths=bad, args=bad, format=bad)[1][0] == 2
+    assert not list(folder.rglob("run*"))
+
+
 def test_wrong_usage_is_told_and_fails(folder: Path) -> None:
     assert [code for code, _ in steps(folder, format="xml")] == [0, 2]
 
@@ -69,3 +75,5 @@ def test_the_action_names_what_a_workflow_needs() -> None:
     assert all(about["description"] and "default" in about for about in ACTION["inputs"].values())
     page = (ROOT / "docs" / "ci.md").read_text(encoding="utf-8")
     assert all(f"| `{name}` |" in page for name in ACTION["inputs"])
+    assert all(f"inputs.{name}" in str(ACTION["runs"]["steps"]) for name in ACTION["inputs"])
+    assert not any("${{" in step.get("run", "") for step in ACTION["runs"]["steps"])

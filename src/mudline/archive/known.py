@@ -16,10 +16,10 @@ from typing import NamedTuple
 from mudline.archive.store import Archive, newest
 from mudline.archive.tables import FILES, TABLES
 from mudline.files import is_url
-from mudline.linting.cache import changed_since, state
 from mudline.linting.engine import LintSettings
 from mudline.linting.registry import plugin_files
 from mudline.resources import grammar_file
+from mudline.running.remembered import changed_since, state
 
 NEW = 2_000_000_000
 """Nanoseconds within which a second change of a file may leave its date as it is."""

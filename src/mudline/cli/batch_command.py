@@ -2,22 +2,46 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import io
+import os
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import closing, contextmanager
+from dataclasses import replace
+from pathlib import Path
+from typing import NamedTuple
 
 import click
 
-from mudline.cli import FOUND, evaluate_inputs, on_cluster, options
-from mudline.cli.batch_run import BatchOptions, evaluate_batch
+from mudline.cli import DONE, FOUND, evaluate_inputs, options
+from mudline.cli.batch_cases import (
+    SUMMARY,
+    Case,
+    Done,
+    Order,
+    check_positions,
+    evaluate_case,
+    failed,
+    named_cases,
+    positions_of,
+    results_of,
+    slashed,
+)
+from mudline.cli.batch_text import print_cases
 from mudline.cli.evaluate_inputs import EvaluateInputs, takes_inputs
-from mudline.cli.inputs import STDIN, collect
+from mudline.cli.inputs import STDIN, Input, Inputs, collect
 from mudline.cli.result_files import has_library, is_installed
-from mudline.cli.view import View
-from mudline.files import is_url
+from mudline.cli.streams import MOST_REPORTED, counted, emit, emit_json, encoded, notify, reason
+from mudline.cli.view import Progress, View, wants_bar
+from mudline.files import is_url, remove_left, write_atomically
+from mudline.quantities import CASES, csv_lines
+from mudline.results.cases import CaseSummary, worst_first, write_parquet
+from mudline.running import storage
+from mudline.running.executors import executor, in_order
+from mudline.running.remembered import Memory, of_working_folder, state
 
-if TYPE_CHECKING:
-    from mudline.cluster.scheduler import Scheduler
-
-FORMS = ("csv", "json", "npz", "parquet")
+_FORMS = ("csv", "json", "npz", "parquet")
+_MEMORY = ".mudline-batch"
+"""The file in the folder of results that says from what they were made."""
 
 
 @options.command("batch")
@@ -26,29 +50,29 @@ FORMS = ("csv", "json", "npz", "parquet")
     "or a pattern such as {folder}/{name}.csv."
 )
 @evaluate_inputs.summary_only
-@click.option(
+@options.option(
     "-o",
     "--output",
+    group=options.OUTPUT,
     required=True,
     metavar="DIR",
-    help="Write a result file for each deck and summary.parquet into this folder, or below this URL.",
+    help="Write a result file for each deck and the rows as summary.parquet into this folder, or below this URL.",
 )
-@click.option(
+@options.option(
     "--form",
-    type=click.Choice(FORMS),
+    group=options.OUTPUT,
+    type=click.Choice(_FORMS),
     help="Write result files in this form; without it Parquet, or NPZ where pyarrow is not installed.",
 )
 @options.output_format("text", "json", "csv")
 @evaluate_inputs.fail_on
-@click.option(
-    "--jobs",
-    type=click.IntRange(min=0),
-    default=0,
-    metavar="N",
-    help="Use N processes; 0: one for each processor.",
+@options.running
+@options.option(
+    "--no-cache",
+    group=options.RUN,
+    is_flag=True,
+    help="Evaluate every deck again, whatever DIR holds from before.",
 )
-@on_cluster.options
-@click.option("--no-cache", is_flag=True, help="Evaluate every deck again, whatever DIR holds from before.")
 @options.every_file
 @options.decks
 @options.units
@@ -64,7 +88,7 @@ def command(
     output_format: str,
     fail_on: str,
     jobs: int,
-    scheduler: Scheduler | None,
+    scheduler: str | None,
     no_cache: bool,
     every_file: bool,
     view: View,
@@ -75,16 +99,207 @@ def command(
     has not changed is not evaluated again.
     """
     if STDIN in decks:
-        raise click.UsageError("- is one deck, from standard input: use mudline evaluate")
+        raise click.UsageError("- is one deck, from standard input: mudline evaluate takes it")
     if summary_only and inputs.positions is None:
         raise click.UsageError("--summary-only is for time steps: give series with --positions")
-    on_cluster.refuse(scheduler, {}, None, decks)
-    if scheduler is None:
-        for option, path in {"--positions": inputs.positions, "--elements": inputs.elements, "-o": output}.items():
-            if path is not None and is_url(path):
-                raise click.UsageError(f"{option} {path}: a URL needs --scheduler, such as local")
     form = form or ("parquet" if is_installed("parquet") else "npz")
     if not has_library(form):
         return FOUND
-    given = BatchOptions(inputs, units, output, form, summary_only, output_format, fail_on, jobs, no_cache, scheduler)
-    return evaluate_batch(collect(decks, gitignore=not every_file, urls=True), given, view)
+    check_positions(inputs.positions)
+    found = collect(decks, gitignore=not every_file, urls=True)
+    if not found.files:
+        return found.code
+    common, cases = named_cases(_once(found.files), form)
+    folder = _made(output)
+    order = Order(cases[0], b"", inputs, folder, units, summary_only, os.getcwd())  # noqa: PTH109 - sent as text
+    memory = _memory(folder, repr((inputs, units, form, summary_only)))
+    tasks = _tasks(found, cases, order, memory, fresh=no_cache)
+    with (
+        _saved(memory, cases, folder),
+        Progress(len(cases), view, shown=wants_bar(view)) as progress,
+        executor(jobs, scheduler) as pool,
+        closing(in_order(pool, evaluate_case, tasks, len(cases))) as results,
+    ):
+        done, taken = _taken(results, memory, progress)
+    ranked = worst_first(one.row for one in done)
+    summary = _write_summary(ranked, folder)
+    if not view.quiet:
+        _notify_warnings(done)
+        evaluated = counted(sum(not row.failed for row in ranked), "deck")
+        notify(f"results of {evaluated} -> {slashed(output)}, {taken} taken over from an earlier run")
+        notify(f"summary -> {summary}")
+    if output_format == "json":
+        emit_json([row.row() for row in ranked])
+    elif output_format == "csv":
+        emit(_csv(ranked))
+    else:
+        print_cases(ranked, common, {case.file.name: case.inside for case in cases}, view)
+    failing = any(row.failed or (row.warnings and fail_on == "warning") for row in ranked)
+    return max(found.code, FOUND if failing else DONE)
+
+
+def _once(files: Iterable[Input]) -> list[Input]:
+    """Each file once, by whatever names it was given."""
+    found: dict[str, Input] = {}
+    for file in files:
+        found.setdefault(os.path.abspath(file.path or file.name), file)  # noqa: PTH100 - links stay what they are called
+    return list(found.values())
+
+
+def _made(output: str) -> str:
+    """The folder or the URL of results; ends the command for a folder that cannot be made, and for no such URL."""
+    try:
+        folder = storage.as_path(output)
+        if is_url(folder):
+            storage.exists(folder)
+        else:
+            Path(folder).mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise click.ClickException(f"{slashed(output)}: cannot be created: {reason(error)}") from error
+    return folder
+
+
+# --------------------------------------------------------------------------------------------------------- evaluating
+
+
+class _Task(NamedTuple):
+    """The order for a deck, the key of its results, the files that it depends on; `known` is what needs no work."""
+
+    order: Order
+    key: str = ""
+    files: Sequence[str] = ()
+    known: Done | None = None
+
+
+def _tasks(
+    found: Inputs, cases: Sequence[Case], first: Order, memory: Memory | None, *, fresh: bool
+) -> Iterator[tuple[_Task, Order | None]]:
+    """What is to do for each deck; one that cannot be read, or has no positions, has failed."""
+    for case in cases:
+        name, given = case.file.name, first.inputs
+        order = first._replace(case=case)
+        try:
+            data, positions = case.file.read(), positions_of(case, given.positions)
+            files = [path for path in (positions, given.elements) if path]
+            _keep_inputs(case, files, order.output)
+            marks = [f"{path} {storage.size_and_date(path) if is_url(path) else ''}" for path in files]
+        except OSError as error:
+            found.fail(f"{name}: {reason(error)}")
+            yield _Task(order, known=failed(name, reason(error))), None
+            continue
+        except click.ClickException as error:
+            yield _Task(order, known=failed(name, error.message)), None
+            continue
+        key = "" if memory is None else memory.key(name, case.result, data, *marks)
+        known = None if memory is None or fresh else _known(memory, key, order.output)
+        order = order._replace(data=data, inputs=replace(given, positions=positions))
+        near = [os.path.abspath(path) for path in files if not is_url(path)]  # noqa: PTH100 - links stay what they are
+        yield _Task(order, key, near, known), None if known else order
+
+
+def _keep_inputs(case: Case, files: Sequence[str], output: str) -> None:
+    """Raise click.ClickException for a deck whose results would replace a file that they are made from."""
+    read = {os.path.abspath(path) for path in (case.file.path or "", *files)}  # noqa: PTH100 - links stay what they are
+    for path in results_of(case, output):
+        if os.path.abspath(path) in read:  # noqa: PTH100 - as above
+            raise click.ClickException(f"its results would replace {slashed(path)}: give another folder with -o")
+
+
+def _taken(
+    results: Iterable[tuple[_Task, Done | None]], memory: Memory | None, progress: Progress
+) -> tuple[list[Done], int]:
+    """What each deck gave, and how many were taken over; what is new is remembered."""
+    done: list[Done] = []
+    taken = 0
+    for task, made in results:
+        one = made or task.known or failed(task.order.case.file.name, "not evaluated")
+        done.append(one)
+        taken += made is None and not one.row.failed
+        if made is not None and memory is not None and not one.row.failed:
+            _remember(memory, task, one)
+        progress.advance()
+    return done, taken
+
+
+@contextmanager
+def _saved(memory: Memory | None, cases: Sequence[Case], folder: str) -> Iterator[None]:
+    """What is done is remembered, also when the run is interrupted; half-written files are removed then."""
+    try:
+        yield
+    except BaseException:
+        if not is_url(folder):
+            for place in {Path(folder, case.result).parent for case in cases}:
+                remove_left(str(place))  # of processes that were ended
+        raise
+    finally:
+        if memory is not None:
+            memory.save()
+
+
+# -------------------------------------------------------------------------------------------------------- remembering
+
+
+def _memory(folder: str, settings: str) -> Memory | None:
+    """What is known of earlier runs: in the folder of results; of those at a URL in the user's folder for caches."""
+    if is_url(folder):
+        return of_working_folder("batch", f"{settings} {folder}")
+    return Memory(Path(folder, _MEMORY), settings)
+
+
+def _known(memory: Memory, key: str, output: str) -> Done | None:
+    """What an earlier run gave, if the files of results are still there as they were written."""
+    held = memory.get(key)
+    if held is None or any(_mark(storage.join(output, name)) != mark for name, mark in held["written"].items()):
+        return None
+    return Done(CaseSummary(**held["row"]), [(code, text) for code, text in held["warnings"]])
+
+
+def _remember(memory: Memory, task: _Task, done: Done) -> None:
+    written = {name: _mark(storage.join(task.order.output, name)) for name in done.written}
+    held = {"row": done.row.row(), "warnings": done.warnings, "written": written}
+    memory.put(task.key, held, [*done.read, *task.files])
+
+
+def _mark(path: str) -> str:
+    """What tells whether a file is still the same; "" where there is none."""
+    try:
+        return repr(storage.size_and_date(path)) if is_url(path) else state(path)
+    except OSError:
+        return ""
+
+
+# ------------------------------------------------------------------------------------------------------------ output
+
+
+def _write_summary(rows: Sequence[CaseSummary], folder: str) -> str:
+    """Write the rows of all decks: in Parquet where that is installed, else as CSV. Returns the path or the URL."""
+    stream = io.BytesIO()
+    form = "parquet" if is_installed("parquet") else "csv"
+    if form == "parquet":
+        write_parquet(rows, stream)
+    else:
+        stream.writelines(map(encoded, _csv(rows)))
+    path = storage.join(folder, f"{SUMMARY}.{form}")
+    try:
+        if is_url(path):
+            storage.write(path, stream.getvalue())
+        else:
+            write_atomically(Path(path), stream.getvalue())
+    except OSError as error:
+        raise click.ClickException(f"{slashed(path)}: cannot be written: {reason(error)}") from error
+    return slashed(path)
+
+
+def _csv(rows: Sequence[CaseSummary]) -> Iterator[str]:
+    return csv_lines([CASES, *(row.row().values() for row in rows)])
+
+
+def _notify_warnings(done: Sequence[Done]) -> None:
+    """Report each warning once, with the first deck that has it and how many others do."""
+    decks: dict[str, list[str]] = {}
+    for one in done:
+        for code, text in dict(one.warnings).items():
+            decks.setdefault(code, []).append(text)
+    for texts in list(decks.values())[:MOST_REPORTED]:
+        more = f" ({counted(len(texts) - 1, 'more deck')})" if len(texts) > 1 else ""
+        notify(f"warning: {texts[0]}{more}")

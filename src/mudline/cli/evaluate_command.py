@@ -9,7 +9,7 @@ from click.core import ParameterSource
 
 from mudline.cli import DONE, FOUND, evaluate_inputs, options, pictures
 from mudline.cli.evaluate_inputs import EvaluateInputs, takes_inputs
-from mudline.cli.evaluate_one import Outputs, evaluate_one, evaluate_series
+from mudline.cli.evaluate_one import evaluate_one, evaluate_series
 from mudline.cli.evaluate_text import print_plan
 from mudline.cli.inputs import GivenDeck, refuses_bad_decks
 from mudline.cli.pictures import Picture
@@ -25,16 +25,18 @@ from mudline.results.forms import FORMS, plan_rows
 @options.command("evaluate")
 @takes_inputs("Read the positions of the nodes: CSV, NPZ or NPY, one state or time steps.")
 @click.option("--against", metavar="FILE", help="Compare with another program's element results, a CSV.")
-@click.option(
+@options.option(
     "-o",
     "--output",
+    group=options.OUTPUT,
     metavar=f"OUT.{'|'.join(FORMS)}",
     help="Write the results; CSV and Parquet write OUT-nodes and OUT-summary beside it.",
 )
 @pictures.options
 @click.option("--plan", "plan_only", is_flag=True, help="Print what the deck needs and what is left out, and why.")
-@click.option(
+@options.option(
     "--table",
+    group=options.OUTPUT,
     type=click.Choice(["elements", "nodes", "summary"]),
     default="elements",
     show_default=True,
@@ -91,7 +93,15 @@ def command(
             raise click.UsageError(f"--summary-only is for time steps: {inputs.positions} is one state")
         warnings = evaluate_series(evaluation, output, table, output_format, view)
     else:
-        warnings = evaluate_one(evaluation, Outputs(output, wanted, against, table, output_format), view)
+        warnings = evaluate_one(
+            evaluation,
+            view,
+            output=output,
+            picture=wanted,
+            against=against,
+            table=table,
+            output_format=output_format,
+        )
     return FOUND if warnings and fail_on == "warning" else DONE
 
 

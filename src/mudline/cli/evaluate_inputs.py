@@ -12,7 +12,7 @@ from typing import TypeVar, cast
 
 import click
 
-from mudline.cli.options import Command
+from mudline.cli.options import INPUT, Command, option
 from mudline.cli.streams import reason
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError
@@ -96,27 +96,35 @@ def takes_inputs(positions_help: str) -> Callable[[Command], Command]:
             inputs = EvaluateInputs(cast("Tension", tension), positions, elements, time_step, headings)
             return command(inputs=inputs, **others)
 
-        for option in reversed(_INPUTS):
-            given = option(given)
-        return click.option("--positions", metavar="FILE", help=positions_help)(given)
+        for add in reversed(_INPUTS):
+            given = add(given)
+        return option("--positions", group=INPUT, metavar="FILE", help=positions_help)(given)
 
     return added
 
 
 _INPUTS = (
-    click.option(
+    option(
         "--columns",
+        group=INPUT,
         multiple=True,
         metavar="NAME=HEADING,...",
         help='Name the columns of positions in a CSV of another program: time="Time [s]",node=Node,x=X. Repeatable.',
     ),
-    click.option(
-        "--time-step", type=float, metavar="DT", help="Set the time between the steps of positions that have no times."
+    option(
+        "--time-step",
+        group=INPUT,
+        type=float,
+        metavar="DT",
+        help="Set the time between the steps of positions that have no times.",
     ),
-    click.option(
-        "--elements", metavar="FILE", help="Read the elements from a CSV, for decks whose elements come from *LINES."
+    option(
+        "--elements",
+        group=INPUT,
+        metavar="FILE",
+        help="Read the elements from a CSV, for decks whose elements come from *LINES.",
     ),
-    click.option(
+    option(
         "--tension",
         type=click.Choice(["keep", "cut"]),
         default="keep",

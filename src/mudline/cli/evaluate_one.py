@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
 from pathlib import Path
 
 from mudline.cli.evaluate_inputs import read_file
@@ -27,38 +26,35 @@ MOST_ROWS = 40
 """Lines of a table on the terminal, unless more is asked for."""
 
 
-@dataclass(frozen=True, slots=True)
-class Outputs:
-    """Where the results of one deck go, and what is shown of them."""
-
-    output: str | None
-    picture: Picture
-    against: str | None
-    table: str
-    output_format: str
-
-
-def evaluate_one(evaluation: Evaluation, outputs: Outputs, view: View) -> list[ContactWarning]:
+def evaluate_one(
+    evaluation: Evaluation,
+    view: View,
+    *,
+    output: str | None,
+    picture: Picture,
+    against: str | None,
+    table: str,
+    output_format: str,
+) -> list[ContactWarning]:
     """Evaluate a deck, print or write the results; returns what is doubtful. Raises DeckError, click.ClickException."""
-    against, output, output_format = outputs.against, outputs.output, outputs.output_format
     reference = read_file(against, lambda file: read_reference(file, evaluation)) if against else None
     comparison = None if reference is None else Comparison(evaluation, reference)
-    drawing = outputs.picture.data(evaluation)
+    drawing = picture.data(evaluation)
     if not view.quiet:
         _notify_before(evaluation, comparison)
     shown = "" if output else output_format
     most = None if view.verbose else MOST_ROWS
-    digest = StepSummary(evaluation, most, outputs.table == "nodes") if shown == "text" else None
+    digest = StepSummary(evaluation, most, table == "nodes") if shown == "text" else None
     lines = line_watch(evaluation, shown or form_of_file(output), most)
     slow, watch = SlowSuction(), ContactWatch.of(evaluation)
     given = (comparison, drawing, digest, lines, slow, watch)
     consumers: list[ResultConsumer] = [one for one in given if one is not None]
-    with _sink(evaluation, comparison, outputs, view) as sink:
+    with _sink(evaluation, comparison, output, shown, table, view) as sink:
         _run(evaluation, [*consumers, sink], view, bar=shown in {"", "text"})
         warnings = watch.warnings()
         sink.finish(behind(evaluation, warnings, comparison, lines))
     if drawing is not None:
-        outputs.picture.draw(drawing, caption(warnings), view)
+        picture.draw(drawing, caption(warnings), view)
     if not view.quiet:
         _notify_warnings(warnings)
         if note := watch.note():
@@ -67,7 +63,7 @@ def evaluate_one(evaluation: Evaluation, outputs: Outputs, view: View) -> list[C
     if output and not view.quiet:
         _notify_written(evaluation, Path(output), beside(Path(output)))
     if digest is not None and lines is not None:
-        print_evaluation(digest, lines, outputs.table, view)
+        print_evaluation(digest, lines, table, view)
     if comparison is not None and output_format == "text":
         print_comparison(comparison, view)
     return warnings
@@ -92,22 +88,21 @@ def evaluate_series(
     if output and not view.quiet:
         _notify_written(evaluation, Path(output), written)
     if not output and output_format == "text":
-        print_series(summary.step_summary(), summary.line_watch(None if view.verbose else MOST_ROWS), view)
+        print_series(summary.totals, summary.line_watch(None if view.verbose else MOST_ROWS), view)
     return warnings
 
 
 def _sink(
-    evaluation: Evaluation, comparison: Comparison | None, outputs: Outputs, view: View
+    evaluation: Evaluation, comparison: Comparison | None, output: str | None, shown: str, table: str, view: View
 ) -> AbstractContextManager[Sink]:
     """Where the rows go: files, standard output, or nowhere."""
     elements = evaluation.element_table(None if comparison is None else comparison.others)
-    form = outputs.output_format
-    if outputs.output:
-        return result_files(evaluation, elements, Path(outputs.output), view)
-    if form == "text":
+    if output:
+        return result_files(evaluation, elements, Path(output), view)
+    if shown == "text":
         return nullcontext(Sink(evaluation, {}, None))
-    tables = tables_of(evaluation, form, elements, outputs.table)
-    writer = text_writer(form, contents_of(evaluation, tables), emit, outputs.table)
+    tables = tables_of(evaluation, shown, elements, table)
+    writer = text_writer(shown, contents_of(evaluation, tables), emit, table)
     return nullcontext(Sink(evaluation, tables, writer))
 
 

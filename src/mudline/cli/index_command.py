@@ -3,40 +3,30 @@
 from __future__ import annotations
 
 import os
-import time
-from collections import deque
-from collections.abc import Generator, Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import closing, suppress
 from importlib.util import find_spec
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from mudline.cli import DONE, WRONG_USAGE, on_cluster, options
+from mudline.cli import DONE, WRONG_USAGE, options
 from mudline.cli.inputs import Inputs, collect_any_form
 from mudline.cli.lint_run import SettingsOf, checked_settings
-from mudline.cli.processes import Effort, pays, pool, submitted
 from mudline.cli.streams import counted, notify, notify_missing, reason
 from mudline.cli.view import Progress, View, wants_bar
-from mudline.cluster import storage
 from mudline.files import is_url
 from mudline.linting.configuration import Given
+from mudline.running import storage
+from mudline.running.executors import executor, in_order
 
 if TYPE_CHECKING:
-    from concurrent.futures import Executor, Future
+    from mudline.archive.updating import Order, Update
 
-    from mudline.archive.updating import Order, Read, Update
-    from mudline.cluster.scheduler import Scheduler
-
-TRIED = 0.2
-"""Seconds of reading by which the remaining work is estimated."""
-_DECKS = 50
-_BYTES = 500_000
-_AHEAD = 3
-"""Parts for each process that are sent ahead."""
-_FIRST = 5
-"""Decks that are read at a time before other processes are started."""
+_DECKS = 10
+"""Decks that are read together."""
 LIBRARIES = ("duckdb", "pyarrow")
 EXTRA = "archive"
 
@@ -54,16 +44,9 @@ def lacks_libraries(command: str) -> bool:
 @click.option("-o", "--output", required=True, metavar="ARCHIVE", help="The folder of the archive; made if missing.")
 @click.option("--check", is_flag=True, help="Compare contents, of decks and of the archive, not only sizes and dates.")
 @click.option("--prune", is_flag=True, help="Also drop decks outside PATHS whose files are no longer there.")
-@click.option("--config", metavar="FILE", help="Use this configuration for all decks, not the nearest one of each.")
-@click.option("--isolated", is_flag=True, help="Use no configuration file.")
-@click.option(
-    "--jobs",
-    type=click.IntRange(min=0),
-    default=0,
-    metavar="N",
-    help="Use at most N processes, when that pays; 0 (default): one for each processor.",
-)
-@on_cluster.options
+@options.config
+@options.isolated
+@options.running
 @options.every_file
 @options.units
 @options.common
@@ -76,7 +59,7 @@ def command(
     config: str | None,
     isolated: bool,
     jobs: int,
-    scheduler: Scheduler | None,
+    scheduler: str | None,
     every_file: bool,
     units: str | None,
     view: View,
@@ -103,12 +86,7 @@ def command(
         update = Update(Archive.made(folder), check, storage.exists)
         for problem in update.archive.damaged.values():
             notify(problem)
-        if scheduler is None:
-            _index(inputs, settings.of, update, Effort(jobs), view)
-        else:
-            from mudline.cli.cluster_decks import index_on_cluster  # noqa: PLC0415 - few runs use a cluster
-
-            index_on_cluster(inputs, settings.of, update, scheduler, view)
+        _index(inputs, settings.of, update, view, jobs, scheduler)
         update.remove_gone(_folders(paths, listed=listed), everywhere=prune)
         update.finish()
     except ArchiveError as error:
@@ -141,14 +119,19 @@ def _folders(paths: Sequence[str], *, listed: bool) -> list[str]:
     return found
 
 
-def _index(inputs: Inputs, settings_of: SettingsOf, update: Update, effort: Effort, view: View) -> None:
+def _index(
+    inputs: Inputs, settings_of: SettingsOf, update: Update, view: View, jobs: int, scheduler: str | None
+) -> None:
     """Read the decks that are to be read; what has been read is written, also when the run is interrupted."""
-    with Progress(len(inputs.files), view, shown=wants_bar(view)) as progress:
-        orders = _orders(inputs, settings_of, update, progress)
+    from mudline.archive.updating import read_decks  # noqa: PLC0415 - an extra
+
+    with Progress(len(inputs.files), view, shown=wants_bar(view)) as progress, executor(jobs, scheduler) as pool:
+        parts = ((None, part) for part in _parts(_orders(inputs, settings_of, update, progress)))
         try:
-            with closing(_read(orders, inputs, effort)) as found:
-                for read in found:
-                    update.take(read)
+            with closing(in_order(pool, read_decks, parts, len(inputs.files) // _DECKS)) as found:
+                for _, read in found:
+                    if read is not None:
+                        update.take(read)
         except BaseException:
             update.flush()
             raise
@@ -175,51 +158,9 @@ def _orders(inputs: Inputs, settings_of: SettingsOf, update: Update, progress: P
         progress.advance()
 
 
-def _read(orders: Iterator[Order], inputs: Inputs, effort: Effort) -> Generator[Read, None, None]:
-    """What the decks gave, in their order. Processes are used once that pays."""
-    from mudline.archive.updating import read_decks  # noqa: PLC0415 - an extra
-
-    spent, done = 0.0, 0
-    for part in _parts(orders, _FIRST):
-        start = time.perf_counter()
-        read = read_decks(part)
-        spent, done = spent + time.perf_counter() - start, done + len(part)
-        yield read
-        if spent >= TRIED:
-            break
-    else:
-        return
-    if not pays(spent / done * (len(inputs.files) - done), effort):
-        yield from map(read_decks, _parts(orders, _DECKS))
-        return
-    with pool(effort.processes, "read decks", "mudline.archive.updating") as executor:
-        yield from _ahead(_parts(orders, _DECKS), executor, _AHEAD * effort.processes)
-
-
-def _ahead(parts: Iterable[list[Order]], executor: Executor, most: int) -> Iterator[Read]:
-    """What the parts gave in order, while the processes work on `most` of them."""
-    from mudline.archive.updating import read_decks  # noqa: PLC0415 - an extra
-
-    waiting: deque[Future[Read]] = deque()
-    for part in parts:
-        waiting.append(submitted(executor, read_decks, part))
-        if len(waiting) > most:
-            yield waiting.popleft().result()
-    while waiting:
-        yield waiting.popleft().result()
-
-
-def _parts(orders: Iterator[Order], most: int) -> Iterator[list[Order]]:
-    """Decks that are read together: few enough that no process waits long."""
-    part: list[Order] = []
-    size = 0
-    for one in orders:
-        part.append(one)
-        size += len(one.data)
-        if len(part) >= most or size >= _BYTES:
-            yield part
-            part, size = [], 0
-    if part:
+def _parts(orders: Iterator[Order]) -> Iterator[list[Order]]:
+    """Decks that are read together."""
+    while part := list(islice(orders, _DECKS)):
         yield part
 
 

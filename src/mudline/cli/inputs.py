@@ -16,11 +16,11 @@ import click
 from mudline.cli import FOUND, WRONG_USAGE, options
 from mudline.cli.search import Search
 from mudline.cli.streams import notify, notify_diagnostics, reason
-from mudline.cluster import storage
 from mudline.deck import MARK
 from mudline.deck.forms import SUFFIXES, form_of
 from mudline.diagnostics import DeckError
 from mudline.files import is_url, write_atomically
+from mudline.running import storage
 
 if TYPE_CHECKING:
     from mudline.deck.model import Deck
@@ -44,6 +44,12 @@ class Input:
         if self.path is None or is_url(self.path):
             return None
         return _folder(os.path.dirname(self.path))  # noqa: PTH120 - asked for many files
+
+    def seen_from(self, here: str) -> Input:
+        """The same file for a process whose working folder may not be `here`."""
+        if self.path is None or is_url(self.path) or os.getcwd() == here:  # noqa: PTH109 - compared as text
+            return self
+        return Input(self.name, os.path.join(here, self.path))  # noqa: PTH118 - as above
 
     def size_and_date(self) -> tuple[int, int]:
         """Bytes, and the time of the last change in ns since 1970, -1 where that is not known; raises OSError."""
@@ -149,7 +155,7 @@ def _is_deck_in_any_form(path: str) -> bool:
     if not is_deck(path) and form_of(path) == "keyword":
         return False
     if is_url(path):
-        return is_deck(path) or MARK.encode() in storage.head(path, _HEAD)
+        return is_deck(path) or MARK.encode() in storage.read(path, _HEAD)
     file = Path(path)
     if file.exists() and not file.is_file():
         return False

@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
 
 import click
 
-from mudline.cli import DONE, FOUND, on_cluster, options
+from mudline.cli import DONE, FOUND, options
 from mudline.cli.configured import Configured
 from mudline.cli.inputs import collect
-from mudline.cli.lint_known import known_decks
+from mudline.cli.known_findings import known_findings
 from mudline.cli.lint_report import Report, complete, outputs
 from mudline.cli.view import View
 from mudline.diagnostics import Severity
 from mudline.linting.configuration import Given
 from mudline.linting.output import TEXT, form_names
 
-if TYPE_CHECKING:
-    from mudline.cluster.scheduler import Scheduler
+_RULES, _FIXES, _KNOWN = "Rules", "Fixes", "Known findings"
 
-_rules = partial(click.option, multiple=True, metavar="CODE[,CODE...]", shell_complete=options.complete_rules)
+_rules = partial(
+    options.option, group=_RULES, multiple=True, metavar="CODE[,CODE...]", shell_complete=options.complete_rules
+)
 
 
 def _words(given: tuple[str, ...]) -> tuple[str, ...]:
@@ -32,45 +32,58 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
 @_rules("--select", "chosen", help="Run these rules only: codes, prefixes or slugs.")
 @_rules("--extend-select", "also", help="Run these rules too.")
 @_rules("--ignore", "ignored", help="Do not run these rules.")
-@click.option(
+@options.option(
     "--fail-on",
+    group=options.OUTPUT,
     type=click.Choice([severity.value for severity in (Severity.ERROR, Severity.WARNING, Severity.INFO)]),
     help="Exit with 1 for findings of this severity or worse (default: warning).",
 )
-@click.option(
+@options.option(
     "--output-format",
     "forms",
+    group=options.OUTPUT,
     multiple=True,
     metavar="FORM[=FILE]",
     shell_complete=complete,
     help=f"Print findings in this format: {', '.join([f'{TEXT} (default)', *form_names()])}; "
     "=FILE writes a file too. Repeatable.",
 )
-@click.option("--fix", is_flag=True, help="Apply the safe fixes, in place; the deck of - is printed.")
-@click.option("--unsafe-fixes", "unsafe", is_flag=True, help="With --fix or --diff: also apply fixes that guess.")
-@click.option("--diff", is_flag=True, help="Print what --fix would change, and write nothing; exit with 1 if anything.")
-@click.option("--baseline", metavar="FILE", help="Hide the findings that are recorded in this file.")
-@click.option("--write-baseline", "recording", is_flag=True, help="Record all findings in the file of --baseline.")
-@click.option(
+@options.option("--fix", group=_FIXES, is_flag=True, help="Apply the safe fixes, in place; the deck of - is printed.")
+@options.option(
+    "--unsafe-fixes", "unsafe", group=_FIXES, is_flag=True, help="With --fix or --diff: also apply fixes that guess."
+)
+@options.option(
+    "--diff",
+    group=_FIXES,
+    is_flag=True,
+    help="Print what --fix would change, and write nothing; exit with 1 if anything.",
+)
+@options.option("--baseline", group=_KNOWN, metavar="FILE", help="Hide the findings that are recorded in this file.")
+@options.option(
+    "--write-baseline", "recording", group=_KNOWN, is_flag=True, help="Record all findings in the file of --baseline."
+)
+@options.option(
     "--dialect",
+    group=_RULES,
     type=click.Choice(["mudline", "flexcom"]),
     help="Check decks for this program (default: mudline); flexcom has no extension keywords.",
 )
-@click.option("--config", metavar="FILE", help="Use this configuration for all decks, not the nearest one of each.")
-@click.option("--isolated", is_flag=True, help="Use no configuration file.")
-@click.option("--statistics", is_flag=True, help="Count the findings of each rule instead of listing them.")
-@click.option("--exit-zero", is_flag=True, help="Exit with 0 whatever is found.")
-@click.option(
-    "--jobs",
-    type=click.IntRange(min=0),
-    default=0,
-    metavar="N",
-    help="Use at most N processes, when that pays; 0 (default): one for each processor.",
+@options.config
+@options.isolated
+@options.option(
+    "--statistics", group=options.OUTPUT, is_flag=True, help="Count the findings of each rule instead of listing them."
 )
-@click.option("--no-cache", "uncached", is_flag=True, help="Lint every deck again, without the cache.")
-@click.option("--watch", is_flag=True, help="Lint again whenever a deck or a configuration changes, until Ctrl-C.")
-@on_cluster.options
-@on_cluster.output
+@options.option("--exit-zero", group=options.OUTPUT, is_flag=True, help="Exit with 0 whatever is found.")
+@options.running
+@options.option(
+    "--no-cache", "uncached", group=options.RUN, is_flag=True, help="Lint every deck again, without the cache."
+)
+@options.option(
+    "--watch",
+    group=options.RUN,
+    is_flag=True,
+    help="Lint again whenever a deck or a configuration changes, until Ctrl-C.",
+)
 @options.every_file
 @options.stdin_name
 @options.units
@@ -96,8 +109,7 @@ def command(
     jobs: int,
     uncached: bool,
     watch: bool,
-    scheduler: Scheduler | None,
-    output: str | None,
+    scheduler: str | None,
     every_file: bool,
     stdin_name: str,
     units: str | None,
@@ -108,7 +120,8 @@ def command(
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi and *.das), URLs of either, or - for standard
     input.
     """
-    on_cluster.refuse(scheduler, {"--fix": fix, "--diff": diff, "--watch": watch}, output, paths)
+    if scheduler is not None and (fix or diff or watch):
+        raise click.UsageError("--fix, --diff and --watch do not go with --scheduler: leave one of them out")
     given = Given(_words(chosen), _words(ignored), _words(also), dialect, units)
     fixing = "none" if not (fix or diff) else "unsafe" if unsafe else "safe"
     wanted = outputs(forms)
@@ -119,7 +132,7 @@ def command(
         inputs = collect(paths, stdin_name, configured.wanted, gitignore=not every_file, urls=not (fix or diff))
         aside = diff or (fix and any(file.path is None for file in inputs.files))
         report = Report(wanted, view, statistics=statistics, aside=aside, fixing=fix or diff)
-        known = None if uncached or fix or diff or scheduler else known_decks(inputs, given, configured)
+        known = None if uncached or fix or diff else known_findings(inputs, given, configured)
         if known is not None and known.all_clean and not (baseline or recording):
             for file in inputs.files:
                 report.add(file.name, b"", [], 0, Severity.ERROR)
@@ -128,12 +141,8 @@ def command(
         from mudline.cli import lint_run  # noqa: PLC0415 - decks that have not changed are not read
 
         settings = lint_run.checked_settings(config, given, fixing, isolated=isolated, fail_on=fail_on)
-        run = lint_run.Run(inputs, settings, report, known, baseline, recording=recording, diff=diff, jobs=jobs)
-        if scheduler is not None:
-            from mudline.cli.cluster_decks import lint_on_cluster  # noqa: PLC0415 - few runs use a cluster
-
-            cluster = on_cluster.OnCluster(scheduler, output, uncached, view.verbose)
-            run.elsewhere = partial(lint_on_cluster, cluster=cluster, view=view)
+        run = lint_run.Run(inputs, settings, report, known, baseline, recording=recording, diff=diff)
+        run.jobs, run.scheduler = jobs, scheduler
         failing = run.go() and not exit_zero
         return max(inputs.code, FOUND if failing else DONE)
 

@@ -1,28 +1,25 @@
 """One run of `mudline lint`: the settings of each deck, its findings without the known ones, and fixed decks.
 
-Of many files the cache answers what it holds; the rest is linted here or in other processes, always in the order given.
-The processes end with this one and print nothing.
+Of many files those that are remembered are not linted again; the rest is linted here, in other processes or by the
+workers of a scheduler, always in the order given.
 """
 
 from __future__ import annotations
 
 import os
-import time
-from collections import deque
-from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator
 from contextlib import closing
 from dataclasses import KW_ONLY, dataclass, field, replace
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import click
 
 from mudline.cli.configured import Configured
 from mudline.cli.inputs import Input, Inputs
-from mudline.cli.lint_known import KnownDecks
+from mudline.cli.known_findings import KnownFindings
 from mudline.cli.lint_report import Report
-from mudline.cli.processes import Effort, pays, pool, submitted
 from mudline.cli.streams import counted, emit_deck, notify, reason, write_text
 from mudline.cli.view import View
 from mudline.deck.forms import form_of
@@ -34,9 +31,7 @@ from mudline.linting.registry import UnknownRule, code_fault, plugin_files, rule
 from mudline.linting.rule import Rule
 from mudline.linting.settings import hidden_codes, merged_settings
 from mudline.linting.suppression import Baseline, BaselineError, read_baseline
-
-if TYPE_CHECKING:
-    from concurrent.futures import Executor, Future
+from mudline.running.executors import executor, in_order
 
 
 @dataclass
@@ -111,7 +106,6 @@ def checked_settings(config: str | None, given: Given, fixing: str, *, isolated:
 class Run:
     """All files: fixed decks are written or shown, known findings left out, the others reported.
 
-    `elsewhere` lints them instead of this machine's processes.
     `baseline` is the file of the findings that are known already, or that are to be recorded. With `diff` nothing is
     written.
     """
@@ -119,13 +113,13 @@ class Run:
     inputs: Inputs
     settings: Settings
     report: Report
-    known: KnownDecks | None = None
+    known: KnownFindings | None = None
     baseline: str | None = None
     _: KW_ONLY
     recording: bool = False
     diff: bool = False
     jobs: int = 0
-    elsewhere: Callable[[Inputs, SettingsOf], Generator[Linted, None, None]] | None = None
+    scheduler: str | None = None
     _differs: bool = field(default=False, init=False)
     _documents: int = field(default=0, init=False)
     _recorded: Baseline | None = field(default=None, init=False)
@@ -133,7 +127,9 @@ class Run:
     def go(self) -> bool:
         """Lint all files; returns whether there is a reason to fail."""
         self._recorded = _baseline(self.baseline, recording=self.recording)
-        with closing(self._linted()) as results:
+        alone = self.settings.fixing is not Fixing.NONE  # a deck that is fixed may be one that others continue
+        jobs = 1 if alone else self.jobs
+        with closing(lint_all(self.inputs, self.settings.of, self.known, jobs, self.scheduler)) as results:
             for file, data, result in results:
                 self._take(file, data, result)
         if self._documents:
@@ -142,12 +138,6 @@ class Run:
         if self._recorded is not None and self.baseline is not None:
             _report_baseline(self._recorded, Path(self.baseline), self.report.view, recording=self.recording)
         return self.report.failing or self._differs
-
-    def _linted(self) -> Generator[Linted, None, None]:
-        """Each file with its content and report, made here or on a cluster."""
-        if self.elsewhere is None:
-            return lint_all(self.inputs, self.settings.of, Effort(self.jobs), self.known)
-        return self.elsewhere(self.inputs, self.settings.of)
 
     def _take(self, file: Input, data: bytes, result: FileReport) -> None:
         settings = self.settings.of(file)
@@ -188,20 +178,13 @@ class Run:
 
 # ----------------------------------------------------------------------------------------------------------- many files
 
-TRIED = 0.05
-"""Seconds of linting by which the remaining work is estimated."""
-
-_CHUNK_FILES = 20
-_CHUNK_BYTES = 500_000
-_CHUNK_KNOWN = 256
-
 SettingsOf = Callable[[Input], LintSettings]
 """The settings of a file."""
 Linted = tuple[Input, bytes, FileReport]
 
 
 class Task(NamedTuple):
-    """A file to lint; `known` is its report if the cache has it, `key` the key of its report in the cache, if any."""
+    """A file to lint; `known` is its report if that is remembered, `key` what it is remembered under, if at all."""
 
     file: Input
     data: bytes
@@ -209,43 +192,43 @@ class Task(NamedTuple):
     key: str = ""
     known: FileReport | None = None
 
-    def lint(self) -> FileReport:
-        """The report, from the cache or made in this process."""
-        return self.known or lint_one(self.file.name, self.data, self.settings, self.file.folder)
 
+class Order(NamedTuple):
+    """A file as it is sent: without its rules, whose functions may not be picklable, but with their codes.
 
-Order = tuple[Task, tuple[str, ...]]
-"""A file as it is sent to a process: without its rules, whose functions may not be picklable, and their codes."""
+    `here` is the working folder, below which files are looked for that the deck names.
+    """
 
-
-class Sendable(NamedTuple):
-    """Settings, the same without their rules, and the codes of these."""
-
-    settings: LintSettings
-    without_rules: LintSettings
+    task: Task
     codes: tuple[str, ...]
+    here: str
 
 
 def lint_all(
-    inputs: Inputs, settings_of: SettingsOf, effort: Effort, known: KnownDecks | None = None
+    inputs: Inputs,
+    settings_of: SettingsOf,
+    known: KnownFindings | None = None,
+    jobs: int = 0,
+    scheduler: str | None = None,
 ) -> Generator[Linted, None, None]:
     """Each file that can be read with its content and its report, in the order of the files.
 
     Files without a finding that are known as such are not read again: their content is given as empty.
     """
-    tasks = _tasks(inputs, settings_of, known)
     plugins = plugin_files() if known is not None else ()
-    with closing(_reports(tasks, len(inputs.files) - (known.clean.count(1) if known else 0), effort)) as reports:
-        for one, report in reports:
+    orders = _orders(_tasks(inputs, settings_of, known))
+    with executor(jobs, scheduler) as pool, closing(in_order(pool, lint_order, orders, len(inputs.files))) as reports:
+        for one, made in reports:
+            report = made or one.known or FileReport(one.file.name, ())
             if known is not None and one.key and one.known is None:
-                known.cache.put(one.key, report.found, (*report.looked_at, *plugins))
+                known.put(one.key, report.found, (*report.looked_at, *plugins))
             yield one.file, one.data, report
     if known is not None:
-        known.cache.save()
+        known.memory.save()
 
 
-def _tasks(inputs: Inputs, settings_of: SettingsOf, known: KnownDecks | None) -> Iterator[Task]:
-    """The files with their reports as far as the cache has them; it is not asked for standard input."""
+def _tasks(inputs: Inputs, settings_of: SettingsOf, known: KnownFindings | None) -> Iterator[Task]:
+    """The files with their reports as far as they are remembered; standard input is not."""
     for number, file in enumerate(inputs.files):
         settings = settings_of(file)
         if known is not None and known.clean[number]:
@@ -256,94 +239,36 @@ def _tasks(inputs: Inputs, settings_of: SettingsOf, known: KnownDecks | None) ->
             yield Task(file, data, settings)
         else:
             key = known.key(file, data)
-            found = known.cache.get(key, file.name)
+            found = known.get(key, file)
             yield Task(file, data, settings, key, None if found is None else FileReport(file.name, found))
 
 
-def _reports(tasks: Iterable[Task], count: int, effort: Effort) -> Generator[tuple[Task, FileReport], None, None]:
-    """The reports of the files in their order, `count` of them not known. Processes are used once that pays."""
-    rest = iter(tasks)
-    spent = 0.0
-    done = 0
-    for one in rest:
-        start = time.perf_counter()
-        report = one.lint()
-        spent += time.perf_counter() - start
-        done += one.known is None
-        yield one, report
-        alone = one.settings.fixing is not Fixing.NONE or not done or spent < TRIED
-        if not alone and pays(spent / done * (count - done), effort):
-            break
-    else:
-        return
-    with pool(effort.processes, "linted decks", __name__) as executor:
-        yield from _ahead(rest, executor, 2 * effort.processes)
-
-
-def _ahead(tasks: Iterable[Task], executor: Executor, most: int) -> Iterator[tuple[Task, FileReport]]:
-    """The reports in order, while the processes work ahead on `most` chunks of files."""
-    waiting: deque[tuple[list[Task], Future[list[FileReport]] | None]] = deque()
-    sendable: dict[int, Sendable] = {}
-    for chunk in _chunks(tasks):
-        waiting.append((chunk, _sent(executor, [order_of(one, sendable) for one in chunk if one.known is None])))
-        if len(waiting) > most:
-            yield from _done(*waiting.popleft())
-    while waiting:
-        yield from _done(*waiting.popleft())
-
-
-def _done(chunk: list[Task], made: Future[list[FileReport]] | None) -> Iterator[tuple[Task, FileReport]]:
-    reports = iter(made.result() if made else ())
-    for one in chunk:
-        yield one, one.known or next(reports)
-
-
-def _chunks(tasks: Iterable[Task]) -> Iterator[list[Task]]:
-    """Files that are sent to a process together: few enough that none waits long."""
-    chunk: list[Task] = []
-    files = size = 0
+def _orders(tasks: Iterator[Task]) -> Iterator[tuple[Task, Order | None]]:
+    """Each file with what is sent of it; settings that many files share are one object, which is sent once."""
+    sendable: dict[int, tuple[LintSettings, LintSettings, tuple[str, ...]]] = {}
+    here = os.getcwd()  # noqa: PTH109 - sent as text
     for one in tasks:
-        chunk.append(one)
-        if one.known is None:
-            files += 1
-            size += len(one.data)
-        if files >= _CHUNK_FILES or size >= _CHUNK_BYTES or len(chunk) >= _CHUNK_KNOWN:
-            yield chunk
-            chunk, files, size = [], 0, 0
-    if chunk:
-        yield chunk
+        if one.known is not None:
+            yield one, None
+            continue
+        if id(one.settings) not in sendable:
+            codes = tuple(rule.code.code for rule in one.settings.rules)
+            sendable[id(one.settings)] = (one.settings, replace(one.settings, rules=()), codes)
+        _, without_rules, codes = sendable[id(one.settings)]
+        yield one, Order(one._replace(settings=without_rules), codes, here)
 
 
-# -------------------------------------------------------------------------------------------------- other processes
-
-
-def order_of(task: Task, sendable: dict[int, Sendable]) -> Order:
-    """A file as it is sent.
-
-    `sendable` has settings that many files share: a process is sent the same object once in a chunk.
-    """
-    if id(task.settings) not in sendable:
-        codes = tuple(rule.code.code for rule in task.settings.rules)
-        sendable[id(task.settings)] = Sendable(task.settings, replace(task.settings, rules=()), codes)
-    found = sendable[id(task.settings)]
-    return task._replace(settings=found.without_rules), found.codes
-
-
-def _sent(executor: Executor, orders: list[Order]) -> Future[list[FileReport]] | None:
-    if not orders:
-        return None
-    return submitted(executor, lint_orders, orders)
-
-
-def lint_orders(orders: Sequence[Order]) -> list[FileReport]:
-    """What a process does with a chunk."""
-    return [one._replace(settings=replace(one.settings, rules=_named(codes))).lint() for one, codes in orders]
+def lint_order(order: Order) -> FileReport:
+    """Lint a file, in any process."""
+    task = order.task
+    settings = replace(task.settings, rules=_named(order.codes))
+    return lint_one(task.file.name, task.data, settings, task.file.seen_from(order.here).folder)
 
 
 @cache
 def _named(codes: tuple[str, ...]) -> tuple[Rule, ...]:
-    """The rules of these codes; raises ValueError where a package that has some of them is not installed here."""
+    """The rules of these codes; raises ImportError where a package that has some of them is not installed here."""
     found = tuple(rule for rule in rules() if rule.code.code in codes)
     if missing := sorted(set(codes) - {rule.code.code for rule in found}):
-        raise ValueError(f"no rule {', '.join(missing)}: install the package that has it, as where the command runs")
+        raise ImportError(f"no rule {', '.join(missing)}")
     return found

@@ -8,8 +8,10 @@ from functools import partial, wraps
 from typing import Any
 
 import click
+from click.core import ParameterSource
 
 from mudline.cli.view import View
+from mudline.running.executors import RunError, check_address
 
 Command = Callable[..., int]
 
@@ -75,6 +77,41 @@ def common(command: Command) -> Command:
     return viewed
 
 
+def running(command: Command) -> Command:
+    """`--jobs` and `--scheduler`, for `executor`; ends the command where items cannot be done elsewhere."""
+
+    @wraps(command)
+    def run(*, scheduler: str | None, **others: object) -> int:
+        given = click.get_current_context().get_parameter_source("jobs") is not ParameterSource.DEFAULT
+        if scheduler is not None and given:
+            raise click.UsageError("--jobs is for processes without --scheduler: leave one of them out")
+        try:
+            if scheduler is not None:
+                check_address(scheduler)
+            return command(scheduler=scheduler, **others)
+        except RunError as error:
+            raise click.ClickException(str(error)) from error
+
+    for add in (
+        option(
+            "--scheduler",
+            group=RUN,
+            metavar="ADDRESS",
+            help="Use the workers of a Dask scheduler: tcp://HOST:PORT or tls://HOST:PORT (needs mudline[cluster]).",
+        ),
+        option(
+            "--jobs",
+            group=RUN,
+            type=click.IntRange(min=0),
+            default=0,
+            metavar="N",
+            help="Use at most N processes, when that pays; 0 (default): one for each processor.",
+        ),
+    ):
+        run = add(run)
+    return run
+
+
 units = option(
     "--units",
     group=INPUT,
@@ -122,7 +159,9 @@ stdin_name = option(
     help="Call standard input (-) by this name in messages; its suffix gives the format and the units.",
 )
 
-config = option("--config", group=INPUT, metavar="FILE", help="Use this configuration, not the nearest one.")
+config = option(
+    "--config", group=INPUT, metavar="FILE", help="Use this configuration for all decks, not the nearest one of each."
+)
 
 isolated = option("--isolated", group=INPUT, is_flag=True, help="Use no configuration file.")
 

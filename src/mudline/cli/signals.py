@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import signal
-import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -40,32 +39,3 @@ def ending_cleans_up() -> Iterator[None]:
 
 def _end(number: int, _: FrameType | None) -> None:
     raise Ended(number)
-
-
-def ignore_interrupt() -> None:
-    """Ignore Ctrl-C, which reaches all processes of a terminal: the first one ends the others.
-
-    A closed terminal reaches all of them too; SIGTERM ends this one as it would any other program.
-    """
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    for number in _ENDING:
-        signal.signal(number, signal.SIG_DFL if number == signal.SIGTERM else signal.SIG_IGN)
-
-
-@contextmanager
-def interrupt_deferred() -> Iterator[None]:
-    """Block Ctrl-C, also in processes that are started here until they ignore it; this one gets it afterwards."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    received: list[int] = []
-    before = signal.signal(signal.SIGINT, lambda number, _: received.append(number))
-    masked = sys.platform != "win32" and signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        if sys.platform != "win32":
-            signal.pthread_sigmask(signal.SIG_SETMASK, masked or ())
-        signal.signal(signal.SIGINT, before)
-        if received:
-            signal.raise_signal(signal.SIGINT)

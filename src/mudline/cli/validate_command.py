@@ -3,24 +3,22 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable, Iterator
 from contextlib import closing
 from dataclasses import asdict, fields
 from textwrap import indent
-from typing import TYPE_CHECKING
 
-from mudline.cli import DONE, FOUND, on_cluster, options
+from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import Inputs, collect_any_form
 from mudline.cli.streams import emit, reason
-from mudline.cli.verdicts import Judged, Total, Verdict, judge
+from mudline.cli.verdicts import Judged, Order, Total, Verdict, judge_order
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.linting.output.json import as_object
 from mudline.quantities import csv_lines
+from mudline.running.executors import Pool, executor, in_order
 from mudline.syntax.source import Source
-
-if TYPE_CHECKING:
-    from mudline.cluster.scheduler import Scheduler
 
 _COUNTS = ("errors", "warnings", "sections", "keywords", "curves", "elements")
 
@@ -28,8 +26,7 @@ _COUNTS = ("errors", "warnings", "sections", "keywords", "curves", "elements")
 @options.command("validate")
 @options.paths
 @options.output_format("text", "json", "csv")
-@on_cluster.options
-@on_cluster.output
+@options.running
 @options.every_file
 @options.stdin_name
 @options.units
@@ -38,8 +35,8 @@ def command(
     *,
     paths: tuple[str, ...],
     output_format: str,
-    scheduler: Scheduler | None,
-    output: str | None,
+    jobs: int,
+    scheduler: str | None,
     every_file: bool,
     stdin_name: str,
     units: str | None,
@@ -53,39 +50,34 @@ def command(
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that begin
     as decks do), URLs of either, or - for standard input. Of many decks -q shows the table without the errors.
     """
-    on_cluster.refuse(scheduler, {}, output, paths)
     inputs = collect_any_form(paths, stdin_name, gitignore=not every_file, urls=True)
     total = Total()
     shown = wants_bar(view) and (output_format == "text" or not sys.stdout.isatty())
     progress = Progress(len(inputs.files), view, shown=shown)
-    cluster = None if scheduler is None else on_cluster.OnCluster(scheduler, output, verbose=view.verbose)
-    judged = _judged_on(cluster, inputs, units, total, view, progress)
-    if output_format == "json":
-        _print_json(judged, total)
-    elif output_format == "csv":
-        emit(csv_lines([[field.name for field in fields(Verdict)]]))
-        for one in judged:
-            emit(csv_lines([asdict(one.verdict).values()]))
-    else:
-        _print_text(judged, total, view)
+    with executor(jobs, scheduler) as pool, closing(_judged(pool, inputs, units, total, view, progress)) as judged:
+        if output_format == "json":
+            _print_json(judged, total)
+        elif output_format == "csv":
+            emit(csv_lines([[field.name for field in fields(Verdict)]]))
+            for one in judged:
+                emit(csv_lines([asdict(one.verdict).values()]))
+        else:
+            _print_text(judged, total, view)
     return max(inputs.code, DONE if total.legal == total.decks else FOUND)
 
 
 # --------------------------------------------------------------------------------------------------------- judging
 
 
-def _judged(inputs: Inputs, units: str | None, total: Total, view: View, progress: Progress) -> Iterator[Judged]:
+def _judged(
+    pool: Pool, inputs: Inputs, units: str | None, total: Total, view: View, progress: Progress
+) -> Generator[Judged, None, None]:
     """Each deck that can be read; all are counted. The bar is hidden while a deck with errors is printed."""
-    with progress:
-        for file in inputs.files:
-            try:
-                data = file.read()
-            except OSError as error:
-                total.unreadable += 1
-                progress.hide()
-                inputs.fail(f"{file.name}: {reason(error)}")
-            else:
-                verdict, found = judge(data, file, units, verbose=view.verbose)
+    orders = _orders(inputs, units, total, view, progress)
+    with progress, closing(in_order(pool, judge_order, orders, len(inputs.files))) as results:
+        for data, made in results:
+            if made is not None and data is not None:
+                verdict, found = made
                 total.add(verdict)
                 if found:
                     progress.hide()
@@ -93,25 +85,21 @@ def _judged(inputs: Inputs, units: str | None, total: Total, view: View, progres
             progress.advance()
 
 
-def _judged_on(
-    cluster: on_cluster.OnCluster | None,
-    inputs: Inputs,
-    units: str | None,
-    total: Total,
-    view: View,
-    progress: Progress,
-) -> Iterator[Judged]:
-    """As `_judged`, by the workers of a cluster where there is one."""
-    if cluster is None:
-        yield from _judged(inputs, units, total, view, progress)
-        return
-    from mudline.cli.cluster_decks import validated_on_cluster  # noqa: PLC0415 - few runs use a cluster
-
-    with closing(validated_on_cluster(inputs, units, cluster, progress, verbose=view.verbose)) as judged:
-        for one in judged:
-            total.add(one.verdict)
-            yield one
-    total.unreadable = len(inputs.files) - total.decks
+def _orders(
+    inputs: Inputs, units: str | None, total: Total, view: View, progress: Progress
+) -> Iterator[tuple[bytes | None, Order | None]]:
+    """The content of each file and what is sent of it; None for one that cannot be read."""
+    here = os.getcwd()  # noqa: PTH109 - sent as text
+    for file in inputs.files:
+        try:
+            data = file.read()
+        except OSError as error:
+            total.unreadable += 1
+            progress.hide()
+            inputs.fail(f"{file.name}: {reason(error)}")
+            yield None, None
+        else:
+            yield data, Order(data, file, units, view.verbose, here)
 
 
 # ---------------------------------------------------------------------------------------------------------- output

@@ -78,6 +78,21 @@ class Judged(NamedTuple):
     data: bytes
 
 
+class Order(NamedTuple):
+    """What `judge_order` is given, in any process; `here` is the working folder of the command."""
+
+    data: bytes
+    file: Input
+    units: str | None
+    verbose: bool
+    here: str
+
+
+def judge_order(order: Order) -> tuple[Verdict, list[Diagnostic]]:
+    """The verdict on a deck and its findings as they are to be shown."""
+    return judge(order.data, order.file.seen_from(order.here), order.units, verbose=order.verbose)
+
+
 def judge(data: bytes, file: Input, units: str | None, *, verbose: bool) -> tuple[Verdict, list[Diagnostic]]:
     """The verdict on the content of a file and its errors; `verbose` adds the warnings."""
     try:

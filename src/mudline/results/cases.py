@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, fields
 from typing import BinaryIO, Literal
 
@@ -56,21 +56,6 @@ class CaseSummary:
     def row(self) -> dict[str, str | int | float | None]:
         """The values by name."""
         return asdict(self)
-
-    @classmethod
-    def of_row(cls, row: Mapping[str, object]) -> CaseSummary:
-        """The summary whose `row` this is; raises ValueError for anything else."""
-        if set(row) != {field.name for field in fields(cls)}:
-            raise ValueError("other columns")
-        for field in fields(cls):
-            kind, value = _KINDS.get(str(field.type).partition(" ")[0], str), row[field.name]
-            if value is not None and (not isinstance(value, kind) or isinstance(value, bool)):
-                raise ValueError(f"{field.name} is {value!r}")
-        return cls(**row)  # type: ignore[arg-type]
-
-
-_KINDS: dict[str, type] = {"str": str, "int": int, "float": float}
-"""By the beginning of the annotation of a field."""
 
 
 def worst_first(rows: Iterable[CaseSummary]) -> list[CaseSummary]:

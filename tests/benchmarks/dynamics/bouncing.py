@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from tests.benchmarks.dynamics.beam import Beam, differences, lumped, read_beam
+from tests.benchmarks.dynamics.beam import Beam, read_beam
 from tests.benchmarks.dynamics.lifting import DAMPING, Hoist, Lifting
 from tests.benchmarks.dynamics.reference import Path, Reference, Tolerance
 
@@ -22,28 +22,16 @@ def fall(tolerance: Tolerance, times: FloatArray = TIMES) -> tuple[Beam, Path]:
     return beam, Reference(Lifting(beam, free), tolerance).run(times)
 
 
-def for_exudyn(beam: Beam, model: str, steps: int, refined: int = 1) -> dict[str, object]:
-    """What `peer_exudyn` takes; `refined`: into how many parts each element is cut. The springs stay where they are."""
-    coarse = beam.nodes
-    nodes = (coarse - 1) * refined + 1
-    long = float(beam.contact.input.length[0])
-    length = long / refined
-    share = lumped(nodes, length)
-    at = np.arange(nodes) / refined
-    bending = float(beam.stiffness[0, 0]) * long**3
+def for_exudyn(beam: Beam, steps: int) -> dict[str, object]:
+    """What `peer_exudyn` takes."""
+    nodes = beam.nodes
     return {
-        "model": model,
-        "refined": refined,
-        "heights": np.interp(at, np.arange(coarse), beam.start[:, 0]).tolist(),
-        "along": np.interp(at, np.arange(coarse), beam.start[:, 1]).tolist(),
-        "mass": (beam.mass[1] / long * share).tolist(),
-        "stiffness": (bending / length**3 * differences(nodes, 2)).tolist(),
+        "heights": beam.start[:, 0].tolist(),
+        "mass": beam.mass[:nodes].tolist(),
+        "stiffness": beam.stiffness[:nodes, :nodes].tolist(),
         "damping": DAMPING,
-        "weight": (beam.weight[1] / long * share).tolist(),
+        "weight": beam.weight[:nodes].tolist(),
         "contact": float(beam.contact.input.assigned["nodal"].parameters["stiffness"][0]),
-        "mass_per_length": float(beam.mass[1]) / long,
-        "bending": bending,
-        "axial": float(-beam.stiffness[coarse, coarse + 1]) * long,
         "end": END,
         "steps": steps,
         "every": EVERY,

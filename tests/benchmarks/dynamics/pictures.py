@@ -59,16 +59,12 @@ def draw_schemes(figure: Figure) -> None:
 
 
 def draw_bounces(figure: Figure) -> None:
-    """The last node of the bouncing beam by three models."""
+    """The last node of the bouncing beam by both programs."""
     rows = load("benchmark-bouncing-path")
     time = column(rows, "time [s]")
     (axes,) = panels(figure, 1, 1)
     axes.plot(time, column(rows, "last node [m]"), color="#000000", linewidth=2.5, label="mudline, reference")
-    for heading, colour, name in (
-        ("Exudyn masses, last node [m]", "#56b4e9", "Exudyn, the same masses and springs"),
-        ("Exudyn cable, last node [m]", "#d55e00", "Exudyn, its own beam element"),
-    ):
-        axes.plot(time, column(rows, heading), "--", color=colour, label=name)
+    axes.plot(time, column(rows, "Exudyn, last node [m]"), "--", color="#56b4e9", label="Exudyn")
     axes.axhline(0.0, color="#8c6d31", linewidth=0.8)
     axes.legend(fontsize="small")
     label(axes, "Height of the last node above the seabed", "time [s]", "[m]")

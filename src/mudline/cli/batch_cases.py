@@ -1,0 +1,282 @@
+"""A deck among many: its name below the common folder, its positions, its evaluation in any process."""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from pathlib import Path, PurePosixPath
+from string import Formatter
+from tempfile import TemporaryDirectory
+from typing import NamedTuple, overload
+
+import click
+
+from mudline.cli.evaluate_inputs import EvaluateInputs
+from mudline.cli.inputs import Input
+from mudline.cli.result_files import behind, beside, line_watch, result_files, write_tables
+from mudline.cli.streams import reason
+from mudline.cli.view import View
+from mudline.deck.loading import load_bytes
+from mudline.diagnostics import DeckError, Diagnostic
+from mudline.files import is_url, recording_looks, suffix_of
+from mudline.results.cases import CaseSummary, CaseWatch
+from mudline.results.evaluation import Evaluation
+from mudline.results.forms import FORMS, ResultConsumer
+from mudline.results.series import SeriesSummary, series_tables
+from mudline.results.warnings import ContactWarning, ContactWatch
+from mudline.running import storage
+
+SUMMARY = "summary"
+"""The name, without its suffix, of the file with the rows of all decks."""
+
+_POSITIONS = (".csv", ".npz", ".npy")
+_FIELDS = ("name", "folder")
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """A deck among many.
+
+    Attributes:
+        file: the deck.
+        inside: its path below the folder that all have in common, with `/`.
+        result: the file of its results below the folder of all results, with `/`.
+    """
+
+    file: Input
+    inside: str
+    result: str
+
+    @property
+    def name(self) -> str:
+        """The name of the file without its suffix."""
+        return PurePosixPath(self.inside).stem
+
+
+def named_cases(files: Sequence[Input], form: str) -> tuple[str, list[Case]]:
+    """The common folder of decks, and a case for each.
+
+    A file of results is called as the deck without its suffix; decks of one name with different suffixes keep theirs.
+    """
+    paths = [os.path.abspath(file.path or file.name) for file in files]  # noqa: PTH100 - links stay what they are called
+    try:
+        common = os.path.commonpath([os.path.dirname(path) for path in paths])  # noqa: PTH120 - as above
+    except ValueError:  # on several drives
+        common = ""
+    inside = [_inside(path, common) for path in paths]
+    if all(is_url(file.path or "") for file in files):
+        common = os.path.relpath(common, Path.cwd()).replace(os.sep, "/").replace(":/", "://", 1)
+    plain = [str(PurePosixPath(name).with_suffix("")) for name in inside]
+    counts = Counter(name.casefold() for stem in plain for name in (stem, *_others(stem, form)))
+    counts.update([SUMMARY])
+    stems = [
+        stem if all(counts[one.casefold()] == 1 for one in (stem, *_others(stem, form))) else name
+        for stem, name in zip(plain, inside, strict=True)
+    ]
+    return common, [Case(file, name, f"{stem}.{form}") for file, name, stem in zip(files, inside, stems, strict=True)]
+
+
+def _inside(path: str, common: str) -> str:
+    """A path below a folder; of another drive, below a folder with the name of the drive."""
+    if common:
+        return Path(os.path.relpath(path, common)).as_posix()
+    found = Path(path)
+    return PurePosixPath(found.drive.strip(":\\/") or "root", *found.parts[1:]).as_posix()
+
+
+def _others(stem: str, form: str) -> list[str]:
+    return [f"{stem}-{table}" for table in FORMS[form].beside]
+
+
+# ------------------------------------------------------------------------------------------------------ positions
+
+
+def check_positions(given: str | None) -> None:
+    """Refuse a pattern with unknown fields, and a file that is not there; raises click.ClickException."""
+    if given is None or _there(given):
+        return
+    try:
+        names = {name for _, name, _, _ in Formatter().parse(given) if name is not None}
+    except ValueError as error:
+        raise click.UsageError(f"--positions {given}: not a pattern: {error}") from error
+    if unknown := sorted(names - set(_FIELDS)):
+        raise click.UsageError(f"--positions: {{{unknown[0]}}} is unknown: use {{name}} or {{folder}}")
+    if not names:
+        raise click.ClickException(f"{given}: no such file or directory")
+
+
+def positions_of(case: Case, given: str | None) -> str | None:
+    """The file of a deck: one for all, one by a pattern, one of a folder, or none.
+
+    Raises click.ClickException where there is none or several, OSError.
+    """
+    if given is None or _is_file(given):
+        return given
+    if _there(given):
+        return _in_folder(case, given)
+    folder = os.path.dirname(case.file.path or case.file.name) or "."  # noqa: PTH120 - as it was given
+    path = given.replace("{name}", case.name).replace("{folder}", folder)
+    if not _is_file(path):
+        raise click.ClickException(f"its positions were not found: {path}")
+    return path
+
+
+def _in_folder(case: Case, folder: str) -> str:
+    """The file with the name of the deck: in the folder that the deck is in below the common one, or at the top."""
+    stem = str(PurePosixPath(case.inside).with_suffix(""))
+    for start in dict.fromkeys((storage.join(folder, stem), storage.join(folder, case.name))):
+        found = [slashed(path) for end in _POSITIONS if _is_file(path := start + end)]
+        if len(found) > 1:
+            raise click.ClickException(f"several files of positions: {', '.join(found)}")
+        if found:
+            return found[0]
+    ends = f"{', '.join(_POSITIONS[:-1])} or {_POSITIONS[-1]}"
+    raise click.ClickException(f"its positions were not found: {slashed(storage.join(folder, stem))} with {ends}")
+
+
+def _there(path: str) -> bool:
+    return "{" not in path and storage.exists(path) if is_url(path) else Path(path).exists()
+
+
+def _is_file(path: str) -> bool:
+    if not is_url(path):
+        return Path(path).is_file()
+    return _there(path) and not storage.is_folder(path)
+
+
+def slashed(path: str) -> str:
+    """A path or URL as it is printed, with `/` between folders on every system."""
+    return path if is_url(path) else Path(path).as_posix()
+
+
+# -------------------------------------------------------------------------------------------------------- evaluated
+
+
+class Order(NamedTuple):
+    """A deck that is to be evaluated: everything that a process needs; `output` is a folder or a URL."""
+
+    case: Case
+    data: bytes
+    inputs: EvaluateInputs
+    output: str
+    units: str | None
+    summary_only: bool
+    folder: str
+    """The working folder of the command, from which paths are given."""
+
+    @overload
+    def seen(self, path: str) -> str: ...
+    @overload
+    def seen(self, path: None) -> None: ...
+    def seen(self, path: str | None) -> str | None:
+        """A path for a process that may have another working folder."""
+        if path is None or is_url(path) or os.getcwd() == self.folder:  # noqa: PTH109 - compared as text
+            return path
+        return os.path.join(self.folder, path)  # noqa: PTH118 - as above
+
+
+class Done(NamedTuple):
+    """A deck's row, codes and texts of its warnings, the files that it names, those of its results below the output."""
+
+    row: CaseSummary
+    warnings: Sequence[tuple[str, str]] = ()
+    read: Sequence[str] = ()
+    written: Sequence[str] = ()
+
+
+def evaluate_case(order: Order) -> Done:
+    """Evaluate a deck and write its results; one that fails has a row with the reason, and no results."""
+    name = order.case.file.name
+    with recording_looks() as looked_at, TemporaryDirectory(prefix="mudline-") as near:
+        try:
+            row, warnings, written = _evaluated(order, Path(near))
+        except DeckError as error:
+            why = _reason(error.diagnostics, name)
+        except click.ClickException as error:
+            why = error.message
+        except OSError as error:
+            why = reason(error)
+        else:
+            read = [path for path in looked_at if not Path(path).is_relative_to(near)]
+            return Done(row, [(one.diagnostic.code, str(one)) for one in warnings], read, written)
+    for path in results_of(order.case, order.seen(order.output)):
+        with suppress(OSError):
+            storage.remove(path) if is_url(path) else Path(path).unlink()
+    return failed(name, why.replace(f"{near}{os.sep}", ""))
+
+
+def failed(name: str, why: str) -> Done:
+    """The row of a deck that cannot be evaluated."""
+    return Done(CaseSummary(name, "failed", why))
+
+
+def results_of(case: Case, output: str) -> list[str]:
+    """The files of results that a deck has below a folder or a URL, in case it does not fail."""
+    path = Path(case.result)
+    return [storage.join(output, one.as_posix()) for one in (path, *beside(path).values())]
+
+
+def _evaluated(order: Order, near: Path) -> tuple[CaseSummary, list[ContactWarning], list[str]]:
+    """The row, the warnings and the files of a deck; `near` is an empty folder.
+
+    Raises DeckError, click.ClickException, OSError.
+    """
+    file, given = order.case.file, order.inputs
+    positions, elements = (_local(order.seen(path), near) for path in (given.positions, given.elements))
+    inputs = replace(given, positions=positions, elements=elements)
+    deck = load_bytes(order.data, file.name, units=order.units, folder=file.seen_from(order.folder).folder)
+    evaluation = inputs.evaluation(deck)
+    output = order.seen(order.output)
+    path = (near if is_url(output) else Path(output)) / order.case.result
+    path.parent.mkdir(parents=True, exist_ok=True)
+    row, watch = CaseWatch(evaluation), ContactWatch.of(evaluation)
+    if order.summary_only:
+        if evaluation.time is None:
+            raise click.ClickException(f"--summary-only is for time steps: {given.positions} is one state")
+        series = SeriesSummary(evaluation)
+        _run(evaluation, [row, watch, series])
+        written = [path, *write_tables(series_tables(series), path).values()]
+    else:
+        lines = line_watch(evaluation, suffix_of(path), None)
+        with result_files(evaluation, evaluation.element_table(), path, View(quiet=True)) as sink:
+            _run(evaluation, [row, watch, *([] if lines is None else [lines]), sink])
+            sink.finish(behind(evaluation, watch.warnings(), None, lines))
+        written = [path, *beside(path).values()]
+    warnings = watch.warnings()
+    names = [_stored(one, near, output) for one in written]
+    return row.summary(file.name, warnings, order.case.result), warnings, names
+
+
+def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer]) -> None:
+    for part in evaluation.parts():
+        for consumer in consumers:
+            consumer.take(part)
+
+
+def _local(path: str | None, near: Path) -> str | None:
+    """A file as it can be opened: that of a URL is copied; raises OSError."""
+    if path is None or not is_url(path):
+        return path
+    copy = near / PurePosixPath(path).name
+    copy.write_bytes(storage.read(path))
+    return str(copy)
+
+
+def _stored(path: Path, near: Path, output: str) -> str:
+    """The name of a file of results below the output; one that belongs below a URL is written there. Raises OSError."""
+    if not is_url(output):
+        return path.relative_to(output).as_posix()
+    name = path.relative_to(near).as_posix()
+    storage.write(storage.join(output, name), path.read_bytes())
+    return name
+
+
+def _reason(found: Sequence[Diagnostic], name: str) -> str:
+    """The first of the diagnostics, and how many more there are."""
+    first = found[0]
+    place = f"line {first.line}" if first.file == name else f"{first.file}:{first.line}"
+    more = f" ({len(found) - 1} more)" if len(found) > 1 else ""
+    return f"{place}: {first.code} {first.message}{more}"

@@ -1,0 +1,92 @@
+"""Findings that `mudline lint` remembers from earlier runs: decks without any are not read again by its rules."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from mudline.cli.configured import Configured
+from mudline.cli.inputs import Input, Inputs
+from mudline.diagnostics import Diagnostic, Edit, Fix, Severity
+from mudline.linting.configuration import Given
+from mudline.running.remembered import Memory, of_working_folder
+
+
+@dataclass
+class KnownFindings:
+    """The memory, and for each deck of a run whether it knows that nothing is found in it: 1 or 0 in `clean`."""
+
+    memory: Memory
+    configured: Configured
+    inputs: Inputs
+    clean: bytearray
+    _settings: dict[Path | None, str] = field(default_factory=dict)
+
+    @property
+    def all_clean(self) -> bool:
+        """Whether nothing is found in any deck of the run."""
+        return bool(self.clean) and all(self.clean)
+
+    def key(self, file: Input, data: bytes) -> str:
+        """What the findings of a file are kept under; its name gives units and form, and is named in findings."""
+        configuration = self.configured.of(file.path)
+        place = configuration.path
+        if place not in self._settings:
+            self._settings[place] = repr((str(place), configuration.content))
+        return self.memory.key(self._settings[place], file.name, data)
+
+    def get(self, key: str, file: Input) -> tuple[Diagnostic, ...] | None:
+        """The findings of a file; None where they are not known or a file that they depend on has changed."""
+        rows = self.memory.get(key)
+        try:
+            return None if rows is None else tuple(_finding(row, file.name) for row in rows)
+        except (TypeError, ValueError):
+            return None
+
+    def put(self, key: str, found: Sequence[Diagnostic], looked_at: Sequence[str]) -> None:
+        """Keep the findings of a file, which depend on what is at some paths."""
+        self.memory.put(key, [_row(one) for one in found], looked_at)
+
+    def look(self) -> None:
+        """Find the decks in which nothing is found."""
+        for number, file in enumerate(self.inputs.files):
+            if file.path is None:
+                continue
+            try:
+                data = file.read()
+            except OSError:  # reported when the others are read
+                continue
+            if self.memory.get(self.key(file, data)) == []:
+                self.clean[number] = 1
+
+
+def known_findings(inputs: Inputs, given: Given, configured: Configured) -> KnownFindings | None:
+    """What is known of the decks of a run; None where there is no place for a memory."""
+    memory = of_working_folder("lint", repr(given))
+    if memory is None:
+        return None
+    found = KnownFindings(memory, configured, inputs, bytearray(len(inputs.files)))
+    if memory:
+        found.look()
+    return found
+
+
+def _row(one: Diagnostic) -> list[Any]:
+    """A finding as JSON holds it, without the name of its deck."""
+    fix = one.fix and (one.fix.applicability, one.fix.message, [(e.start, e.end, e.text) for e in one.fix.edits])
+    place = (one.line, one.column, one.end_line, one.end_column)
+    following = [_row(each) for each in one.following]
+    return [one.code, one.slug, one.severity.value, one.message, *place, fix, one.blocks, following]
+
+
+def _finding(row: Sequence[Any], file: str) -> Diagnostic:
+    """What `_row` was made from, in a file of that name; raises TypeError or ValueError for anything else."""
+    code, slug, severity, message, line, column, end_line, end_column, fix, blocks, following = row
+    if fix is not None:
+        applicability, text, edits = fix
+        fix = Fix(applicability, text, tuple(Edit(tuple(start), tuple(end), new) for start, end, new in edits))
+    place = (line, column, end_line, end_column)
+    others = tuple(_finding(each, file) for each in following)
+    return Diagnostic(file, code, slug, Severity(severity), message, *place, fix, blocks, others)

@@ -1,0 +1,336 @@
+"""Functions over many items: here while that is quickest, then in other processes, or by the workers of a scheduler.
+
+A scheduler and its workers are Dask's own, and so are retries, heartbeats and TLS, by Dask's configuration.
+"""
+
+from __future__ import annotations
+
+import logging
+import os
+import re
+import signal
+import sys
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Generator, Iterable, Iterator
+from concurrent.futures import CancelledError
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, field
+from importlib.util import find_spec
+from ipaddress import ip_address
+from itertools import islice
+from typing import TYPE_CHECKING, TypeVar
+
+from mudline import __version__
+
+if TYPE_CHECKING:  # imported by runs that are large enough
+    from concurrent.futures import Executor, Future
+
+    from distributed import Client
+
+PAYS = {"fork": 0.1, "forkserver": 1.5, "spawn": 1.5}
+"""Seconds of remaining work from which on other processes are started, by the way in which they are.
+
+A copy of this process is there at once; the others take a part of a second to import everything.
+"""
+TRIED = 0.05
+"""Seconds of work in this process by which the remaining work is estimated."""
+
+CONNECTING = 10.0
+"""Seconds to wait for a scheduler, and for its first worker."""
+
+_AHEAD = 3
+"""Parts for each process or thread of a worker that are sent ahead."""
+_SECONDS = {False: 0.2, True: 1.0}
+"""Seconds that the items should take that are sent together: to a process, and to a worker on another machine."""
+_FIRST = 4
+_LARGEST = 500
+"""Items that are sent together: before their pace is known, and at most."""
+_COUNTED = 5.0
+"""Seconds after which the workers of a scheduler are counted again: they come and go."""
+_MOST_ON_WINDOWS = 61
+"""Processes that one process can wait for there."""
+
+_ADDRESS = re.compile(r"(?P<protocol>tcp|tls)://(?P<host>\[[0-9A-Fa-f:.]+\]|[A-Za-z0-9._-]+):(?P<port>[0-9]{1,5})")
+"""Strict: what Dask takes apart in another way would not be checked."""
+
+_Item = TypeVar("_Item")
+_Given = TypeVar("_Given")
+_Made = TypeVar("_Made")
+
+
+class RunError(Exception):
+    """Items cannot be done elsewhere, or no longer; the message says why and what to do."""
+
+
+# -------------------------------------------------------------------------------------------------------- what to use
+
+
+@dataclass
+class Pool:
+    """At most so many processes (0: one for each processor), or the workers of a scheduler, once they are used."""
+
+    jobs: int
+    scheduler: str | None
+    _stack: ExitStack
+    _executor: Executor | None = None
+    _client: Client | None = None
+    _threads: int = 1
+    _counted: float = field(default=0.0, init=False)
+
+    @property
+    def size(self) -> int:
+        """The number of items that may be under way at a time."""
+        if self.scheduler is None:
+            return processors(self.jobs)
+        if self._client is not None and time.monotonic() - self._counted > _COUNTED:
+            self._threads = max(1, sum(self._client.nthreads().values()))
+            self._counted = time.monotonic()
+        return self._threads
+
+    def pays(self, estimate: float) -> bool:
+        """Whether so many seconds of work are worth starting processes."""
+        return self.size > 1 and estimate >= PAYS[start_method()]
+
+    def submit(self, function: Callable[[_Given], _Made], given: list[_Given]) -> Future[tuple[float, list[_Made]]]:
+        """Have a function called with each of the given; what comes back are seconds and results. Raises RunError."""
+        if self._executor is None:
+            if self.scheduler is None:
+                self._executor = self._stack.enter_context(_processes(self.size, function.__module__))
+            else:
+                self._client = self._stack.enter_context(_connected(self.scheduler))
+                self._executor = self._client.get_executor(pure=False)
+                self._stack.callback(self._executor.shutdown, wait=False)
+        with interrupt_deferred():
+            return self._executor.submit(_done, __version__, function, given)
+
+    def result(self, future: Future[_Made]) -> _Made:
+        """What came back; raises RunError, and whatever the function raised."""
+        from concurrent.futures.process import BrokenProcessPool  # noqa: PLC0415 - most runs are too small for it
+
+        try:
+            return future.result()
+        except BrokenProcessPool as error:
+            what = "a process has ended early, perhaps out of memory: give fewer files, or use --jobs 1"
+            raise RunError(what) from error
+        except CancelledError as error:
+            raise RunError(f"{self.scheduler}: the scheduler has gone away: start it, and run this again") from error
+        except (ImportError, AttributeError) as error:
+            if self.scheduler is None:
+                raise
+            what = f"a worker lacks what this command has ({error}): install mudline {__version__} and its plugins"
+            raise RunError(f"{self.scheduler}: {what}") from error
+        except Exception as error:
+            if type(error).__name__ != "KilledWorker":
+                raise
+            what = "each worker that tried some of the files has ended, perhaps out of memory: see their logs"
+            raise RunError(f"{self.scheduler}: {what}") from error
+
+
+@contextmanager
+def executor(jobs: int = 0, scheduler: str | None = None) -> Iterator[Pool]:
+    """What `in_order` runs functions on; processes are started, and a scheduler is reached, when that is needed.
+
+    Started processes end with the block, at once where it raises; what a scheduler still has to do is cancelled.
+    """
+    with ExitStack() as stack:
+        yield Pool(jobs, scheduler, stack)
+
+
+def in_order(
+    pool: Pool, function: Callable[[_Given], _Made], items: Iterable[tuple[_Item, _Given | None]], count: int
+) -> Generator[tuple[_Item, _Made | None], None, None]:
+    """Each of about `count` items with what the function makes of it, in order; only so many are taken ahead as needed.
+
+    An item comes with what the function is given, which is pickled; with None there is nothing to do and its result is
+    None. The function is one of a module, by whose name others find it. Raises RunError, and whatever the function
+    raises.
+    """
+    rest = iter(items)
+    spent, done, number = 0.0, 0, 0
+    while pool.scheduler is None and not (spent >= TRIED and done and pool.pays(spent / done * (count - number))):
+        taken = next(rest, None)
+        if taken is None:
+            return
+        item, given = taken
+        number += 1
+        start = time.perf_counter()
+        made = None if given is None else function(given)
+        if given is not None:
+            spent, done = spent + time.perf_counter() - start, done + 1
+        yield item, made
+    waiting: deque[tuple[list[tuple[_Item, _Given | None]], Future[tuple[float, list[_Made]]] | None]] = deque()
+    under_way = 0
+    while True:
+        wanted = _SECONDS[pool.scheduler is not None] * done / spent if spent else _FIRST
+        share = (count - number) / (2 * pool.size)
+        part = list(islice(rest, max(1, min(int(wanted), int(share), _LARGEST))))
+        number += len(part)
+        orders = [given for _, given in part if given is not None]
+        if part:
+            waiting.append((part, pool.submit(function, orders) if orders else None))
+            under_way += bool(orders)
+        while waiting and (not part or waiting[0][1] is None or under_way > _AHEAD * pool.size):
+            sent, future = waiting.popleft()
+            seconds, results = (0.0, []) if future is None else pool.result(future)
+            under_way -= future is not None
+            spent, done = spent + seconds, done + len(results)
+            found = iter(results)
+            for item, given in sent:
+                yield item, None if given is None else next(found)
+        if not part:
+            return
+
+
+def _done(version: str, function: Callable[[_Given], _Made], given: list[_Given]) -> tuple[float, list[_Made]]:
+    """What a process or a worker does, and the seconds that it took."""
+    if version != __version__:
+        raise RunError(f"a worker has mudline {__version__}, the command {version}: install the same version")
+    start = time.perf_counter()
+    made = [function(one) for one in given]
+    return time.perf_counter() - start, made
+
+
+# ---------------------------------------------------------------------------------------------------------- processes
+
+
+def processors(jobs: int) -> int:
+    """The number of processes that may be used."""
+    if jobs:
+        wanted = jobs
+    elif hasattr(os, "sched_getaffinity"):
+        wanted = len(os.sched_getaffinity(0))
+    else:
+        wanted = os.cpu_count() or 1
+    return min(wanted, _MOST_ON_WINDOWS) if sys.platform == "win32" else wanted
+
+
+def start_method() -> str:
+    """How processes are started: as copies of this one on Linux, unless it has threads, which copies would lack."""
+    if sys.platform in ("win32", "darwin"):
+        return "spawn"
+    try:
+        threads = len(os.listdir("/proc/self/task"))  # noqa: PTH208 - those of libraries, too
+    except OSError:
+        return "forkserver"
+    return "fork" if threads == 1 else "forkserver"
+
+
+@contextmanager
+def _processes(count: int, module: str) -> Iterator[Executor]:
+    """Processes, which import a module before they start; they end at once when not all is done."""
+    import multiprocessing  # noqa: PLC0415 - most runs are too small to start processes
+    from concurrent.futures import ProcessPoolExecutor  # noqa: PLC0415 - as above
+
+    before = set(multiprocessing.active_children())
+    method = start_method()
+    context = multiprocessing.get_context(method)
+    if method == "forkserver":
+        context.set_forkserver_preload([module])
+    found = ProcessPoolExecutor(count, context, _begin)
+    try:
+        yield found
+    except BaseException:
+        for child in set(multiprocessing.active_children()) - before:
+            child.kill()
+        raise
+    finally:
+        found.shutdown(cancel_futures=True)
+
+
+def _begin() -> None:
+    """What each process does first: ignore Ctrl-C and a closed terminal, which reach all processes, and watch."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    if hasattr(signal, "SIGHUP"):
+        signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    """End this process as soon as the one that started it has ended, by whatever it was killed."""
+    from multiprocessing import parent_process  # noqa: PLC0415 - other processes have loaded it
+    from multiprocessing.connection import wait  # noqa: PLC0415 - as above
+
+    parent = parent_process()
+    if parent is not None:
+        wait([parent.sentinel])
+        os._exit(1)
+
+
+@contextmanager
+def interrupt_deferred() -> Iterator[None]:
+    """Block Ctrl-C, also in processes that are started here until they ignore it; this one gets it afterwards."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    received: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, _: received.append(number))
+    masked = sys.platform != "win32" and signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        if sys.platform != "win32":
+            signal.pthread_sigmask(signal.SIG_SETMASK, masked or ())
+        signal.signal(signal.SIGINT, before)
+        if received:
+            signal.raise_signal(signal.SIGINT)
+
+
+# ---------------------------------------------------------------------------------------------------------- scheduler
+
+
+def check_address(address: str) -> None:
+    """Raise RunError for an address that is none, that is not safe to use, or where Dask is not installed.
+
+    A scheduler runs whatever code it is sent, and so do its workers: one that others can reach needs TLS.
+    """
+    found = _ADDRESS.fullmatch(address)
+    if found is None or not 0 < int(found["port"]) < 1 << 16:
+        raise RunError(f"--scheduler {address}: expected tcp://HOST:PORT or tls://HOST:PORT")
+    if find_spec("distributed") is None:
+        raise RunError("--scheduler needs dask.distributed: pip install 'mudline[cluster]'")
+    if found["protocol"] == "tls" or _is_loopback(found["host"].strip("[]")):
+        return
+    import dask.config  # noqa: PLC0415 - few runs have a scheduler
+    import distributed  # noqa: F401, PLC0415 - brings its defaults, in which this is null
+
+    if dask.config.get("distributed.comm.require-encryption", None) is not False:
+        raise RunError(
+            f"--scheduler {address}: without TLS, whoever reaches it can run code on it and on this machine: use "
+            "tls:// with the certificates of Dask's configuration; on a network that nobody else reaches, set "
+            "distributed.comm.require-encryption to false there"
+        )
+
+
+def _is_loopback(host: str) -> bool:
+    if host == "localhost":
+        return True
+    try:
+        return ip_address(host).is_loopback
+    except ValueError:  # a name, whoever it belongs to
+        return False
+
+
+@contextmanager
+def _connected(address: str) -> Iterator[Client]:
+    """A client of the scheduler, which has a worker; raises RunError."""
+    import dask.config  # noqa: PLC0415 - few runs have a scheduler
+    from distributed import Client  # noqa: PLC0415 - as above
+
+    for name in ("distributed", "tornado", "asyncio"):  # what goes wrong is reported once, by the command
+        logging.getLogger(name).setLevel(logging.CRITICAL)
+    dask.config.set({"distributed.admin.large-graph-warning-threshold": "1 TB"})  # files are sent, and may be large
+    try:
+        client = Client(address, timeout=CONNECTING, set_as_default=False)
+    except (OSError, TimeoutError, ValueError, RuntimeError, TypeError) as error:
+        text = " ".join(str(error).split())[:200]
+        raise RunError(f"{address}: the scheduler cannot be reached: {text}") from error
+    try:
+        client.wait_for_workers(1, timeout=CONNECTING)
+        yield client
+    except TimeoutError as error:
+        raise RunError(f"{address}: the scheduler has no worker: start one with dask worker {address}") from error
+    finally:
+        client.close(timeout=2)

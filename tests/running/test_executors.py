@@ -1,0 +1,191 @@
+"""Functions over items in other processes, and which schedulers may be used."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import time
+from collections.abc import Iterator
+from concurrent.futures import CancelledError, Future
+from contextlib import ExitStack
+
+import dask.config
+import pytest
+
+from mudline.running import executors
+from mudline.running.executors import Pool, RunError, check_address, executor, in_order, start_method
+
+
+@pytest.fixture
+def eager(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Processes are used behind the first item, whatever there is to do."""
+    monkeypatch.setattr(executors, "PAYS", dict.fromkeys(executors.PAYS, 0.0))
+    monkeypatch.setattr(executors, "TRIED", 0.0)
+
+
+def squared(number: int) -> tuple[int, int]:
+    return number * number, os.getpid()
+
+
+def end(number: int) -> int:
+    """A process that dies, unless it is the one of the test."""
+    if multiprocessing.parent_process() is not None:
+        os._exit(number)
+    return number
+
+
+def refuse(number: int) -> int:
+    if multiprocessing.parent_process() is None:
+        return number
+    raise ValueError(number)
+
+
+def items(count: int, taken: list[int]) -> Iterator[tuple[int, int | None]]:
+    """Numbers, of which every third needs nothing to be done."""
+    for number in range(count):
+        taken.append(number)
+        yield number, None if number % 3 == 2 else number
+
+
+@pytest.mark.usefixtures("eager")
+def test_results_are_in_order_and_few_are_taken_ahead(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(executors, "_LARGEST", 5)
+    taken: list[int] = []
+    used = set()
+    with executor(2) as pool:
+        for done, (number, made) in enumerate(in_order(pool, squared, items(200, taken), 200)):
+            assert number == done
+            assert (made is None) == (number % 3 == 2)
+            if made is not None:
+                assert made[0] == number * number
+                used.add(made[1])
+            assert len(taken) - done <= 5 * (executors._AHEAD * 2 + 2)
+    assert os.getpid() in used
+    assert len(used) > 1
+    assert multiprocessing.active_children() == []
+
+
+def test_little_work_is_done_here() -> None:
+    with executor(2) as pool:
+        found = [made for _, made in in_order(pool, squared, items(50, []), 50) if made]
+    assert {process for _, process in found} == {os.getpid()}
+
+
+@pytest.mark.usefixtures("eager")
+def test_items_without_work_are_no_reason_for_processes(monkeypatch: pytest.MonkeyPatch) -> None:
+    estimates: list[float] = []
+    monkeypatch.setattr(Pool, "pays", lambda _, estimate: estimates.append(estimate))
+    given = [*((number, None) for number in range(50)), *((number, number) for number in range(50, 53))]
+    with executor(2) as pool:
+        assert len(list(in_order(pool, squared, given, 53))) == 53
+    assert len(estimates) == 3
+    assert max(estimates) < 1.0
+
+
+@pytest.mark.usefixtures("eager")
+def test_a_process_that_dies_is_reported() -> None:
+    with pytest.raises(RunError, match="a process has ended early, perhaps out of memory"), executor(2) as pool:
+        list(in_order(pool, end, ((number, number) for number in range(20)), 20))
+    assert multiprocessing.active_children() == []
+
+
+@pytest.mark.usefixtures("eager")
+def test_what_the_function_raises_ends_all() -> None:
+    with pytest.raises(ValueError, match=r"[0-9]"), executor(2) as pool:
+        list(in_order(pool, refuse, ((number, number) for number in range(20)), 20))
+    assert multiprocessing.active_children() == []
+
+
+def sleep(seconds: float) -> None:
+    if multiprocessing.parent_process() is not None:
+        time.sleep(seconds)
+
+
+@pytest.mark.usefixtures("eager")
+def test_processes_end_at_once_with_the_block(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(executors, "_LARGEST", 1)
+    with pytest.raises(KeyboardInterrupt), executor(2) as pool:  # noqa: PT012 - what is under way is ended
+        results = in_order(pool, sleep, ((number, 1000.0 * (number > 1)) for number in range(9)), 9)
+        for number, _ in results:
+            if number == 1:
+                raise KeyboardInterrupt
+    assert multiprocessing.active_children() == []
+
+
+@pytest.mark.parametrize(("platform", "method"), [("win32", "spawn"), ("darwin", "spawn"), ("freebsd", "forkserver")])
+def test_systems_start_processes_in_their_own_way(monkeypatch: pytest.MonkeyPatch, platform: str, method: str) -> None:
+    def listdir(_: str) -> list[str]:
+        raise FileNotFoundError
+
+    monkeypatch.setattr("sys.platform", platform)
+    monkeypatch.setattr(os, "listdir", listdir)
+    assert start_method() == method
+
+
+@pytest.mark.parametrize(("threads", "method"), [(["1"], "fork"), (["1", "2"], "forkserver")])
+def test_a_process_with_threads_is_not_copied(monkeypatch: pytest.MonkeyPatch, threads: list[str], method: str) -> None:
+    monkeypatch.setattr("sys.platform", "linux")
+    monkeypatch.setattr(os, "listdir", lambda _: threads)
+    assert start_method() == method
+
+
+def test_number_of_processes() -> None:
+    assert executors.processors(3) == 3
+    assert 1 <= executors.processors(0) <= (os.cpu_count() or 1)
+
+
+# ---------------------------------------------------------------------------------------------------------- schedulers
+
+
+@pytest.mark.parametrize(
+    "address", ["tcp://127.0.0.1:8786", "tcp://[::1]:8786", "tcp://localhost:8786", "tls://10.0.0.7:8786"]
+)
+def test_schedulers_that_are_used(address: str) -> None:
+    check_address(address)
+
+
+ODD = ("tcp://127.0.0.1:1#@example.org:2", "tcp://127.0.0.1:1?x", "tcp://example.org:2@127.0.0.1:1", "tcp://[::1:1")
+"""What others may take apart in another way than we do."""
+
+
+@pytest.mark.parametrize("address", ["8786", "local", "local:2", "tcp://host", "tcp://h:port", "ws://h:1", "", *ODD])
+def test_what_is_no_address_is_refused(address: str) -> None:
+    with pytest.raises(RunError, match=r"expected tcp://HOST:PORT or tls://HOST:PORT"):
+        check_address(address)
+
+
+@pytest.mark.parametrize("host", ["10.0.0.7", "127.1", "[::]", "example.org", "localhost.example.org", "[2001:db8::1]"])
+def test_another_machine_without_tls_is_refused_unless_dask_is_told_otherwise(host: str) -> None:
+    address = f"tcp://{host}:8786"
+    for value in (None, True, "false"):
+        with (
+            dask.config.set({"distributed.comm.require-encryption": value}),
+            pytest.raises(RunError, match=r"without TLS, whoever reaches it can run code.*require-encryption to false"),
+        ):
+            check_address(address)
+    with dask.config.set({"distributed.comm.require-encryption": False}):
+        check_address(address)
+
+
+class KilledWorker(Exception):  # noqa: N818 - its name in Dask
+    """As Dask's."""
+
+
+@pytest.mark.parametrize(
+    ("error", "why"),
+    [
+        (CancelledError(), "the scheduler has gone away"),
+        (ModuleNotFoundError("No module named 'mudline'"), "a worker lacks what this command has"),
+        (KilledWorker(), "each worker that tried some of the files has ended"),
+    ],
+)
+def test_what_goes_wrong_at_a_scheduler_is_named(error: BaseException, why: str) -> None:
+    future: Future[int] = Future()
+    future.set_exception(error)
+    with pytest.raises(RunError, match=f"tcp://h:1: {why}"):
+        Pool(0, "tcp://h:1", ExitStack()).result(future)
+
+
+def test_a_worker_of_another_version_is_named() -> None:
+    with pytest.raises(RunError, match=r"a worker has mudline .*, the command 9\.9: install the same version"):
+        executors._done("9.9", squared, [1])
