@@ -234,9 +234,7 @@ def _tasks(tables: Tables, held: range) -> list[_Task]:
     return tasks
 
 
-def _groups(
-    tables: Tables, elements: int, threads: int, sequence: list[_Task]
-) -> tuple[list[list[_Task]], list[list[_Task]]]:
+def _groups(tables: Tables, threads: int, sequence: list[_Task]) -> tuple[list[list[_Task]], list[list[_Task]]]:
     """The tasks of each thread in their order, and the ranges of nodes between two threads, which come behind."""
     ranges = len(range(0, len(tables.half), _RANGE))
     count = min(threads, ranges)
