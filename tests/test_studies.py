@@ -7,11 +7,13 @@ import re
 import numpy as np
 import pytest
 
+from mudline.study import schemes
 from tests.benchmarks.studies import critical, friction
 from tests.benchmarks.studies.__main__ import PAGES, TABLES
 from tests.benchmarks.studies.curves import METHODS, largest_error
 from tests.benchmarks.studies.landings import LANDINGS, LIMITS, LINEAR, PHASES, rebounds
 from tests.benchmarks.studies.laws import CLAY
+from tests.benchmarks.studies.motion import Motion
 from tests.benchmarks.studies.motions import PUBLISHED, drag, pull
 from tests.benchmarks.studies.newton import Newton
 from tests.benchmarks.studies.schemes import SCHEMES
@@ -65,6 +67,23 @@ def test_what_generalised_alpha_adds_to_the_speed_of_a_landing() -> None:
     }
     assert list(most.values()) == pytest.approx([1.00012, 1.0099, 1.049], abs=2e-4)
     assert max(column([row for row in load(LIMITS) if row["scheme"] == "backward Euler"], "largest [-]")) < 1.0
+
+
+@pytest.mark.parametrize(
+    ("name", "title"), [("velocity-verlet", "velocity Verlet"), ("hht-0.3", "HHT (-0.3)"), ("rk4", "RK4")]
+)
+def test_the_schemes_of_the_command_are_rows_of_the_table(name: str, title: str) -> None:
+    mass, dt = np.array([2.0]), np.array([0.3])
+    system = critical.Oscillator(1.5, 0.2, mass)
+    mine = Motion.start(system, np.array([1.0]), np.array([0.5]))
+    other = schemes.started(system, np.array([1.0]), np.array([0.5]))
+    for _ in range(20):
+        mine = SCHEMES[name].step(system, mine, dt).motion
+        other = schemes.SCHEMES[title](system, other, dt).motion
+    assert (mine.position, mine.velocity) == (
+        pytest.approx(other.position, rel=1e-9),
+        pytest.approx(other.velocity, rel=1e-9),
+    )
 
 
 def test_newtons_method_cycles_above_the_closed_form_and_a_bracket_cures_it() -> None:

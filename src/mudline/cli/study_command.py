@@ -20,6 +20,7 @@ from mudline.files import suffix_of
 from mudline.linting.output import visible
 from mudline.quantities import csv_lines, headed, shown, unit_names
 from mudline.scene.model import resolve
+from mudline.short_repr import cut
 from mudline.study import PARTS, Study, jump_note, study
 
 if TYPE_CHECKING:
@@ -160,9 +161,9 @@ def _number(value: float) -> str:
     return shown(value, _DIGITS).replace("e+0", "e").replace("e+", "e").replace("e-0", "e-")
 
 
-def _name(contact: str, printer: Printer) -> str:
+def _name(contact: str) -> str:
     """The name of a contact without the word for its law, which its line shows."""
-    return printer.elided(contact.removeprefix("curve:"), _NAME)
+    return cut(contact.removeprefix("curve:"), _NAME)
 
 
 def _print_precision(found: Study, printer: Printer) -> None:
@@ -171,7 +172,7 @@ def _print_precision(found: Study, printer: Printer) -> None:
     rows = [] if precision is None else precision.rows
     cells, last = [], ""
     for one, tenth in zip(rows[::2], rows[1::2], strict=True):
-        name = "" if one.contact == last else _name(one.contact, printer)
+        name = "" if one.contact == last else _name(one.contact)
         last = one.contact
         pairs = [(found.milliseconds(row.step), _micro(row.run_time)) for row in (one, tenth)]
         own = "diverges" if one.error_at_own_step is None else f"{_number(100.0 * one.error_at_own_step)} %"
@@ -205,7 +206,7 @@ def _print_stability(found: Study, printer: Printer) -> None:
         line = str(row.deck_line) if len(files) == 1 else f"{row.file}:{row.deck_line}"
         landing = f"{found.milliseconds(row.landing_step)}{' (jump)' if row.jump else ''}"
         numbers = (_number(row.stiffness), _number(row.mass), found.milliseconds(row.explicit_step))
-        cells.append((_name(row.contact, printer), line, *numbers, landing, *([words] if found.own else [])))
+        cells.append((_name(row.contact), line, *numbers, landing, *([words] if found.own else [])))
     if cells:
         more = len(judged) - len(cells)
         note = [f"Lines are those of {next(iter(files))}."] if elsewhere else []
@@ -251,7 +252,7 @@ def _print_stages(found: Study, printer: Printer) -> None:
         without = _time(pruning.step - row.time) if optional and row.time is not None else ""
         if row.cost_if_added is not None:
             without = f"+ {_time(row.cost_if_added)} a node"
-        why = printer.elided(row.why.partition(";")[0].partition(" (inferred)")[0], _WHY)
+        why = cut(row.why.partition(";")[0].partition(" (inferred)")[0], _WHY)
         line = "" if row.deck_line is None else str(row.deck_line)
         cells.append((row.stage, "yes" if row.active else "no", line, share, without, why))
     names = ("stage", "in", "deck line", "share", "without it", "why")

@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Context, Decimal, localcontext
 from functools import partial
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -106,6 +107,12 @@ def _cases(given: ContactInput, contact: Contact) -> Iterator[_Case]:
         yield from _Normal(given, law, _parameters(given, law, one.element), one.element).cases()
     elif kind == "nodal":
         yield from _Normal(given, "nodal", _parameters(given, "nodal", one.node), one.element).cases()
+    elif kind == "unloading":
+        law = next(name for name in _NORMAL if name in given.assigned and one.element in given.assigned[name].rows)
+        normal = _Normal(given, law, _parameters(given, law, one.element), one.element)
+        yield from _Unloading(normal, _parameters(given, "unloading", one.element)).cases()
+    elif kind in {"lateral", "suction spring"}:
+        yield from _Spring(given, kind, _parameters(given, kind, one.element), one.element).cases()
     elif kind == "friction":
         yield from _Friction(given, _parameters(given, "friction", one.node), contact).cases()
     elif kind == "suction" and one.stiffness == 0.0:
@@ -169,7 +176,8 @@ class _Normal:
     element: int
 
     @property
-    def _size(self) -> float:
+    def size(self) -> float:
+        """The diameter, or a usual one where there is none."""
         diameter = float(self.given.diameter[self.element])
         return diameter if math.isfinite(diameter) else _DIAMETER
 
@@ -184,7 +192,7 @@ class _Normal:
         return -half_width if half_width and not self.numbers.get("one_sided", 0.0) else 0.0
 
     def cases(self) -> Iterator[_Case]:
-        inside, size = self._inside(), self._size
+        inside, size = self.inside(), self.size
         yield "at the mudline to the bit", partial(self._forces, [self._onset, float(np.nextafter(self._onset, -1.0))])
         if (curve := self._curve) is not None:
             yield "at its given points to the bit", partial(_at_points, curve)
@@ -195,13 +203,13 @@ class _Normal:
         for length in (TINY_LENGTH, FAR):
             yield f"elements of length {_power(length)}", partial(self._forces, inside, length)
 
-    def _inside(self) -> list[float]:
+    def inside(self) -> list[float]:
         """Depths between the points of the law."""
         if (curve := self._curve) is not None:
             below = np.append(0.0, curve.ratios[curve.ratios > 0.0])
-            return (self._size * (0.37 * below[:-1] + 0.63 * below[1:])).tolist() or [0.1 * self._size]
+            return (self.size * (0.37 * below[:-1] + 0.63 * below[1:])).tolist() or [0.1 * self.size]
         width = self.numbers.get("half_width", 0.0)
-        return [0.37 * self._size, *([0.4 * width, 1.7 * width] if width else [])]
+        return [0.37 * self.size, *([0.4 * width, 1.7 * width] if width else [])]
 
     def _scaled(self, factor: float) -> _Normal:
         if (curve := self._curve) is None:
@@ -215,21 +223,34 @@ class _Normal:
         result = model.evaluate(_at(depths, length))
         reactions = result.reaction[:, 0].reshape(-1, 2).sum(axis=1)
         for index, depth in enumerate(depths):
-            exact, scale = self._exact(depth)
+            exact, scale = self.exact(depth)
             if self.law == "nodal":
                 yield _Number(float(reactions[index]), 2 * exact, 2 * scale or None)
                 continue
             yield _Number(float(result.force[index]), exact, scale or None)
             yield _Number(float(reactions[index]), exact * Decimal(length), scale * Decimal(length) or None)
 
-    def _exact(self, depth: float) -> tuple[Decimal, Decimal]:
+    def steepest(self, depth: float) -> Decimal:
+        """The steepest stiffness between the mudline and a depth below the zone of smoothing."""
+        curve = self._curve
+        if curve is None:
+            return Decimal(self.numbers["stiffness"])
+        points = [(Decimal(r), Decimal(f)) for r, f in zip(curve.ratios.tolist(), curve.forces.tolist(), strict=True)]
+        size, last = Decimal(self.size), len(points) - 2
+        return max(
+            (f1 - f0) / (r1 - r0) / size
+            for i, ((r0, f0), (r1, f1)) in enumerate(pairwise(points))
+            if r0 * size < Decimal(depth) and (r1 > 0 or i == last)
+        )
+
+    def exact(self, depth: float) -> tuple[Decimal, Decimal]:
         """The force at a depth and the largest term of its sum, 0 off the seabed."""
         z, zero = Decimal(depth), Decimal(0)
         if depth <= self._onset:
             return zero, zero
         curve = self._curve
         if curve is not None:
-            ratio = z / Decimal(self._size)
+            ratio = z / Decimal(self.size)
             points = [
                 (Decimal(r), Decimal(f)) for r, f in zip(curve.ratios.tolist(), curve.forces.tolist(), strict=True)
             ]
@@ -250,6 +271,64 @@ def _at_points(curve: ForceCurve) -> Iterator[_Number]:
     found = curve.evaluate(curve.ratios)[0]
     for force, exact in zip(found.tolist(), curve.forces.tolist(), strict=True):
         yield _Number(force, Decimal(exact), None)
+
+
+@dataclass(frozen=True)
+class _Unloading:
+    """The line on which an element with a normal law is unloaded."""
+
+    normal: _Normal
+    numbers: Parameters
+
+    def cases(self) -> Iterator[_Case]:
+        usual, size = self.normal.inside()[-1], self.normal.size
+        yield "unloaded to the mudline", partial(self._forces, usual, 0.0)
+        for deepest in (usual, FAR * size):
+            yield f"unloaded from {_power(deepest / size)} diameters", partial(self._forces, deepest, 1.0 - 1e-6)
+        steeper = replace(self, numbers={"stiffness": FACTOR * self.numbers["stiffness"]})
+        yield f"unloading stiffness x {_power(FACTOR)}", partial(_Unloading._forces, steeper, usual, 1.0 - 1e-13)
+
+    def _forces(self, deepest: float, share: float) -> Iterator[_Number]:
+        """The force at a share of the largest penetration: F_max - ku' (z_max - z), and not below 0."""
+        given, element, law = self.normal.given, self.normal.element, self.normal.law
+        model = _probes(given, element, {law: self.normal.numbers, "unloading": self.numbers}, 1)
+        points, after = _at([deepest]), _at([share * deepest])
+        _, state = model.step(points, np.zeros_like(points), model.initial_state())
+        result, _ = model.step(after, np.zeros_like(points), state)
+        most, _ = self.normal.exact(deepest)
+        steepest = max(Decimal(self.numbers["stiffness"]), self.normal.steepest(deepest), most / Decimal(deepest))
+        line = most - steepest * (Decimal(deepest) - Decimal(share * deepest))
+        yield _Number(float(result.force[0]), max(Decimal(0), line), most)
+
+
+@dataclass(frozen=True)
+class _Spring:
+    """Springs against uplift or to the side, of an element on a linear seabed."""
+
+    given: ContactInput
+    law: str
+    numbers: Parameters
+    element: int
+
+    def cases(self) -> Iterator[_Case]:
+        scaled = replace(self, numbers={**self.numbers, "stiffness": FACTOR * self.numbers["stiffness"]})
+        extent = self.numbers.get("extent", FAR)
+        yield f"displaced by {_power(TINY_LENGTH)}", partial(self._forces, TINY_LENGTH)
+        yield "displaced to its end", partial(self._forces, extent)
+        yield f"displaced by {_power(FAR)}", partial(self._forces, max(FAR, 2.0 * extent))
+        yield f"stiffness x {_power(FACTOR)}", partial(_Spring._forces, scaled, 0.5 * extent)
+
+    def _forces(self, moved: float) -> Iterator[_Number]:
+        laws = {"linear": {"stiffness": 1.0}, self.law: self.numbers}
+        model, points = _probes(self.given, self.element, laws, 1), _at([_PRESSED])
+        _, state = model.step(points, np.zeros_like(points), model.initial_state())
+        side = self.law == "lateral"
+        after = _at([_PRESSED], moved=moved, side=2) if side else _at([-moved])
+        result, _ = model.step(after, np.zeros_like(points), state)
+        exact = -Decimal(self.numbers["stiffness"]) * Decimal(moved)
+        if not side and moved > self.numbers["extent"]:
+            exact = Decimal(0)
+        yield _Number(float(result.reaction[:, 2 if side else 0].sum()), exact, abs(exact) or None)
 
 
 # ------------------------------------------------------------------------------------------------------------- friction
