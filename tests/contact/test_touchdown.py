@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from mudline.contact import ContactInput, ContactModel, LawAssignment
-from mudline.contact.result import Part
 from mudline.contact.lines import LineSummary, TouchdownPoint
+from mudline.contact.result import Part
 from mudline.contact.touchdown import LineTable, line_summaries
 from mudline.quantities import LINES
 

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from mudline.contact import ContactModel, ContactResult
-from mudline.contact.result import Part
 from mudline.contact.lines import LineSummary
+from mudline.contact.result import Part
 from mudline.contact.touchdown import LineTable, line_summaries
 from tests.contact.random_scenes import random_scene
 
