@@ -154,7 +154,7 @@ def test_every_fault_is_announced_by_the_nearest_comment_above_it() -> None:
 
 
 @pytest.mark.untraced
-@pytest.mark.parametrize("line", sorted({line for line, _ in FAULTS}))
+@pytest.mark.parametrize("line", [*sorted({line for line, _ in FAULTS})[::5], 66, 114, 150])
 def test_no_bad_line_hides_another(line: int) -> None:
     lines = (SAMPLES / "broken.keyxm").read_bytes().split(b"\n")
     lines[line - 1] = b"C"

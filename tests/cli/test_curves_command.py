@@ -291,34 +291,12 @@ def test_what_was_asked_for_is_marked(place: Place) -> None:
     assert "static embedment" in texts
 
 
-@pytest.mark.parametrize(("units", "name"), [("imperial", "lbf/ft"), ("user", "force per length")])
-def test_other_units(place: Place, units: str, name: str) -> None:
-    assert f"seabed reaction per unit length [{name}]" in drawn(place, CLEAN, "--units", units)
-
-
 def test_names_are_plain_text(place: Place) -> None:
     names = ["_hidden", "$\\frac$", "a_b^c", "\x07bell", "\u6f22\u5b57", "n" * 300]
     curves = "".join(f" CURVE={name}\n 0.0, 0.0\n 0.1, {i}.0\n" for i, name in enumerate(names, 1))
     texts = drawn(place, CLEAN + curves)
     for shown in ("_hidden", "$\\frac$", "a_b^c", "\ufffdbell", "\u6f22\u5b57", "n" * 37 + "..."):
         assert shown in texts
-
-
-def test_same_curves_make_the_same_picture(place: Place, folder: Path) -> None:
-    drawn(place, CLEAN)
-    first = (folder / "out.svg").read_bytes()
-    drawn(place, CLEAN)
-    assert (folder / "out.svg").read_bytes() == first
-
-
-def test_many_curves(place: Place) -> None:
-    curves = "".join(f" CURVE=Extra {i}\n 0.0, 0.0\n 0.1, {i}.0\n" for i in range(1, 40))
-    assert "Extra 39" in drawn(place, CLEAN + curves)
-
-
-def test_long_curve(place: Place) -> None:
-    points = "".join(f" {i / 1000}, {i}.0\n" for i in range(1, 200))
-    assert "Clay" in drawn(place, CLEAN.partition(" 0.1, 1000.0")[0] + points)
 
 
 @pytest.mark.parametrize("points", [" 0.0, 0.0\n 1.0E300, 1.0E300\n", " 1.0E308, 0.0\n 1.1E308, 1.0\n"])
@@ -348,14 +326,3 @@ def test_other_forms_are_wrong_usage(place: Place, name: str) -> None:
     outcome = run("curves", place(), "--plot", name)
     assert (outcome.code, outcome.out) == (2, "")
     assert f"{name}: unknown file format: give a name ending in .png or .svg" in outcome.err
-
-
-def test_folder_that_is_missing(place: Place) -> None:
-    outcome = run("curves", place(), "--plot", "nowhere/out.png")
-    assert (outcome.code, outcome.out) == (2, "")
-    assert outcome.err == "mudline: nowhere/out.png: cannot be written: no such file or directory\n"
-
-
-def test_deck_that_cannot_be_read_draws_nothing(place: Place, folder: Path) -> None:
-    assert run("curves", place(BAD_NUMBER), "--plot", "out.png").code == 1
-    assert not (folder / "out.png").exists()

@@ -44,15 +44,6 @@ def test_sheets_headings_and_values(place: Place, folder: Path) -> None:
     assert widths[0] < widths[2]
 
 
-def test_times_stand_in_front(place: Place, steps: str) -> None:
-    assert run("evaluate", place(), "--positions", steps, "-o", "out.xlsx", "-q").code == 0
-    book = openpyxl.load_workbook("out.xlsx")
-    for name, count in (("elements", 2), ("nodes", 3), ("summary", 1)):
-        column = [cell.value for cell in book[name]["A"]]
-        assert column == ["time", "[s]", *np.repeat([0.5, 1.0, 2.5], count).tolist()]
-    assert book["elements"].freeze_panes == "C3"
-
-
 def test_names_are_texts_and_no_formulas(place: Place) -> None:
     assert run("evaluate", place(NAMED), "-o", "out.xlsx", "-q").code == 0
     sheet = openpyxl.load_workbook("out.xlsx")["elements"]

@@ -167,15 +167,6 @@ def test_paths_that_cannot_be_read_or_written(place: Place, monkeypatch: pytest.
     assert "2 files not formatted" in outcome.err
 
 
-def test_permissions_are_kept(place: Place) -> None:
-    path = Path(place(UGLY))
-    path.chmod(0o640)
-    before = path.stat().st_mode
-    assert run("format", path).code == 0
-    assert content("deck.keyxm") == PRETTY
-    assert path.stat().st_mode == before
-
-
 def test_a_text_that_would_mean_something_else_is_not_written(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(document, "same_meaning", lambda _one, _other: False)
     outcome = run("format", place(UGLY))

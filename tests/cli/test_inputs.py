@@ -62,11 +62,6 @@ def test_current_directory_adds_nothing_to_the_names(place: Place) -> None:
     assert names(".") == ["inner/deck.keyxm"]
 
 
-def test_absolute_directory(place: Place, folder: Path) -> None:
-    place(CLEAN, "inner/deck.keyxm")
-    assert names(str(folder)) == [f"{folder.as_posix()}/inner/deck.keyxm"]
-
-
 def test_every_file_counts_once(place: Place) -> None:
     place(CLEAN, "decks/a.keyxm")
     assert names("decks/a.keyxm", "decks", "decks/a.keyxm", "-", "-") == ["decks/a.keyxm", "<stdin>"]
@@ -142,17 +137,6 @@ def test_directory_that_may_not_be_read(place: Place, folder: Path, monkeypatch:
     found = collect(["decks"])
     assert [file.name for file in found.files] == ["decks/a.keyxm"]
     assert found.code == 2
-
-
-def test_unreadable_directory_is_not_called_empty(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (folder / "closed").mkdir()
-
-    def refuse(path: str) -> object:
-        raise PermissionError(13, "Permission denied", path)
-
-    monkeypatch.setattr(os, "scandir", refuse)
-    outcome = run("lint", "closed")
-    assert (outcome.code, outcome.err) == (2, "mudline: closed: permission denied\n")
 
 
 def test_standard_input() -> None:

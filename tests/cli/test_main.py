@@ -116,13 +116,6 @@ def test_unknown_format(command: str) -> None:
     assert "'xml' is not one of" in outcome.err
 
 
-def test_module_is_the_command(place: Place) -> None:
-    outcome = process("lint", place(BAD_NUMBER), "--output-format", "concise")
-    assert outcome.code == 1
-    assert outcome.out.startswith("deck.keyxm:6:11: SYN002 ")
-    assert outcome.err == ""
-
-
 def test_message_about_an_argument_does_not_act_on_the_terminal() -> None:
     outcome = run("lint", "\x1b[31mred\x07.keyxm")
     assert outcome.code == 2

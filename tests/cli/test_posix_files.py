@@ -182,13 +182,6 @@ def test_only_temporary_files_are_removed(folder: Path) -> None:
     assert len(names(folder)) == len(others) + 3
 
 
-def test_a_folder_is_looked_through_once(folder: Path) -> None:
-    write_atomically(folder / "one", b"x")
-    (folder / LEFT).touch()
-    write_atomically(folder / "two", b"x")
-    assert LEFT in names(folder)
-
-
 def test_a_file_that_was_taken_for_left_behind_is_made_again(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     lock = fcntl.flock
     first: list[str] = []

@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import os
 import sys
-from collections.abc import Callable
 from pathlib import Path
 from unittest.mock import patch
 
@@ -14,8 +13,6 @@ import pytest
 from mudline.__main__ import main
 from mudline.cli import view
 from mudline.cli.inputs import Input
-from mudline.cli.printing import elided
-from mudline.cli.verdicts import Total, Verdict
 from mudline.cli.view import View
 from tests.builders.decks import CLEAN, ILLEGAL
 from tests.cli.conftest import Place
@@ -130,30 +127,6 @@ def test_decks_are_told_when_they_are_judged(place: Place, monkeypatch: pytest.M
     assert "REF001" in there[1]
 
 
-def test_folder_without_decks(place: Place) -> None:
-    place("{}", "folder/other.json")
-    outcome = run("validate", "folder")
-    assert (outcome.code, outcome.out) == (2, "")
-    assert outcome.err.startswith("mudline: folder: no deck in this directory (looked for .das, ")
-
-
-def test_file_given_twice_is_judged_once(decks: str) -> None:
-    outcome = run("validate", "decks/b.json", decks, "--output-format", "csv")
-    assert outcome.out.count("decks/b.json") == 1
-
-
-def test_folder_that_may_not_be_entered(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    def walk(top: str, onerror: Callable[[OSError], None]) -> list[tuple[str, list[str], list[str]]]:
-        onerror(PermissionError(13, "Permission denied", f"{top}/closed"))
-        return [(top, [], ["bad.keyxm"])]
-
-    monkeypatch.setattr(os, "walk", walk)
-    outcome = run("validate", decks, "-q")
-    assert outcome.err == "mudline: decks/closed: permission denied\n"
-    assert outcome.code == 2
-    assert outcome.out.endswith("0 of 1 deck legal: 1 illegal, 1 error\n")
-
-
 def test_document_that_cannot_be_opened_is_told(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
     def closed(file: Path | Input, mode: str = "rb") -> None:
         assert mode == "rb"
@@ -238,33 +211,7 @@ def test_nobody_looks_at_a_file() -> None:
 # -------------------------------------------------------------------------------------------------------------- table
 
 
-@pytest.mark.parametrize(
-    ("text", "width", "encoding", "shown"),
-    [
-        ("short", 20, "utf-8", "short"),
-        ("0123456789", 7, "utf-8", "01\u20266789"),
-        ("0123456789", 9, "ascii", "01...6789"),
-        ("\u6d77\u5e95\u6d77\u5e95\u6d77\u5e95", 8, "utf-8", "\u6d77\u2026\u6d77\u5e95"),
-        ("\u00e9" * 5, 5, "utf-8", "\u00e9" * 5),
-    ],
-)
-def test_elided(text: str, width: int, encoding: str, shown: str) -> None:
-    assert elided(text, width, encoding) == shown
-
-
 def test_colours_are_those_of_the_verdicts(place: Place) -> None:
     out = run("validate", place(), place(ILLEGAL, "bad.keyxm"), "-q", "--color", "always").out
     assert "\x1b[32mlegal\x1b[0m" in out
     assert "\x1b[1;31millegal\x1b[0m" in out
-
-
-def test_total_in_words() -> None:
-    total = Total()
-    assert str(total) == "0 of 0 decks legal"
-    total.add(Verdict("a", 1, 1, 0, 0, 0, 0, "legal"))
-    assert str(total) == "1 of 1 deck legal"
-    total.add(Verdict("b", 1, 1, 0, 0, 2, 0, "illegal"))
-    total.unreadable = 2
-    assert str(total) == "1 of 2 decks legal: 1 illegal, 2 errors, 2 files unreadable"
-    total.add(Verdict("c", 1, 1, 0, 0, 0, 3, "legal, 3 warnings"))
-    assert str(total) == "2 of 3 decks legal: 1 illegal, 2 errors, 3 warnings, 2 files unreadable"

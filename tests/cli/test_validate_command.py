@@ -6,7 +6,7 @@ import csv
 
 import pytest
 
-from tests.builders.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNUSED
+from tests.builders.decks import CLEAN, ILLEGAL, UNUSED
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, assert_fits, run
 
@@ -87,13 +87,6 @@ def test_file_without_a_section_is_no_deck(place: Place, text: str) -> None:
     assert outcome.json()["decks"][0]["verdict"] == "empty"
 
 
-def test_document(place: Place) -> None:
-    text = run("convert", place(), "--to", "yaml").output
-    found = run("validate", place(text, "deck.yaml"), "--output-format", "json").json()
-    assert found["decks"][0]["verdict"] == "legal"
-    assert found["decks"][0]["elements"] == 2
-
-
 def test_document_that_is_none(place: Place) -> None:
     outcome = run("validate", place("{", "deck.json"))
     assert outcome.code == 1
@@ -118,11 +111,3 @@ def test_samples() -> None:
     assert verdicts.pop("broken.keyxm") == "illegal"
     assert set(verdicts.values()) == {"legal"}
     assert len(verdicts) >= 6
-
-
-def test_units_override(place: Place) -> None:
-    assert run("validate", place(BAD_NUMBER), "--units", "imperial").code == 1
-
-
-def test_errors_alone_decide(place: Place) -> None:
-    assert run("validate", place(BAD_NUMBER), "--output-format", "json").json()["decks"][0]["errors"] == 1

@@ -32,8 +32,17 @@ from tests.builders.contact import (
     suction,
     trench,
 )
-from tests.contact.bits import EVALUATED, arrays_of, differences, equal_bits, same_bits
-from tests.contact.comparison import Scene, Sizes, compare, plain_loops
+from tests.contact.comparison import (
+    EVALUATED,
+    Scene,
+    Sizes,
+    arrays_of,
+    compare,
+    differences,
+    equal_bits,
+    plain_loops,
+    same_bits,
+)
 from tests.contact.random_scenes import LARGEST, LAWS, SUBSETS, random_scene
 
 pytestmark = pytest.mark.slow
@@ -118,6 +127,12 @@ def test_any_scene_with_everything(seed: int) -> None:
 
 
 # ------------------------------------------------------------------------------------------------ everything, and parts
+
+
+@pytest.mark.parametrize("seabed", [None, SlopingSeabed(2.0, 30.0)])
+def test_everything_through_loops_that_are_not_compiled(seabed: Seabed | None) -> None:
+    positions, velocities, _ = journey(20, 30, 3)
+    assert compare(scene(all_laws(20, 3, seabed), positions, velocities), plain=True) == []
 
 
 sizes = st.sampled_from([0.0, 5e-324, 1e-300, 1e-160, 1e-12, 1.0, 1e3, 1e12, 1e150, 1e300, LARGEST])

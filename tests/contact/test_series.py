@@ -10,7 +10,7 @@ import pytest
 
 from mudline.contact import ContactModel
 from tests.builders.contact import CURVE, LINEAR, at_depths, chain, everything, mixed
-from tests.contact.bits import same_bits
+from tests.contact.comparison import same_bits
 
 
 def series(steps: int, nodes: int) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:

@@ -11,7 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import mudline
-from mudline.results.plots.curves import Cycle, draw_path
+from mudline.results.plot_data import Cycle
+from mudline.results.plots.curves import draw_path
 from mudline.scene.model import resolve
 from mudline.scene.positions import read_positions
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from mudline.contact.laws.suction import SuctionState
-from mudline.results.plots.curves import Cycle
+from mudline.results.plot_data import Cycle
 from tests.docs.full_cycle import NOTES, cycle, draw
 from tests.docs.layer_picture import layer_picture
 from tests.docs.pictures import IMAGES, ROOT, write

@@ -41,21 +41,6 @@ PHONE = 390
 _LINK = re.compile(r'<(?:a|img|link|script)\b[^>]*?\s(?:href|src)="([^"]*)"')
 _ANCHOR = re.compile(r'\s(?:id|name)="([^"]+)"')
 
-TOO_WIDE = """async ([paths, width]) => {
-    const shown = document.querySelector("article");
-    const texts = await Promise.all(paths.map(async path => path.startsWith("<") ? path : (await fetch(path)).text()));
-    return paths.filter((path, index) => {
-        const article = new DOMParser().parseFromString(texts[index], "text/html").querySelector("article");
-        article.querySelectorAll("img").forEach(picture => picture.removeAttribute("src"));
-        shown.innerHTML = article.innerHTML;
-        return document.documentElement.scrollWidth > width;
-    });
-}"""
-"""Lays out the text of each page in the frame of the one that is open, and gives those that stick out.
-
-Nothing is drawn until all are done, which takes a fraction of the time of opening each page.
-"""
-
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
@@ -132,13 +117,6 @@ def test_links_of_built_pages_lead_somewhere(site: Path) -> None:
     assert broken == []
 
 
-def test_broken_links_are_noticed(tmp_path: Path) -> None:
-    there = '<a href="b.html"></a><a href="#top"></a><a href="b.html#%41" id="top"></a>'
-    (tmp_path / "a.html").write_text(f'{there}<a href="c.html"></a><img src="c.png"><a href="b.html#no"></a>')
-    (tmp_path / "b.html").write_text('<h1 id="A"></h1><a href="https://example.org/none"></a><a href="./"></a>')
-    assert links(tmp_path) == (7, ["a.html: b.html#no", "a.html: c.html", "a.html: c.png", "b.html: ./"])
-
-
 def test_decks_are_coloured(site: Path) -> None:
     text = (site / "rules/CRV003.html").read_text(encoding="utf-8")
     assert '<span class="k">*SEABED STIFFNESS</span>' in text, "install mudline again: its lexer is not registered"
@@ -164,16 +142,3 @@ def test_a_browser_shows_pages_without_errors_and_without_other_hosts(address: s
     assert faults == []
     assert [url for url in requests if not url.startswith((address, "data:", "blob:"))] == []
     assert len(requests) > len(VISITED)
-
-
-def test_no_page_is_wider_than_a_phone(site: Path, address: str, browser: Browser) -> None:
-    with browser.new_context(viewport={"width": PHONE, "height": 844}) as context:
-        page = context.new_page()
-        page.goto(address)
-        every = pages(site)
-        rules = [name for name in every if name.startswith("rules/")]
-        some = {*rules} - {*rules[::10]}  # all are made by one template
-        built = [f"{address}{name}" for name in every if name not in some]
-        assert len(built) > 70
-        planted = f"<article><p style='width: {PHONE + 50}px'>wide</p></article>"
-        assert page.evaluate(TOO_WIDE, [[*built, planted], PHONE]) == [planted]

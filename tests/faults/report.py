@@ -79,7 +79,6 @@ def section(run: Run) -> str:
         parts.append("Kinds of which faults are missed, and why:\n\n" + known(MISSED))
     if BURIED:
         parts.append("Kinds of which faults are buried, and why:\n\n" + known(BURIED))
-    parts.append("Every kind, with the codes of which one is expected at the place of the fault:\n\n" + by_kind(run))
     return "\n" + "\n".join(parts) + "\n"
 
 

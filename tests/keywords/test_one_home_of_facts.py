@@ -37,7 +37,7 @@ EXCEPTIONS = {
     "results/summary.py": "says which of two blocks a curve came from",
     "scene/checks/fields.py": "leaves the geometry of a trench to EXT003, which has words of its own for it",
     "scene/context.py": "a lost line of lines defines a set, as it names one",
-    "study/pruning/features.py": "the words in which its tables name the laws of these blocks",
+    "study/pruning.py": "the blocks that give the stages of a plan, whose lines it shows",
     "variations/names.py": "asks whether the blocks that it reads may stand elsewhere",
 }
 """Modules that name keywords in another way, and why."""

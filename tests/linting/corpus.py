@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -140,10 +139,8 @@ def rewrite() -> list[str]:
     return changes
 
 
-def main(arguments: list[str] | None = None) -> None:
+def main() -> None:
     """Write the findings anew, and tell what changed."""
-    summary = "Write the findings beside every deck of the corpus anew. There are no arguments."
-    argparse.ArgumentParser(prog="python -m tests.linting.corpus", description=summary).parse_args(arguments)
     for line in rewrite():
         sys.stdout.write(f"{line}\n")
     sys.stdout.write(f"{len(decks())} decks; rules that none of them shows: {sorted(codes_not_shown())}\n")

@@ -1,4 +1,4 @@
-"""Rules look only at curves that are not ordinary: they find the same as if they looked at all."""
+"""What rules see of a deck: odd curves, and blocks that were read before."""
 
 from __future__ import annotations
 
@@ -6,9 +6,13 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from mudline.deck.loading import load_bytes
+from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Problem
+from mudline.linting.engine import read_deck
 from mudline.linting.registry import rules
 from mudline.linting.rule import MOST_POINTS, LintContext
+from tests.builders.keyword_texts import mutated
+from tests.deck.test_bytes import texts
 
 HEAD = "$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n*SEABED STIFFNESS\n CURVE=Clay\n"
 CLAY = [(0.0, 0.0), (0.1, 1200.0), (0.5, 4200.0)]
@@ -43,7 +47,7 @@ def curves(draw: st.DrawFn) -> Points:
 
 @given(curves())
 @example([(5e-324, 0.0), *CLAY])
-@settings(max_examples=150)
+@settings(max_examples=50)
 def test_nothing_is_missed(points: Points) -> None:
     every = context(points)
     every.__dict__["odd_curves"] = list(enumerate(every.scene.laws.curves))
@@ -58,3 +62,29 @@ def test_long_curves_are_left_to_the_rules() -> None:
     long = [(index / 100.0, 10.0 * index) for index in range(MOST_POINTS + 1)]
     assert [number for number, _ in context(long).odd_curves] == [0]
     assert context(long[:-1]).odd_curves == []
+
+
+# ------------------------------------------------------------------------- a block that was read before, somewhere else
+
+
+@given(mutated(texts.map(str.encode)), st.integers(0, 3))
+@settings(max_examples=30)
+def test_a_block_that_stands_elsewhere(data: bytes, lines: int) -> None:
+    read_deck(data, "a.keyxm")
+    moved = b"C a line more\n" * lines + data
+    plain, again = load_bytes(moved, "a.keyxm"), read_deck(moved, "a.keyxm")
+    assert again == plain
+    assert again.problems == plain.problems
+    assert isinstance(plain.origin, TextOrigin)
+    assert isinstance(again.origin, TextOrigin)
+    assert again.origin.read.keys() == plain.origin.read.keys()
+    for place, block in plain.origin.read.items():
+        other = again.origin.read[place]
+        assert other.places == block.places
+        assert (other.problems, other.trailing, other.lost) == (block.problems, block.trailing, block.lost)
+
+
+def test_a_short_block_is_read_once() -> None:
+    deck = b"$MODEL\n*OCEAN\n 512.25, 1025.0, 9.81\n"
+    first, second = (read_deck(deck, "a.keyxm").sections[0].blocks[0] for _ in range(2))
+    assert first is second

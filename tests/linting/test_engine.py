@@ -269,7 +269,7 @@ _decks = st.builds(
 )
 
 
-@settings(max_examples=150)
+@settings(max_examples=60)
 @given(_decks)
 def test_nothing_deck_like_raises(content: bytes) -> None:
     _check(content, "deck.keyxm")
@@ -307,7 +307,7 @@ _word = st.sampled_from(
 )
 
 
-@settings(max_examples=100)
+@settings(max_examples=50)
 @given(st.sampled_from(sorted(DOCUMENTS)), st.integers(0, 2000), st.integers(0, 12), _word)
 def test_no_document_raises(name: str, at: int, length: int, word: str) -> None:
     text = DOCUMENTS[name]

@@ -1,20 +1,23 @@
-"""What a deck that is generated costs: memory for the arrays of its scene, and little more on the way."""
+"""What large decks cost: memory for the arrays of their scene, and work as long as their chains."""
 
 from __future__ import annotations
 
 import tracemalloc
+from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+import mudline
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Where
 from mudline.linting.engine import problems_in
 from mudline.linting.registry import rules
 from mudline.linting.rule import LintContext
 from mudline.scene import numbering
-from mudline.scene.model import resolve
 from mudline.scene.numbering import blocks_of, constant, identity, looked_up, one_index
+from tests.growth import TWOFOLD, call_growth
 
 COUNT = 400_000
 LAWS = (
@@ -29,25 +32,17 @@ def generated(count: int, more: str = "") -> bytes:
     return f"$MODEL\n*OCEAN\n 500.0, 1025.0, 9.81\n{nodes}{elements}{more}".encode()
 
 
-@pytest.mark.parametrize("more", ["", LAWS])
-def test_memory_of_linting(more: str) -> None:
+def test_memory_of_linting() -> None:
     """An element and a node need 80 bytes: two numbers, coordinates, ends and their nodes, a length, an index."""
-    problems_in(LintContext(load_bytes(generated(10, more), "deck.keyxm")), rules())  # modules are loaded once
+    problems_in(LintContext(load_bytes(generated(10, LAWS), "deck.keyxm")), rules())  # modules are loaded once
     tracemalloc.start()
     try:
-        found = problems_in(LintContext(load_bytes(generated(COUNT, more), "deck.keyxm")), rules())
+        found = problems_in(LintContext(load_bytes(generated(COUNT, LAWS), "deck.keyxm")), rules())
         _, peak = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()
     assert {problem.code.code for problem in found} <= {"SBD006"}
     assert peak < 140 * COUNT
-
-
-def test_elements_of_one_law_share_it() -> None:
-    scene = resolve(load_bytes(generated(1000, LAWS), "deck.keyxm"))
-    assert one_index(scene.laws.of_element) == 0
-    assert scene.diameter.tolist() == [0.4064] * 1000
-    assert scene.set_table.everything.elements.base is not None
 
 
 def test_constant_indices() -> None:
@@ -93,3 +88,53 @@ def test_numbers_in_many_orders(monkeypatch: pytest.MonkeyPatch) -> None:
             for step in (1, 3):
                 wanted = [i for i, number in enumerate(ids.tolist()) if number in range(5, 30, step)]
                 assert numbered.between(5, 29, step).tolist() == wanted
+
+
+# ------------------------------------------------------------------ chains of definitions, each of which needs the next
+
+MODEL = "$MODEL\n*NODE\n 1, 0.0, 0.0\n 2, 0.0, 1.0\n*ELEMENT\n 1, 1, 2\n"
+SHORT, LONG = 600, 1200
+
+
+def sets(count: int, step: int) -> str:
+    """Sets of which each has the one `step` further as its part; the last has an element."""
+    order = range(count) if step > 0 else range(count, 0, -1)
+    links = "".join(f" SET=S{i}\n SUBSET=S{i + step}\n" for i in order)
+    return f"{MODEL}*ELEMENT SETS\n{links} SET=S{count if step > 0 else 0}\n 1\n"
+
+
+def parameters(count: int, step: int) -> str:
+    """Parameters of which each is defined by the one `step` further."""
+    order = range(count) if step > 0 else range(count, 0, -1)
+    links = "".join(f" p{i}, =[p{i + step} + 1]\n" for i in order)
+    return f"$PREPROCESSOR\n*PARAMETERS\n{links} p{count if step > 0 else 0}, 1.0\n{MODEL}"
+
+
+def closed(text: str, count: int) -> str:
+    """A chain whose last link leads back to its first."""
+    return text.replace(f" SET=S{count}\n 1\n", f" SET=S{count}\n SUBSET=S0\n").replace(
+        f"p{count}, 1.0", f"p{count}, =[p0]"
+    )
+
+
+def codes(text: str, folder: Path) -> list[str]:
+    path = folder / "deck.keyxm"
+    path.write_text(text, encoding="utf-8")
+    return [found.code for found in mudline.lint(path)]
+
+
+@pytest.mark.untraced
+@pytest.mark.parametrize("chain", [sets, parameters])
+@pytest.mark.parametrize("step", [1, -1])
+def test_work_is_as_long_as_the_chain(chain: Callable[[int, int], str], step: int, tmp_path: Path) -> None:
+    paths = [tmp_path / f"{count}.keyxm" for count in (SHORT, LONG)]
+    for path in paths:
+        path.write_text(chain(int(path.stem), step), encoding="utf-8")
+        assert not [found for found in mudline.lint(path) if found.code.startswith("REF")]
+    assert call_growth(lambda path: list(mudline.lint(path)), *paths) < TWOFOLD
+
+
+@pytest.mark.untraced
+@pytest.mark.parametrize(("chain", "code"), [(sets, "REF008"), (parameters, "REF014")])
+def test_a_chain_without_an_end_is_told_once(chain: Callable[[int, int], str], code: str, tmp_path: Path) -> None:
+    assert codes(closed(chain(LONG, 1), LONG), tmp_path).count(code) == 1

@@ -1,21 +1,22 @@
-"""The formats for GitHub and GitLab, also read back as the documents of the two say they are read."""
+"""The formats of hosts, read back as they read them: GitHub, GitLab and JUnit."""
 
 from __future__ import annotations
 
 import json
 import re
 from pathlib import Path
+from xml.etree import ElementTree as ET
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
+from junitparser import Failure, JUnitXml, TestCase, TestSuite
 
 from mudline.diagnostics import Severity
 from mudline.linting.output import form, visible
-from mudline.linting.registry import rules
-from tests.builders.decks import BAD_NUMBER
+from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.runner import run
-from tests.linting.outputs import finding
+from tests.linting.made_rules import finding
 
 TEXTS = st.text(st.characters(codec="utf-8"), min_size=1, max_size=20)
 
@@ -71,10 +72,6 @@ def test_fingerprints_stay_when_lines_move_and_are_unique() -> None:
     assert len(set(prints(3, 9, 9))) == 3
 
 
-def test_nothing_is_an_empty_array() -> None:
-    assert "".join(form("gitlab", [], "")([])) == "[]\n"
-
-
 def heard(line: str) -> tuple[str, dict[str, str], str]:
     """A workflow command as a runner takes it apart: at the first `::`, at commas, at `=`, then the escapes."""
     match = re.fullmatch(r"::([a-z]+) (.*?)::(.*)", line)
@@ -89,6 +86,7 @@ def _unescaped(text: str, more: str) -> str:
     return text
 
 
+@settings(max_examples=30)
 @given(TEXTS, TEXTS)
 def test_a_command_says_the_same_to_the_runner(file: str, message: str) -> None:
     (text,) = form("github", [], "")([finding(file=file, message=message)])
@@ -97,18 +95,6 @@ def test_a_command_says_the_same_to_the_runner(file: str, message: str) -> None:
     assert (word, values["file"], said) == ("warning", file.removeprefix("./"), visible(message))
     assert values["title"] == "LEG001 superseded-keyword"
     assert values.keys() == {"file", "line", "endLine", "col", "endColumn", "title"}
-
-
-@given(st.lists(st.tuples(TEXTS, TEXTS), max_size=5))
-def test_an_issue_of_gitlab_has_the_keys_and_words_of_its_document(found: list[tuple[str, str]]) -> None:
-    issues = json.loads("".join(form("gitlab", [], "")(finding(file=file, message=message) for file, message in found)))
-    assert len(issues) == len(found)
-    for issue in issues:
-        assert all(isinstance(issue[key], str) and issue[key] for key in ("description", "check_name", "fingerprint"))
-        assert issue["severity"] in {"info", "minor", "major", "critical", "blocker"}
-        assert isinstance(issue["location"]["path"], str)
-        assert issue["location"]["lines"]["begin"] >= 1
-    assert len({issue["fingerprint"] for issue in issues}) == len(issues)
 
 
 def test_a_run_tells_gitlab_and_github_of_the_same(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -124,7 +110,75 @@ def test_a_run_tells_gitlab_and_github_of_the_same(tmp_path: Path, monkeypatch: 
     assert issue["description"] == f"SYN002 {message}"
 
 
-def test_every_name_of_a_rule_stands_in_a_title_as_it_is() -> None:
-    for rule in rules():
-        (text,) = form("github", [], "")([finding(code=rule.code.code, slug=rule.code.slug)])
-        assert f",title={rule.code.code} {rule.code.slug}::" in text
+# ---------------------------------------------------------------------------------------------------------------- jUnit
+
+ODD = CLEAN.replace(" 100.0, 1025.0, 9.81", " 100.0, 10\x1b[31m\x00<&\"']]>, 9.81é")
+
+
+def test_a_suite_a_file_and_a_passed_case_for_a_clean_one() -> None:
+    found = [finding(file="b.keyxm", message="wrong"), finding(file="b.keyxm", line=7)]
+    root = ET.fromstring("".join(form("junit", ["a.keyxm", "b.keyxm"], "")(found)))  # noqa: S314 - our own text
+    assert root.attrib == {"name": "mudline", "tests": "3", "failures": "2", "errors": "0"}
+    clean, bad = root
+    assert (clean.get("name"), clean.get("tests"), clean.get("failures")) == ("a.keyxm", "1", "0")
+    assert [case.find("failure") for case in clean] == [None]
+    assert [case.get("name") for case in bad] == ["LEG001 superseded-keyword 3:2", "LEG001 superseded-keyword 7:2"]
+    failure = bad[0].find("failure")
+    assert failure is not None
+    assert failure.attrib == {"type": "warning", "message": "b.keyxm:3:2: wrong"}
+
+
+@given(st.text(st.characters(codec=None), max_size=20), st.text(st.characters(codec=None), max_size=20))
+def test_whatever_a_deck_holds_is_good_xml(file: str, message: str) -> None:
+    text = "".join(form("junit", [file], "")([finding(file=file, message=message)]))
+    root = ET.fromstring(text.encode())  # noqa: S314 - our own text
+    assert root.get("failures") == "1"
+
+
+@pytest.fixture(scope="module")
+def opened(tmp_path_factory: pytest.TempPathFactory) -> JUnitXml:
+    folder = tmp_path_factory.mktemp("decks")
+    decks = {"a clean.keyxm": CLEAN, "bad & 'ü'.keyxm": BAD_NUMBER, "odd.keyxm": ODD}
+    for name, text in decks.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        outcome = run("lint", *decks, "--output-format", "junit=report.xml", "--output-format", "junit")
+    assert (outcome.code, outcome.err) == (1, "")
+    assert (folder / "report.xml").read_bytes() == outcome.output
+    found = JUnitXml.fromfile(str(folder / "report.xml"))
+    assert isinstance(found, JUnitXml)
+    return found
+
+
+def suites(opened: JUnitXml) -> list[TestSuite]:
+    return list(opened)
+
+
+def cases(opened: JUnitXml) -> list[TestCase]:
+    return [case for suite in suites(opened) for case in suite]
+
+
+def failures(case: TestCase) -> list[Failure]:
+    return [result for result in case.result if isinstance(result, Failure)]
+
+
+def test_the_counts_are_those_of_the_cases(opened: JUnitXml) -> None:
+    assert opened.name == "mudline"
+    assert opened.tests == len(cases(opened))
+    assert opened.failures == sum(len(failures(case)) for case in cases(opened))
+    assert opened.errors == 0
+    for suite in suites(opened):
+        assert (suite.tests, suite.errors, suite.skipped) == (len(list(suite)), 0, 0)
+        assert suite.failures == sum(len(failures(case)) for case in suite)
+    assert [(suite.tests, suite.failures) for suite in suites(opened)][:2] == [(1, 0), (1, 1)]
+
+
+def test_control_characters_are_replaced() -> None:
+    found = finding(file="o\x1bdd.keyxm", message="10\x1b[31m\x00<&\"']]>\ud800\ufffe\x85é")
+    opened = JUnitXml.fromstring("".join(form("junit", [found.file], "")([found])).encode())
+    assert isinstance(opened, JUnitXml)
+    (case,) = cases(opened)
+    (failure,) = failures(case)
+    assert case.classname == "o\ufffddd.keyxm"
+    assert failure.text == failure.message == "o\ufffddd.keyxm:3:2: 10\ufffd[31m\ufffd<&\"']]>\ufffd\ufffd\ufffdé"

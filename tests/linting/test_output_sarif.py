@@ -14,12 +14,11 @@ from urllib.parse import unquote
 import pytest
 
 from mudline.diagnostics import Diagnostic, Severity
-from mudline.linting.engine import lint_bytes
 from mudline.linting.output import form
-from mudline.linting.registry import find, rules
-from tests.builders.decks import BAD_NUMBER, CLEAN, UNSORTED
+from mudline.linting.registry import rules
+from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.runner import Json, Outcome, run
-from tests.linting.outputs import finding, plugin_lint
+from tests.linting.made_rules import finding, plugin_lint
 
 DATA = Path(__file__).parents[1] / "data"
 SCHEMA = json.loads((DATA / "sarif-schema-2.1.0.json").read_text(encoding="utf-8"))
@@ -30,17 +29,10 @@ NAMES = BAD_NUMBER.replace("SET=Pipe", "SET=Rør-管")
 DECKS = {
     "clean": ("deck.keyxm", CLEAN, 0),
     "finding": ("deck.keyxm", BAD_NUMBER, 1),
-    "info": ("deck.keyxm", UNSORTED, 1),
     "no ASCII": ("dæk-管.keyxm", NAMES, 1),
-    "CRLF": ("deck.keyxm", NAMES.replace("\n", "\r\n"), 1),
-    "CR": ("deck.keyxm", NAMES.replace("\n", "\r"), 1),
     "BOM": ("deck.keyxm", f"\ufeff{NAMES}", 1),
-    "suppressed": ("deck.keyxm", BAD_NUMBER.replace(" 2, -0.1, ten", "C mudline: ignore SYN002\n 2, -0.1, ten"), 0),
-    "JSON": ("deck.json", '{"mudline": 1, "sections": [{"name": "MODEL", "blocks": 3}]}', 1),
     "no JSON": ("deck.json", '{"a": ', 1),
-    "blanks": ("the deck.keyxm", BAD_NUMBER, 1),
     "signs": ("50%20#1&é+;=.keyxm", BAD_NUMBER, 1),
-    "folders": ("a b/c#d/deck.keyxm", BAD_NUMBER, 1),
 }
 
 
@@ -108,12 +100,6 @@ def test_paths_are_written_as_addresses(file: str, uri: str) -> None:
     assert result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == uri
 
 
-def test_nothing_found_is_a_run_without_results() -> None:
-    run = run_of()
-    assert run["results"] == []
-    assert run["tool"]["driver"]["rules"] == []
-
-
 def test_levels() -> None:
     run = run_of(*(finding(severity=severity) for severity in Severity))
     assert [result["level"] for result in run["results"]] == ["note", "warning", "error"]
@@ -137,13 +123,6 @@ def test_the_schema_is_the_one_that_is_named() -> None:
     assert SCHEMA["title"] == "Static Analysis Results Format (SARIF) Version 2.1.0 JSON Schema"
     assert SCHEMA["properties"]["version"]["enum"] == ["2.1.0"]
     Draft202012Validator.check_schema(SCHEMA)
-
-
-def test_the_schema_and_its_formats_are_heeded() -> None:
-    driver = {"name": "mudline", "rules": [{"id": "X", "helpUri": "docs/rules/X.md"}]}
-    (error,) = VALIDATOR.iter_errors({"version": "2.1.0", "runs": [{"tool": {"driver": driver}}]})
-    assert error.json_path.endswith(".helpUri")
-    assert not VALIDATOR.is_valid({"version": "2.1.0", "runs": [{"tool": {}}]})
 
 
 @pytest.mark.parametrize(("name", "text", "count"), DECKS.values(), ids=DECKS)
@@ -187,71 +166,12 @@ def test_every_rule_is_told_with_its_help_and_level(examples: tuple[Path, Json])
         assert rule["helpUri"].endswith(f"/docs/rules/{rule['id']}.md")
 
 
-def test_every_result_points_at_its_rule_and_into_its_file(examples: tuple[Path, Json]) -> None:
-    folder, printed = examples
-    prints = [result["partialFingerprints"]["mudline/v1"] for result in printed["results"]]
-    assert len(set(prints)) == len(prints)
-    for result in printed["results"]:
-        assert printed["tool"]["driver"]["rules"][result["ruleIndex"]]["id"] == result["ruleId"]
-        place = result["locations"][0]["physicalLocation"]
-        rows = lines_of(folder / place["artifactLocation"]["uri"])
-        region = place["region"]
-        assert 1 <= region["startLine"] <= region["endLine"] <= len(rows)
-        assert region["startColumn"] <= len(rows[region["startLine"] - 1].rstrip("\r\n")) + 1
-        assert (region["startLine"], region["startColumn"]) <= (region["endLine"], region["endColumn"])
-
-
-def test_the_fixes_that_are_told_clear_their_findings(examples: tuple[Path, Json]) -> None:
-    folder, printed = examples
-    fixable = [result for result in printed["results"] if "fixes" in result]
-    assert fixable
-    for result in fixable:
-        (change,) = result["fixes"][0]["artifactChanges"]
-        path = folder / change["artifactLocation"]["uri"]
-        mended = replaced("".join(lines_of(path)), change["replacements"])
-        rule = find(result["ruleId"])
-        assert len(lint_bytes(mended.encode(), path.name, rule)) < len(lint_bytes(path.read_bytes(), path.name, rule))
-
-
-def lines_of(path: Path) -> list[str]:
-    """The lines of a file with their ends, as SARIF counts them."""
-    data = path.read_bytes().removeprefix(b"\xef\xbb\xbf")
-    try:
-        text = data.decode()
-    except UnicodeDecodeError:
-        text = data.decode("cp1252", "replace")
-    return [*re.findall(r"[^\r\n]*(?:\r\n|\r|\n)|[^\r\n]+", text), ""]
-
-
-def _start(replacement: Json) -> tuple[int, int]:
-    region = replacement["deletedRegion"]
-    return region["startLine"], region["startColumn"]
-
-
-def replaced(text: str, replacements: list[Json]) -> str:
-    """What a viewer makes of the text that a fix is for."""
-    starts = [0]
-    for row in re.findall(r"[^\r\n]*(?:\r\n|\r|\n)", text):
-        starts.append(starts[-1] + len(row))
-    for one in sorted(replacements, key=_start, reverse=True):
-        region = one["deletedRegion"]
-        start = starts[region["startLine"] - 1] + region["startColumn"] - 1
-        end = starts[region["endLine"] - 1] + region["endColumn"] - 1
-        text = text[:start] + one["insertedContent"]["text"] + text[end:]
-    return text
-
-
 def test_a_rule_of_a_plugin_has_the_address_that_its_package_tells(tmp_path: Path) -> None:
     told = plugin_lint(tmp_path, "sarif", "Documentation, https://acme.example/rules")
     (rule,) = log_of(told)["tool"]["driver"]["rules"]
     assert (rule["id"], rule["helpUri"]) == ("ACM001", "https://acme.example/rules")
     (found,) = plugin_lint(tmp_path, "json", "Documentation, https://acme.example/rules").json()
     assert found["url"] == "https://acme.example/rules"
-
-
-def test_a_rule_of_a_plugin_without_a_page_has_none(tmp_path: Path) -> None:
-    (rule,) = log_of(plugin_lint(tmp_path, "sarif", ""))["tool"]["driver"]["rules"]
-    assert (rule["id"], "helpUri" in rule) == ("ACM001", False)
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems have no file names in odd bytes")

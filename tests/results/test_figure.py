@@ -18,11 +18,10 @@ from matplotlib.lines import Line2D
 import mudline
 from mudline.contact import ContactInput, ContactModel, ContactResult, LawAssignment
 from mudline.contact.touchdown import line_summaries
-from mudline.results.plot_data import PlotData
-from mudline.results.plots.curves import Cycle, draw_path
+from mudline.results.plot_data import Cycle, PlotData
+from mudline.results.plots.curves import draw_path
 from mudline.results.plots.figure import figure_of, panels_of, reaction
-from mudline.results.plots.stretch import Stretch
-from mudline.results.plots.style import PlainFormatter, thinned, widened
+from mudline.results.plots.style import Stretch, thinned, widened
 from mudline.scene.model import resolve
 from mudline.scene.positions import read_positions
 from tests.samples import SAMPLES
@@ -285,23 +284,6 @@ def test_a_total_that_hardly_changes_is_flat() -> None:
     axes = Figure().add_subplot()
     reaction(axes, PlotData.of_result(result("slope-friction.keyxm", "slope-friction.csv")))
     assert axes.get_ylim() == pytest.approx((57_948.0, 58_531.0), rel=2e-3)
-
-
-@pytest.mark.parametrize(
-    ("ticks", "texts"),
-    [
-        ([0.0, 0.025, 0.05], ["0.000", "0.025", "0.050"]),
-        ([-0.2, 0.0, 0.2], ["\u22120.2", "0.0", "0.2"]),
-        ([0.0, 500_000.0, 1_000_000.0], ["0", "500,000", "1,000,000"]),
-        ([310.0001, 310.0002], ["310.0001", "310.0002"]),
-        ([0.0, 2e150], ["0", "2e+150"]),
-        ([], []),
-    ],
-)
-def test_ticks_are_plain_numbers(ticks: list[float], texts: list[str]) -> None:
-    form = PlainFormatter()
-    form.set_locs(ticks)
-    assert [form(tick) for tick in ticks] == texts
 
 
 def test_thinning_keeps_ends_and_extremes() -> None:

@@ -40,7 +40,7 @@ def in_parts(result: ContactResult, size: int) -> Iterator[Part]:
 
 def test_parts_give_what_the_whole_gives(cycle: ContactResult) -> None:
     whole = PlotData.of_result(cycle, [1, 3])
-    data = PlotData(cycle.known, cycle.evaluated, cycle.present, len(cycle.depth), cycle.times, elements=[1, 3])
+    data = PlotData(cycle.known, cycle.evaluated, len(cycle.depth), cycle.times, elements=[1, 3])
     for part in in_parts(cycle, 13):
         data.take(part)
     for one, other in ((data.chosen, whole.chosen), (data.pulled, whole.pulled)):
@@ -48,7 +48,7 @@ def test_parts_give_what_the_whole_gives(cycle: ContactResult) -> None:
         assert other is not None
         assert one.step == other.step
     assert np.array_equal(data.reaction.most, whole.reaction.most, equal_nan=True)
-    assert np.array_equal(data.loop.force, whole.loop.force)
+    assert np.array_equal(data.loop(1).force, whole.loop(1).force)
 
 
 def test_envelopes_and_the_steps_are_those_of_the_arrays(cycle: ContactResult) -> None:
@@ -62,11 +62,11 @@ def test_envelopes_and_the_steps_are_those_of_the_arrays(cycle: ContactResult) -
 
 
 def test_loops_have_every_step_of_the_elements(cycle: ContactResult) -> None:
-    loop = PlotData.of_result(cycle, [3]).loop
-    assert np.array_equal(loop.penetration[:, 0], cycle.depth[:, 2])
+    loop = PlotData.of_result(cycle, [3]).loop(0)
+    assert np.array_equal(loop.penetration, cycle.depth[:, 2])
     assert loop.state is not None
     assert cycle.state is not None
-    assert np.array_equal(loop.state[:, 0], cycle.state[:, 2])
+    assert np.array_equal(loop.state, cycle.state[:, 2])
 
 
 def test_touchdown_is_that_of_the_lines(heave: ContactResult) -> None:
@@ -78,7 +78,7 @@ def test_touchdown_is_that_of_the_lines(heave: ContactResult) -> None:
 def test_a_long_series_keeps_its_extremes_in_bins(cycle: ContactResult) -> None:
     many = 5000
     short = len(cycle.depth)
-    data = PlotData(cycle.known, cycle.evaluated, cycle.present, many, np.arange(many, dtype=np.float64), elements=[1])
+    data = PlotData(cycle.known, cycle.evaluated, many, np.arange(many, dtype=np.float64), elements=[1])
     for start in range(0, many - short, short):
         data.take(Part(start, cycle))
     reaction = cycle.normal_force.sum(axis=1)

@@ -1,114 +1,145 @@
-"""`mudline study`, with a report that was made before."""
+"""`mudline study`: its screen on every sample, JSON, CSV, pictures and faults."""
 
 from __future__ import annotations
 
-import sys
-from dataclasses import replace
+import csv
 from pathlib import Path
-from unittest.mock import Mock
 
 import pytest
 
-from mudline.scene.model import Scene
-from mudline.study import precision
-from mudline.study.report import Column, StudyError, StudyOptions, StudyReport, StudyTable
-from tests.cli.runner import run
+from mudline.study import precision, report, stability
+from tests.cli.runner import SAMPLES, assert_fits, run
+from tests.study.decks import CURVE, EVERYTHING, Ticking, deck
 
-SAMPLES = Path(__file__).parents[2] / "samples"
+DECKS = sorted(path.name for path in SAMPLES.glob("*.key*") if path.stem != "broken")
+
+
+@pytest.fixture(autouse=True)
+def coarse(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Few steps, and a clock that does not depend on the machine: what is shown is what is tested here."""
+    monkeypatch.setattr(precision, "_PER_OCTAVE", 3)
+    monkeypatch.setattr(precision, "SMALLEST", 0.1)
+    monkeypatch.setattr(stability, "_COARSE", 1.5)
+    monkeypatch.setattr(stability, "_FINE", 1.1)
+    monkeypatch.setattr(report.study, "__kwdefaults__", {**(report.study.__kwdefaults__ or {}), "timer": Ticking()})
 
 
 @pytest.fixture
-def made(monkeypatch: pytest.MonkeyPatch, sample_report: StudyReport) -> None:
-    """The command gets a report that was made before."""
-
-    def study(found: Scene, options: StudyOptions) -> StudyReport:
-        options.progress("smoothing")
-        return replace(sample_report, title=f"Precision: {found.deck.file}", pictures=sample_report.pictures[:1])
-
-    monkeypatch.setattr(precision, "run", study)
+def small(tmp_path: Path) -> Path:
+    path = tmp_path / "small.keyxm"
+    path.write_text(deck(EVERYTHING), encoding="utf-8")
+    return path
 
 
-@pytest.mark.usefixtures("made")
-def test_command(tmp_path: Path) -> None:
-    outcome = run("study", "precision", "-o", tmp_path / "out")
+@pytest.mark.parametrize("name", DECKS)
+def test_the_screen_of_every_sample_is_one_screen(name: str) -> None:
+    outcome = run("study", SAMPLES / name)
+    assert (outcome.code, outcome.err) == (0, "")
+    lines = outcome.out.splitlines()
+    assert len(lines) <= 60
+    assert max(map(len, lines)) <= 100
+    assert "What the deck needs: a step of" in outcome.out
+
+
+def test_the_screen_of_a_dynamic_deck_has_three_tables_and_advice(small: Path) -> None:
+    outcome = run("study", small)
+    assert outcome.out.startswith("Use velocity Verlet with ")
+    titles = ["Error of speed, duration and largest force", "Stable steps of velocity Verlet", "What the deck needs"]
+    places = [outcome.out.index(title) for title in titles]
+    assert places == sorted(places)
+    assert "error\n" not in outcome.out.splitlines()
+    assert "at 50 ms" in outcome.out
+    assert "explicit diverges" in outcome.out
+    assert "Extremes of this deck: " in outcome.out
+
+
+def test_parts_alone(small: Path) -> None:
+    outcome = run("study", small, "--only", "stability", "--only", "pruning")
+    assert "Error of speed" not in outcome.out
+    assert "Stable steps" in outcome.out
+    assert "What the deck needs" in outcome.out
+    json = run("study", small, "--only", "pruning", "--output-format", "json").json()
+    assert_fits(json, "study")
+    assert [json[key] is None for key in ("precision", "stability", "extremes", "stages")] == [True, True, True, False]
+
+
+@pytest.mark.parametrize("seabed", [EVERYTHING, CURVE.format(first="800.0"), ""])
+def test_json_has_its_form(seabed: str, tmp_path: Path) -> None:
+    path = tmp_path / "deck.keyxm"
+    path.write_text(deck(seabed), encoding="utf-8")
+    json = run("study", path, "--output-format", "json", "-o", tmp_path / "study.json", "-q").json()
+    assert_fits(json, "study")
+    assert list(json) == ["format", "deck", "units", "advice", "precision", "stability", "extremes", "stages"]
+    assert json["advice"]["own_step"] == 0.05
+    assert json == run("study", path, "--output-format", "json").json() | {
+        key: json[key] for key in ("precision", "stages")
+    }
+    assert (tmp_path / "study.json").read_text(encoding="utf-8").startswith('{\n "format": "mudline-study/1"')
+
+
+def test_csv_has_a_table_for_each_part(small: Path) -> None:
+    text = run("study", small, "--output-format", "csv").out
+    tables = [list(csv.DictReader(part.splitlines())) for part in text.split("\n\n")]
+    assert [next(iter(rows[0])) for rows in tables] == ["contact", "contact", "stage"]
+    assert {row["scheme"] for row in tables[0]} == {"velocity Verlet", "HHT (-0.3)", "RK4"}
+    assert float(tables[1][0]["explicit_step"]) > 0.0
+    assert tables[1][0]["without_jump_step"] == ""
+
+
+@pytest.mark.parametrize("form", ["png", "svg"])
+def test_the_plot_is_written_whatever_is_shown(small: Path, tmp_path: Path, form: str) -> None:
+    pytest.importorskip("matplotlib")
+    path = tmp_path / f"work.{form}"
+    outcome = run("study", small, "--only", "pruning", "--plot", path)
+    assert outcome.err == f"mudline: plot -> {path.as_posix()}\n"
+    assert "Error of speed" not in outcome.out
+    data = path.read_bytes()
+    assert data.startswith(b"\x89PNG" if form == "png" else b"<?xml")
+    assert len(data) > 10_000
+
+
+def test_a_deck_with_nothing_to_draw_says_so(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    path = tmp_path / "deck.keyxm"
+    path.write_text(deck(""), encoding="utf-8")
+    outcome = run("study", path, "--plot", tmp_path / "work.png")
     assert outcome.code == 0
-    assert "Curve evaluation against exact rational arithmetic" in outcome.out
-    assert "long tables are not shown here" in outcome.out
-    assert "mudline: precision: smoothing" in outcome.err
-    assert "files -> " in outcome.err
-    assert (tmp_path / "out" / "precision-curves.png").exists()
+    assert "there is nothing to draw" in outcome.err
+    assert not (tmp_path / "work.png").exists()
+    assert outcome.out.startswith("No contact of this deck has a frequency: no element has a seabed law.\n")
 
 
-@pytest.mark.usefixtures("made")
-def test_command_as_json_and_csv() -> None:
-    whole = run("study", "precision", SAMPLES / "scr-touchdown.keyxm", "--output-format", "json", "-q")
-    assert (whole.code, whole.err) == (0, "")
-    assert whole.json()["title"] == "Precision: " + (SAMPLES / "scr-touchdown.keyxm").as_posix()
-    text = run("study", "precision", "--output-format", "csv", "-q").out
-    assert text.count("\n\n") == 9
-    assert text.startswith("curve,method,")
+def test_a_deck_from_standard_input_in_other_units() -> None:
+    text = deck(CURVE.format(first="0.0")).encode()
+    outcome = run("study", "-", "--stdin-filename", "given.keyxm", "--units", "user", "--only", "stability", stdin=text)
+    assert outcome.code == 0
+    assert "[ms]" not in outcome.out
+    assert "at 0.05" in outcome.out
+    json = run("study", "-", "--stdin-filename", "x.keyxm", "--output-format", "json", stdin=text).json()
+    assert (json["deck"], json["units"]) == ("x.keyxm", "metric")
 
 
-@pytest.mark.usefixtures("made")
-def test_command_says_everything_or_little(tmp_path: Path) -> None:
-    long = run("study", "precision", "-v").out
-    assert "Closed forms sampled at points" in long
-    assert "long tables" not in long
-    quiet = run("study", "precision", "-q", "-o", tmp_path)
-    assert (quiet.code, quiet.out, quiet.err) == (0, "", "")
+def test_laws_that_do_not_hold_are_listed(small: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from mudline.study import extremes  # noqa: PLC0415 - patched here alone
+
+    monkeypatch.setattr(extremes, "_TOLERANCE", extremes._TOLERANCE / 10**5)
+    outcome = run("study", small, "--only", "stability")
+    assert outcome.code == 0
+    assert "extreme cases do not hold." in " ".join(outcome.out.split())
+    assert "exact is" in outcome.out
+    assert "more failed: JSON has all" in outcome.out
 
 
-@pytest.mark.usefixtures("made")
-def test_command_says_what_is_missing(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
-    outcome = run("study", "precision", "-q", "-o", tmp_path)
-    assert outcome.code == 1
-    assert outcome.err == "mudline: this study needs matplotlib: pip install 'mudline[study]'\n"
-
-
-@pytest.mark.usefixtures("made")
-def test_command_refuses_bad_places_and_decks(tmp_path: Path) -> None:
-    file = tmp_path / "file"
-    file.write_text("", encoding="utf-8")
-    outcome = run("study", "precision", "-q", "-o", file)
+def test_faults_end_the_command(tmp_path: Path, small: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert run("study", SAMPLES / "broken.keyxm").code == 1
+    assert run("study", tmp_path / "missing.keyxm").code == 2
+    assert run("study").code == 2
+    assert run("study", small, "--only", "guessing").code == 2
+    outcome = run("study", small, "--plot", "work.pdf")
     assert outcome.code == 2
-    assert "cannot be written" in outcome.err
-    assert run("study", "precision", SAMPLES / "broken.keyxm").code == 1
-    assert run("study", "precision", tmp_path / "missing.keyxm").code == 2
-    assert run("study", "guessing").code == 2
-
-
-def test_command_says_why_a_study_cannot_be_made(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(precision, "run", Mock(side_effect=StudyError("there is nothing to study")))
-    outcome = run("study", "precision")
-    assert (outcome.code, outcome.err) == (1, "mudline: built-in-sample.keyxm: there is nothing to study\n")
-    monkeypatch.setattr(precision, "run", Mock(side_effect=ModuleNotFoundError("no", name="scipy.integrate")))
-    assert "this study needs scipy: pip install 'mudline[study]'" in run("study", "precision").err
-    monkeypatch.setattr(precision, "run", Mock(side_effect=ModuleNotFoundError("no", name="mudline.missing")))
-    with pytest.raises(ModuleNotFoundError):
-        run("study", "precision")
-
-
-@pytest.mark.parametrize(
-    ("study", "library"), [("precision", "scipy.integrate"), ("stability", "mpmath"), ("pruning", "scipy.interpolate")]
-)
-def test_libraries_are_looked_for_before_a_study_runs(
-    monkeypatch: pytest.MonkeyPatch, study: str, library: str
-) -> None:
-    monkeypatch.setitem(sys.modules, library, None)
-    monkeypatch.setattr(f"mudline.study.{study}.run", Mock(side_effect=AssertionError("it runs")))
-    outcome = run("study", study, "-q")
-    name = library.partition(".")[0]
-    assert (outcome.code, outcome.err) == (1, f"mudline: this study needs {name}: pip install 'mudline[study]'\n")
-
-
-def test_command_shows_every_kind_of_cell(monkeypatch: pytest.MonkeyPatch) -> None:
-    cells = [("a", True, 0.25, None), ("b", False, float("nan"), 3)]
-    columns = (Column("name"), Column("right"), Column("size", "m"), Column("count"))
-    monkeypatch.setattr(
-        precision, "run", lambda *_: StudyReport("precision", "T", (StudyTable("t", "Cells", columns, cells),))
-    )
-    lines = run("study", "precision", "-q").out.splitlines()
-    assert lines[0] == "Cells"
-    assert lines[-3].split() == ["a", "yes", "0.25"]
-    assert lines[-2].split() == ["b", "no", "3"]
+    assert "--plot work.pdf: unknown file format: give a name ending in .png or .svg" in outcome.err
+    assert "-o out.csv: unknown file format: give a name ending in .json" in run("study", small, "-o", "out.csv").err
+    assert run("study", small, "--only", "pruning", "-o", tmp_path / "no" / "such.json").code == 2
+    monkeypatch.setattr("mudline.cli.study_command.find_spec", lambda _: None)
+    outcome = run("study", small, "--plot", tmp_path / "work.png")
+    assert (outcome.code, outcome.err) == (2, "mudline: --plot needs matplotlib: pip install 'mudline[plot]'\n")

@@ -48,7 +48,7 @@ def print_cases(ranked: Sequence[CaseSummary], folder: str, names: Mapping[str, 
 def _print_evaluated(
     printer: Printer, title: str, listed: Sequence[CaseSummary], names: Mapping[str, str], note: str
 ) -> None:
-    """A line for each deck: on a narrow terminal without the columns that are needed least, long names shortened."""
+    """A line for each deck: on a narrow terminal without the columns that are needed least."""
     systems = {row.units for row in listed}
     columns = _columns(next(iter(systems)) or "" if len(systems) == 1 else "")
     cells = {head: [cell(row) for row in listed] for head, cell in columns.items()}
@@ -57,12 +57,11 @@ def _print_evaluated(
     unused += ["steps"] if all(row.steps == 1 for row in listed) else []
     cells = {head: column for head, column in cells.items() if head not in unused}
     widths = {head: max(map(len, (*head.split("\n"), *column))) + _GAP for head, column in cells.items()}
-    wanted = min(_NAME, max(printer.columns(names[row.deck]) for row in listed))
+    wanted = min(_NAME, max(len(names[row.deck]) for row in listed))
     for head in ("in\ncontact", "element", "steps"):
         if head in widths and sum(widths.values()) + wanted > printer.width:
             del widths[head], cells[head]
-    left = max(printer.width - sum(widths.values()), _NAME // 2)
-    decks = [printer.elided(names[row.deck], left) for row in listed]
+    decks = [names[row.deck] for row in listed]
     printer.table(title, ("deck", *cells), zip(decks, *cells.values(), strict=True), left=("deck",), note=note)
 
 

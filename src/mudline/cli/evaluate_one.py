@@ -88,7 +88,7 @@ def evaluate_series(
     if output and not view.quiet:
         _notify_written(evaluation, Path(output), written)
     if not output and output_format == "text":
-        print_series(summary.step_summary(), summary.line_watch(None if view.verbose else MOST_ROWS), view)
+        print_series(summary.totals, summary.line_watch(None if view.verbose else MOST_ROWS), view)
     return warnings
 
 

@@ -16,8 +16,7 @@ from mudline.contact.result import Part
 from mudline.quantities import SLIDING, STATES, UnitNames, headed, shown, unit_names
 from mudline.results.against import Comparison
 from mudline.results.evaluation import Evaluation
-from mudline.results.lines import LineWatch
-from mudline.results.totals import StepSummary, Total, acted_on, counts, reaction, totals
+from mudline.results.totals import LineWatch, StepSummary, Total, acted_on, counts, reaction, totals
 from mudline.scene.numbering import Floats, Indices
 from mudline.short_repr import counted
 

@@ -42,8 +42,8 @@ def lacks_libraries(command: str) -> bool:
 @options.paths
 @click.option("-o", "--output", required=True, metavar="ARCHIVE", help="The folder of the archive; made if missing.")
 @click.option("--prune", is_flag=True, help="Also drop decks outside PATHS whose files are no longer there.")
-@click.option("--config", metavar="FILE", help="Use this configuration for all decks, not the nearest one of each.")
-@click.option("--isolated", is_flag=True, help="Use no configuration file.")
+@options.config
+@options.isolated
 @options.running
 @options.every_file
 @options.units

@@ -16,7 +16,11 @@ from mudline.diagnostics import Severity
 from mudline.linting.configuration import Given
 from mudline.linting.output import TEXT, form_names
 
-_rules = partial(click.option, multiple=True, metavar="CODE[,CODE...]", shell_complete=options.complete_rules)
+_RULES, _FIXES, _KNOWN = "Rules", "Fixes", "Known findings"
+
+_rules = partial(
+    options.option, group=_RULES, multiple=True, metavar="CODE[,CODE...]", shell_complete=options.complete_rules
+)
 
 
 def _words(given: tuple[str, ...]) -> tuple[str, ...]:
@@ -28,37 +32,58 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
 @_rules("--select", "chosen", help="Run these rules only: codes, prefixes or slugs.")
 @_rules("--extend-select", "also", help="Run these rules too.")
 @_rules("--ignore", "ignored", help="Do not run these rules.")
-@click.option(
+@options.option(
     "--fail-on",
+    group=options.OUTPUT,
     type=click.Choice([severity.value for severity in (Severity.ERROR, Severity.WARNING, Severity.INFO)]),
     help="Exit with 1 for findings of this severity or worse (default: warning).",
 )
-@click.option(
+@options.option(
     "--output-format",
     "forms",
+    group=options.OUTPUT,
     multiple=True,
     metavar="FORM[=FILE]",
     shell_complete=complete,
     help=f"Print findings in this format: {', '.join([f'{TEXT} (default)', *form_names()])}; "
     "=FILE writes a file too. Repeatable.",
 )
-@click.option("--fix", is_flag=True, help="Apply the safe fixes, in place; the deck of - is printed.")
-@click.option("--unsafe-fixes", "unsafe", is_flag=True, help="With --fix or --diff: also apply fixes that guess.")
-@click.option("--diff", is_flag=True, help="Print what --fix would change, and write nothing; exit with 1 if anything.")
-@click.option("--baseline", metavar="FILE", help="Hide the findings that are recorded in this file.")
-@click.option("--write-baseline", "recording", is_flag=True, help="Record all findings in the file of --baseline.")
-@click.option(
+@options.option("--fix", group=_FIXES, is_flag=True, help="Apply the safe fixes, in place; the deck of - is printed.")
+@options.option(
+    "--unsafe-fixes", "unsafe", group=_FIXES, is_flag=True, help="With --fix or --diff: also apply fixes that guess."
+)
+@options.option(
+    "--diff",
+    group=_FIXES,
+    is_flag=True,
+    help="Print what --fix would change, and write nothing; exit with 1 if anything.",
+)
+@options.option("--baseline", group=_KNOWN, metavar="FILE", help="Hide the findings that are recorded in this file.")
+@options.option(
+    "--write-baseline", "recording", group=_KNOWN, is_flag=True, help="Record all findings in the file of --baseline."
+)
+@options.option(
     "--dialect",
+    group=_RULES,
     type=click.Choice(["mudline", "flexcom"]),
     help="Check decks for this program (default: mudline); flexcom has no extension keywords.",
 )
-@click.option("--config", metavar="FILE", help="Use this configuration for all decks, not the nearest one of each.")
-@click.option("--isolated", is_flag=True, help="Use no configuration file.")
-@click.option("--statistics", is_flag=True, help="Count the findings of each rule instead of listing them.")
-@click.option("--exit-zero", is_flag=True, help="Exit with 0 whatever is found.")
+@options.config
+@options.isolated
+@options.option(
+    "--statistics", group=options.OUTPUT, is_flag=True, help="Count the findings of each rule instead of listing them."
+)
+@options.option("--exit-zero", group=options.OUTPUT, is_flag=True, help="Exit with 0 whatever is found.")
 @options.running
-@click.option("--no-cache", "uncached", is_flag=True, help="Lint every deck again, without the cache.")
-@click.option("--watch", is_flag=True, help="Lint again whenever a deck or a configuration changes, until Ctrl-C.")
+@options.option(
+    "--no-cache", "uncached", group=options.RUN, is_flag=True, help="Lint every deck again, without the cache."
+)
+@options.option(
+    "--watch",
+    group=options.RUN,
+    is_flag=True,
+    help="Lint again whenever a deck or a configuration changes, until Ctrl-C.",
+)
 @options.every_file
 @options.stdin_name
 @options.units

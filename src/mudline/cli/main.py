@@ -37,7 +37,7 @@ COMMANDS = {
     "batch": "Evaluate many decks or load cases: a row and a result file each.",
     "index": "Bring decks into an archive.",
     "query": "Answer a question about an archive in SQL.",
-    "study": "Measure precision, stability and cost on a deck.",
+    "study": "Measure what accuracy costs on a deck, and what is stable.",
     "rules": "List the rules, or explain one.",
     "schema": "Print the JSON Schema of decks, or of the configuration.",
     "config": "Show the configuration of a deck.",

@@ -159,7 +159,9 @@ stdin_name = option(
     help="Call standard input (-) by this name in messages; its suffix gives the format and the units.",
 )
 
-config = option("--config", group=INPUT, metavar="FILE", help="Use this configuration, not the nearest one.")
+config = option(
+    "--config", group=INPUT, metavar="FILE", help="Use this configuration for all decks, not the nearest one of each."
+)
 
 isolated = option("--isolated", group=INPUT, is_flag=True, help="Use no configuration file.")
 

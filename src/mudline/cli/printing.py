@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import zip_longest
 from types import MappingProxyType
 from typing import ClassVar, NamedTuple
@@ -67,8 +66,7 @@ class Printer:
         self.width = self._console.width if terminal else WIDTH
         self.encoding = self._console.encoding
         self.colored = self._console.color_system is not None and not self._console.legacy_windows
-        self.rule = "\u2500" if self.encoding.startswith("utf") else "-"
-        """A piece of a horizontal line."""
+        self._rule = "\u2500" if self.encoding.startswith("utf") else "-"
 
     def visible(self, text: str) -> str:
         """Text of a deck as this terminal can show it."""
@@ -87,22 +85,22 @@ class Printer:
         else:
             self._console.file.writelines(f"{line.plain}\n" for line in lines)
 
-    def write(self, lines: Iterable[str]) -> None:
-        """Print many lines that are ready for this terminal, colours included."""
-        self._console.file.writelines(f"{line}\n" for line in lines)
-
     def elided(self, text: str, width: int) -> str:
         """Text of a deck in so many columns at most, without its middle where it is longer."""
-        return elided(self.visible(text), width, self.encoding)
-
-    def columns(self, text: str) -> int:
-        """The number of columns that a text takes."""
-        return cell_len(text)
+        shown = self.visible(text)
+        if cell_len(shown) <= width:
+            return shown
+        mark = "\u2026" if self.encoding.startswith("utf") else "..."
+        kept = width - len(mark)
+        end = shown[-(kept - kept // 3) :]
+        while cell_len(end) > kept - kept // 3:
+            end = end[1:]
+        return f"{set_cell_size(shown, kept // 3).rstrip()}{mark}{end}"
 
     def findings(self, found: list[Diagnostic], source: Source, *, following: bool = False) -> None:
         """Print the findings of one file, each with its source line, and with those that follow from it if wanted."""
-        screen = Screen(min(self._console.width, EXCERPT_WIDTH), self.encoding)
-        self.lines(findings(found, source, screen, following=following))
+        width = min(self._console.width, EXCERPT_WIDTH)
+        self.lines(findings(found, source, width, self.encoding, following=following))
 
     def summary(self, found: list[Diagnostic], files: int) -> None:
         """Print how many findings there are in so many files."""
@@ -137,13 +135,13 @@ class Printer:
         if title:
             self.line((self.visible(title), "bold"))
         lines: list[Iterable[_Styled]] = [layout.line([(text, "") for text in head]) for head in heads]
-        lines.append([(self.rule * (sum(layout.widths) + len(_GAP) * (len(names) - 1)), "dim")])
+        lines.append([(self._rule * (sum(layout.widths) + len(_GAP) * (len(names) - 1)), "dim")])
         lines += (layout.line(part) for row in cells for part in layout.folded(row, self._console))
         if self.colored:
             for line in lines:
                 self._console.print(_stripped(Text.assemble(*line)), soft_wrap=True)
         else:
-            self.write("".join(text for text, _ in line).rstrip() for line in lines)
+            self._console.file.writelines("".join(text for text, _ in line).rstrip() + "\n" for line in lines)
         if note:
             self.line((self.visible(note), "dim"))
         self._console.print()
@@ -200,18 +198,6 @@ def _fitted(widths: list[int], to_left: list[bool], available: int) -> list[int]
         column = next(i for i, text in reversed([*enumerate(to_left)]) if text and fitted[i] == widest)
         fitted[column] -= 1
     return fitted
-
-
-def elided(text: str, width: int, encoding: str = "utf-8") -> str:
-    """The text in so many columns, without its middle; more of the end is kept, where names differ."""
-    if (len(text) <= width and text.isascii()) or cell_len(text) <= width:
-        return text
-    mark = "\u2026" if encoding.startswith("utf") else "..."
-    kept = width - len(mark)
-    end = text[len(text) - kept + kept // 3 :]
-    while cell_len(end) > kept - kept // 3:
-        end = end[1:]
-    return f"{set_cell_size(text, kept // 3).rstrip()}{mark}{end}"
 
 
 _PERIOD = 600.0
@@ -271,55 +257,47 @@ _NARROWEST_LINE = 20
 _FOLLOWS = "    follows: "
 
 
-@dataclass(frozen=True, slots=True)
-class Screen:
-    """What findings are shown on: its width in columns, and its encoding."""
-
-    width: int
-    encoding: str = "utf-8"
-
-
 def findings(
-    diagnostics: Iterable[Diagnostic], source: Source, screen: Screen, *, following: bool = False
+    diagnostics: Iterable[Diagnostic], source: Source, width: int, encoding: str = "utf-8", *, following: bool = False
 ) -> Iterator[Text]:
-    """Every finding in one file, as styled plain text; deck text is never read as markup.
+    """Every finding in one file, as styled plain text in so many columns; deck text is never read as markup.
 
     With `following` those that follow from a finding are shown too, indented below it.
     """
     for found in diagnostics:
-        yield _headline(found, screen)
-        yield from excerpt(found, source, screen)
+        yield _headline(found, encoding)
+        yield from excerpt(found, source, width, encoding)
         for one in found.following if following else ():
-            yield Text(_FOLLOWS).append_text(_headline(one, screen))
+            yield Text(_FOLLOWS).append_text(_headline(one, encoding))
 
 
-def _headline(found: Diagnostic, screen: Screen) -> Text:
+def _headline(found: Diagnostic, encoding: str) -> Text:
     style = _STYLES[found.severity]
     return Text.assemble(
-        (visible(f"{found.file}:{found.line}:{found.column}", screen.encoding), "bold"),
+        (visible(f"{found.file}:{found.line}:{found.column}", encoding), "bold"),
         ": ",
         (found.severity.value, style),
         " ",
         (found.code, style),
-        f" {visible(found.message, screen.encoding)} ",
+        f" {visible(found.message, encoding)} ",
         (f"[{found.slug}]", "dim"),
     )
 
 
-def excerpt(found: Diagnostic, source: Source, screen: Screen) -> Iterator[Text]:
+def excerpt(found: Diagnostic, source: Source, width: int, encoding: str = "utf-8") -> Iterator[Text]:
     """The source line with a mark under the fault; a long line is cut around it."""
     line = _line_span(source, found.line)
     number = str(found.line)
-    width = max(_NARROWEST_LINE, screen.width - len(f" {number} | "))
+    width = max(_NARROWEST_LINE, width - len(f" {number} | "))
     start = min(line.start + found.column - 1, line.end)
     end = min(line.start + found.end_column - 1, line.end) if found.end_line == found.line else line.end
-    piece = _window(source.text, line, start, width, screen)
+    piece = _window(source.text, line, start, width, encoding)
     if not source.readable or not source.text[slice(*piece)].strip():
         yield Text("")
         return
 
     def shown(first: int, last: int) -> str:
-        return visible(source.text[first:last], screen.encoding)
+        return visible(source.text[first:last], encoding)
 
     left, right = _CUT if piece.start > line.start else "", _CUT if piece.end < line.end else ""
     before = cell_len(left + shown(piece.start, start))
@@ -339,14 +317,14 @@ def _line_span(source: Source, number: int) -> Span:
     return Span(start, end)
 
 
-def _window(text: str, line: Span, start: int, width: int, screen: Screen) -> Span:
+def _window(text: str, line: Span, start: int, width: int, encoding: str) -> Span:
     """The part of a line that fits into `width` columns and shows what stands before and behind `start`."""
-    if line.end - line.start <= width and cell_len(visible(text[slice(*line)], screen.encoding)) <= width:
+    if line.end - line.start <= width and cell_len(visible(text[slice(*line)], encoding)) <= width:
         return line
     first = max(line.start, start - width // 3)
     left = width - 2 * len(_CUT)
     last = first
-    while last < line.end and (left := left - cell_len(visible(text[last], screen.encoding))) >= 0:
+    while last < line.end and (left := left - cell_len(visible(text[last], encoding))) >= 0:
         last += 1
     return Span(first, max(last, min(start + 1, line.end)))
 

@@ -28,7 +28,7 @@ from mudline.results.forms import (
     table_path,
     tables_of,
 )
-from mudline.results.lines import LineWatch
+from mudline.results.totals import LineWatch
 from mudline.results.warnings import ContactWarning
 
 

@@ -2,43 +2,47 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from importlib import import_module
+import json
+import textwrap
+from collections.abc import Iterator
+from importlib.util import find_spec
+from itertools import chain
 from pathlib import Path
-from types import ModuleType, TracebackType
-from typing import TYPE_CHECKING, Self, cast
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from mudline.cli import DONE, FOUND, options
+from mudline.cli import DONE, WRONG_USAGE, options
 from mudline.cli.inputs import GivenDeck, refuses_bad_decks
-from mudline.cli.streams import emit, notify, notify_missing, reason
-from mudline.cli.view import View, wants_bar
-from mudline.quantities import headed, shown
-from mudline.scene.model import Scene, resolve
-from mudline.short_repr import counted
-from mudline.study import sample_scene
-from mudline.study.report import Cell, StudyError, StudyOptions, StudyReport, StudyTable
+from mudline.cli.streams import emit, emit_json, notify, notify_missing, write_text, writing
+from mudline.cli.view import View, tracked
+from mudline.files import suffix_of
+from mudline.linting.output import visible
+from mudline.quantities import csv_lines, headed, shown, unit_names
+from mudline.scene.model import resolve
+from mudline.short_repr import cut
+from mudline.study import PARTS, Study, jump_note, study
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
-    from mudline.study.running import Study
 
-STUDIES = {"precision": ["scipy.integrate"], "stability": ["mpmath"], "pruning": ["scipy.interpolate"]}
-"""The studies, and what each needs of the extra `mudline[study]`."""
-_PICTURES = "matplotlib.figure"
-_EXTRAS = frozenset({"matplotlib", "mpmath", "scipy"})
-_DIGITS = 4
+_PICTURES = ("png", "svg")
+_WIDTH = 100
+_MOST_CONTACTS, _MOST_NOTES, _MOST_FAILURES = 8, 3, 5
+_NAME, _WHY = 34, 90
+"""Columns of the name of a contact and of the reason of a stage, which is folded."""
+_DIGITS = 3
 
 
 @options.command("study")
-@click.argument("study", type=click.Choice(list(STUDIES)))
-@click.argument("deck", required=False, metavar="[DECK]", shell_complete=click.Path().shell_complete)
-@click.option("-o", "--output", metavar="DIR", help="Write the page, CSV, JSON and PNG files into this folder.")
-@click.option(
-    "--only", metavar="PART[,PART]", help="Run these parts of the study alone; a name that it lacks lists them."
+@options.deck
+@options.option("--only", multiple=True, type=click.Choice(PARTS), help="Study this part alone; repeatable.")
+@options.option(
+    "--plot",
+    metavar=f"FILE.{'|'.join(_PICTURES)}",
+    help="Draw error against run time, with the deck's own step (needs the extra mudline[plot]).",
 )
-@click.option("--full", is_flag=True, help="Use finer steps and more repeats; takes longer than two minutes.")
+@options.option("-o", "--output", metavar="FILE.json", help="Write the study as JSON into this file.")
 @options.output_format("text", "json", "csv")
 @options.stdin_name
 @options.units
@@ -46,165 +50,220 @@ _DIGITS = 4
 @refuses_bad_decks
 def command(
     *,
-    study: str,
-    deck: str | None,
+    deck: str,
+    only: tuple[str, ...],
+    plot: str | None,
     output: str | None,
-    only: str | None,
-    full: bool,
     output_format: str,
     stdin_name: str,
     units: str | None,
     view: View,
 ) -> int:
-    """Measure precision, stability and cost of the numbers of a deck.
+    """Measure what accuracy costs on a deck, which steps are stable, and what the deck does not need.
 
-    precision: error against run time of curves, time integration and smoothing. stability: critical steps, energy at
-    touchdown, extreme values. pruning: what each feature costs. Without DECK a built-in sample is studied.
-
-    With -o, what is finished is written at once, and an interrupted study goes on there when it is run again.
+    precision: error against run time of three schemes on the deck's stiffest contacts. stability: critical steps, the
+    largest steps at which landings keep their speed, and extreme values. pruning: what the stages of the evaluation
+    take, and what those would add that the deck does not have.
     """
-    if not all(map(_is_installed, [*STUDIES[study], *([_PICTURES] if output else [])])):
-        return FOUND
-    module = import_module(f"mudline.study.{study}")
-    parts = _parts(only, cast("Study", module.STUDY))
-    scene = _scene(deck, units, stdin_name)
-    report = _report(module, scene, StudyOptions(full, only=parts, folder=Path(output) if output else None), view)
-    if report is None:
-        return FOUND
+    for path, option, forms in ((plot, "--plot", _PICTURES), (output, "-o", ("json",))):
+        if path is not None and suffix_of(path) not in forms:
+            names = " or ".join(f".{form}" for form in forms)
+            raise click.UsageError(f"{option} {path}: unknown file format: give a name ending in {names}")
+    if plot and find_spec("matplotlib") is None:
+        notify_missing("--plot", "matplotlib", "plot")
+        return WRONG_USAGE
+    scene = resolve(GivenDeck(deck, stdin_name, units).load()).require()
+    found = study(scene, only or PARTS, draw=plot is not None, tracked=lambda parts: tracked(parts, view))
+    if plot:
+        _plot(found, Path(plot), view)
+    if output:
+        write_text(Path(output), [json.dumps(found.json(), indent=1, ensure_ascii=False, allow_nan=False), "\n"])
+        if not view.quiet:
+            notify(f"study -> {Path(output).as_posix()}")
     if output_format == "json":
-        emit([report.json()])
+        emit_json(found.json())
     elif output_format == "csv":
-        for index, table in enumerate(report.tables):
-            emit(["\n"] * (index > 0))
-            emit(table.csv())
+        emit(_csv(found.json()))
     elif not (output and view.quiet):
-        _print_report(report, view)
+        _print(found, view.printer())
     return DONE
 
 
-def _is_installed(library: str) -> bool:
-    """Whether a library can be imported; reports it if not, before a study has taken its time."""
-    try:
-        import_module(library)
-    except ImportError:
-        notify_missing("this study", library.partition(".")[0], "study")
-        return False
-    return True
+def _plot(found: Study, path: Path, view: View) -> None:
+    if found.drawn is None or not found.drawn.curves:
+        notify("--plot: there is nothing to draw, as no contact of this deck has a motion")
+        return
+    from mudline.study.picture import draw  # noqa: PLC0415 - needs the extra `plot`
 
-
-def _scene(deck: str | None, units: str | None, stdin_name: str) -> Scene:
-    if deck is None:
-        return sample_scene()
-    return resolve(GivenDeck(deck, stdin_name, units).load()).require()
-
-
-def _parts(only: str | None, study: Study) -> tuple[str, ...]:
-    """The parts that the user names; ends the command for a name that the study does not have."""
-    names = tuple(dict.fromkeys(name.strip() for name in only.split(","))) if only is not None else ()
-    if unknown := study.unknown(names):
-        known = ", ".join(part.name for part in study.parts)
-        raise click.UsageError(f"{study.name} has no part {unknown[0]!r}: its parts are {known}")
-    return names
-
-
-class _Shown:
-    """What a study is doing: a bar with the time that is left on a terminal, else a line for each thing."""
-
-    def __init__(self, study: str, view: View, folder: Path | None) -> None:
-        self._study, self._view, self._folder = study, view, folder
-        self._bar = view.bar(1.0) if wants_bar(view) else None
-        self._words, self._share = "", 0.0
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        if self._bar:
-            self._bar.erase()
-        if self._folder and isinstance(error, KeyboardInterrupt):
-            notify(f"interrupted: the same command goes on with what is finished in {self._folder.as_posix()}")
-
-    def say(self, words: str) -> None:
-        """Show what comes next."""
-        self._words = words
-        if self._bar:
-            self._bar.draw(self._share, words)
-        elif not self._view.quiet:
-            notify(f"{self._study}: {words}")
-
-    def advance(self, share: float) -> None:
-        """Show how far the study is, 0 to 1."""
-        self._share = share
-        if self._bar:
-            self._bar.draw(share, self._words)
-
-
-def _report(module: ModuleType, scene: Scene, wanted: StudyOptions, view: View) -> StudyReport | None:
-    """Run the study and write its files; None where it cannot be made, which is reported."""
-    folder = wanted.folder
-    try:
-        with _Shown(module.STUDY.name, view, folder) as shown_progress:
-            wanted = replace(wanted, progress=shown_progress.say, advance=shown_progress.advance)
-            report = cast("StudyReport", module.run(scene, wanted))
-        if folder:
-            files = report.write(folder)
-            if not view.quiet:
-                notify(f"{counted(len(files), 'file')} -> {folder.as_posix()}")
-    except OSError as error:
-        if not folder:
-            raise
-        raise click.ClickException(f"{folder}: cannot be written: {reason(error)}") from error
-    except ModuleNotFoundError as error:
-        package = (error.name or "").partition(".")[0]
-        if package not in _EXTRAS:
-            raise
-        notify_missing("this study", package, "study")
-    except StudyError as error:
-        notify(f"{scene.deck.file}: {error}")
-    else:
-        return report
-    return None
-
-
-def _print_report(report: StudyReport, view: View) -> None:
-    """Print short tables, with -v all of them; then failures, notes and the machine."""
-    printer = view.printer()
-    if report.advice:
-        printer.line(printer.visible(report.advice))
-    left_out = 0
-    for table in report.tables:
-        if table.brief or view.verbose:
-            _print_table(printer, table)
-        else:
-            left_out += 1
-    if report.omissions:
-        rows = [tuple(omission) for omission in report.omissions]
-        printer.table("Failed or left out", ("what", "reason"), rows, left=("what", "reason"))
-    for note in report.notes:
-        printer.line(printer.visible(note))
-    if left_out:
-        printer.line(f"{left_out} long tables are not shown here: -v, or -o DIR for files")
+    with writing(path) as stream:
+        draw(found, suffix_of(path), stream, visible)
     if not view.quiet:
-        words = ", ".join(f"{name} {value}" for name, value in report.machine.items())
-        printer.line((printer.visible(words), "dim"))
+        notify(f"plot -> {path.as_posix()}")
 
 
-def _print_table(printer: Printer, table: StudyTable) -> None:
-    columns = [headed(column.name, column.unit) for column in table.columns]
-    texts = [
-        heading
-        for index, heading in enumerate(columns)
-        if table.rows and all(isinstance(row[index], str) for row in table.rows)
+def _csv(whole: dict[str, Any]) -> Iterator[str]:
+    """The tables of the parts, each under its heading, with an empty line between them."""
+    failed = whole["extremes"]["failed"] if whole["extremes"] else None
+    tables = [rows for rows in (whole["precision"], whole["stability"], failed, whole["stages"]) if rows]
+    for number, rows in enumerate(tables):
+        lines = [_flat(row) for row in rows]
+        yield from ["\n"] * (number > 0)
+        yield from csv_lines(chain([list(lines[0])], (list(line.values()) for line in lines)))
+
+
+def _flat(row: dict[str, Any]) -> dict[str, Any]:
+    """A row without rows inside it."""
+    jump = row.pop("without_jump", ...)
+    if jump is not ...:
+        row |= {f"without_jump_{name}": jump and jump[name] for name in ("step", "deck_line")}
+    return row
+
+
+# ----------------------------------------------------------------------------------------------------------- the screen
+
+
+def _print(found: Study, printer: Printer) -> None:
+    if found.advice.text and not any(found.advice.text in notes for notes in found.notes.values()):
+        _paragraph(printer, found.advice.text, "bold")
+        printer.line("")
+    for part, table in (("precision", _print_precision), ("stability", _print_stability), ("pruning", _print_stages)):
+        if part in found.notes and (part != "precision" or found.precision is not None):
+            table(found, printer)
+
+
+def _paragraph(printer: Printer, text: str, style: str = "", indent: str = "") -> None:
+    width = min(printer.width, _WIDTH)
+    for line in textwrap.wrap(printer.visible(text), width, subsequent_indent=indent, break_on_hyphens=False):
+        printer.line((line, style), fold=False)
+
+
+def _print_notes(found: Study, part: str, printer: Printer) -> None:
+    notes = found.notes[part]
+    for note in notes[:_MOST_NOTES]:
+        _paragraph(printer, note, "dim")
+    if len(notes) > _MOST_NOTES:
+        printer.line((f"{len(notes) - _MOST_NOTES} more such reasons", "dim"))
+    if notes:
+        printer.line("")
+
+
+def _at_own(found: Study) -> str:
+    """The heading of what the deck's own step does; "" without one."""
+    if found.own is None:
+        return ""
+    return f"at {shown(found.own.step * (1e3 if found.step_unit else 1.0))} {found.step_unit}".rstrip()
+
+
+def _number(value: float) -> str:
+    """Three digits, as people write them."""
+    if 1e3 <= value < 1e4:
+        return f"{value:.0f}"
+    return shown(value, _DIGITS).replace("e+0", "e").replace("e+", "e").replace("e-0", "e-")
+
+
+def _name(contact: str) -> str:
+    """The name of a contact without the word for its law, which its line shows."""
+    return cut(contact.removeprefix("curve:"), _NAME)
+
+
+def _print_precision(found: Study, printer: Printer) -> None:
+    """A line for each motion and scheme; a motion is named in its first."""
+    precision, unit = found.precision, found.step_unit
+    rows = [] if precision is None else precision.rows
+    cells, last = [], ""
+    for one, tenth in zip(rows[::2], rows[1::2], strict=True):
+        name = "" if one.contact == last else _name(one.contact)
+        last = one.contact
+        pairs = [(found.milliseconds(row.step), _micro(row.run_time)) for row in (one, tenth)]
+        own = "diverges" if one.error_at_own_step is None else f"{_number(100.0 * one.error_at_own_step)} %"
+        cells.append((name, one.scheme, *pairs[0], *pairs[1], *([own] if found.own else [])))
+    names = ["contact", "scheme", headed("step,\n1 %", unit), "run time\n[us per s]"]
+    names += [
+        headed("step,\n0.1 %", unit),
+        "run\ntime",
+        *([f"error\n{_at_own(found)}"] if found.own else []),
     ]
-    rows = [tuple(map(_cell, row)) for row in table.rows]
-    printer.table(table.title, columns, rows, left=texts)
+    if cells:
+        title = "Error of speed, duration and largest force, relative to the exact ones, against run time"
+        printer.table(title, names, cells, left=names[:2])
+    _print_notes(found, "precision", printer)
 
 
-def _cell(cell: Cell) -> str:
-    if isinstance(cell, bool):
-        return "yes" if cell else "no"
-    if isinstance(cell, float):
-        return shown(cell, _DIGITS)
-    return "" if cell is None else str(cell)
+def _micro(seconds: float | None) -> str:
+    return "-" if seconds is None else _number(1e6 * seconds)
+
+
+def _print_stability(found: Study, printer: Printer) -> None:
+    judged, units = found.stability or [], unit_names(found.units)
+    mass = {"metric": "kg/m", "imperial": "slug/ft"}.get(found.units, "")
+    names = ["contact", "deck line", headed("stiffness", units.stiffness), headed("mass", mass)]
+    names += [headed("explicit", found.step_unit), headed("landings\nwithin 1 %", found.step_unit)]
+    names += [_at_own(found)] if found.own else []
+    files = {one.row.file for one in judged}
+    elsewhere = len(files) == 1 and not found.deck.endswith(next(iter(files)))
+    cells = []
+    for row, words in judged[:_MOST_CONTACTS]:
+        line = str(row.deck_line) if len(files) == 1 else f"{row.file}:{row.deck_line}"
+        landing = f"{found.milliseconds(row.landing_step)}{' (jump)' if row.jump else ''}"
+        numbers = (_number(row.stiffness), _number(row.mass), found.milliseconds(row.explicit_step))
+        cells.append((_name(row.contact), line, *numbers, landing, *([words] if found.own else [])))
+    if cells:
+        more = len(judged) - len(cells)
+        note = [f"Lines are those of {next(iter(files))}."] if elsewhere else []
+        note += [f"{more} more contacts have larger critical steps; JSON has all."] if more else []
+        left = [names[0], *names[6:]]
+        printer.table(
+            "Stable steps of velocity Verlet (explicit), and of landings with HHT (-0.3)",
+            names,
+            cells,
+            left=left,
+            note=" ".join(note),
+        )
+    for one in judged[:_MOST_NOTES]:
+        if one.row.jump:
+            _paragraph(printer, jump_note(found, one.row))
+            printer.line("")
+    _print_extremes(found, printer)
+    _print_notes(found, "stability", printer)
+
+
+def _print_extremes(found: Study, printer: Printer) -> None:
+    extremes = found.extremes
+    if extremes is None or not extremes.tried:
+        return
+    counts = f"Extremes of this deck: {extremes.held} of {extremes.tried} held ({', '.join(extremes.cases)})"
+    _paragraph(printer, counts)
+    for failure in extremes.failed[:_MOST_FAILURES]:
+        place = f"line {failure.deck_line} of {failure.file}"
+        _paragraph(printer, f"  {failure.case} ({place}): {failure.message}", "red", indent="    ")
+    if len(extremes.failed) > _MOST_FAILURES:
+        printer.line(f"  {len(extremes.failed) - _MOST_FAILURES} more failed: JSON has all")
+    printer.line("")
+
+
+def _print_stages(found: Study, printer: Printer) -> None:
+    pruning = found.stages
+    if pruning is None:
+        return
+    cells = []
+    for row in pruning.rows:
+        share = "" if row.share is None else f"{100.0 * row.share:.0f} %"
+        optional = row.stage not in {"floor", "normal law"} and row.time is not None
+        without = _time(pruning.step - row.time) if optional and row.time is not None else ""
+        if row.cost_if_added is not None:
+            without = f"+ {_time(row.cost_if_added)} a node"
+        why = cut(row.why.partition(";")[0].partition(" (inferred)")[0], _WHY)
+        line = "" if row.deck_line is None else str(row.deck_line)
+        cells.append((row.stage, "yes" if row.active else "no", line, share, without, why))
+    names = ("stage", "in", "deck line", "share", "without it", "why")
+    title = f"What the deck needs: a step of {pruning.elements} elements takes {_time(pruning.step)}"
+    printer.table(title, names, cells, left=("stage", "in", "why"))
+    _print_notes(found, "pruning", printer)
+
+
+def _time(seconds: float) -> str:
+    """A time with its unit, to three digits."""
+    for scale, unit in ((1.0, "s"), (1e3, "ms"), (1e6, "us")):
+        if seconds * scale >= 1.0:
+            return f"{shown(seconds * scale, _DIGITS)} {unit}"
+    return f"{shown(seconds * 1e9, _DIGITS)} ns"

@@ -95,11 +95,9 @@ def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -
     return _plain(text, raw, declared, found) or _Reader(text, raw, declared, last=last).read()
 
 
-def read_piece(text: str, start: int, end: int, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
-    """Read a block as if nothing but its own lines, from `start` to `end`, were the text: the rest is not kept."""
-    found = partial(_places_in_piece, text[start:end], start, raw, declared, last=last)
-    plain = _plain(text, raw, declared, found)
-    return plain or _Reader(text[start:end], _moved(raw, -start), declared, last=last).read()
+def read_piece(piece: str, start: int, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
+    """Read a block as if its own lines were the whole text; `raw` is the block in the text, where it is at `start`."""
+    return read_block(piece, _moved(raw, -start), declared, last=last)
 
 
 def _plain(text: str, raw: RawBlock, declared: type[Block], found: Callable[[], Places]) -> ReadBlock | None:
@@ -117,10 +115,6 @@ def _plain(text: str, raw: RawBlock, declared: type[Block], found: Callable[[], 
 
 def _places(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> Places:
     return _Reader(text, raw, declared, last=last).read().own
-
-
-def _places_in_piece(piece: str, start: int, raw: RawBlock, declared: type[Block], *, last: bool) -> Places:
-    return _places(piece, _moved(raw, -start), declared, last=last)
 
 
 def _moved(raw: RawBlock, by: int) -> RawBlock:

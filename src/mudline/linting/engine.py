@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
+from functools import lru_cache
 from pathlib import Path
 
 from mudline.deck.loading import load_bytes
@@ -131,42 +131,34 @@ def unsuppressed(context: LintContext, problems: list[Problem], chosen: Sequence
     return problems if found is None else found.split(problems, chosen)[0]
 
 
-LONGEST_BLOCK = 4096
-"""Characters of a block that is remembered."""
-
-MOST_BLOCKS = 512
-"""Blocks that are remembered."""
+_LONGEST_BLOCK = 4096
+"""Characters of a block that is remembered: decks of a project share their short blocks."""
 
 
-class BlockCache:
-    """The last few hundred short blocks, as they were read.
+class _Piece(str):
+    """The text of a block, equal to that of any other; `raw` and `start` are those of the first one that was read."""
 
-    A block that comes for the third time shares its model with the one before: for decks that are looked at and not
-    changed. What comes once is read where it stands, which takes less time.
-    """
+    __slots__ = ("raw", "start")
 
-    def __init__(self) -> None:
-        self._known: OrderedDict[tuple[type[Block], bool, str], ReadBlock | None] = OrderedDict()
+    raw: RawBlock
+    start: int
 
-    def read(self, text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
-        """What `read_block` gives for the block."""
-        start = raw.head.span.start
-        end = (raw.leaves[-1] if raw.leaves else raw.head).span.end
-        if end - start > LONGEST_BLOCK:
-            return read_block(text, raw, declared, last=last)
-        piece = text[start:end]
-        key = (declared, last, piece)
-        if key not in self._known:
-            self._known[key] = None
-            if len(self._known) > MOST_BLOCKS:
-                self._known.popitem(last=False)
-            return read_block(text, raw, declared, last=last)
-        self._known.move_to_end(key)
-        known = self._known[key]
-        if known is None:
-            known = self._known[key] = read_piece(text, start, end, raw, declared, last=last)
-        problems = [_reported_at(problem, start) for problem in known.problems]
-        return known.at(text, start, problems)
+
+@lru_cache(512)
+def _read_piece(piece: _Piece, declared: type[Block], *, last: bool) -> ReadBlock:
+    return read_piece(piece, piece.start, piece.raw, declared, last=last)
+
+
+def _read_once(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
+    """What `read_block` gives for a block; those of the same text share their model."""
+    start = raw.head.span.start
+    end = (raw.leaves[-1] if raw.leaves else raw.head).span.end
+    if end - start > _LONGEST_BLOCK:
+        return read_block(text, raw, declared, last=last)
+    piece = _Piece(text[start:end])
+    piece.raw, piece.start = raw, start
+    known = _read_piece(piece, declared, last=last)
+    return known.at(text, start, [_reported_at(problem, start) for problem in known.problems])
 
 
 def _reported_at(problem: Problem, by: int) -> Problem:
@@ -177,16 +169,12 @@ def _reported_at(problem: Problem, by: int) -> Problem:
     return replace(problem, span=span, repair=repair)
 
 
-_MEMORY = BlockCache()
-"""Rules look at decks and do not change them."""
-
-
 def read_deck(data: bytes, name: str, *, units: str | None = None, folder: Path | None = None) -> Deck:
     """The deck of a file's content, whose models are shared with decks that were read before: it is not to be changed.
 
     Raises DeckError for a JSON or YAML file that holds no deck.
     """
-    return load_bytes(data, name, units=units, folder=folder, read=_MEMORY.read)
+    return load_bytes(data, name, units=units, folder=folder, read=_read_once)
 
 
 def lint_bytes(

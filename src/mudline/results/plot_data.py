@@ -66,34 +66,26 @@ class Chosen(NamedTuple):
         return found
 
 
-class Band:
-    """The least and the largest value of each bin of steps, NaN where there is none."""
+class Extents:
+    """The least and the largest of several values over the steps, NaN where there is none."""
 
-    def __init__(self, bins: int) -> None:
-        self.least = np.full(bins, np.nan)
-        self.most = np.full(bins, np.nan)
+    def __init__(self, count: int) -> None:
+        self.least = np.full(count, np.nan)
+        self.most = np.full(count, np.nan)
 
-    def take(self, bins: Indices, values: Floats) -> None:
-        """Look at the values of some steps, which belong to these bins."""
+    def take(self, values: Floats) -> None:
+        """Look at each value at some steps (steps, count)."""
+        self.least = np.fmin(self.least, np.fmin.reduce(values, axis=0))
+        self.most = np.fmax(self.most, np.fmax.reduce(values, axis=0))
+
+    def take_bins(self, bins: Indices, values: Floats) -> None:
+        """Look at one value at some steps (steps,), which belong to these bins."""
         np.fmin.at(self.least, bins, values)
         np.fmax.at(self.most, bins, values)
 
 
-class Envelope:
-    """The least and the largest value of each element over the steps; NaN where there is none."""
-
-    def __init__(self, elements: int) -> None:
-        self.least = np.full(elements, np.nan)
-        self.most = np.full(elements, np.nan)
-
-    def take(self, values: Floats) -> None:
-        """Look at values (steps, m)."""
-        self.least = np.fmin(self.least, np.fmin.reduce(values, axis=0))
-        self.most = np.fmax(self.most, np.fmax.reduce(values, axis=0))
-
-
-class Loop(NamedTuple):
-    """Penetration and force per unit length of chosen elements (steps, k); their suction states, None without."""
+class Cycle(NamedTuple):
+    """An element over the steps: penetration, force per unit length, and state of suction, None without."""
 
     penetration: Floats
     force: Floats
@@ -108,7 +100,7 @@ class PlotData:
     Attributes:
         given: what was evaluated.
         steps, times: number of steps, and their times (steps,); None for a single state without a time.
-        elements, nodes: indices of those that are evaluated.
+        elements: indices of those that are evaluated.
         looped: indices of the elements whose force-penetration loop is kept.
         chosen: the step with the largest total reaction; pulled: that with the largest pull of an element, None
             without one; slid: that with the largest friction on a node, None without friction.
@@ -119,7 +111,6 @@ class PlotData:
         self,
         given: ContactInput,
         evaluated: Mask,
-        present: Mask,
         steps: int,
         times: Floats | None = None,
         *,
@@ -134,31 +125,33 @@ class PlotData:
         self.steps = steps
         self.times = times
         self.elements: Indices = np.flatnonzero(evaluated)
-        self.nodes: Indices = np.flatnonzero(present)
         self.looped = self._looped(elements)
         self.chosen: Chosen | None = None
         self.pulled: Chosen | None = None
         self.slid: Chosen | None = None
         self.touched: Mask = np.zeros(len(evaluated), np.bool_)
-        self.force, self.depth = Envelope(len(evaluated)), Envelope(len(evaluated))
-        self._begin_curves()
+        self.force, self.depth = Extents(len(evaluated)), Extents(len(evaluated))
+        self.curves: Sequence[ForceCurve] = given.curves
+        self._curve_of = given.curve_index
+        self.on_curve: Indices = self.elements[self._curve_of[self.elements] >= 0]
+        self.points: list[Points] = []
+        self._every = max(1, steps * len(self.on_curve) // _POINTS)
+        self._seen = 0
         bins = min(_BINS, steps)
-        self.reaction = Band(bins)
+        self.reaction = Extents(bins)
         self.lines: list[int] = np.unique(given.lines.of_element[self.elements]).tolist()[:_FOLLOWED_LINES]
         self.more_lines = len(np.unique(given.lines.of_element[self.elements])) - len(self.lines)
-        self.touchdown = {(line, name): Band(bins) for line in self.lines for name in TOUCHDOWN} if steps > 1 else {}
+        self.touchdown = {(line, name): Extents(bins) for line in self.lines for name in TOUCHDOWN} if steps > 1 else {}
         self._finder = Touchdown(given)
         self._every_loop = max(1, -(-steps // _LOOP_STEPS))
-        self._loops: list[Loop] = []
+        self._loops: list[Cycle] = []
         self._largest, self._pull, self._friction = -np.inf, 0.0, 0.0
 
     @classmethod
     def of_evaluation(cls, evaluation: Evaluation, elements: Sequence[int] = ()) -> PlotData:
         """Prepare for the parts of an evaluation; raises as the class does."""
-        present = evaluation.present
-        evaluated: Mask = np.all(present[evaluation.scene.element_nodes], axis=1)
-        given = evaluation.model.input
-        return cls(given, evaluated, present, evaluation.steps, evaluation.time, elements=elements)
+        evaluated: Mask = np.all(evaluation.present[evaluation.scene.element_nodes], axis=1)
+        return cls(evaluation.model.input, evaluated, evaluation.steps, evaluation.time, elements=elements)
 
     @classmethod
     def of_result(cls, result: ContactResult, elements: Sequence[int] = ()) -> PlotData:
@@ -167,14 +160,7 @@ class PlotData:
         Raises ValueError for a result that does not know what was evaluated, and as the class does.
         """
         series = result.as_series()
-        data = cls(
-            result.known,
-            series.evaluated,
-            series.present,
-            len(series.depth),
-            series.times,
-            elements=elements,
-        )
+        data = cls(result.known, series.evaluated, len(series.depth), series.times, elements=elements)
         data.take(Part(0, series))
         return data
 
@@ -194,23 +180,13 @@ class PlotData:
             raise ValueError(f"{len(wanted)} elements are too many to draw: give at most {MOST_LOOPS}")
         return np.array([places[number] for number in wanted], np.intp)
 
-    def _begin_curves(self) -> None:
-        """Which evaluated elements have a curve."""
-        curved = self.given.has("curve")
-        self.curves: Sequence[ForceCurve] = self.given.curves if curved else ()
-        self._curve_of = self.given.curve_index
-        self.on_curve: Indices = self.elements[self._curve_of[self.elements] >= 0] if curved else np.zeros(0, np.intp)
-        self.points: list[Points] = []
-        self._every = max(1, self.steps * len(self.on_curve) // _POINTS)
-        self._seen = 0
-
     # ------------------------------------------------------------------------------------------- as the parts come
 
     def take(self, part: Part) -> None:
         """Look at some steps."""
         of_part = traces(part)
         bins = np.arange(part.start, part.start + part.count) * min(_BINS, self.steps) // self.steps
-        self.reaction.take(bins, of_part["reaction"].values)
+        self.reaction.take_bins(bins, of_part["reaction"].values)
         self._choose(part, of_part["reaction"].values, of_part["pull"].values)
         self.touched |= part.result.contact.any(axis=0) & part.result.evaluated
         self.force.take(part.result.force)
@@ -218,7 +194,7 @@ class PlotData:
         if self.touchdown:
             for line in self._finder.series(part):
                 for name in TOUCHDOWN if line.number in self.lines else ():
-                    self.touchdown[line.number, name].take(bins, getattr(line, name))
+                    self.touchdown[line.number, name].take_bins(bins, getattr(line, name))
         self._sample(part)
         self._take_loop(part)
 
@@ -262,14 +238,16 @@ class PlotData:
         steps = np.arange(-part.start % self._every_loop, part.count, self._every_loop)
         at = np.ix_(steps, self.looped)
         states = part.result.state
-        self._loops.append(Loop(part.result.depth[at], part.result.force[at], None if states is None else states[at]))
+        self._loops.append(Cycle(part.result.depth[at], part.result.force[at], None if states is None else states[at]))
 
-    @property
-    def loop(self) -> Loop:
-        """The loops of the chosen elements."""
-        depth, force = (np.concatenate([getattr(one, name) for one in self._loops]) for name in Loop._fields[:2])
-        states = [one.state for one in self._loops if one.state is not None]
-        return Loop(depth, force, np.concatenate(states) if states else None)
+    def loop(self, place: int) -> Cycle:
+        """The path of one of the chosen elements."""
+        depth, force = (
+            np.concatenate([getattr(one, name)[:, place] for one in self._loops]) for name in Cycle._fields[:2]
+        )
+        states = [one.state[:, place] for one in self._loops if one.state is not None]
+        state = np.concatenate(states) if states else None
+        return Cycle(depth, force, None if state is None or (state < 0).all() else state)
 
     # ------------------------------------------------------------------------------------------------ what there is
 

@@ -17,8 +17,7 @@ from mudline.contact.touchdown import LineTable, Touchdown
 from mudline.quantities import ELEMENTS, LINES, NODES, SLIDING, STEPS, Quantity, time_unit
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import Tables, plan_rows
-from mudline.results.lines import FOLLOWED, Extent, LineWatch
-from mudline.results.totals import HELD, Peak, SlowSuction, StepSummary, traces
+from mudline.results.totals import FOLLOWED, HELD, Extent, LineWatch, Peak, SlowSuction, StepSummary
 from mudline.results.warnings import ContactWatch
 from mudline.scene.numbering import Floats, Indices
 
@@ -59,31 +58,13 @@ class Extremes:
                 value[column], step[column] = values[row, column], start + row
 
 
-class _Peaks:
-    """The largest of each figure of `STEPS` over steps: value, step and index of the element; -1 for none."""
-
-    def __init__(self) -> None:
-        self.rank, self.value = np.full(len(STEPS), -np.inf), np.full(len(STEPS), np.nan)
-        self.step, self.element = (np.full(len(STEPS), -1, np.int64) for _ in range(2))
-
-    def take(self, part: Part) -> None:
-        """Look at some steps."""
-        found = traces(part)
-        for place, name in enumerate(STEPS):
-            values, elements = found[name]
-            ranked = np.where(np.isnan(values), -np.inf, np.abs(values) if name == "force" else values)
-            row = int(ranked.argmax())
-            if ranked[row] > self.rank[place]:
-                self.rank[place], self.value[place], self.step[place] = ranked[row], values[row], part.start + row
-                self.element[place] = -1 if elements is None else elements[row]
-
-
 class SeriesSummary:
     """Takes the steps of an evaluation a few at a time, and keeps their extremes.
 
     Attributes:
         elements, nodes, lines: indices of what the rows of the tables are about.
         extremes: by table and figure. counts: numbers of steps, by table and name.
+        totals: the largest of each figure of `STEPS`.
         watch: what the warnings need. slow: where suction is pulled slower than its law resolves.
     """
 
@@ -97,7 +78,7 @@ class SeriesSummary:
         self.counts = {
             (table, each): np.zeros(rows[table], np.int64) for table, names in COUNTS.items() for each in names
         }
-        self.peaks = _Peaks()
+        self.totals = StepSummary(evaluation, 0)
         self.watch, self.slow = ContactWatch.of(evaluation), SlowSuction()
         self._finder = Touchdown(given)
 
@@ -111,7 +92,7 @@ class SeriesSummary:
             self._count("elements", "suction_steps", np.isin(kept(result.state, self.elements), HELD))
         self._take_nodes(part.start, result)
         self._take_lines(part)
-        self.peaks.take(part)
+        self.totals.take(part)
         self.watch.take(part)
         self.slow.take(part)
 
@@ -144,20 +125,6 @@ class SeriesSummary:
 
     def _count(self, table: str, name: str, holds: NDArray[np.bool_]) -> None:
         self.counts[table, name] += np.count_nonzero(holds, axis=0)
-
-    def step_summary(self) -> StepSummary:
-        """The largest of all steps, as the terminal shows them; no single step."""
-        ids, found = self.evaluation.scene.element_ids, self.peaks
-        peaks = {
-            name: Peak(
-                float(found.value[place]),
-                int(found.step[place]),
-                None if found.element[place] < 0 else int(ids[found.element[place]]),
-            )
-            for place, name in enumerate(STEPS)
-            if found.step[place] >= 0
-        }
-        return StepSummary(self.evaluation, 0, peaks=peaks)
 
     def line_watch(self, most: int | None) -> LineWatch:
         """The extents of the figures of lines, as the terminal shows them; at most so many rows."""
@@ -244,19 +211,19 @@ def _counts(summary: SeriesSummary, table: str) -> Iterator[Column]:
 
 def _totals(summary: SeriesSummary, times: Floats | None) -> list[Column]:
     """A row for each figure of `STEPS`: its largest value over all steps."""
-    found, ids = summary.peaks, np.append(summary.evaluation.scene.element_ids, NO_ELEMENT)
-    names: Indices = np.arange(len(STEPS))
+    none = Peak(np.nan, _NO_STEP, None)
+    found = [summary.totals.peaks.get(name, none) for name in STEPS]
+    steps = np.array([peak.step for peak in found], np.int64)
+    elements = np.array([NO_ELEMENT if peak.element is None else peak.element for peak in found], np.int64)
     columns = [
-        Column("figure", names, (*STEPS, None), over_steps=False),
-        _column("largest", np.where(found.step >= 0, found.value, np.nan)),
-        _column("step", found.step, blank=_NO_STEP),
-        _column("element", ids[found.element], blank=NO_ELEMENT),
+        Column("figure", np.arange(len(STEPS)), (*STEPS, None), over_steps=False),
+        _column("largest", np.array([peak.value for peak in found])),
+        _column("step", steps, blank=_NO_STEP),
+        _column("element", elements, blank=NO_ELEMENT),
     ]
     if times is not None:
-        at = _column(
-            "time", np.where(found.step >= 0, times[found.step], np.nan), unit=time_unit(summary.evaluation.scene.units)
-        )
-        columns.insert(3, at)
+        unit = time_unit(summary.evaluation.scene.units)
+        columns.insert(3, _column("time", np.where(steps >= 0, times[steps], np.nan), unit=unit))
     return columns
 
 

@@ -175,7 +175,7 @@ def _seabed(scene: ResolvedDeck) -> Seabed | None:
     if seabed.missing:
         raise scene.refusal(f"the seabed is not known: {seabed.missing}{_REFUSED}", seabed.where)
     if seabed.kind is SeabedKind.SURFACE and find_spec("scipy") is None:
-        message = "a 3D surface needs scipy, which is not installed: pip install 'mudline[study]'"
+        message = "a 3D surface needs scipy, which is not installed: pip install 'mudline[surface]'"
         raise scene.refusal(message, seabed.where)
     try:
         return made_seabed(seabed)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import weakref
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
@@ -32,18 +31,13 @@ _Run = tuple[Indices, Ids]
 """Indices, and their numbers in ascending order."""
 
 _Kind = TypeVar("_Kind", bound=np.generic)
-_shared: weakref.ref[Indices] | None = None
 
 
 def identity(count: int) -> Indices:
-    """0, 1, 2, ... up to `count` of them, not to be written to: all that are in use share their memory."""
-    global _shared  # noqa: PLW0603 - without an owner, so that it is freed with the last one that uses it
-    known = _shared() if _shared is not None else None
-    if known is None or len(known) < count:
-        known = np.arange(count, dtype=np.intp)
-        known.flags.writeable = False
-        _shared = weakref.ref(known)
-    return known[:count]
+    """0, 1, 2, ... up to `count` of them, not to be written to."""
+    found = np.arange(count, dtype=np.intp)
+    found.flags.writeable = False
+    return found
 
 
 def constant(value: int, count: int) -> Indices:

@@ -1,317 +1,271 @@
-"""The results of a study: tables, pictures, notes, and the files that are written of them.
-
-How to write a study, or a part of one:
-
-* A study is a package `mudline.study.NAME` with `STUDY = Study(NAME, title, parts, page, advice)` of
-  `mudline.study.running`, and `run = STUDY.run`. A `Part(name, run, weight)` has a function `(scene, options) ->
-  Section`; `mudline study NAME --only PART` runs it alone, and `-o DIR` writes its files as soon as it is finished.
-* A part declares the columns of its tables once (`Layout`), returns them with pictures, notes and omissions as a
-  `Section`, and reports its progress: `for case in options.each(cases, lambda case: case.title): ...`.
-* `page(tables) -> str` fills the template `page.md` beside it: `filled(Path(__file__).with_name("page.md"), fields)`.
-  All numbers come from `tables` (`mudline.study.pages.Tables`): `tables.rows("steps", scheme="newmark")`,
-  `row.number("step [s]")`, `row.text("case")`; they are formatted by `rounded`, `percent`, `time`, `span` and
-  `table_of` there, limits rounded `DOWN` and bounds `UP`. A template has digits only in code, names, links and years,
-  which a test checks; another test makes the pages of docs/studies from their CSV files. The page is written for any
-  deck: what depends on the deck is a field, or is chosen by an `if` of `page.py`.
-* `advice(tables) -> str` is the one sentence about the deck: the first line of the printed report, `advice` in JSON,
-  and the field {advice} of a page. `row.place()` names a deck line, with the file of a deck that is continued.
-* The table `machine` (`what`, `value`) is added to each study: deck, processor, versions, run time of all parts.
-* Pictures (`mudline.study.pictures`): `STYLES` of `mudline.study.schemes` has the style of each scheme by its title,
-  also for `draw_lines(..., styles=STYLES)`; `zero_place` and `zero_tick` give 0 a tick on a logarithmic axis; an error
-  that is divided by something is labelled "relative error of ... [-]".
-"""
+"""The study of a deck as a whole: what it found, the advice that follows, and its JSON."""
 
 from __future__ import annotations
 
-import json
 import math
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from operator import attrgetter
-from pathlib import Path
-from typing import Any, Generic, NamedTuple, TypeAlias, TypeVar, get_type_hints
+from time import get_clock_info, perf_counter, thread_time
+from typing import Any, NamedTuple
 
-from mudline.files import write_atomically
-from mudline.quantities import csv_lines, labelled
-from mudline.study.pictures import Picture
-from mudline.study.timing import machine
+import numpy as np
 
-Row = TypeVar("Row")
-Key = TypeVar("Key", bound=Hashable)
-Cell: TypeAlias = str | bool | int | float | None
+from mudline.contact.input import LawKind
+from mudline.contact.stiffest import rounded_down
+from mudline.quantities import finite, shown, time_unit
+from mudline.scene.model import Scene
+from mudline.study.extremes import Extremes, extremes
+from mudline.study.precision import GOALS, Precision, Timer, measured
+from mudline.study.pruning import Pruning, pruned
+from mudline.study.schemes import CRITICAL, HHT, SCHEMES
+from mudline.study.stability import Contact, Judged, OwnStep, StabilityRow, contacts_of, judged, own_step
 
-# ------------------------------------------------------------------------------------------------------------- running
+FORMAT = "mudline-study/1"
+PARTS = ("precision", "stability", "pruning")
 
-
-class StudyError(Exception):
-    """The scene has nothing that the study can measure, or something that it cannot measure; the message says what."""
-
-
-def silent(message: str) -> None:
-    """Report nothing."""
-    del message
+CLOCK: Timer = thread_time if get_clock_info("thread_time").resolution < 1e-5 else perf_counter
+"""Processor time of this thread where that clock is fine enough: other programs do not count in it."""
 
 
-def still(share: float) -> None:
-    """Show nothing."""
-    del share
+class Advice(NamedTuple):
+    """What to do, and which line of the deck asks for it; None where there is none."""
+
+    text: str
+    scheme: str | None = None
+    step: float | None = None
+    file: str | None = None
+    deck_line: int | None = None
+    own_step: float | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class StudyOptions:
-    """Options of a run.
-
-    Attributes:
-        full: a longer run, with finer ladders and more repeats.
-        progress: is called with a short text on what is done next.
-        advance: is called with the share that is done, 0 to 1; of the part, where a part calls it.
-        only: the parts that are run; empty for all.
-        folder: where the files of finished parts are written, and from where an interrupted study is resumed; None for
-            no files.
-    """
-
-    full: bool = False
-    progress: Callable[[str], None] = silent
-    advance: Callable[[float], None] = still
-    only: tuple[str, ...] = ()
-    folder: Path | None = None
-
-    def each(self, items: Sequence[Row], words: Callable[[Row], str]) -> Iterator[Row]:
-        """Yield the items, and report each and the share of them that is done."""
-        for done, item in enumerate(items):
-            self.progress(words(item))
-            self.advance(done / len(items))
-            yield item
-
-
-# -------------------------------------------------------------------------------------------------------------- tables
-
-
-class Column(NamedTuple):
-    """A column of a table; the unit is empty for texts and pure numbers."""
-
-    name: str
-    unit: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class StudyTable:
-    """Rows of numbers and texts.
+@dataclass
+class Study:
+    """What the study of a deck found; None for a part that was not asked for.
 
     Attributes:
-        name: of its file.
-        title: what it shows, for readers.
-        columns: one for each cell of a row.
-        rows: the cells; None where there is no value.
-        brief: whether it is short enough for the printed report.
+        deck: name of its file.
+        own: its fixed time step; None without one.
+        notes: by part, what is missing or not known, in sentences.
+        drawn: the work-precision curves, whether or not the part is shown.
     """
 
-    name: str
-    title: str
-    columns: tuple[Column, ...]
-    rows: Sequence[Sequence[Cell]]
-    brief: bool = True
+    deck: str
+    units: str
+    own: OwnStep | None
+    advice: Advice = field(default_factory=lambda: Advice(""))
+    precision: Precision | None = None
+    stability: list[Judged] | None = None
+    extremes: Extremes | None = None
+    stages: Pruning | None = None
+    notes: dict[str, list[str]] = field(default_factory=dict)
+    drawn: Precision | None = None
 
-    def csv(self) -> Iterator[str]:
-        """The lines of the table as CSV, headed by the columns with their units; what is not finite is empty."""
-        rows: Iterable[Iterable[Cell]] = (tuple(map(_finite, row)) for row in self.rows)
-        return csv_lines([tuple(labelled(*column) for column in self.columns), *rows])
-
-    def as_json(self) -> dict[str, Any]:
-        """The table as it stands in the JSON of a report; what is not finite is null."""
+    def json(self) -> dict[str, Any]:
+        """Return the study as JSON has it: in the deck's units, unrounded."""
         return {
-            "name": self.name,
-            "title": self.title,
-            "brief": self.brief,
-            "columns": [column._asdict() for column in self.columns],
-            "rows": [[_finite(cell) for cell in row] for row in self.rows],
+            "format": FORMAT,
+            "deck": self.deck,
+            "units": self.units,
+            "advice": self.advice._asdict(),
+            "precision": None if self.precision is None else [_plain(row) for row in self.precision.rows],
+            "stability": None if self.stability is None else [_plain(one.row) for one in self.stability],
+            "extremes": None
+            if self.extremes is None
+            else {
+                "tried": self.extremes.tried,
+                "held": self.extremes.held,
+                "failed": [_plain(failure) for failure in self.extremes.failed],
+            },
+            "stages": None if self.stages is None else [_plain(row) for row in self.stages.rows],
         }
 
+    def milliseconds(self, seconds: float | None) -> str:
+        """Return a step as people read it, rounded down; in user units, whose times have no name, as it is."""
+        if seconds is None:
+            return "-"
+        return shown(rounded_down(seconds * (1e3 if time_unit(self.units) else 1.0)))
 
-_UNITS = {"metric": ("N", "m", "kg"), "imperial": ("lbf", "ft", "slug")}
-
-
-@dataclass(frozen=True)
-class Layout(Generic[Row]):
-    """A table before it has rows: the one place to add a column.
-
-    Attributes:
-        name: of its file.
-        title: what it shows, for readers; may have fields in braces, which the study fills in.
-        columns: what fills each column, by its heading, the name with the unit in brackets: "step [s]". In a heading
-            {force}, {length} and {mass} are the units of the deck. `columns_of` has those that are fields of a row.
-        brief: see `StudyTable`.
-    """
-
-    name: str
-    title: str
-    columns: Mapping[str, Callable[[Row], Cell]]
-    brief: bool = True
-
-    def table(self, rows: Iterable[Row], units: str = "", **words: object) -> StudyTable:
-        """The table of these rows, in the "metric" or other units of a deck; `words` are the fields in braces."""
-        names = ("force", "length", "mass")
-        words.update(zip(names, _UNITS.get(units, names), strict=True))
-        parts = (heading.format(**words).removesuffix("]").partition(" [") for heading in self.columns)
-        columns = tuple(Column(name, unit) for name, _, unit in parts)
-        cells = [tuple(cell(row) for cell in self.columns.values()) for row in rows]
-        return StudyTable(self.name, self.title.format(**words), columns, cells, self.brief)
+    @property
+    def step_unit(self) -> str:
+        """The unit of `milliseconds`."""
+        return "ms" if time_unit(self.units) else ""
 
 
-def columns_of(row: type[Row]) -> dict[str, Callable[[Row], Cell]]:
-    """A column for each field of a row that is declared as `Annotated[type, heading]`, in the order of the fields."""
-    hints = get_type_hints(row, include_extras=True)
-    return {hint.__metadata__[0]: attrgetter(name) for name, hint in hints.items() if hasattr(hint, "__metadata__")}
-
-
-def grouped(rows: Iterable[Row], key: Callable[[Row], Key]) -> dict[Key, list[Row]]:
-    """The rows of each key, in the order in which they come."""
-    found: dict[Key, list[Row]] = {}
-    for row in rows:
-        found.setdefault(key(row), []).append(row)
+def _plain(row: Any) -> dict[str, Any]:  # noqa: ANN401 - rows are named tuples of several kinds
+    """A row by its names, rows inside it too; numbers that JSON cannot hold are None."""
+    found = {}
+    for name, value in row._asdict().items():
+        nested = hasattr(value, "_asdict")
+        found[name] = _plain(value) if nested else finite(value) if isinstance(value, float) else value
     return found
 
 
-# -------------------------------------------------------------------------------------------------------------- report
+def study(
+    scene: Scene,
+    parts: Sequence[str] = PARTS,
+    *,
+    draw: bool = False,
+    timer: Timer = CLOCK,
+    tracked: Callable[[Sequence[str]], Iterable[str]] = iter,
+) -> Study:
+    """Study a scene: these parts, and the work-precision curves too if they are to be drawn.
 
-
-class Omission(NamedTuple):
-    """Something that has no result, and why."""
-
-    what: str
-    reason: str
-
-
-class Section(NamedTuple):
-    """The results of one part of a study; the fields are those of `StudyReport`."""
-
-    tables: Sequence[StudyTable] = ()
-    pictures: Sequence[Picture] = ()
-    notes: Sequence[str] = ()
-    omissions: Sequence[Omission] = ()
-
-
-def paragraphs(text: str) -> list[str]:
-    """The notes of a text, one from each paragraph, without its line breaks."""
-    return [" ".join(paragraph.split()) for paragraph in text.strip().split("\n\n")]
-
-
-class Finished(NamedTuple):
-    """A part of a study that was run, and the seconds that it took."""
-
-    name: str
-    seconds: float
-    section: Section
-
-
-@dataclass(frozen=True, slots=True)
-class StudyReport:
-    """All results of a study.
-
-    Attributes:
-        name: "precision", "stability" or "pruning"; the files begin with it.
-        title: what was studied, for readers.
-        tables: the numbers.
-        pictures: drawn when they are written.
-        notes: how the numbers are measured and what follows from them.
-        omissions: failures and what was left out, each with its reason.
-        machine: processor, system and versions of the run.
-        advice: one sentence about the deck; "" for none.
-        page: the page in Markdown; "" for none.
-        key: a digest of what the numbers depend on.
-        parts: those that are finished.
+    `timer` measures run times; `tracked` may show which part comes next. Raises DeckError for a deck that cannot be
+    evaluated.
     """
+    given = scene.contact_input("cut" if scene.blocking("keep") else "keep")
+    found = Study(scene.deck.file, scene.units, own_step(scene))
+    contacts, unknown = contacts_of(scene, given)
+    measure = [part for part in PARTS if part in parts or (draw and part == "precision")]
+    for part in tracked(measure):
+        notes = found.notes.setdefault(part, [])
+        if part == "precision":
+            found.drawn = measured(scene, given, contacts, found.own, timer)
+            found.precision = found.drawn if part in parts else None
+            notes += found.drawn.left_out
+        elif part == "stability":
+            found.stability, found.extremes = judged(scene, contacts, found.own), extremes(given, contacts)
+            notes += unknown
+        else:
+            found.stages = pruned(scene, given, timer)
+        if part != "pruning" and not contacts:
+            notes.append(f"No contact of this deck has a frequency: {_without_springs(scene)}.")
+    compared = [part for part in measure if part != "pruning" and part in parts]
+    if found.own is None and compared:
+        found.notes[compared[0]].append("The deck has no *TIME with a fixed step to compare with.")
+    found.advice = _advice(found, contacts)
+    return found
 
+
+def _without_springs(scene: Scene) -> str:
+    """Why no contact of a scene has a spring and a mass."""
+    if not len(scene.element_ids):
+        return "it has no elements"
+    if not np.isin(scene.law, (LawKind.NONE, LawKind.RIGID)).all():
+        return "no law has a stiffness" if (scene.mass_per_length > 0.0).any() else "no section has a mass"
+    return "the seabed is rigid" if (scene.law == LawKind.RIGID).any() else "no element has a seabed law"
+
+
+# --------------------------------------------------------------------------------------------------------------- advice
+
+
+class _Limit(NamedTuple):
+    """The largest step that something of the deck allows a scheme, and what that is; None for none that was tried."""
+
+    step: float | None
     name: str
-    title: str
-    tables: tuple[StudyTable, ...]
-    pictures: tuple[Picture, ...] = ()
-    notes: tuple[str, ...] = ()
-    omissions: tuple[Omission, ...] = ()
-    machine: dict[str, str] = field(default_factory=machine)
-    advice: str = ""
-    page: str = ""
-    key: str = ""
-    parts: tuple[Finished, ...] = ()
-
-    @classmethod
-    def of(cls, name: str, title: str, sections: Iterable[Section]) -> StudyReport:
-        """Join sections; a note that several of them have stands there once."""
-        found = list(sections)
-        return cls(
-            name,
-            title,
-            tuple(table for section in found for table in section.tables),
-            tuple(picture for section in found for picture in section.pictures),
-            tuple(dict.fromkeys(note for section in found for note in section.notes)),
-            tuple(omission for section in found for omission in section.omissions),
-        )
-
-    def json(self) -> str:
-        """Everything but the pictures and the page as JSON; what is not finite is null."""
-        whole: dict[str, Any] = {
-            "study": self.name,
-            "title": self.title,
-            "advice": self.advice,
-            "machine": self.machine,
-            "tables": [table.as_json() for table in self.tables],
-            "pictures": [{"name": picture.name, "caption": picture.caption} for picture in self.pictures],
-            "notes": list(self.notes),
-            "omissions": [omission._asdict() for omission in self.omissions],
-            "key": self.key,
-            "parts": [
-                {
-                    "name": part.name,
-                    "seconds": round(part.seconds, 3),
-                    "tables": [table.name for table in part.section.tables],
-                    "pictures": [picture.name for picture in part.section.pictures],
-                    "notes": list(part.section.notes),
-                    "omissions": [omission._asdict() for omission in part.section.omissions],
-                }
-                for part in self.parts
-            ],
-        }
-        return json.dumps(whole, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
-
-    def json_file(self) -> File:
-        """STUDY.json."""
-        return f"{self.name}.json", _encoded(self.json())
-
-    def write(self, folder: Path) -> list[Path]:
-        """Write STUDY.md, STUDY.json, STUDY-TABLE.csv and STUDY-PICTURE.png into `folder`.
-
-        The folder is made if it is not there. Returns the files. Raises OSError, and ImportError for pictures without
-        matplotlib.
-        """
-        files = part_files(self.name, Section(self.tables, self.pictures))
-        if self.page:
-            files.append((f"{self.name}.md", _encoded(self.page)))
-        return write_files(folder, [*files, self.json_file()])
+    file: str
+    line: int
 
 
-File: TypeAlias = tuple[str, bytes]
-"""Name and content."""
+def _advice(found: Study, contacts: Sequence[Contact]) -> Advice:
+    own = None if found.own is None else found.own.step
+    if found.precision is None and found.stability is None:
+        return Advice(_of_stages(found), own_step=own)
+    limits = {scheme: _limits(found, contacts, scheme) for scheme in SCHEMES}
+    best = {scheme: one for scheme in (_least_work(limits), HHT) if (one := _smallest(limits[scheme])) is not None}
+    if found.precision is None and HHT in best:
+        best = {HHT: best[HHT]}
+    texts = [_of_steps(found, best)] if best else []
+    lost = dict.fromkeys(one.name for every in limits.values() for one in every if one.step is None)
+    if lost:
+        texts.append(f"No step that was tried keeps errors within 1 % on {', '.join(lost)}.")
+    scheme, first = next(iter(best.items()), (None, None))
+    if first is not None and first.step is not None:
+        texts.append(_of_own_step(found, first.step))
+    texts += [jump_note(found, one.row) for one in found.stability or () if one.row.jump]
+    if found.extremes is not None and found.extremes.failed:
+        texts.append(f"{len(found.extremes.failed)} of {found.extremes.tried} extreme cases do not hold.")
+    if not contacts:
+        texts += next(iter(found.notes.values()))[:1]
+    text = " ".join(filter(None, texts))
+    if first is None:
+        return Advice(text, own_step=own)
+    return Advice(text, scheme, first.step, first.file, first.line, own)
 
 
-def part_files(study: str, section: Section) -> list[File]:
-    """The pictures and tables of a section as files; raises ImportError for pictures without matplotlib."""
-    pictures = [(f"{study}-{picture.name}.png", picture.png()) for picture in section.pictures]
-    return pictures + [(f"{study}-{table.name}.csv", _encoded("".join(table.csv()))) for table in section.tables]
+def _limits(found: Study, contacts: Sequence[Contact], scheme: str) -> list[_Limit]:
+    """What the parts that were measured allow a scheme."""
+    limits = []
+    if found.precision is not None:
+        rows = [row for row in found.precision.rows if row.scheme == scheme and row.goal == GOALS[0]]
+        limits += [_Limit(row.step, row.contact, row.file, row.deck_line) for row in rows]
+    if scheme in CRITICAL:
+        limits += [_Limit(one.oscillation.critical_step(CRITICAL[scheme]), *_named(one.row)) for one in contacts]
+    elif found.stability is not None:
+        rows_too = [one.row for one in found.stability if one.row.landing_step is not None or one.row.jump]
+        limits += [_Limit(row.landing_step, *_named(row)) for row in rows_too]
+    return limits
 
 
-def write_files(folder: Path, files: Iterable[File]) -> list[Path]:
-    """Write files into a folder, which is made if it is not there; returns their paths. Raises OSError."""
-    folder.mkdir(parents=True, exist_ok=True)
-    written = []
-    for name, data in files:
-        write_atomically(folder / name, data)
-        written.append(folder / name)
-    return written
+def _named(row: StabilityRow) -> tuple[str, str, int]:
+    return row.contact, row.file, row.deck_line
 
 
-def _encoded(text: str) -> bytes:
-    return text.encode("utf-8", "backslashreplace")
+def _smallest(limits: Sequence[_Limit]) -> _Limit | None:
+    return min((one for one in limits if one.step is not None), key=lambda one: one.step or 0.0, default=None)
 
 
-def _finite(cell: Cell) -> Cell:
-    return None if isinstance(cell, float) and not math.isfinite(cell) else cell
+def _least_work(limits: dict[str, list[_Limit]]) -> str:
+    """The explicit scheme with the fewest force evaluations per second of motion."""
+
+    def work(scheme: str) -> float:
+        smallest = _smallest(limits[scheme])
+        step = None if smallest is None else smallest.step
+        return _EVALUATIONS[scheme] / step if step else math.inf
+
+    return min(CRITICAL, key=work)
+
+
+_EVALUATIONS = {"velocity Verlet": 1.0, "RK4": 4.0}
+"""Force evaluations of a step."""
+
+
+def _of_steps(found: Study, best: dict[str, _Limit]) -> str:
+    """Which scheme with which step, because of what."""
+    uses = [f"{scheme} with {found.milliseconds(one.step)} {found.step_unit}".strip() for scheme, one in best.items()]
+    why = "errors" if found.precision is not None else "landings" if HHT in best else "stable motions"
+    within = "" if why == "stable motions" else " within 1 %"
+    places = list(dict.fromkeys(_place(found, one) for one in best.values()))
+    sets = f"{places[0]} sets {'both' if len(best) > 1 else 'it'}"
+    if len(places) > 1:
+        sets = f"{places[0]} sets the first, {places[1]} the second"
+    return f"Use {', or '.join(uses)}, for {why}{within}: {sets}."
+
+
+def _place(found: Study, one: _Limit) -> str:
+    file = "" if found.deck.endswith(one.file) else f" of {one.file}"
+    return f"line {one.line}{file} ({one.name})" if one.line else one.name
+
+
+def _of_own_step(found: Study, step: float) -> str:
+    if found.own is None:
+        return ""
+    times = found.own.step / step
+    judgement = f"is {times:.2g} times too long for it" if times > 1.0 else "is short enough"
+    own = f"{shown(found.own.step * (1e3 if found.step_unit else 1.0))} {found.step_unit}".strip()
+    return f"The deck's own step, {own} (line {found.own.deck_line}), {judgement}."
+
+
+def jump_note(found: Study, row: StabilityRow) -> str:
+    """That the force jumps at the mudline, where, and the step without it."""
+    if row.without_jump is None:
+        return ""
+    without = row.without_jump
+    step = (
+        f"landings keep their speed within 1 % up to {found.milliseconds(without.step)} {found.step_unit}".strip()
+        if without.step is not None
+        else "no step that was tried lands within 1 % either"
+    )
+    place = _place(found, _Limit(None, row.contact, row.file, without.deck_line))
+    return f"The force jumps at the mudline, {place}; without the jump {step}."
+
+
+def _of_stages(found: Study) -> str:
+    """What takes most of a step."""
+    rows = [row for row in found.stages.rows if row.share] if found.stages is not None else []
+    if not rows:
+        return ""
+    most = max(rows, key=lambda row: row.share or 0.0)
+    line = f" (line {most.deck_line})" if most.deck_line else ""
+    return f"Most of a step goes to the stage {most.stage}{line}: {100.0 * (most.share or 0.0):.0f} %."

@@ -1,255 +1,199 @@
-"""Time integration schemes: all coefficients in one table, and one class for each family.
+"""The three time integration schemes that are studied, on many masses of one degree of freedom side by side.
 
-Explicit:
-
-* `KickDrift`: central difference, as explicit programs step it (velocities live at half steps): x(n+1) - 2 x(n) +
-  x(n-1) = dt^2 a(n). A force that depends on the velocity sees that of the half step before, which costs one order of
-  accuracy. Velocity Verlet has the same positions, but forces see a velocity predicted to the whole step; without
-  velocity in the forces the two are one. Stable for omega dt < 2.
-* `RungeKutta`: the classical scheme of fourth order, stable on an undamped oscillator for omega dt < 2 sqrt(2); the
-  second order (midpoint), which grows there at any step, slowly at small ones; forward Euler, first order and unstable
-  there at any step, here as a warning.
-
-Implicit, `OneStep`:
-
-* Newmark with beta = 1/4, gamma = 1/2: the average acceleration rule, second order, undamped;
-* `hht`, of Hilber, Hughes and Taylor: second order, damps what is not resolved;
-* `generalised_alpha`, of Chung and Hulbert: second order, with chosen damping of what is not resolved;
-* backward Euler: first order, damps strongly, never gains energy in contact: v1 = v0 + dt a1, x1 = x0 + dt v1.
-
-Implicit schemes solve k equations of one unknown side by side by `Newton`.
+* Velocity Verlet, explicit, second order: central difference whose forces see a velocity predicted to the whole step.
+  Stable on an undamped oscillator for omega dt < 2.
+* RK4, explicit, the classical Runge-Kutta scheme of fourth order, stable there for omega dt < 2 sqrt(2).
+* HHT (-0.3), implicit, of Hilber, Hughes and Taylor (1977): second order, damps what is not resolved, stable on linear
+  systems at any step. Contact that opens and closes is not linear.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
-from typing import ClassVar
+from collections.abc import Callable
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from mudline.contact.arrays import FloatArray
-from mudline.study.motion import Forces, Motion, Scheme, Step, System
-from mudline.study.newton import Newton
-from mudline.study.pictures import LineStyle, line_style
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 
-Pair = tuple[float, float]
-"""Shares of the old and of the new value."""
+PHASES: FloatArray = np.linspace(1.0, 511.0, 16) / 512.0
+"""Shares of a step at which masses side by side touch the seabed; the worst counts, which is mostly near an end."""
+
+_TOLERANCE = 1e-12
+"""Of the largest term of the balance of forces: what is left of it when Newton's method has converged."""
+_MOST_ITERATIONS = 120
+_COLLAPSED = 4.0 * float(np.finfo(np.float64).eps)
+"""Width of a bracket over its larger end at which it holds no other number: the force jumps there."""
+
+History = Any
+"""What the laws of a system remember between steps; only the system reads it."""
 
 
-def _explicit(motion: Motion, evaluations: int) -> Step:
-    none = np.zeros(motion.position.shape, np.intp)
-    return Step(motion, none + evaluations, none, np.zeros(motion.position.shape), none)
+class Forces(NamedTuple):
+    """Forces on k masses, arrays (k,), and their derivatives.
 
-
-@dataclass(frozen=True, slots=True)
-class KickDrift(Scheme):
-    """Explicit schemes of second order that kick (velocity) and drift (position) in turn: one force a step.
-
-    v* = v0 + dt/2 a0                             kick
-    x1 = x0 + dt v*                               drift
-    a1 = f(x1, v* + ahead dt a0) / m
-    v1 = v* + dt/2 a1                             kick
-
-    Attributes:
-        ahead: share of the step by which the velocity that the force sees is ahead of the first kick.
+    force: in the direction of the position. by_position, by_velocity: its derivatives, negative for springs and
+    dampers. history: what the next step begins with if this one ends here.
     """
 
-    ahead: float
-
-    def step(self, system: System, motion: Motion, dt: float | FloatArray) -> Step:
-        """See `Scheme`."""
-        kicked = motion.velocity + 0.5 * dt * motion.acceleration
-        position = motion.position + dt * kicked
-        forces = system.forces(position, kicked + self.ahead * dt * motion.acceleration, motion.history)
-        acceleration = forces.force / system.mass
-        velocity = kicked + 0.5 * dt * acceleration
-        return _explicit(Motion(position, velocity, acceleration, forces.force, forces.history), 1)
+    force: FloatArray
+    by_position: FloatArray
+    by_velocity: FloatArray
+    history: History
 
 
-@dataclass(frozen=True, slots=True)
-class RungeKutta(Scheme):
-    """Explicit schemes from their Butcher tables.
+class System(Protocol):
+    """Equal masses side by side, each under forces that depend on its own motion."""
 
-    Inside a step the force sees the history that the step began with; what a step leaves behind is that of its end.
+    @property
+    def mass(self) -> float:
+        """Of each of them, > 0."""
+        ...
 
-    Attributes:
-        stages: rows of the table below the first: the weights with which a stage takes the rates of those before it.
-        weights: of the rates of all stages in the step.
+    def forces(self, position: FloatArray, velocity: FloatArray, history: History) -> Forces:
+        """Return the forces at positions and velocities (k,) in a step that began with `history`."""
+        ...
+
+
+class Motion(NamedTuple):
+    """Positions, velocities and accelerations of k masses, the forces on them, and what the laws remember."""
+
+    position: FloatArray
+    velocity: FloatArray
+    acceleration: FloatArray
+    force: FloatArray
+    history: History
+
+
+def started(system: System, position: FloatArray, velocity: FloatArray, history: History = None) -> Motion:
+    """Return the start of a motion; its acceleration follows from the forces."""
+    forces = system.forces(position, velocity, history)
+    return Motion(position, velocity, forces.force / system.mass, forces.force, forces.history)
+
+
+class Step(NamedTuple):
+    """The motion after a step, and how often the force of each mass (k,) was needed."""
+
+    motion: Motion
+    evaluations: IndexArray
+
+
+Stepper = Callable[[System, Motion, FloatArray], Step]
+"""Make one step; each mass has its own dt (k,)."""
+
+
+def velocity_verlet(system: System, motion: Motion, dt: FloatArray) -> Step:
+    """Make a step of velocity Verlet: kick, drift, kick."""
+    kicked = motion.velocity + 0.5 * dt * motion.acceleration
+    position = motion.position + dt * kicked
+    forces = system.forces(position, kicked + 0.5 * dt * motion.acceleration, motion.history)
+    acceleration = forces.force / system.mass
+    after = Motion(position, kicked + 0.5 * dt * acceleration, acceleration, forces.force, forces.history)
+    return Step(after, np.ones(position.shape, np.intp))
+
+
+def rk4(system: System, motion: Motion, dt: FloatArray) -> Step:
+    """Make a step of RK4. All stages see what the laws remembered before the step."""
+    speeds, accelerations = [motion.velocity], [motion.acceleration]
+    for share in (0.5, 0.5, 1.0):
+        position = motion.position + share * dt * speeds[-1]
+        speed = motion.velocity + share * dt * accelerations[-1]
+        accelerations.append(system.forces(position, speed, motion.history).force / system.mass)
+        speeds.append(speed)
+    position = motion.position + dt * _weighted(speeds)
+    velocity = motion.velocity + dt * _weighted(accelerations)
+    end = system.forces(position, velocity, motion.history)
+    after = Motion(position, velocity, end.force / system.mass, end.force, end.history)
+    return Step(after, np.full(position.shape, 4, np.intp))
+
+
+def _weighted(rates: list[FloatArray]) -> FloatArray:
+    first, second, third, fourth = rates
+    return (first + 2.0 * (second + third) + fourth) / 6.0
+
+
+_ALPHA = -0.3
+_BETA, _GAMMA = (1.0 - _ALPHA) ** 2 / 4.0, 0.5 - _ALPHA
+
+
+def hht(system: System, motion: Motion, dt: FloatArray) -> Step:
+    """Make a step of HHT (-0.3), solved for the acceleration at its end.
+
+    x1 = x0 + dt v0 + dt^2 ((1/2 - beta) a0 + beta a1)
+    v1 = v0 + dt ((1 - gamma) a0 + gamma a1)
+    m a1 = (1 + alpha) f(x1, v1) - alpha f(x0, v0)
     """
+    position = motion.position + dt * motion.velocity + (0.5 - _BETA) * dt * dt * motion.acceleration
+    velocity = motion.velocity + (1.0 - _GAMMA) * dt * motion.acceleration
+    by_position, by_velocity = _BETA * dt * dt, _GAMMA * dt
+    known, last = _ALPHA * motion.force, [Forces(motion.force, motion.force, motion.force, None)]
 
-    stages: tuple[tuple[float, ...], ...]
-    weights: tuple[float, ...]
+    def balance(new: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        last[0] = found = system.forces(position + by_position * new, velocity + by_velocity * new, motion.history)
+        inertia, load = system.mass * new, (1.0 + _ALPHA) * found.force
+        tangent = found.by_position * by_position + found.by_velocity * by_velocity
+        size = np.maximum(np.abs(inertia), np.maximum(np.abs(load), np.abs(known)))
+        return inertia + known - load, system.mass - (1.0 + _ALPHA) * tangent, size
 
-    def step(self, system: System, motion: Motion, dt: float | FloatArray) -> Step:
-        """See `Scheme`. The acceleration of the step before is the rate of the first stage."""
-        speeds, accelerations = [motion.velocity], [motion.acceleration]
-        for row in self.stages:
-            position = motion.position + dt * _mixed(row, speeds)
-            speed = motion.velocity + dt * _mixed(row, accelerations)
-            forces = system.forces(position, speed, motion.history)
-            speeds.append(speed)
-            accelerations.append(forces.force / system.mass)
-        position = motion.position + dt * _mixed(self.weights, speeds)
-        velocity = motion.velocity + dt * _mixed(self.weights, accelerations)
-        end = system.forces(position, velocity, motion.history)
-        after = Motion(position, velocity, end.force / system.mass, end.force, end.history)
-        return _explicit(after, len(self.stages) + 1)
-
-
-def _mixed(weights: tuple[float, ...], rates: list[FloatArray]) -> FloatArray:
-    mixed = np.zeros(rates[0].shape)
-    for weight, rate in zip(weights, rates, strict=True):
-        if weight:
-            mixed += weight * rate
-    return mixed
+    root, evaluations, jumps = solved(balance, motion.acceleration)
+    # where the force jumps, it is what keeps the balance: a law that jumps can give all that lies between
+    force = np.where(jumps, (system.mass * root + known) / (1.0 + _ALPHA), last[0].force)
+    after = Motion(position + by_position * root, velocity + by_velocity * root, root, force, last[0].history)
+    return Step(after, evaluations)
 
 
-@dataclass(frozen=True, slots=True)
-class OneStep(Scheme):
-    """Implicit linear one-step schemes, solved by Newton's method for the acceleration at the end of the step.
+SCHEMES: dict[str, Stepper] = {"velocity Verlet": velocity_verlet, "HHT (-0.3)": hht, "RK4": rk4}
+"""By the names in text and JSON."""
+HHT = "HHT (-0.3)"
+CRITICAL = {"velocity Verlet": "velocity-verlet", "RK4": "rk4"}
+"""The explicit ones, with the names under which `mudline.contact.stiffest.critical_step` has their limit."""
 
-        x1 = x0 + dt v0 + dt^2 (p0 a0 + p1 a1)
-        v1 = v0 + dt (q0 a0 + q1 a1)
-        m (i0 a0 + i1 a1) = g1 f(x1, v1) + g0 f(x0, v0)
 
-    The force is averaged, not evaluated at an averaged position: for contact that opens or closes within the step the
-    two differ. The unknown is the acceleration: so the residual has no difference of positions over dt^2, which would
-    be round-off at small steps.
+Residual = Callable[[FloatArray], tuple[FloatArray, FloatArray, FloatArray]]
+"""Residuals at unknowns (k,), their derivatives, and the largest term of each."""
 
-    Attributes:
-        position: p0, p1.
-        velocity: q0, q1.
-        inertia: i0, i1.
-        load: g0, g1.
-        newton: how a step is solved.
+
+def solved(residual: Residual, start: FloatArray) -> tuple[FloatArray, IndexArray, BoolArray]:
+    """Solve k equations of one unknown by Newton's method in a bracket, with one correction at least.
+
+    The bracket holds the two nearest points between which a residual changes its sign from negative to positive; its
+    middle is taken where a correction leads out of it, so that no iterates alternate. Return the roots, how often each
+    residual was needed, and where it jumps across 0 at the root.
     """
-
-    position: Pair
-    velocity: Pair
-    inertia: Pair = (0.0, 1.0)
-    load: Pair = (0.0, 1.0)
-    newton: Newton = field(default_factory=lambda: Newton(least=1))
-    explicit: ClassVar[bool] = False
-
-    def solved_by(self, newton: Newton) -> OneStep:
-        """The same scheme with another way to iterate."""
-        return replace(self, newton=newton)
-
-    def step(self, system: System, motion: Motion, dt: float | FloatArray) -> Step:
-        """See `Scheme`. Newton's method starts from the acceleration of the step before."""
-        balance = _Balance(self, system, motion, dt)
-        solution = self.newton.solve(balance, motion.acceleration)
-        forces = balance.forces
-        force = np.where(solution.jumps, balance.balancing(solution.root), forces.force)
-        end = Motion(*balance.at(solution.root), solution.root, force, forces.history)
-        return Step(end, solution.evaluations, solution.iterations, solution.residual, solution.bisections)
-
-
-class _Balance:
-    """The equation of motion at the end of a step as a function of the acceleration; keeps the last forces."""
-
-    forces: Forces
-
-    def __init__(self, scheme: OneStep, system: System, motion: Motion, dt: float | FloatArray) -> None:
-        self._scheme, self._system, self._history = scheme, system, motion.history
-        old, mass = motion.acceleration, system.mass
-        self._position = motion.position + dt * motion.velocity + scheme.position[0] * dt * dt * old
-        self._velocity = motion.velocity + scheme.velocity[0] * dt * old
-        self._by_position, self._by_velocity = scheme.position[1] * dt * dt, scheme.velocity[1] * dt
-        self._inertia = scheme.inertia[1] * mass
-        self._known = scheme.inertia[0] * mass * old - scheme.load[0] * motion.force
-
-    def at(self, new: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Position and velocity that go with an acceleration at the end."""
-        return self._position + self._by_position * new, self._velocity + self._by_velocity * new
-
-    def balancing(self, new: FloatArray) -> FloatArray:
-        """The force at the end that an acceleration there needs: what a law that jumps there can give in between."""
-        force: FloatArray = (self._inertia * new + self._known) / self._scheme.load[1]
-        return force
-
-    def __call__(self, new: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """See `Residual`."""
-        self.forces = found = self._system.forces(*self.at(new), self._history)
-        share = self._scheme.load[1]
-        inertia, load = self._inertia * new, share * found.force
-        tangent = found.by_position * self._by_position + found.by_velocity * self._by_velocity
-        size = np.maximum(np.abs(inertia), np.maximum(np.abs(load), np.abs(self._known)))
-        return inertia + self._known - load, self._inertia - share * tangent, size
+    root = start.copy()
+    low, high = np.full(root.shape, -np.inf), np.full(root.shape, np.inf)
+    evaluations = np.ones(root.shape, np.intp)
+    value, slope, size = residual(root)
+    for iteration in range(_MOST_ITERATIONS):
+        low, high = np.where(value < 0.0, root, low), np.where(value > 0.0, root, high)
+        width = _COLLAPSED * np.maximum(np.abs(low), np.abs(high))
+        collapsed = np.isfinite(width) & (high - low <= width)
+        converged = (np.abs(value) <= _TOLERANCE * size) & (iteration > 0)
+        open_ = np.isfinite(value) & ~converged & ~collapsed
+        if not open_.any():
+            break
+        change, middle = -value / slope, 0.5 * low + 0.5 * high
+        inside = (root + change > low) & (root + change < high)
+        toward = np.copysign(np.where(np.isfinite(change), change, 1.0 + np.abs(root)), -value)
+        change = np.where(inside, change, np.where(np.isfinite(middle), middle - root, toward))
+        root = np.where(open_, root + change, root)
+        evaluations += open_
+        value, slope, size = residual(root)
+    return root, evaluations, collapsed & ~converged
 
 
-def _newmark(name: str, title: str, beta: float, gamma: float) -> OneStep:
-    """Newmark's scheme with these two parameters."""
-    return OneStep(name, title, position=(0.5 - beta, beta), velocity=(1.0 - gamma, gamma))
+def march(
+    step: Stepper, system: System, motion: Motion, dt: FloatArray, observe: Callable[[int, Motion], bool]
+) -> FloatArray:
+    """Step k masses, each with its own dt (k,), until `observe(number of the step, motion)` has seen enough.
 
-
-def hht(alpha: float) -> OneStep:
-    """Hilber, Hughes and Taylor with -1/3 <= alpha <= 0; 0 is Newmark's.
-
-    gamma = 1/2 - alpha, beta = (1 - alpha)^2 / 4; the force is (1 + alpha) f1 - alpha f0.
+    Return the mean number of force evaluations that a step of each took (k,).
     """
-    beta, gamma = (1.0 - alpha) ** 2 / 4.0, 0.5 - alpha
-    return replace(_newmark(f"hht{alpha:g}", f"HHT ({alpha:g})", beta, gamma), load=(-alpha, 1.0 + alpha))
-
-
-def generalised_alpha(rho: float) -> OneStep:
-    """Chung and Hulbert with the spectral radius rho at infinite omega dt, 0 to 1; 1 does not damp.
-
-    alpha_f = rho / (rho + 1), alpha_m = (2 rho - 1) / (rho + 1), gamma = 1/2 - alpha_m + alpha_f,
-    beta = (1 - alpha_m + alpha_f)^2 / 4. The alphas are the shares of the old force and of the old acceleration.
-    """
-    of_force, of_mass = rho / (rho + 1.0), (2.0 * rho - 1.0) / (rho + 1.0)
-    beta, gamma = (1.0 - of_mass + of_force) ** 2 / 4.0, 0.5 - of_mass + of_force
-    scheme = _newmark(f"generalised-alpha-{rho:g}", f"generalised-alpha ({rho:g})", beta, gamma)
-    return replace(scheme, inertia=(of_mass, 1.0 - of_mass), load=(of_force, 1.0 - of_force))
-
-
-_SIXTH, _THIRD = 1.0 / 6.0, 1.0 / 3.0
-_ALL: tuple[Scheme, ...] = (
-    KickDrift("central-difference", "central difference", ahead=0.0),
-    KickDrift("velocity-verlet", "velocity Verlet", ahead=0.5),
-    RungeKutta("rk4", "RK4", ((0.5,), (0.0, 0.5), (0.0, 0.0, 1.0)), (_SIXTH, _THIRD, _THIRD, _SIXTH)),
-    _newmark("newmark", "Newmark", beta=0.25, gamma=0.5),
-    hht(-0.3),
-    generalised_alpha(1.0),
-    generalised_alpha(0.5),
-    generalised_alpha(0.0),
-    OneStep("backward-euler", "backward Euler", position=(0.0, 1.0), velocity=(0.0, 1.0)),
-    RungeKutta("rk2", "RK2 (midpoint)", ((0.5,),), (0.0, 1.0)),
-    RungeKutta("forward-euler", "forward Euler", (), (1.0,)),
-)
-
-SCHEMES: dict[str, Scheme] = {scheme.name: scheme for scheme in _ALL}
-"""In the order in which studies show them; the last two are unstable on every undamped oscillator.
-
-To add a scheme: its row here, its style below and, if it is explicit, its critical step in `mudline.contact.stiffest`.
-"""
-
-PREFERRED = ("generalised-alpha-0.5", "hht-0.3", "newmark", "generalised-alpha-1", "generalised-alpha-0")
-"""Implicit schemes of second order in the order of advice; the first one damps frequencies that are not resolved."""
-
-STYLES: dict[str, LineStyle] = {
-    SCHEMES[name].title: line_style(*look)
-    for name, look in {
-        "central-difference": ("#0072b2", "o", "-"),
-        "velocity-verlet": ("#56b4e9", "s", "--"),
-        "rk4": ("#009e73", "^", "-"),
-        "newmark": ("#d55e00", "D", "-"),
-        "hht-0.3": ("#cc79a7", "v", "-."),
-        "generalised-alpha-1": ("#e69f00", "P", "--"),
-        "generalised-alpha-0.5": ("#8c6d31", "X", "-."),
-        "generalised-alpha-0": ("#b2182b", "<", "-"),
-        "backward-euler": ("#000000", ">", "-"),
-        "rk2": ("#7a7a7a", "*", "--"),
-        "forward-euler": ("#a0a0a0", "d", ":"),
-    }.items()
-}
-"""Colour, marker and dash of each scheme in all pictures, by its title. Two that often coincide differ in the dash."""
-
-BRACKETED = Newton(most=100, least=1, bracketed=True)
-"""For steps that show the scheme and not its solver."""
-
-
-def bracketed(scheme: Scheme) -> Scheme:
-    """The scheme with Newton's method in a bracket; an explicit scheme unchanged."""
-    return scheme.solved_by(BRACKETED) if isinstance(scheme, OneStep) else scheme
+    evaluations, number = np.zeros(dt.shape), 0
+    with np.errstate(all="ignore"):
+        while True:
+            motion, needed = step(system, motion, dt)
+            evaluations += needed
+            number += 1
+            if observe(number, motion):
+                return evaluations / number

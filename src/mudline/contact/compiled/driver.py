@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from inspect import isfunction
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, TypeVar
 
 import numba
 import numpy as np
@@ -119,7 +119,7 @@ class CompiledDriver:
             read_only(array) for array in (line.start.astype(np.int32), line.elements, line.senses, tables.half)
         )
         self._sequence = _tasks(tables, range(len(range(0, self._elements, _RANGE))))
-        self._groups = _groups(tables, self._elements, self._threads, self._sequence)
+        self._groups = _groups(tables, self._threads, self._sequence)
         self.broken = False
         """Whether a law turned out not to compile."""
         self.steps = max(1, min(_BATCH // max(self._nodes, 1), _STEPS))
@@ -149,13 +149,13 @@ class CompiledDriver:
 
     def _run(self, batch: Batch, job: _Job) -> int:
         """Write all ranges; return how many values are not finite."""
-        groups = self._groups
-        if len(groups.together) > 1 and len(batch.points) * self._nodes >= _WORTH_THREADS:
+        together, behind = self._groups
+        if len(together) > 1 and len(batch.points) * self._nodes >= _WORTH_THREADS:
             if self._pool is None:
                 self._pool = ThreadPoolExecutor(self._threads)
             pool = self._pool
-            wrong = sum(pool.map(lambda tasks: self._run_tasks(tasks, job), groups.together))
-            return wrong + sum(pool.map(lambda tasks: self._run_tasks(tasks, job), groups.behind))
+            wrong = sum(pool.map(lambda tasks: self._run_tasks(tasks, job), together))
+            return wrong + sum(pool.map(lambda tasks: self._run_tasks(tasks, job), behind))
         return self._run_tasks(self._sequence, job)
 
     def _run_tasks(self, tasks: list[_Task], job: _Job) -> int:
@@ -212,13 +212,6 @@ class CompiledDriver:
         return read_only(line.pieces), (read_only(line.ends), read_only(line.elements_at))
 
 
-class _Groups(NamedTuple):
-    """Tasks for threads: `together` first, each group in its order, then `behind`."""
-
-    together: list[list[_Task]]
-    behind: list[list[_Task]]
-
-
 def _tasks(tables: Tables, held: range) -> list[_Task]:
     """The ranges of elements `held`, each followed by the ranges of nodes whose elements are all written by then.
 
@@ -241,16 +234,16 @@ def _tasks(tables: Tables, held: range) -> list[_Task]:
     return tasks
 
 
-def _groups(tables: Tables, elements: int, threads: int, sequence: list[_Task]) -> _Groups:
-    """The tasks of each thread, with the ranges of nodes between two threads behind."""
-    ranges = len(range(0, elements, _RANGE))
+def _groups(tables: Tables, threads: int, sequence: list[_Task]) -> tuple[list[list[_Task]], list[list[_Task]]]:
+    """The tasks of each thread in their order, and the ranges of nodes between two threads, which come behind."""
+    ranges = len(range(0, len(tables.half), _RANGE))
     count = min(threads, ranges)
     bounds = [ranges * group // max(count, 1) for group in range(count + 1)]
     together = (
         [_tasks(tables, range(low, high)) for low, high in itertools.pairwise(bounds)] if count > 1 else [sequence]
     )
     done = {task for tasks in together for task in tasks}
-    return _Groups(together, [[task] for task in sequence if task not in done])
+    return together, [[task] for task in sequence if task not in done]
 
 
 def _equations(laws: Iterable[NormalRows]) -> tuple[tuple[Callable[..., Any], int], ...]:

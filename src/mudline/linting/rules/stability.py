@@ -128,7 +128,7 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
     velocity lowers that: a damping c allows a step of 2 m / c. The message gives that step where it is the smaller one.
     The mass is that of the section without added water; friction with a mobilisation length has its spring under the
     static normal force; the third value of *TIME is read as the step (inferred). Give the step that the message names.
-    The study of stability has the same numbers.
+    `mudline study` has the same numbers.
 
     Example:
          $MODEL

@@ -10,13 +10,13 @@ from matplotlib.lines import Line2D
 from mudline.contact.result import Part
 from mudline.contact.touchdown import Touchdown
 from mudline.quantities import ELEMENTS, NODES, SLIDING, labelled, unit_names
-from mudline.results.plot_data import Chosen, Envelope, PlotData
-from mudline.results.plots.stretch import Stretch
+from mudline.results.plot_data import Chosen, Extents, PlotData
 from mudline.results.plots.style import (
     LIGHT,
     MOST_POINTS,
     SEABED,
     STATE_STYLES,
+    Stretch,
     Style,
     above,
     is_number,
@@ -135,7 +135,7 @@ def _plot(axes: Axes, along: tuple[Indices, Floats], values: Floats, style: Styl
     )
 
 
-def _extents(axes: Axes, data: PlotData, found: Envelope, stretch: Stretch) -> None:
+def _extents(axes: Axes, data: PlotData, found: Extents, stretch: Stretch) -> None:
     """Shade what lies between the least and the largest values of the elements over the steps of a series."""
     if data.steps == 1:
         return

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any, BinaryIO, NamedTuple
+from typing import Any, BinaryIO
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from numpy.typing import NDArray
 
 from mudline.quantities import ELEMENTS, STATES, labelled, unit_names
-from mudline.results.plot_data import PlotData, Points
+from mudline.results.plot_data import Cycle, PlotData, Points
 from mudline.results.plots.style import (
     COLORS,
     MOST_MARKED,
@@ -186,21 +185,9 @@ _STOP = STATES.index("hold")
 _GOING = (("moving down", Style(COLORS[0], "-", "")), ("moving up", Style(COLORS[1], "--", "")))
 
 
-class Cycle(NamedTuple):
-    """An element over the steps: penetration, force per unit length, and state of suction, None without."""
-
-    penetration: Floats
-    force: Floats
-    state: NDArray[np.int8] | None
-
-
 def loop(axes: Axes, data: PlotData, place: int) -> None:
     """Draw the path of one of the chosen elements."""
-    found = data.loop
-    states = None if found.state is None else found.state[:, place]
-    if states is not None and (states < 0).all():
-        states = None
-    draw_path(axes, Cycle(found.penetration[:, place], found.force[:, place], states))
+    draw_path(axes, data.loop(place))
     names = unit_names(data.given.units)
     number = int(data.given.element_ids[data.looped[place]])
     axes.set_xlabel(labelled(f"penetration of element {number}", names.length))

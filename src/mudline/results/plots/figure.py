@@ -17,11 +17,22 @@ from matplotlib.figure import Figure
 from mudline.contact import ContactResult
 from mudline.files import replacement, suffix_of
 from mudline.quantities import STEPS, labelled, unit_names
-from mudline.results.plot_data import PICTURES, Band, PlotData
+from mudline.results.plot_data import PICTURES, Extents, PlotData
 from mudline.results.plots import along_line
 from mudline.results.plots.curves import loop, on_curves
-from mudline.results.plots.stretch import Stretch
-from mudline.results.plots.style import COLORS, SETTINGS, Spelled, Style, above, finish, time_label, when, widen, write
+from mudline.results.plots.style import (
+    COLORS,
+    SETTINGS,
+    Spelled,
+    Stretch,
+    Style,
+    above,
+    finish,
+    time_label,
+    when,
+    widen,
+    write,
+)
 
 MOST_PANELS = 6
 """More have letters that nobody reads on half a page."""
@@ -174,7 +185,7 @@ def reaction(axes: Axes, data: PlotData) -> None:
     _time_axis(axes, data)
 
 
-def _band(axes: Axes, data: PlotData, values: Band, style: Style, label: str | None) -> None:
+def _band(axes: Axes, data: PlotData, values: Extents, style: Style, label: str | None) -> None:
     """Draw a figure over time; where steps are too many, the band between its least and largest values."""
     times = data.bin_times
     if np.array_equal(values.least, values.most, equal_nan=True):

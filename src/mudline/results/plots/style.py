@@ -1,10 +1,12 @@
-"""What all pictures have in common: colours and line styles, plain numbers on the axes, thinning, and writing files."""
+"""What all pictures have in common: colours and line styles, plain numbers, thinning, the stretch along the lines."""
 
 from __future__ import annotations
 
 import math
 import warnings
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, BinaryIO, Literal, NamedTuple
 
 import matplotlib as mpl
@@ -14,12 +16,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
-from matplotlib.ticker import AutoLocator, Formatter, MaxNLocator
+from matplotlib.ticker import AutoLocator, MaxNLocator, ScalarFormatter
 from numpy.typing import NDArray
 
-from mudline.quantities import STATES, unit_names
+from mudline.quantities import STATES, labelled, unit_names
 from mudline.results.plot_data import PlotData
-from mudline.scene.numbering import Floats, Indices
+from mudline.scene.numbering import Floats, Indices, Mask
 
 MOST_POINTS = 4000
 """Points of a line that are drawn."""
@@ -77,32 +79,12 @@ def style_of(place: int) -> Style:
     return _STYLES[place % len(_STYLES)]
 
 
-class PlainFormatter(Formatter):
-    """Tick labels in full, as 0.05 and 1,500,000: no offset, and no power of ten that a reader would have to apply."""
-
-    def __init__(self) -> None:
-        self._digits: int | None = 0
-
-    def set_locs(self, locs: Sequence[float] | Any) -> None:  # noqa: ANN401 - as matplotlib has it
-        """Take the digits from the distance of the ticks."""
-        places = np.unique(np.asarray(locs, dtype=np.float64))
-        step = float(np.diff(places).min()) if len(places) > 1 else float(np.abs(places).max(initial=0.0))
-        largest = float(np.abs(places).max(initial=0.0))
-        if not step > 0.0 or largest >= 1e10 or largest < 1e-5:
-            self._digits = 0 if largest == 0.0 else None
-        else:
-            self._digits = next((n for n in range(10) if abs(step - round(step, n)) < 1e-3 * step), 9)
-
-    def __call__(self, x: float, pos: int | None = None) -> str:  # noqa: ARG002 - matplotlib's signature
-        """Return the label of a tick."""
-        text = f"{x:g}" if self._digits is None else f"{round(x, self._digits) + 0.0:,.{self._digits}f}"
-        return self.fix_minus(text)
-
-
 def finish(axes: Axes) -> None:
     """Plain numbers and a grid: what every panel has; ticks that were placed already stay."""
     for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter(PlainFormatter())
+        numbers = ScalarFormatter(useOffset=False)
+        numbers.set_powerlimits((-5, 10))  # no power of ten that a reader would have to apply
+        axis.set_major_formatter(numbers)
     axes.xaxis.set_major_locator(MaxNLocator(nbins=7, steps=[1, 2, 2.5, 5, 10]))
     figure = axes.get_figure(root=True)
     height = axes.get_position().height * (4.0 if figure is None else figure.get_figheight())  # inch
@@ -202,3 +184,92 @@ def marker_of(style: Style, count: int) -> str:
 def is_number(value: float) -> bool:
     """Whether an axis can show a value: very large ones overflow in the transforms of the picture."""
     return math.isfinite(value) and abs(value) < 1e150
+
+
+# --------------------------------------------------------------------------------------------------- along the lines
+
+MOST_LINES = 6
+"""Lines that are drawn."""
+_BESIDE = 0.15
+"""Part of the stretch in contact that is drawn on both sides of it."""
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """The lines that are drawn, and the stretch of arc length that all panels along them show."""
+
+    data: PlotData
+
+    @cached_property
+    def lines(self) -> list[int]:
+        """The numbers, from 0, of the lines that are drawn: those that touch the seabed first."""
+        data = self.data
+        of_touched = set(data.given.lines.of_element[data.touched].tolist())
+        ranked = sorted(data.lines, key=lambda line: (line not in of_touched, line))
+        return sorted(ranked[:MOST_LINES])
+
+    @property
+    def left_out(self) -> int:
+        """The number of lines that are not drawn."""
+        return self.data.more_lines + len(self.data.lines) - len(self.lines)
+
+    @cached_property
+    def limits(self) -> tuple[float, float]:
+        """The least and the largest arc length that is drawn."""
+        given, lines = self.data.given, self.data.given.lines
+        drawn = np.isin(lines.of_element, self.lines) & self._evaluated
+        half = 0.5 * given.length
+        begin, end = lines.element_arc - half, lines.element_arc + half
+        first, last = float(begin[drawn].min()), float(end[drawn].max())
+        touching = drawn & self.data.touched
+        if not touching.any():
+            return first, last
+        low, high = float(begin[touching].min()), float(end[touching].max())
+        beside = max(_BESIDE * (high - low), 2.0 * float(given.length[touching].max()))
+        return max(first, low - beside), min(last, high + beside)
+
+    def elements(self, line: int) -> tuple[Indices, Floats]:
+        """The evaluated elements of a line within the stretch and one beside it, and the arc lengths there."""
+        lines = self.data.given.lines
+        along = lines.elements[line]
+        along = along[self._evaluated[along]]
+        arcs = lines.element_arc[along]
+        within = self._within(arcs)
+        return along[within], arcs[within]
+
+    def nodes(self, line: int) -> tuple[Indices, Floats]:
+        """The nodes of a line within the stretch and one beside it, along the line, and their arc lengths."""
+        lines = self.data.given.lines
+        arcs = lines.node_arcs(line, self.data.given.length)
+        within = self._within(arcs)
+        return lines.nodes[line][within], arcs[within]
+
+    def name(self, line: int) -> str:
+        """What a line is called in a legend."""
+        ids = self.data.given.element_ids[self.data.given.lines.elements[line]]
+        return f"line {line + 1}: elements {ids[0]} to {ids[-1]}"
+
+    @cached_property
+    def _evaluated(self) -> Mask:
+        found = np.zeros(len(self.data.given.element_ids), np.bool_)
+        found[self.data.elements] = True
+        return found
+
+    def _within(self, arcs: Floats) -> slice:
+        low, high = self.limits
+        inside = np.flatnonzero((arcs >= low) & (arcs <= high))
+        if not inside.size:
+            return slice(0, 0)
+        return slice(max(0, int(inside[0]) - 1), int(inside[-1]) + 2)
+
+    def show(self, axes: Axes) -> None:
+        """Set the horizontal axis."""
+        low, high = self.limits
+        beside = 0.01 * (high - low) or 0.5
+        if is_number(low) and is_number(high):
+            axes.set_xlim(low - beside, high + beside)
+        axes.set_xlabel(labelled("arc length along the line", unit_names(self.data.given.units).length))
+
+    def style(self, place: int) -> Style:
+        """How the line at a place among the drawn ones is drawn: a single one solid, several differ in all."""
+        return style_of(place) if len(self.lines) > 1 else Style(COLORS[0], "-", "o")
