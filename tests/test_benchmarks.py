@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 
 import mudline
-from tests.benchmarks import decks, start
+from tests.benchmarks import decks
 from tests.benchmarks.bench import Bench, Results, Table, Work
 from tests.benchmarks.goals import GOALS, SPELLINGS
 from tests.benchmarks.inputs import numbers, text
-from tests.benchmarks.page import exponent, page, write
+from tests.benchmarks.page import write
 from tests.benchmarks.peers import PEERS, Environment
 from tests.benchmarks.runner import ROOT, Figure, Job, alternate, cost, cpu, figure, ratio
 
@@ -71,11 +71,6 @@ def test_a_page_says_what_is_met_missed_and_not_measured(tmp_path: Path) -> None
     assert "<svg" in (tmp_path / "images" / "benchmarks.svg").read_text(encoding="utf-8")
 
 
-def test_an_exponent_is_that_of_growth_alone() -> None:
-    assert exponent([(10**n, 0.5 + 1e-9 * 10 ** (2 * n)) for n in range(1, 7)]) == pytest.approx(2.0, abs=1e-3)
-    assert exponent([(10, 1.0), (100, 1.1)]) is None
-
-
 def test_ratios_are_those_within_a_round() -> None:
     assert ratio([4.0, 6.0], [2.0, 1.5]) == Figure([2.0, 4.0], 4.0 / 1.5)
     assert figure([4.0, 6.0, 5.0]).median == 5.0
@@ -99,15 +94,6 @@ def test_a_peer_that_fails_is_left_out(capsys: pytest.CaptureFixture[str]) -> No
     assert "no library" in capsys.readouterr().err
     with pytest.raises(SystemExit, match="ended with 3"):
         cost(Job([sys.executable, "-c", "raise SystemExit(3)"]))
-
-
-@pytest.mark.slow
-def test_a_quick_run_measures_starts(tmp_path: Path) -> None:
-    bench = Bench(tmp_path, quick=True, environments=MISSING)
-    start.run(bench)
-    assert {"cold", "again", "version", "evaluate"} <= bench.results.figures.keys()
-    assert all(found.values[0] > 0.0 for found in bench.results.figures.values())
-    assert "cold `mudline lint`" in page(bench.results, MISSING.values())
 
 
 def test_a_quick_run_reads_tables(tmp_path: Path) -> None:
