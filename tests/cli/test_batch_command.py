@@ -165,6 +165,17 @@ def test_only_the_first_of_many_rows_are_listed(four: str, place: Place, monkeyp
     assert "more deck" not in batch(four, "-v").out
 
 
+def test_narrow_terminal_leaves_columns_out(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("short", "a case with a name that is longer than a narrow terminal has columns for"):
+        place(CLEAN, f"decks/{name}.keyxm")
+    monkeypatch.setenv("COLUMNS", "60")
+    lines = run("batch", "-o", "out", "decks", "--color", "never", terminal=True).out.splitlines()
+    assert max(map(len, lines)) <= 60
+    assert not any("element" in line for line in lines)
+    (row,) = (line for line in lines if line.startswith("short"))
+    assert row.split() == ["short.keyxm", "12.502", "1500", "15000", "4.3081", "1"]
+
+
 # ------------------------------------------------------------------------------------------------------- exit codes
 
 

@@ -89,6 +89,13 @@ def test_a_process_that_dies_is_reported() -> None:
     assert multiprocessing.active_children() == []
 
 
+def test_a_process_that_is_gone_when_more_is_sent_is_reported() -> None:
+    with pytest.raises(RunError, match="a process has ended early"), executor(2) as pool:
+        for _ in range(1000):
+            pool.submit(end, [0])
+            time.sleep(0.01)
+
+
 @pytest.mark.usefixtures("eager")
 def test_what_the_function_raises_ends_all() -> None:
     with pytest.raises(ValueError, match=r"[0-9]"), executor(2) as pool:

@@ -241,7 +241,7 @@ def _evaluated(order: Order, near: Path) -> tuple[CaseSummary, list[ContactWarni
         written = [path, *write_tables(series_tables(series), path).values()]
     else:
         lines = line_watch(evaluation, suffix_of(path), None)
-        with result_files(evaluation, evaluation.element_table(), path, View(quiet=True)) as sink:
+        with result_files(evaluation, evaluation.element_table(), path, View(quiet=True), synced=False) as sink:
             _run(evaluation, [row, watch, *([] if lines is None else [lines]), sink])
             sink.finish(behind(evaluation, watch.warnings(), None, lines))
         written = [path, *beside(path).values()]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 
 import click
-from click.core import ParameterSource
 
 from mudline.cli import DONE, FOUND, evaluate_inputs, options, pictures
 from mudline.cli.evaluate_inputs import EvaluateInputs, takes_inputs
@@ -76,7 +75,9 @@ def command(
     if len(decks) > 1 or is_url(decks[0]) or os.path.isdir(decks[0]):  # noqa: PTH112 - Path raises for a name that is too long
         raise click.UsageError("evaluate takes one deck: several decks, folders and URLs are for mudline batch")
     if summary_only:
-        _refuse_with_summary()
+        for option, given in (("--against", against), ("--plot", picture), ("--plan", plan_only)):
+            if given:
+                raise click.UsageError(f"{option} is not for --summary-only: leave one of them out")
         if inputs.positions is None:
             raise click.UsageError("--summary-only is for time steps: give a series with --positions")
     wanted = Picture.asked_for(picture, plot_elements)
@@ -103,15 +104,6 @@ def command(
             output_format=output_format,
         )
     return FOUND if warnings and fail_on == "warning" else DONE
-
-
-def _refuse_with_summary() -> None:
-    """Raise click.UsageError for an option that needs the results of single steps, or none."""
-    context = click.get_current_context()
-    for option in ("against", "picture", "plot_elements", "plan_only"):
-        if context.get_parameter_source(option) is not ParameterSource.DEFAULT:
-            name = {"picture": "plot", "plan_only": "plan"}.get(option, option.replace("_", "-"))
-            raise click.UsageError(f"--{name} is not for --summary-only: leave one of them out")
 
 
 def _show_plan(prepared: Prepared, form: str, view: View) -> None:

@@ -1,4 +1,4 @@
-"""The decks that a command reads: files, those found in directories, standard input."""
+"""The decks that a command reads: files, those found in directories without what a .gitignore hides, standard input."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache, wraps
-from pathlib import Path
-from typing import TYPE_CHECKING
+from pathlib import Path, PurePath
+from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
 from mudline.cli import FOUND, WRONG_USAGE, options
-from mudline.cli.search import Search
 from mudline.cli.streams import notify, notify_diagnostics, reason
 from mudline.deck import MARK
 from mudline.deck.forms import SUFFIXES, form_of
 from mudline.diagnostics import DeckError
 from mudline.files import is_url, write_atomically
+from mudline.patterns import Pattern, read_pattern
 from mudline.running import storage
 
 if TYPE_CHECKING:
@@ -184,7 +184,7 @@ def _collect(
                 found.fail(f"{path}: {reason(error)}")
                 continue
         if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
-            _directory(Search(given, gitignore), found, taken, may_be_empty=may_be_empty)
+            _directory(_Search(given, gitignore), found, taken, may_be_empty=may_be_empty)
         else:
             found.files.append(_single(given, stdin_name))
     found.files = list(dict.fromkeys(found.files))
@@ -210,7 +210,7 @@ def _slashed(path: str) -> str:
     return path.replace(os.sep, "/")
 
 
-def _directory(search: Search, found: Inputs, taken: Wanted, *, may_be_empty: bool) -> None:
+def _directory(search: _Search, found: Inputs, taken: Wanted, *, may_be_empty: bool) -> None:
     given = search.given
     start = "" if given == "." else _slashed(given).rstrip("/") + "/"
     files = [Input(start + inside, path) for inside, path in search.files(taken)]
@@ -220,6 +220,92 @@ def _directory(search: Search, found: Inputs, taken: Wanted, *, may_be_empty: bo
         hidden = "; --no-gitignore takes what a .gitignore hides" if search.hidden else ""
         found.fail(f"{given}: no deck in this directory (looked for {', '.join(sorted(SUFFIXES))}{hidden})")
     found.files += files
+
+
+# ------------------------------------------------------------------------------------------ the search of a directory
+
+GITIGNORE = ".gitignore"
+
+
+class _Rules(NamedTuple):
+    """The patterns of a `.gitignore`, the last first.
+
+    They are for paths from its own folder: `above` stands before a path from the searched directory, or the first
+    `below` letters of it are left out.
+    """
+
+    above: str
+    below: int
+    patterns: Sequence[Pattern]
+
+    def hides(self, path: str, *, folder: bool) -> bool | None:
+        """Whether a path from the searched directory is hidden; None where no pattern says anything of it."""
+        own = self.above + path[self.below :]
+        return next((not one.negated for one in self.patterns if one.fits(own, folder=folder)), None)
+
+
+@dataclass(slots=True)
+class _Search:
+    """A search of a directory and all below it; links to directories are not followed.
+
+    `unreadable` collects what cannot be looked at, `hidden` says whether a `.gitignore` hid anything. Like git, the
+    search also honours the `.gitignore` files above the directory in the same repository; like ripgrep, it honours them
+    for what lies in the directory, not for the directory itself, which was asked for.
+    """
+
+    given: str
+    gitignore: bool = True
+    unreadable: list[OSError] = field(default_factory=list)
+    hidden: bool = False
+
+    def files(self, taken: Callable[[str], bool]) -> list[tuple[str, str]]:
+        """The files that are taken, sorted by the names in their paths: a path from the directory, one to open it."""
+        rules = {self.given: self._above() if self.gitignore else []}
+        files: list[tuple[str, str]] = []
+        for folder, folders, names in os.walk(self.given, onerror=self.unreadable.append):
+            found = rules.pop(folder)
+            inside = folder[len(self.given) :].replace(os.sep, "/").strip("/")
+            start = f"{inside}/" if inside else ""
+            shown = names
+            if self.gitignore:
+                if GITIGNORE in names:
+                    found = [*self._read(Path(folder), "", len(start)), *found]
+                folders[:] = [
+                    name for name in folders if name != ".git" and not self._hides(found, start + name, folder=True)
+                ]
+                if found:
+                    shown = [name for name in names if not self._hides(found, start + name, folder=False)]
+            rules.update((os.path.join(folder, name), found) for name in folders)  # noqa: PTH118 - as os.walk does
+            path = str(PurePath(folder, "-"))[:-1]
+            files += ((start + name, path + name) for name in shown if taken(path + name))
+        return sorted(files, key=lambda file: os.path.normcase(file[0]).split(os.sep))  # noqa: PTH206 - many files
+
+    def _hides(self, rules: Sequence[_Rules], path: str, *, folder: bool) -> bool:
+        said = next((hides for one in rules if (hides := one.hides(path, folder=folder)) is not None), False)
+        self.hidden |= said
+        return said
+
+    def _above(self) -> list[_Rules]:
+        """The rules above the directory, the nearest first."""
+        here = Path(os.path.abspath(self.given))  # noqa: PTH100 - links stay what they are called
+        found: list[_Rules] = []
+        for folder in (here, *here.parents):
+            if folder != here:
+                found += self._read(folder, f"{here.relative_to(folder).as_posix()}/", 0)
+            if (folder / ".git").exists():
+                return found
+        return []
+
+    def _read(self, folder: Path, above: str, below: int) -> list[_Rules]:
+        """The rules of a folder, if it has any."""
+        path = folder / GITIGNORE
+        try:
+            text = os.fsdecode(path.read_bytes()) if path.is_file() else ""
+        except OSError as error:
+            self.unreadable.append(error)
+            return []
+        patterns = [pattern for line in text.split("\n") if (pattern := read_pattern(line))]
+        return [_Rules(above, below, patterns[::-1])] if patterns else []
 
 
 # ------------------------------------------------------------------------------------------------ the one deck

@@ -12,8 +12,7 @@ from typing import NoReturn
 
 import click
 
-from mudline.cli.inputs import STDIN, is_deck
-from mudline.cli.search import GITIGNORE
+from mudline.cli.inputs import GITIGNORE, STDIN, is_deck
 from mudline.cli.streams import notify
 from mudline.cli.view import View
 from mudline.linting.configuration import base_paths

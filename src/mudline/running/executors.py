@@ -55,6 +55,8 @@ _MOST_ON_WINDOWS = 61
 _ADDRESS = re.compile(r"(?P<protocol>tcp|tls)://(?P<host>\[[0-9A-Fa-f:.]+\]|[A-Za-z0-9._-]+):(?P<port>[0-9]{1,5})")
 """Strict: what Dask takes apart in another way would not be checked."""
 
+_ENDED = "a process has ended early, perhaps out of memory: give fewer files, or use --jobs 1"
+
 _Item = TypeVar("_Item")
 _Given = TypeVar("_Given")
 _Made = TypeVar("_Made")
@@ -102,8 +104,13 @@ class Pool:
                 self._client = self._stack.enter_context(_connected(self.scheduler))
                 self._executor = self._client.get_executor(pure=False)
                 self._stack.callback(self._executor.shutdown, wait=False)
-        with interrupt_deferred():
-            return self._executor.submit(_done, __version__, function, given)
+        from concurrent.futures.process import BrokenProcessPool  # noqa: PLC0415 - most runs are too small for it
+
+        try:
+            with interrupt_deferred():
+                return self._executor.submit(_done, __version__, function, given)
+        except (BrokenProcessPool, EOFError, ConnectionError) as error:  # also of what starts the processes
+            raise RunError(_ENDED) from error
 
     def result(self, future: Future[_Made]) -> _Made:
         """What came back; raises RunError, and whatever the function raised."""
@@ -112,8 +119,7 @@ class Pool:
         try:
             return future.result()
         except BrokenProcessPool as error:
-            what = "a process has ended early, perhaps out of memory: give fewer files, or use --jobs 1"
-            raise RunError(what) from error
+            raise RunError(_ENDED) from error
         except CancelledError as error:
             raise RunError(f"{self.scheduler}: the scheduler has gone away: start it, and run this again") from error
         except (ImportError, AttributeError) as error:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-from os import times
 
 from tests.benchmarks.dynamics import limits, peers, pictures, schemes
 from tests.benchmarks.dynamics.page import TABLES
@@ -16,7 +15,6 @@ from tests.benchmarks.peers import Environment, Peer, installed
 from tests.benchmarks.tables import FOLDER, load, rewrite, save
 
 PARTS = ("reference", "schemes", "chains", "bouncing")
-COST = ("part", "processor time [s]", "elapsed time [s]")
 
 
 def say(words: str) -> None:
@@ -37,7 +35,6 @@ def main() -> None:
         return Environment(peer, "left out of this run") if given.no_peers else installed(peer)
 
     for part in (part for part in PARTS if part in given.only):
-        begin = spent()
         if part == "reference":
             references()
         elif part == "schemes":
@@ -46,20 +43,8 @@ def main() -> None:
             chains(place(peers.MOORDYN))
         else:
             bounces(place(peers.EXUDYN))
-        if given.no_peers:
-            continue
-        own = [round(end - start, 1) for start, end in zip(begin, spent(), strict=True)]
-        kept = {row["part"]: (float(row[COST[1]]), float(row[COST[2]])) for row in load("benchmark-cost")}
-        cost = {**kept, part: own}
-        save("benchmark-cost", COST, [(name, *cost[name]) for name in PARTS if name in cost])
     rewrite(FOLDER / "benchmark.md", TABLES)
     pictures.run()
-
-
-def spent() -> tuple[float, float]:
-    """Processor time of this program and of all that it has started, and the clock, s."""
-    used = times()
-    return sum(used[:4]), used.elapsed
 
 
 def references() -> None:

@@ -1,4 +1,4 @@
-"""The schemes of `mudline study` on the whole line, step by step, with what they cost.
+"""The schemes of the studies on the whole line, step by step, with what they cost.
 
 Explicit schemes step many degrees of freedom as they step many masses. An implicit step is one system of equations, and
 is solved here: with the coefficients of the scheme, by Newton's method with the evaluator's consistent tangent and

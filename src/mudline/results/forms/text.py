@@ -17,7 +17,7 @@ from mudline.contact.columns import Column, Values
 from mudline.quantities import csv_lines
 from mudline.results.forms import Columns, Contents, More, Output, Tables, Write, Writer
 
-_BLOCK = 16384
+_BLOCK = 8192
 """Rows spelled at a time: the texts of a large model are never all in memory."""
 _PIECE = 1000
 """Rows written at a time."""
