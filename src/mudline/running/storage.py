@@ -59,7 +59,8 @@ def is_folder(url: str) -> bool:
 def files_below(url: str) -> list[str]:
     """The URLs of all files below a folder, sorted; raises UrlError."""
     with _opened(url) as (system, inside):
-        return sorted(str(system.unstrip_protocol(name)) for name in system.find(inside))
+        start = inside.rstrip("/")
+        return sorted(f"{url.rstrip('/')}{name.removeprefix(start)}" for name in system.find(inside))
 
 
 def size_and_date(url: str) -> tuple[int, int]:
