@@ -50,7 +50,8 @@ def test_a_place_without_a_cache_compiles_anyway(monkeypatch: pytest.MonkeyPatch
         return lambda function: (function, "made")
 
     monkeypatch.setattr(numba, "njit", njit)
-    assert _loop(lambda: abs) == (abs, "made")
+    made: object = _loop(lambda: abs)
+    assert made == (abs, "made")
     assert options == [True, False]
 
 
