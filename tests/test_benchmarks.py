@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import sys
-from itertools import islice
 from pathlib import Path
 from typing import Any, cast
 
@@ -12,13 +11,13 @@ import numpy as np
 import pytest
 
 import mudline
-from tests.benchmarks import decks, start
+from tests.benchmarks import decks
 from tests.benchmarks.bench import Bench, Results, Table, Work
 from tests.benchmarks.goals import GOALS, SPELLINGS
 from tests.benchmarks.inputs import numbers, text
-from tests.benchmarks.page import exponent, page, write
+from tests.benchmarks.page import write
 from tests.benchmarks.peers import PEERS, Environment
-from tests.benchmarks.runner import ROOT, Figure, Job, alternate, cost, cpu, figure, ratio
+from tests.benchmarks.runner import ROOT, Figure, Job, alternate, cost, cpu
 
 PAGE = ROOT / "docs" / "benchmarks.md"
 MISSING = {peer.name: Environment(peer, "no distribution") for peer in PEERS}
@@ -47,11 +46,6 @@ def test_the_page_names_every_peer() -> None:
     assert {peer.name for peer in PEERS} <= {row[0] for row in rows}
 
 
-def test_goals_have_keys_and_words_of_their_own() -> None:
-    assert len({goal.key for goal in GOALS}) == len(GOALS)
-    assert len({(goal.subject, goal.what) for goal in GOALS}) == len(GOALS)
-
-
 def test_a_page_says_what_is_met_missed_and_not_measured(tmp_path: Path) -> None:
     results = Results(
         figures={"rows 2": Figure([2.0, 1.9, 2.5], 2.1), "memory 2": Figure([150.0], 150.0)},
@@ -69,16 +63,6 @@ def test_a_page_says_what_is_met_missed_and_not_measured(tmp_path: Path) -> None
     assert rows["meshio"][0] == "not installed: no distribution"
     assert f"Of {len(GOALS)} goals 1 are met, 1 missed, {len(GOALS) - 2} not measured." in text_of_page
     assert "<svg" in (tmp_path / "images" / "benchmarks.svg").read_text(encoding="utf-8")
-
-
-def test_an_exponent_is_that_of_growth_alone() -> None:
-    assert exponent([(10**n, 0.5 + 1e-9 * 10 ** (2 * n)) for n in range(1, 7)]) == pytest.approx(2.0, abs=1e-3)
-    assert exponent([(10, 1.0), (100, 1.1)]) is None
-
-
-def test_ratios_are_those_within_a_round() -> None:
-    assert ratio([4.0, 6.0], [2.0, 1.5]) == Figure([2.0, 4.0], 4.0 / 1.5)
-    assert figure([4.0, 6.0, 5.0]).median == 5.0
 
 
 def test_a_process_is_measured_by_its_own_clock_or_as_a_whole() -> None:
@@ -99,15 +83,6 @@ def test_a_peer_that_fails_is_left_out(capsys: pytest.CaptureFixture[str]) -> No
     assert "no library" in capsys.readouterr().err
     with pytest.raises(SystemExit, match="ended with 3"):
         cost(Job([sys.executable, "-c", "raise SystemExit(3)"]))
-
-
-@pytest.mark.slow
-def test_a_quick_run_measures_starts(tmp_path: Path) -> None:
-    bench = Bench(tmp_path, quick=True, environments=MISSING)
-    start.run(bench)
-    assert {"cold", "again", "version", "evaluate"} <= bench.results.figures.keys()
-    assert all(found.values[0] > 0.0 for found in bench.results.figures.values())
-    assert "cold `mudline lint`" in page(bench.results, MISSING.values())
 
 
 def test_a_quick_run_reads_tables(tmp_path: Path) -> None:
@@ -149,9 +124,3 @@ def test_every_spelling_is_read(spelling: str, tmp_path: Path) -> None:
     assert found.shape == (200, 2)
     first = [float(word.replace("D", "E")) for word in rows.replace(",", " ").split()[:20]]
     assert found.ravel()[:20].tolist() == first
-
-
-def test_decks_that_share_nothing_differ() -> None:
-    lines = [set(decks.apart(number).splitlines()) for number in range(2)]
-    kept = {line for line in islice(sorted(lines[0] & lines[1]), 20) if line.strip()[0] not in "*$"}
-    assert all(line.strip().startswith(("OPTION", "SET=ALL", "TYPE")) for line in kept)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from mudline.installed import may_declare, metadata_folders
+from mudline.installed import may_declare
 
 GROUP = "anchors.rules"
 METADATA = "Metadata-Version: 2.1\nName: chain\nVersion: 1.0\n"
@@ -46,12 +46,6 @@ def test_a_package_that_declares_them(site: Path, folder: str, monkeypatch: pyte
     assert may_declare(GROUP)
 
 
-def test_each_folder_is_given_once(site: Path) -> None:
-    (site / "chain-1.0.dist-info").mkdir()
-    (site / "chain").mkdir()
-    assert list(metadata_folders()) == [f"{site}/chain-1.0.dist-info"]
-
-
 def test_an_archive_may_hold_a_package(site: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     archive = site / "packages.zip"
     with zipfile.ZipFile(archive, "w") as packed:
@@ -63,14 +57,6 @@ def test_an_archive_may_hold_a_package(site: Path, monkeypatch: pytest.MonkeyPat
     monkeypatch.undo()
     monkeypatch.syspath_prepend(archive)
     assert found()
-
-
-def test_an_egg_may_hold_a_package(site: Path) -> None:
-    egg = site / "chain-1.0.egg"
-    (egg / "EGG-INFO").mkdir(parents=True)
-    assert not may_declare(GROUP)
-    sys.path.append(str(egg))
-    assert may_declare(GROUP)
 
 
 def test_a_finder_of_another_kind_may_know_a_package(site: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -81,10 +81,10 @@ def sets(count: int) -> str:
 def test_misspelt_names_cost_as_much_as_they_are_many(
     text: object, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A quarter of the names that would cost too much, with a sixteenth of the effort."""
-    monkeypatch.setattr(Effort.__init__, "__defaults__", (Effort().left // 16,))
+    """An eighth of the names that would cost too much, with a 64th of the effort."""
+    monkeypatch.setattr(Effort.__init__, "__defaults__", (Effort().left // 64,))
     assert callable(text)
-    paths = [tmp_path / f"{count}.keyxm" for count in (250, 500)]
+    paths = [tmp_path / f"{count}.keyxm" for count in (125, 250)]
     for path in paths:
         path.write_text(str(text(int(path.stem))), encoding="utf-8")
     assert call_growth(lambda path: list(mudline.lint(path)), *paths) < TWOFOLD

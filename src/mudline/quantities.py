@@ -47,7 +47,6 @@ def time_unit(units: str) -> str:
 
 
 Names = tuple[str | None, ...]
-Kind = Literal["number", "whole", "text", "flag"]
 
 STATES: Names = ("free", "compression", "suction", "hold", "broken", None)
 """Of an element with suction, by number; the last one stands for -1."""
@@ -67,7 +66,6 @@ class Quantity:
         names: the texts of a column of texts, whose values are indices; -1 is the last one, None.
         vector: whether a value has three components.
         over_steps: whether a step may change the value, even if nothing does in a scene.
-        kind: what a value is.
     """
 
     name: str
@@ -77,7 +75,6 @@ class Quantity:
     names: Names = ()
     vector: bool = False
     over_steps: bool = True
-    kind: Kind = "number"
 
     def unit_name(self, units: str) -> str:
         """The name of the unit in a deck's units; "" for none."""
@@ -94,8 +91,8 @@ def _by_name(*quantities: Quantity) -> dict[str, Quantity]:
 
 
 ELEMENTS = _by_name(
-    Quantity("element", "its number", over_steps=False, kind="whole"),
-    Quantity("set", "the set that gave it its law, or `null`", over_steps=False, kind="text"),
+    Quantity("element", "its number", over_steps=False),
+    Quantity("set", "the set that gave it its law, or `null`", over_steps=False),
     Quantity("arc_length", "of its middle, from the first end of its line", "length", over_steps=False),
     Quantity("x", "of its middle, up", "length", label="height X"),
     Quantity("y", "of its middle", "length"),
@@ -109,7 +106,7 @@ ELEMENTS = _by_name(
         label="embedment",
     ),
     Quantity("ratio", "depth / diameter, or `null`", label="embedment ratio, depth / diameter"),
-    Quantity("contact", "depth > 0", kind="flag"),
+    Quantity("contact", "depth > 0"),
     Quantity(
         "force",
         "seabed reaction per unit length, positive upwards",
@@ -118,26 +115,24 @@ ELEMENTS = _by_name(
     ),
     Quantity("slope", "d force / d ratio, or `null`", "line_force"),
     Quantity("stiffness", "d force / d depth, per unit length", "stiffness", label="seabed stiffness\nper unit length"),
-    Quantity("law", "`curve:NAME`, `curve-cut`, `linear`, `nodal`, `rigid` or `none`", kind="text"),
+    Quantity("law", "`curve:NAME`, `curve-cut`, `linear`, `nodal`, `rigid` or `none`"),
     Quantity(
         "state",
         "of suction: `free`, `compression`, `suction`, `hold` or `broken`; `null` without a suction law",
         names=STATES,
-        kind="text",
     ),
     Quantity(
         "line",
         "number of its line, from 1: elements one behind the other, up to an end or a junction",
         over_steps=False,
-        kind="whole",
     ),
-    Quantity("node1", "the node that it begins at", over_steps=False, kind="whole"),
-    Quantity("node2", "the node that it ends at", over_steps=False, kind="whole"),
+    Quantity("node1", "the node that it begins at", over_steps=False),
+    Quantity("node2", "the node that it ends at", over_steps=False),
 )
 """Of an element, in the order of the columns."""
 
 NODES = _by_name(
-    Quantity("node", "its number", over_steps=False, kind="whole"),
+    Quantity("node", "its number", over_steps=False),
     Quantity("arc_length", "from the first end of its line; `null` without elements", "length", over_steps=False),
     Quantity("x", "its height; X is up", "length", label="height X"),
     Quantity("y", "its second coordinate", "length"),
@@ -152,26 +147,22 @@ NODES = _by_name(
         "seabed reaction on the pipe across the line: friction and lateral springs; 0.0 without them",
         "force",
     ),
-    Quantity("axial_state", "`open`, `stick` or `slip`; `null` without a friction law", names=SLIDING, kind="text"),
-    Quantity("lateral_state", "the same across the line", names=SLIDING, kind="text"),
+    Quantity("axial_state", "`open`, `stick` or `slip`; `null` without a friction law", names=SLIDING),
+    Quantity("lateral_state", "the same across the line", names=SLIDING),
     Quantity(
         "line",
         "the number of its line; of the first one at a junction; 0 without elements",
         over_steps=False,
-        kind="whole",
     ),
 )
 """Of a node, in the order of the columns."""
 
-QUANTITIES = {"elements": ELEMENTS, "nodes": NODES}
-"""By the name of the table."""
-
 LINES = _by_name(
-    Quantity("line", "its number, from 1", over_steps=False, kind="whole"),
-    Quantity("first_element", "at its first end", over_steps=False, kind="whole"),
-    Quantity("last_element", "at its other end", over_steps=False, kind="whole"),
+    Quantity("line", "its number, from 1", over_steps=False),
+    Quantity("first_element", "at its first end", over_steps=False),
+    Quantity("last_element", "at its other end", over_steps=False),
     Quantity("length", "all of it", "length", over_steps=False),
-    Quantity("touchdown_points", "how often it comes down on the seabed or leaves it", kind="whole"),
+    Quantity("touchdown_points", "how often it comes down on the seabed or leaves it"),
     Quantity("first_touchdown", "arc length of the first of these points", "length", label="touchdown point"),
     Quantity("first_touchdown_x", "its height", "length"),
     Quantity("first_touchdown_y", "its second coordinate", "length"),
@@ -182,10 +173,10 @@ LINES = _by_name(
     Quantity("last_touchdown_z", "its third coordinate", "length"),
     Quantity("contact_length", "length below the seabed", "length", label="length in contact"),
     Quantity("largest_force", "largest push of the seabed on an element, per unit length", "line_force"),
-    Quantity("largest_force_element", "the element", kind="whole"),
+    Quantity("largest_force_element", "the element"),
     Quantity("largest_force_arc_length", "arc length of its middle", "length"),
     Quantity("largest_uplift", "largest pull, negative, by suction or a curve", "line_force"),
-    Quantity("largest_uplift_element", "the element", kind="whole"),
+    Quantity("largest_uplift_element", "the element"),
     Quantity("largest_uplift_arc_length", "arc length of its middle", "length"),
     Quantity("reaction", "total normal force on its nodes", "force"),
     Quantity("submerged_weight", "of its elements in contact", "force"),

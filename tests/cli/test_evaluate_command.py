@@ -131,16 +131,6 @@ def test_reactions_add_up() -> None:
     assert forces == pytest.approx(294685, rel=1e-5)
 
 
-@pytest.mark.parametrize("name", sorted(path.name for path in SAMPLES.glob("*.key*")))
-def test_samples_keep_to_the_schema(name: str) -> None:
-    outcome = run("evaluate", SAMPLES / name, "--output-format", "json")
-    if name in {"broken.keyxm", "lines-deck.keyxm"}:
-        assert (outcome.code, outcome.out) == (1, "")
-    else:
-        assert outcome.code == 0
-        assert_fits(outcome.json(), "evaluate")
-
-
 def test_text(place: Place) -> None:
     outcome = run("evaluate", place())
     assert (outcome.code, outcome.err) == (0, CLEAN_WARNING)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import tomllib
 from collections.abc import Collection, Iterator
+from functools import cache
 from graphlib import TopologicalSorter
 from itertools import pairwise
 from pathlib import Path
@@ -67,6 +68,7 @@ def direct(graph: Graph) -> Graph:
     return {name: {o for o in others if not any(o in below[way] for way in others)} for name, others in graph.items()}
 
 
+@cache
 def layer_picture() -> str:
     """Return the picture as SVG: a package stands above all that it imports."""
     graph = direct(packages())

@@ -23,6 +23,8 @@ from tests.processes import TIMEOUT
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
+pytestmark = pytest.mark.slow
+
 VISITED = (
     "index.html",
     "tutorials/first-deck.html",

@@ -18,6 +18,7 @@ def test_every_kind_says_what_was_done_and_what_is_expected() -> None:
     assert all(kind.did.endswith(".") and kind.codes for kind in KINDS)
 
 
+@pytest.mark.slow
 @pytest.mark.untraced
 def test_faults_are_found_and_legal_decks_are_not_blamed() -> None:
     """One test, as each of its parts needs the same run of some seconds."""

@@ -126,37 +126,3 @@ def test_fixes_bring_no_error_and_are_soon_done(deck: Path, fixing: Fixing) -> N
     if fixed is not None:
         assert errors(corpus.diagnostics(fixed, deck, options)) <= errors(found_in(deck))
         assert fix_bytes(fixed, deck.name, settings, deck.parent).changed is None
-
-
-# ---------------------------------------------------------------------------------------------------------- helpers
-
-
-def test_a_file_of_findings_may_begin_with_options() -> None:
-    text = "# dialect: flexcom\n# why: as meant\n1:2: STB002 info coarse\n"
-    given = corpus.Expected.read(text)
-    assert (given.dialect, given.option("why")) == ("flexcom", "as meant")
-    assert [corpus.code_of(line) for line in given.findings] == ["STB002"]
-    assert given.text() == text
-    with pytest.raises(ValueError, match="no such option: colour"):
-        corpus.Expected.read("# colour: red\n")
-
-
-def test_the_maker_keeps_options_and_removes_what_is_left_over(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setattr(corpus, "CORPUS", tmp_path)
-    deck, beside = tmp_path / "a.keyxm", tmp_path / "a.keyxm.expected"
-    deck.write_text("$MODEL\n*OCEAN\n 300.0, 1025.0, 32.2 \n", encoding="utf-8")
-    beside.write_text("# select: STY007\n3:1: STY007 info old\n", encoding="utf-8")
-    (tmp_path / "b.keyxm").write_text("$MODEL\n", encoding="utf-8")
-    (tmp_path / "gone.keyxm.expected").write_text("", encoding="utf-8")
-    corpus.main()
-    told = capsys.readouterr().out.splitlines()
-    assert [line for line in told if line.startswith(("written: ", "removed: "))] == [
-        "written: a.keyxm",
-        "written: b.keyxm",
-        "removed: gone.keyxm.expected",
-    ]
-    assert told[-1].startswith("2 decks; rules that none of them shows: ['CRV001'")
-    assert beside.read_text(encoding="utf-8").startswith("# select: STY007\n3:21: STY007 info ")
-    assert corpus.rewrite() == []

@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 
 import mudline
+from mudline.cli import lint_run
 from mudline.diagnostics import PluginError
 from mudline.linting import registry
 from mudline.linting.registry import load, origin, rules
@@ -103,6 +104,7 @@ def _here(site: Site, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[...,
 
     def command(name: str, *arguments: str, deck: str = NO_FRICTION) -> Outcome:
         monkeypatch.setattr(registry, "_collected", loaded)
+        lint_run._named.cache_clear()
         (site.folder / "deck.keyxm").write_text(deck)
         return run(name, *arguments)
 
@@ -114,6 +116,7 @@ def _here(site: Site, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[...,
     yield command
     RULES.clear()
     RULES.update(own)
+    lint_run._named.cache_clear()
     for name in sys.modules.keys() - modules:
         if name.startswith(("corp_", "acme_mudline")):
             del sys.modules[name]

@@ -143,11 +143,6 @@ def test_a_code_of_mudline_has_a_page_among_the_installed_files() -> None:
         assert Path(url2pathname(urlsplit(address).path)).read_text(encoding="utf-8").count(f"# {code} ") == 1
 
 
-def test_where_the_package_names_a_site_the_page_is_there(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(registry, "_documentation", lambda package: f"https://example.org/{package.split()[0]}/")
-    assert page("CRV002") == "https://example.org/mudline/rules/CRV002/"
-
-
 def test_a_code_without_a_page_has_none() -> None:
     assert page("XYZ999") is None
 
@@ -164,9 +159,3 @@ def test_a_plugin_has_the_page_that_its_package_tells(
     monkeypatch.syspath_prepend(str(tmp_path))
     come_from(f"acme-{number} 1.0", monkeypatch)
     assert page("ACM001") == expected
-
-
-@pytest.mark.parametrize("package", ["acme_mudline.friction", "acme-that-nobody-has 1.0"])
-def test_a_plugin_that_is_no_installed_package_has_none(package: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    come_from(package, monkeypatch)
-    assert page("ACM001") is None

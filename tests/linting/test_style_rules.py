@@ -10,13 +10,12 @@ from hypothesis import strategies as st
 
 from mudline.deck.forms.json import to_json
 from mudline.deck.loading import load_bytes
-from mudline.diagnostics import Problem
 from mudline.limits import MOST_REPORTED
 from mudline.linting.engine import Fixing, LintSettings, lint_bytes
 from mudline.linting.fixing import Fixed, fix_bytes
 from mudline.linting.registry import select
 from mudline.linting.rule import LintContext, first_reported
-from tests.growth import FOURFOLD, TWOFOLD, call_growth, growth
+from tests.growth import call_growth, growth
 from tests.linting.findings import CLAY, CURVES, found, messages
 
 CODES = [f"STY00{number}" for number in range(1, 10)]
@@ -253,22 +252,6 @@ def test_numbers_behind_a_key_are_parted_by_blanks_too() -> None:
     text = "$MODEL\n*ELEMENT SETS\n SET=1 2\n GEN= 1  11 2 \n GEN=1, 4\n"
     assert found(text, "STY004") == [("STY004", 4, 7)]
     assert mended(text, "STY004") == text.replace("1  11 2", "1,  11, 2")
-
-
-@pytest.mark.untraced
-def test_many_names_of_numbers_are_looked_at_in_no_time() -> None:
-    def reported(context: LintContext) -> list[Problem]:
-        return [problem for rule in STYLE for problem in rule.check(context)]
-
-    def named(count: int) -> LintContext:
-        text = "$MODEL\n*ELEMENT SETS\n" + " SET=1 2\n 1, 2\n" * count
-        context = LintContext(load_bytes(text.encode(), "deck.keyxm"))
-        assert reported(context) == []  # a long block finds the places of its values when they are first needed
-        return context
-
-    assert call_growth(reported, named(250), named(500)) < TWOFOLD
-    assert growth(reported, named(250), named(1000)) < FOURFOLD
-    named(5000)
 
 
 def test_heads_are_mended_in_the_preamble_and_at_the_very_beginning() -> None:

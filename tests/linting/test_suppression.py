@@ -130,14 +130,6 @@ def test_the_report_of_unused_comments_can_be_hidden_by_name_only() -> None:
     assert "STY010" in codes(unused.replace("$MODEL", "C mudline: ignore-file\n$MODEL"))
 
 
-@pytest.mark.untraced
-def test_of_very_many_idle_comments_the_first_are_told() -> None:
-    for word in ("CRV005", "CRVV05"):
-        told = lint_bytes((f"C mudline: ignore {word}\n" * 1500).encode(), "deck.keyxm", select(["STY010", "CRV005"]))
-        assert len(told) == 1001
-        assert (told[-1].line, told[-1].fix) == (1001, None)
-
-
 @pytest.mark.parametrize("end", ["\r", "\r\n"])
 def test_line_ends_do_not_matter(end: str) -> None:
     assert codes(before(" 0.5, 900.0", "C mudline: ignore CRV005").replace("\n", end)) == ["REF003"]

@@ -63,15 +63,16 @@ def from_csv(path: Path, table: str) -> Rows:
         names, *rows = csv.reader(stream)
     found: Rows = {name: [row[place] for row in rows] for place, name in enumerate(names)}
     assert set(found.pop("units")) <= {"metric", "imperial"}
-    return {name: [_value(text, kinds(table).get(name, "number")) for text in texts] for name, texts in found.items()}
+    return {name: [_value(text) for text in texts] for name, texts in found.items()}
 
 
-def _value(text: str, kind: str) -> Value:
-    if not text:
-        return None
-    if kind == "flag":
-        return {"true": True, "false": False}[text]
-    return text if kind == "text" else (int if kind == "whole" else float)(text)
+def _value(text: str) -> Value:
+    if text in {"", "true", "false"}:
+        return {"": None, "true": True, "false": False}[text]
+    try:
+        return float(text)
+    except ValueError:
+        return text
 
 
 def from_json(path: Path, table: str) -> Rows:
@@ -129,10 +130,6 @@ READERS: dict[str, Callable[[Path, str], Rows]] = {
     "parquet": from_parquet,
     "xlsx": from_xlsx,
 }
-
-
-def kinds(table: str) -> dict[str, str]:
-    return {name: "number" if quantity.vector else quantity.kind for name, quantity in QUANTITIES[table].items()}
 
 
 def expected(evaluation: Evaluation, table: TableName) -> Rows:

@@ -10,12 +10,12 @@ import pytest
 from mudline.contact.stiffest import critical_step
 from mudline.curves import ForceCurve
 from mudline.scene.model import Scene
-from mudline.study import Study, study
+from mudline.study import Study, precision, study
 from mudline.study.extremes import extremes
 from mudline.study.schemes import SCHEMES
 from mudline.study.stability import contacts_of, judged, landing_at, landing_on, largest_step, own_step
 from tests.builders.scenes import legal_scene
-from tests.study.decks import CURVE, EVERYTHING, LINEAR, MASS, Ticking, deck, line_of
+from tests.study.decks import CURVE, EVERYTHING, LINEAR, MASS, SPRINGS, Ticking, deck, line_of
 
 
 def studied(text: str, *parts: str) -> Study:
@@ -30,7 +30,10 @@ def everything() -> Scene:
 
 @pytest.fixture(scope="module")
 def whole(everything: Scene) -> Study:
-    return study(everything, timer=Ticking())
+    """Its study, with fewer steps to an octave than users get."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(precision, "_PER_OCTAVE", 3)
+        return study(everything, timer=Ticking())
 
 
 # ------------------------------------------------------------------------------------------------------------ stability
@@ -153,6 +156,18 @@ def test_every_extreme_of_every_law_holds(whole: Study) -> None:
     assert {"at its given points to the bit", "velocity 1e3", "displaced by 1e6", "elements of length 1e-12"} < {
         *whole.extremes.cases
     }
+
+
+def test_every_extreme_of_springs_and_unloading_lines_holds() -> None:
+    found = studied(deck(SPRINGS), "stability")
+    assert found.stability is not None
+    assert found.extremes is not None
+    kinds = {one.row.kind for one in found.stability}
+    assert kinds == {"curve", "unloading", "lateral", "suction spring", "nodal"}
+    assert found.extremes.failed == []
+    assert {"displaced to its end", "unloaded to the mudline", "unloading stiffness x 1e12"} < {*found.extremes.cases}
+    landed = {one.row.kind for one in found.stability if one.row.landing_step is not None}
+    assert landed == {"curve", "nodal"}
 
 
 def test_a_law_that_is_wrong_is_listed_with_its_line(monkeypatch: pytest.MonkeyPatch, everything: Scene) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import click
 
-from mudline.cli.options import Command
+from mudline.cli.options import OUTPUT, Command, option
 from mudline.cli.streams import notify, notify_missing, writing
 from mudline.cli.view import View
 from mudline.files import suffix_of
@@ -21,20 +21,22 @@ _PLOTS = "mudline.results.plots"
 
 def options(command: Command) -> Command:
     """`--plot` and `--plot-elements`."""
-    for option in (
-        click.option(
+    for add in (
+        option(
             "--plot-elements",
+            group=OUTPUT,
             metavar="N,M",
             help="Draw the force over penetration of these elements of a series, by number.",
         ),
-        click.option(
+        option(
             "--plot",
             "picture",
+            group=OUTPUT,
             metavar=f"FILE.{'|'.join(PICTURES)}",
             help="Draw the results (needs the extra mudline[plot]).",
         ),
     ):
-        command = option(command)
+        command = add(command)
     return command
 
 

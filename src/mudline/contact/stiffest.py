@@ -220,20 +220,6 @@ ADVISED_OMEGA_DT = 0.5
 """Up to here a landing gains up to 3 % of its speed, or loses 3.5 %, in the usual implicit schemes of second order."""
 
 
-def omega(stiffness: FloatArray, mass: FloatArray) -> FloatArray:
-    """Return the circular frequency sqrt(k / m) of contacts, radians per unit of time.
-
-    `stiffness` k and `mass` m are both per unit length, or both of a node. NaN where there is no frequency: one of
-    them is not known, not finite or not above 0.
-    """
-    with np.errstate(all="ignore"):
-        found: FloatArray = np.sqrt(stiffness / mass)
-        overflowed = ~np.isfinite(found) | (found == 0.0)
-        found = np.where(overflowed, np.sqrt(stiffness) / np.sqrt(mass), found)
-    known = np.isfinite(stiffness) & np.isfinite(mass) & (stiffness > 0.0) & (mass > 0.0)
-    return np.where(known, found, np.nan)
-
-
 def critical_step(scheme: str, frequency: float, rate: float = 0.0) -> float:
     """Return the largest time step at which x'' = -omega^2 x - gamma x' does not grow under a scheme.
 
@@ -279,14 +265,6 @@ def _radius(order: int, cosine: float) -> float:
 def rounded_down(step: float) -> float:
     """Return a step > 0 with three digits that are not above it: who gives them keeps to the step."""
     return float(_THREE_DIGITS.create_decimal_from_float(step))
-
-
-def steepest_slope(ratios: FloatArray, slopes: FloatArray) -> float:
-    """Return the largest slope that a curve has below the mudline, its continued end included.
-
-    `ratios` (n,) ascend, `slopes` (n - 1,) are those of the segments between them, force per unit length.
-    """
-    return float(np.append(slopes[ratios[1:] > 0.0], slopes[-1]).max())
 
 
 def release_stiffness(law: SuctionLaw, velocity: FloatArray) -> FloatArray:

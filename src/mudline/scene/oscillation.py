@@ -17,7 +17,6 @@ import numpy as np
 from mudline.codes import RUN001
 from mudline.contact.input import LawKind
 from mudline.diagnostics import Problem, Where
-from mudline.scene.force_curves import SceneCurve
 from mudline.scene.laws import Extension
 from mudline.scene.numbering import Floats, Indices, Mask, at_nodes, summed
 from mudline.scene.resolved import ResolvedDeck
@@ -356,57 +355,11 @@ def place_of_law(scene: ResolvedDeck, element: int) -> Where | None:
         return None
     if law.kind is not LawKind.CURVE or law.curve < 0:
         return law.where
-    segment = steepest_segment(scene.laws.curves[law.curve])
-    return law.where if segment is None else segment.where
-
-
-class Segment(NamedTuple):
-    """The steepest segment of a curve below the mudline, between two of its points.
-
-    low, high: ratios. slope: force per ratio. where: the point at its deeper end; the last one for the continued end.
-    narrow: whether it is at most a twentieth of the curve's range below the mudline.
-    removed: the point without which the steepest slope is least; None where there is no such point.
-    secant: that slope. difference: by how much the force changes there.
-    """
-
-    low: float
-    high: float
-    slope: float
-    where: Where
-    narrow: bool
-    removed: Where | None
-    secant: float
-    difference: float
-
-
-_NARROW = 0.05
-
-
-def steepest_segment(entry: SceneCurve) -> Segment | None:
-    """The segment that sets the stiffness of a curve; None for a curve that is not what the deck says."""
-    from mudline.contact.stiffest import steepest_slope  # noqa: PLC0415 - loaded when it is needed
-
+    entry = scene.laws.curves[law.curve]
     curve = entry.curve
     if curve is None or not entry.usable:
-        return None
-    ratios, forces = curve.ratios, curve.forces
+        return law.where
     slopes = np.append(curve.slopes, curve.slopes[-1])
-    at = int(np.argmax(np.where(np.append(ratios[1:], np.inf) > 0.0, slopes, -np.inf)))
-    deeper = min(at + 1, len(ratios) - 1)
-    removed, secant, difference = None, math.nan, math.nan
-    for point in (at, at + 1):
-        if 0 < point < len(ratios) - 1 and ratios[point] > 0.0:
-            left, right = np.delete(ratios, point), np.delete(forces, point)
-            with np.errstate(all="ignore"):
-                found = steepest_slope(left, np.diff(right) / np.diff(left))
-            if not found >= secant:
-                removed, secant = _point(entry, float(ratios[point])), found
-                difference = abs(float(forces[point] - np.interp(ratios[point], left, right)))
-    low, high = float(ratios[min(at, deeper - 1)]), float(ratios[deeper])
-    narrow = high - max(low, 0.0) <= _NARROW * float(ratios[-1] - max(ratios[0], 0.0))
-    slope = float(slopes[at])
-    return Segment(low, high, slope, _point(entry, high), narrow, removed, secant, difference)
-
-
-def _point(entry: SceneCurve, ratio: float) -> Where:
-    return entry.point(int(np.flatnonzero(entry.points[:, 0] == ratio)[0]))
+    steepest = int(np.argmax(np.where(np.append(curve.ratios[1:], np.inf) > 0.0, slopes, -np.inf)))
+    deeper = curve.ratios[min(steepest + 1, len(curve.ratios) - 1)]
+    return entry.point(int(np.flatnonzero(entry.points[:, 0] == deeper)[0]))
