@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import json
 import os
 import shutil
 from pathlib import Path
 
 import pytest
 
-from mudline.archive import store, updating
-from mudline.archive.known import looked
+from mudline.archive import updating
 from mudline.archive.store import Archive
-from mudline.archive.updating import Update, read_decks
+from mudline.archive.updating import Update, looked, read_deck
 from mudline.cli.inputs import Input
 from mudline.linting.engine import LintSettings
 from mudline.linting.registry import select
+from mudline.running import executors
 from tests.archive.trial import ask, contents, deck, index, summary, write
 from tests.cli.runner import run
 
@@ -42,7 +41,7 @@ def settled(folder: Path) -> None:
 
 def test_values_of_a_deck(decks: Path, archive: Path) -> None:
     assert summary(index(decks, archive=archive)) == "3 decks: 3 new"
-    row = ask(archive, "SELECT * FROM decks WHERE file = $file", "--param", "file=decks/a.keyxm")[0]
+    row = ask(archive, "SELECT * FROM decks WHERE file = 'decks/a.keyxm'")[0]
     expected = {
         "verdict": "legal",
         "units": "metric",
@@ -54,36 +53,20 @@ def test_values_of_a_deck(decks: Path, archive: Path) -> None:
     }
     assert {name: row[name] for name in expected} == expected
     assert (row["keywords"], row["sections"], row["length"]) == (7, 1, 10.0)
-    assert row["bytes"] == (decks / "a.keyxm").stat().st_size
+    (file,) = ask(archive, "SELECT * EXCLUDE (deck) FROM files WHERE file = 'decks/a.keyxm'")
+    assert file.keys() == {"file", "bytes", "modified", "digest"}
+    assert file["bytes"] == (decks / "a.keyxm").stat().st_size
 
 
-def test_curves_points_laws_and_elements(decks: Path, archive: Path) -> None:
+def test_curves_and_laws(decks: Path, archive: Path) -> None:
     index(decks, archive=archive)
     where = "WHERE file = 'decks/a.keyxm'"
-    curve = ask(archive, f"SELECT name, points, steepest, elements, line FROM curves {where}")  # noqa: S608
-    assert curve == [{"name": "Clay", "points": 3, "steepest": 12000.0, "elements": 1, "line": 20}]
-    points = ask(archive, f"SELECT ratio, force, slope FROM points {where} ORDER BY point")  # noqa: S608
-    assert points[0] == {"ratio": 0.0, "force": 0.0, "slope": 12000.0}
-    assert points[2] == {"ratio": 0.5, "force": 3000.0, "slope": 4500.0}
+    curve = ask(archive, f"SELECT name, ratios, forces, steepest, elements, line FROM curves {where}")  # noqa: S608
+    points = {"ratios": [0.0, 0.1, 0.5], "forces": [0.0, 1200.0, 3000.0]}
+    assert curve == [{"name": "Clay", **points, "steepest": 12000.0, "elements": 1, "line": 20}]
     laws = ask(archive, f'SELECT kind, family, "set", elements, stiffness, line FROM laws {where} ORDER BY law')  # noqa: S608
     assert laws[0] == {"kind": "linear", "family": "new", "set": "ALL", "elements": 1, "stiffness": 50000.0, "line": 27}
     assert (laws[1]["kind"], laws[1]["set"], laws[1]["elements"], laws[1]["stiffness"]) == ("curve", "TDZ", 1, None)
-    elements = ask(archive, f"SELECT element, node1, node2, z, law, diameter FROM elements {where} ORDER BY element")  # noqa: S608
-    assert elements[1] == {"element": 2, "node1": 2, "node2": 3, "z": 0.0, "law": "linear", "diameter": 0.5}
-
-
-def test_results_are_those_of_evaluate(decks: Path, archive: Path) -> None:
-    index(decks, archive=archive)
-    (row,) = ask(archive, "SELECT * FROM results WHERE file = 'decks/a.keyxm'")
-    (found,) = [
-        one
-        for one in run("batch", decks, "-o", "out", "--output-format", "json").json()
-        if one["deck"].endswith("a.keyxm")
-    ]
-    names = (set(row) & set(found)) - {"deck"}
-    assert {name: row[name] for name in names} == {name: found[name] for name in names}
-    assert row["in_contact"] == 2
-    assert row["contact_length"] == 10.0
 
 
 def test_findings_are_those_of_lint(tmp_path: Path, archive: Path) -> None:
@@ -129,7 +112,7 @@ def test_unchanged_decks_are_not_read(decks: Path, archive: Path, monkeypatch: p
     settled(decks)
     index(decks, archive=archive)
     before = sorted(path.name for path in archive.rglob("*"))
-    monkeypatch.setattr(updating, "read_decks", None)
+    monkeypatch.setattr(updating, "read_deck", None)
     monkeypatch.setattr("mudline.cli.inputs.Input.read", None)
     assert summary(index(decks, archive=archive)) == "3 decks: 3 unchanged"
     assert sorted(path.name for path in archive.rglob("*")) == before
@@ -138,7 +121,7 @@ def test_unchanged_decks_are_not_read(decks: Path, archive: Path, monkeypatch: p
 def test_a_new_date_costs_a_look_at_the_content(decks: Path, archive: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     index(decks, archive=archive)
     settled(decks)
-    monkeypatch.setattr(updating, "read_decks", None)
+    monkeypatch.setattr(updating, "read_deck", None)
     assert summary(index(decks, archive=archive)) == "3 decks: 3 unchanged"
 
 
@@ -158,15 +141,6 @@ def test_changed_moved_copied_and_gone_decks(decks: Path, archive: Path) -> None
     assert summary(index(decks, archive=archive)) == "3 decks: 1 new, 2 unchanged, 1 gone"
     assert files(archive) == ["decks/c.keyxm", "decks/copy.keyxm", "decks/moved.keyxm"]
     assert len(ask(archive, "SELECT * FROM curves WHERE name = 'Sand'")) == 2
-
-
-def test_a_change_of_the_same_size_and_date_needs_check(decks: Path, archive: Path) -> None:
-    settled(decks)
-    index(decks, archive=archive)
-    write(decks, a=deck("a", depth=700.0))
-    settled(decks)
-    assert summary(index(decks, archive=archive)) == "3 decks: 3 unchanged"
-    assert summary(index(decks, "--check", archive=archive)) == "3 decks: 1 changed, 2 unchanged"
 
 
 def test_a_deck_that_is_continued_counts(tmp_path: Path, archive: Path) -> None:
@@ -232,49 +206,37 @@ def test_standard_input_is_refused(archive: Path) -> None:
     assert "standard input cannot be archived" in outcome.err
 
 
-def test_many_small_batches_become_one(decks: Path, archive: Path, tmp_path: Path) -> None:
-    for number in range(store.MOST_SMALL + 2):
-        write(decks, a=deck("a", depth=100.0 + number))
-        if number == 3:
-            (decks / "c.keyxm").unlink()
-        index(decks, archive=archive)
-    assert len(list((archive / "batches").glob("*.json"))) < store.MOST_SMALL
-    fresh = tmp_path / "fresh"
-    index(decks, archive=fresh)
-    assert contents(archive) == contents(fresh)
-    assert summary(index(decks, archive=archive)) == "2 decks: 2 unchanged"
-
-
-def test_a_copy_whose_original_moves_to_another_batch_stays(
-    decks: Path, archive: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    index(decks, archive=archive)
-    shutil.copy(decks / "a.keyxm", decks / "copy.keyxm")
-    index(decks, archive=archive)
-    link = max((archive / "batches").glob("*.json"), key=lambda path: path.stat().st_mtime_ns)
-    sizes = {path.stem: json.loads(path.read_bytes())["files"] for path in (archive / "batches").glob("*.json")}
-    large = sum(row[2] for row in sizes[link.stem].values())
-    monkeypatch.setattr(store, "MOST_SMALL", 1)
-    monkeypatch.setattr(store, "SMALL", large + 1)
-    write(decks, b=deck("b", depth=601.0))
-    index(decks, archive=archive)
-    assert files(archive) == ["decks/a.keyxm", "decks/b.keyxm", "decks/c.keyxm", "decks/copy.keyxm"]
-    assert ask(archive, "SELECT count(*) AS n FROM curves WHERE name = 'Clay'") == [{"n": 3}]
-
-
 def test_two_writers_at_the_same_time(decks: Path, archive: Path, tmp_path: Path) -> None:
     settings = LintSettings(select())
     writers = [Update(Archive.made(archive)) for _ in range(2)]
-    for name in ("a", "b", "c"):
-        for writer in writers:
+    for writer, names in zip(writers, ("ab", "bc"), strict=True):
+        for name in names:
             path = decks / f"{name}.keyxm"
-            order = writer.order(str(path), path.read_bytes(), looked(*Input("", str(path)).size_and_date()), settings)
+            order = writer.order(str(path), looked(*Input("", str(path)).size_and_date()), path.read_bytes, settings)
             assert order is not None
-            writer.take(read_decks([order]))
-            writer.flush()
+            writer.take(read_deck(order))
     for writer in writers:
-        writer.finish()
-    fresh = tmp_path / "fresh"
-    index(decks, archive=fresh)
-    assert contents(archive) == contents(fresh)
+        writer.save()
+    index(decks, archive=tmp_path / "fresh")
+    assert contents(archive) == contents(tmp_path / "fresh")
     assert summary(index(decks, archive=archive)) == "3 decks: 3 unchanged"
+
+
+def test_other_processes_and_urls_give_the_same(
+    decks: Path, archive: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(executors, "PAYS", dict.fromkeys(executors.PAYS, 0.0))
+    monkeypatch.setattr(executors, "TRIED", 0.0)
+    write(decks, odd="$LOAD CASE\n*RESTART\n LAST=a\n")
+    index(decks, archive=archive)
+    assert summary(run("index", decks, "-o", tmp_path / "two", "--isolated", "--jobs", "2")) == "4 decks: 4 new"
+    assert contents(tmp_path / "two") == contents(archive)
+    fsspec = pytest.importorskip("fsspec", reason="fsspec is not installed")
+    memory = fsspec.filesystem("memory")
+    for name in ("a", "b"):
+        memory.pipe(f"/indexed/{name}.keyxm", (decks / f"{name}.keyxm").read_bytes())
+    assert summary(index("memory://indexed", archive=tmp_path / "far")) == "2 decks: 2 new"
+    memory.rm("/indexed/b.keyxm")
+    assert summary(index("memory://indexed", archive=tmp_path / "far")) == "1 deck: 1 unchanged, 1 gone"
+    memory.rm("/indexed", recursive=True)
+    assert "an archive is a folder, not a URL" in run("index", decks, "-o", "s3://b/archive").err

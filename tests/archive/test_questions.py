@@ -1,17 +1,22 @@
-"""The ready questions, each on decks whose answers are known."""
+"""The questions of docs/archive.md, each on decks whose answers are known."""
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from mudline.archive.store import Archive
-from mudline.archive.tables import QUESTIONS
 from tests.archive.trial import deck, index, write
 from tests.builders.decks import CLEAN
 from tests.cli.runner import run
+
+PAGE = Path(__file__).parents[2] / "docs" / "archive.md"
+_QUESTION = re.compile(r"### ([^\n]+)\n(?:(?!###).)*?```sql\n(.*?)```", re.DOTALL)
+QUESTIONS = dict(_QUESTION.findall(PAGE.read_text(encoding="utf-8")))
+"""The SQL of the page by its headings."""
 
 LEGACY = """\
 *EMBEDMENT
@@ -43,15 +48,15 @@ def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "archive"
 
 
-def rows(archive: Path, name: str, *more: str) -> list[dict[str, Any]]:
-    outcome = run("query", archive, "--ask", name, "--output-format", "json", *more)
+def rows(archive: Path, name: str) -> list[dict[str, Any]]:
+    outcome = run("query", archive, QUESTIONS[name], "--output-format", "json")
     assert outcome.code == 0, outcome.err
     found: list[dict[str, Any]] = outcome.json()
     return found
 
 
 def test_stiffest_curves(archive: Path) -> None:
-    found = rows(archive, "stiffest-curves", "--param", "limit=2")
+    found = rows(archive, "Stiffest curves")[:2]
     assert [(one["file"], one["name"], one["steepest"]) for one in found] == [
         ("decks/imperial.keyxi", "Mud", 70000.0),
         ("decks/far.keyxm", "Gravel", 900000.0),
@@ -59,7 +64,7 @@ def test_stiffest_curves(archive: Path) -> None:
 
 
 def test_same_curve(archive: Path) -> None:
-    (found,) = rows(archive, "same-curve")
+    (found,) = rows(archive, "Same curve")
     assert found == {
         "curves": 5,
         "decks": 5,
@@ -71,24 +76,17 @@ def test_same_curve(archive: Path) -> None:
 
 
 def test_unused(archive: Path) -> None:
-    found = {(one["file"], one["thing"], one["name"]) for one in rows(archive, "unused")}
+    found = {(one["file"], one["thing"], one["name"]) for one in rows(archive, "Unused")}
     assert found == {("decks/far.keyxm", "set", "Idle"), ("decks/unused.keyxm", "curve", "Silt")}
 
 
 def test_legacy(archive: Path) -> None:
-    (found,) = rows(archive, "legacy")
+    (found,) = rows(archive, "Legacy keywords")
     assert found == {"file": "decks/old.keyxm", "blocks": 2, "keywords": "ELASTIC SURFACE, EMBEDMENT", "first_line": 19}
 
 
-def test_no_friction(archive: Path) -> None:
-    found = {one["file"]: one["without_friction"] for one in rows(archive, "no-friction")}
-    assert "decks/rough.keyxm" not in found
-    assert found["decks/a.keyxm"] == 2
-    assert len(found) == 7
-
-
 def test_findings_by_rule(archive: Path) -> None:
-    found = rows(archive, "findings-by-rule")
+    found = rows(archive, "Findings by rule")
     linted = run("lint", archive.parent / "decks", "--isolated", "--output-format", "json").json()
     counts = {code: sum(one["code"] == code for one in linted) for code in {one["code"] for one in linted}}
     assert {one["code"]: one["findings"] for one in found} == counts
@@ -99,18 +97,12 @@ def test_findings_by_rule(archive: Path) -> None:
 def test_near_duplicates(archive: Path) -> None:
     found = {
         one["differ_in"]: (one["decks"], one["first_file"], one["second_file"])
-        for one in rows(archive, "near-duplicates")
+        for one in rows(archive, "Near duplicates")
     }
     assert found["*OCEAN"] == (3, "decks/a.keyxm", "decks/b.keyxm")
     assert found["layout and comments"] == (2, "decks/a.keyxm", "decks/copy.keyxm")
     assert found["*SEABED PROPERTIES"] == (3, "decks/a.keyxm", "decks/copy.keyxm")
     assert len(found) == 3
-
-
-def test_ask_alone_lists_the_questions(archive: Path) -> None:
-    for words in (("query", "--ask"), ("query", archive, "--ask")):
-        out = run(*words).out
-        assert all(name in out and question.answers in out for name, question in QUESTIONS.items())
 
 
 @pytest.mark.parametrize("name", QUESTIONS)

@@ -74,14 +74,13 @@ def ask(archive: Path, sql: str, *more: str) -> list[dict[str, Any]]:
 
 
 def contents(archive: Path) -> dict[str, list[str]]:
-    """Every row of every table without the numbers of contents and the dates of files."""
+    """Every row of every table."""
     from mudline.archive.database import opened  # noqa: PLC0415 - an extra
     from mudline.archive.store import Archive  # noqa: PLC0415 - an extra
 
     found = {}
     with opened(Archive.opened(archive), "1GB", 1) as database:
         for table in TABLES:
-            skipped = "deck, modified" if table.name == "decks" else "deck"
-            answer = database.connection.execute(f"SELECT * EXCLUDE ({skipped}) FROM {table.name}")  # noqa: S608 - ours
+            answer = database.connection.execute(f"SELECT * FROM {table.name}")  # noqa: S608 - ours
             found[table.name] = sorted(map(str, answer.fetchall()))
     return found

@@ -17,7 +17,7 @@ from mudline.contact.arrays import FloatArray
 from mudline.curves import ForceCurve
 from tests.benchmarks.studies.curves import METHODS, Evaluation
 
-SHOWN = ("mudline, numpy", "mudline, fast", "np.interp", "scipy PPoly")
+SHOWN = ("mudline", "np.interp", "scipy PPoly")
 
 
 def seconds(way: Evaluation, ratios: FloatArray) -> float:

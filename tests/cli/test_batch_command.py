@@ -472,9 +472,9 @@ def test_decks_positions_and_results_at_urls(monkeypatch: pytest.MonkeyPatch, fo
     assert first.code == 1
     found = {row["deck"]: (row["verdict"], row["result"]) for row in first.json()}
     assert found == {
-        "memory:///decks/b.keyxm": ("failed", None),
-        "memory:///decks/more/c.keyxm": ("evaluated", "more/c.json"),
-        "memory:///decks/a.keyxm": ("evaluated", "a.json"),
+        "memory://decks/b.keyxm": ("failed", None),
+        "memory://decks/more/c.keyxm": ("evaluated", "more/c.json"),
+        "memory://decks/a.keyxm": ("evaluated", "a.json"),
     }
     assert_fits(json.loads(memory.cat("/results/more/c.json")), "evaluate")
     assert memory.exists("/results/summary.parquet") or memory.exists("/results/summary.csv")

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from pathlib import Path
+from collections.abc import Callable
 from typing import Any
 
+import numba
 import numpy as np
 import pytest
 
-from mudline.contact import ContactModel, ContactResult, ContactState
+from mudline.contact import ContactModel, ContactResult, ContactState, LawAssignment
 from mudline.contact import plan as choices
+from mudline.contact.compiled.driver import _loop
 from mudline.contact.plan import Backend, BackendChoice
 from mudline.contact.tables import Batch
 from tests.builders.contact import CURVE, LINEAR, at_depths, chain, everything, friction, on
@@ -19,69 +21,44 @@ from tests.processes import TIMEOUT
 
 pytestmark = pytest.mark.slow
 
-LONG, LONGER = 2_000_000, 15_000_000
-"""Nodes times steps from which on loops are loaded if they were compiled before, and compiled if not."""
+LONG, LONGER = 5_000_000, 50_000_000
+"""Nodes times steps from which on loops are used with a history, and without."""
 
 
-@pytest.fixture(autouse=True)
-def _no_markers(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """Nothing was compiled before, for all that these tests know."""
-    monkeypatch.setenv("MUDLINE_CACHE_DIR", str(tmp_path / "cache"))
-
-
-def choice_of(backend: Backend, contact: ContactModel | None = None) -> tuple[BackendChoice, int]:
-    """The choice of a model, and how many nodes it has."""
-    made = contact or ContactModel(chain([LINEAR] * 99), backend=backend)
-    return made._choice, len(made.input.node_ids)
+def choice_of(backend: Backend, *laws: LawAssignment) -> BackendChoice:
+    """The choice of a model of 100 nodes."""
+    return ContactModel(chain([LINEAR] * 99, *laws), backend=backend)._choice
 
 
 def test_the_backend_that_a_series_gets() -> None:
-    fast, _ = choice_of("fast")
-    plain, _ = choice_of("numpy")
-    auto, nodes = choice_of("auto")
-    assert fast.compiles(1)
-    assert not plain.compiles(10**9)
-    assert not auto.compiles(LONGER // nodes - 1)
-    assert auto.compiles(LONGER // nodes)
+    assert choice_of("fast").compiles(1)
+    assert not choice_of("numpy").compiles(10**9)
+    plain, sliding = choice_of("auto"), choice_of("auto", friction(3))
+    assert not sliding.compiles(LONG // 100 - 1)
+    assert sliding.compiles(LONG // 100)
+    assert not plain.compiles(LONGER // 100 - 1)
+    assert plain.compiles(LONGER // 100)
 
 
-def test_loops_that_were_compiled_before_are_worth_loading_sooner() -> None:
-    auto, nodes = choice_of("auto")
-    assert not auto.compiles(LONG // nodes)
-    auto.note_compiled()
-    assert auto.compiles(LONG // nodes)
-    assert not auto.compiles(LONG // nodes - 1)
-    other, _ = choice_of("auto", ContactModel(chain([LINEAR] * 99, friction(3))))
-    assert not other.compiles(LONG // nodes)
+def test_a_place_without_a_cache_compiles_anyway(monkeypatch: pytest.MonkeyPatch) -> None:
+    options: list[bool] = []
 
+    def njit(*, cache: bool = False, **_others: object) -> Callable[[object], object]:
+        options.append(cache)
+        if cache:
+            raise RuntimeError("cannot cache function: no locator available")
+        return lambda function: (function, "made")
 
-def test_a_model_notes_that_its_loops_were_compiled(tmp_path: Path) -> None:
-    contact = ContactModel(chain([LINEAR]), backend="fast")
-    contact.evaluate(at_depths([[0.1, 0.1]]))
-    (marker,) = (tmp_path / "cache").iterdir()
-    assert marker.name.startswith("loops-")
-    contact.evaluate(at_depths([[0.1, 0.1]]))
-    auto, _ = choice_of("auto", ContactModel(chain([LINEAR])))
-    assert auto.compiles(LONG)
-
-
-def test_without_a_place_for_markers_nothing_is_noted(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr("mudline.cache_folder.cache_folder", lambda: None)
-    auto, nodes = choice_of("auto")
-    auto.note_compiled()
-    assert not auto.compiles(LONG // nodes)
-    blocked = tmp_path / "file"
-    blocked.touch()
-    monkeypatch.setattr("mudline.cache_folder.cache_folder", lambda: blocked)
-    auto.note_compiled()
-    assert not auto.compiles(LONG // nodes)
+    monkeypatch.setattr(numba, "njit", njit)
+    made: object = _loop(lambda: abs)
+    assert made == (abs, "made")
+    assert options == [True, False]
 
 
 def test_without_numba_there_are_no_loops(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "numba", None)
     monkeypatch.setattr(choices, "find_spec", lambda _name: None)
-    auto, _ = choice_of("auto")
-    assert not auto.compiles(10**9)
+    assert not choice_of("auto").compiles(10**9)
     with pytest.raises(ImportError):
         ContactModel(chain([LINEAR]), backend="fast")
 

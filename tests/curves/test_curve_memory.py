@@ -9,7 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from mudline.curves import Backend, ForceCurve
+from mudline.curves import ForceCurve
 from mudline.curves.points import FloatArray
 from mudline.curves.search import workspace
 from tests.curves.plain import steps
@@ -33,17 +33,16 @@ def peak(action: Callable[[], object]) -> int:
 
 
 @pytest.mark.parametrize("name", CURVES)
-@pytest.mark.parametrize("backend", ["numpy", "fast"])
-def test_evaluating_into_given_arrays(name: str, backend: Backend) -> None:
+def test_evaluating_into_given_arrays(name: str) -> None:
     curve = CURVES[name]
-    curve.evaluate([0.0] * 1000, backend=backend)  # loads, and makes the table
+    curve.evaluate([0.0] * 1000)  # makes the table
     wide = np.random.default_rng(1).random((QUERY, 2))
     force, slope = np.empty(QUERY), np.empty(QUERY)
     views = [wide[:, 0].copy(), wide[:, 0], wide[::-1, 1], wide[:, 0].astype(np.float32), wide.T.reshape(-1)[:QUERY]]
     for view in views:
-        assert peak(lambda query=view: curve.evaluate(query, out=(force, slope), backend=backend)) < FIXED  # type: ignore[misc]
+        assert peak(lambda query=view: curve.evaluate(query, out=(force, slope))) < FIXED  # type: ignore[misc]
     same = wide[:, 0].copy()
-    assert peak(lambda: curve.evaluate(same, out=(same, slope), backend=backend)) < FIXED
+    assert peak(lambda: curve.evaluate(same, out=(same, slope))) < FIXED
 
 
 @pytest.mark.parametrize("name", CURVES)

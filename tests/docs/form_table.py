@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
-from mudline.archive.tables import QUESTIONS, TABLES, Table
+from mudline.archive.tables import TABLES, Table
 from mudline.linting.output import TEXT, TEXT_SUMMARY, form_module, form_names
 from mudline.quantities import CASES, ELEMENTS, LINES, NODES, Quantity
 from mudline.results.forms import FORMS
@@ -19,7 +19,6 @@ _ELEMENT = "An element:\n\n| key | holds | unit |\n| --- | --- | --- |\n"
 _NODE = "A node:\n\n| key | holds | unit |\n| --- | --- | --- |\n"
 _CASE = "A deck among many:\n\n| key | holds | unit |\n| --- | --- | --- |\n"
 _LINES = "the first and the last:\n\n| column | holds | unit |\n| --- | --- | --- |\n"
-_QUESTIONS = "| question | answers |\n| --- | --- |\n"
 _AGAINST = (
     "| `force_against`, `stiffness_against`, `ratio_against` "
     "| only with `--against`: the value in the file, or `null` | as ours |\n"
@@ -46,11 +45,6 @@ def _unit(quantity: Quantity) -> str:
     return f" {quantity.unit_name('metric')} / {quantity.unit_name('imperial')} " if quantity.unit else " "
 
 
-def question_table() -> str:
-    """A row a ready question to an archive."""
-    return _QUESTIONS + "".join(f"| `{name}` | {marked(one.answers)} |\n" for name, one in QUESTIONS.items())
-
-
 def archive_tables() -> dict[str, str]:
     """The columns of each table of an archive."""
     return {_head(table): _head(table) + "".join(_column_rows(table)) for table in TABLES}
@@ -67,7 +61,7 @@ def _column_rows(table: Table) -> Iterable[str]:
 def pages_with_tables() -> dict[str, str]:
     """The pages written by hand that have such tables, with the tables written anew."""
     tables = {
-        "docs/archive.md": {_QUESTIONS: question_table(), **archive_tables()},
+        "docs/archive.md": archive_tables(),
         "docs/outputs.md": {_FINDINGS: form_table()},
         "docs/evaluate.md": {_RESULTS: result_table()},
         "docs/json.md": {

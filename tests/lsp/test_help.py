@@ -57,6 +57,37 @@ async def test_hover_explains_what_is_there(editor: Editor, mark: str, behind: s
     assert [word for word in words if word not in text] == [], text
 
 
+FAULTY = (
+    CLEAN.replace(" 2, 2, 3", " 2, 2, 99\n 3, 1, 1.5")
+    .replace(" SET=Pipe\n 1, 2\n", " SET=Pipe\n 1, 2, 77\n SET=End\n 2\n", 1)
+    .replace(" 0.46, 7850.0\n", " 0.46, 7850.0\n SET=End\n 207.0E9, 79.6E9, 0.3, 0.26, 7850.0\n")
+    .replace(" 100.0, 1025.0", " =[nothing], 1025.0")
+    .replace(" 0.1, 1000.0\n 0.5, 3000.0\n", "")
+    + "*CABLE\n x\n*EMBEDMENT\n SET=Nowhere\n 0.0, 0.0\n 0.5, 900.0\n"
+)
+
+
+@pytest.mark.parametrize(
+    ("mark", "behind", "words"),
+    [
+        ("=[nothing]", "=[no", ["parameter `nothing` is not defined"]),
+        ("=[nothing]", "=", ["no value: "]),
+        (" 2, 2, 99", " 2, 2, 9", ["node 99 is not defined here"]),
+        (" 3, 1, 1.5", " 3, 1, 1", ["node"]),
+        (" 1, 2, 77", " 1, 2, 7", ["element 77 is not defined here"]),
+        ("SET=Pipe\n STIFF", "SET=P", ["D = 0.3 to 0.5 m"]),
+        ("STIFFNESS=Clay", "STIFFNESS=C", ["curve Clay cannot be evaluated"]),
+        ("*CABLE", "*", ["passed through unchanged"]),
+        ("*EMBEDMENT", "*", ["Superseded by"]),
+        ("SET=Nowhere", "SET=N", ["**SET="]),
+        ("0.5, 900.0", "0", ["point 2 of 2 of the curve of set Nowhere"]),
+    ],
+)
+async def test_hover_says_what_is_not_there(editor: Editor, mark: str, behind: str, words: list[str]) -> None:
+    text = await hover(editor, mark, behind, FAULTY)
+    assert [word for word in words if word not in text] == [], text
+
+
 async def test_hover_on_a_comment_says_nothing(editor: Editor) -> None:
     assert await hover(editor, "C just", "C j", DECK.replace("*NODE\n", "*NODE\nC just words\n")) == ""
 

@@ -67,6 +67,16 @@ async def test_names_and_numbers_lead_to_their_definition(
     assert len(highlights or ()) == used
 
 
+async def test_a_node_of_a_deck_before_is_found(editor: Editor) -> None:
+    base = await editor.open(BASE, "base.keyxm")
+    text = NEXT.replace("$MODEL\n", "$MODEL\n*ELEMENT\n 9, 3, 88\n 10, 1.5, 1e300\n")
+    uri = await editor.open(text, "next.keyxm")
+    (found,) = await definition(editor, uri, position(text, " 9, 3", " 9, "))
+    assert (found.uri, shown(BASE, [found])) == (base, ["7:3"])
+    for number in ("88", "1.5", "1e300"):
+        assert await definition(editor, uri, position(text, number)) == []
+
+
 async def test_a_file_is_its_own_definition(editor: Editor) -> None:
     await editor.open(BASE, "base.keyxm")
     uri = await editor.open(NEXT, "next.keyxm")

@@ -68,6 +68,13 @@ def test_bodies_that_are_no_messages_are_passed_over(client: RawClient, body: by
 
 
 @pytest.mark.parametrize("method", REQUESTS)
+def test_every_request_is_answered_for_a_deck_in_json(client: RawClient, method: str) -> None:
+    client.open("untitled:deck.json", '{"format": "mudline-deck/1", "sections": [{"name": "MODEL", "blocks": []}]}')
+    answer = client.ask(method, json.loads(json.dumps(REQUESTS[method]).replace("untitled:deck", "untitled:deck.json")))
+    assert not isinstance(answer, dict) or answer.get("code") is None, answer
+
+
+@pytest.mark.parametrize("method", REQUESTS)
 def test_a_document_that_is_not_open_gives_nothing(client: RawClient, method: str) -> None:
     params = json.dumps(REQUESTS[method])
     answer = client.ask(method, json.loads(params.replace("untitled:deck", "file:///nowhere.keyxm")))
@@ -151,13 +158,16 @@ LINES = (
 @pytest.mark.parametrize(("encoding", "width"), [("utf-8", 10), ("utf-32", 6)])
 def test_places_are_in_the_units_that_were_agreed(encoding: str, width: int) -> None:
     with raw_client() as client:
-        begun = client.begin(general={"positionEncodings": ["utf-7", encoding]})
+        watching = {"didChangeWatchedFiles": {"dynamicRegistration": True}}
+        begun = client.begin(general={"positionEncodings": ["utf-7", encoding]}, workspace=watching)
+        client.notify("initialized", {})
         assert begun["capabilities"]["positionEncoding"] == encoding
         client.open("untitled:lines", LINES)
         asked = {"textDocument": {"uri": "untitled:lines"}, "position": {"line": 5, "character": 5 + width}}
         (found,) = client.ask("textDocument/definition", asked)
         start, end = {"line": 2, "character": 5}, {"line": 2, "character": 5 + width}
         assert found["range"] == {"start": start, "end": end}
+        assert "client/registerCapability" in [each["method"] for each in client.notifications]
         renamed = client.ask("textDocument/rename", {**asked, "newName": "Gas"})
         ends = [edit["range"]["end"]["character"] for edit in renamed["changes"]["untitled:lines"]]
         assert ends == [5 + width, 5 + width]

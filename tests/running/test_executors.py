@@ -90,10 +90,14 @@ def test_a_process_that_dies_is_reported() -> None:
 
 
 def test_a_process_that_is_gone_when_more_is_sent_is_reported() -> None:
-    with pytest.raises(RunError, match="a process has ended early"), executor(2) as pool:
-        for _ in range(1000):
-            pool.submit(end, [0])
-            time.sleep(0.01)
+    def send() -> None:
+        with executor(2) as pool:
+            for _ in range(1000):
+                pool.submit(end, [0])
+                time.sleep(0.01)
+
+    with pytest.raises(RunError, match="a process has ended early"):
+        send()
 
 
 @pytest.mark.usefixtures("eager")

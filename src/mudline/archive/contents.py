@@ -1,19 +1,18 @@
-"""What a deck gives to each table of an archive: read, resolved, linted and evaluated once."""
+"""What a deck gives to each table of an archive: read, resolved and linted once."""
 
 from __future__ import annotations
 
-import math
 import re
 from collections import Counter
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
 from hashlib import blake2b
 from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
 
-from mudline.archive.chunk import Chunk
+from mudline.archive.tables import TABLES
 from mudline.codes.lines import SYN001
 from mudline.contact.input import LawKind
 from mudline.deck.loading import load_bytes
@@ -27,10 +26,7 @@ from mudline.linting.engine import LintSettings, lint_context, problems_in
 from mudline.linting.fixing import with_severities
 from mudline.linting.registry import rules
 from mudline.linting.rule import LintContext, Noticed
-from mudline.results.cases import CaseWatch
-from mudline.results.evaluation import evaluate_scene
 from mudline.scene.deck_values import bare, number
-from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene
 from mudline.scene.references import given_names
 from mudline.scene.sets import ALL
@@ -42,54 +38,58 @@ _WORD = re.compile(r"[^\W\d][\w.]*")
 _KINDS = [kind.name.lower() for kind in LawKind]
 
 
-def add_deck(chunk: Chunk, data: bytes, name: str, settings: LintSettings, folder: Path | None) -> None:
-    """Add the rows of a deck of this content and file name to a chunk; never raises for content."""
+Rows = dict[str, list[tuple[object, ...]]]
+"""The rows of a deck by table, in the order of the table's columns."""
+
+
+def rows_of(data: bytes, name: str, settings: LintSettings, folder: Path | None) -> Rows:
+    """The rows of a deck of this content and file name; never raises for content."""
     try:
         deck = load_bytes(data, name, units=settings.units, folder=folder)
     except DeckError as error:
-        _add_findings(chunk, error.diagnostics)
-        chunk.add("decks", settings.units or "user", "illegal", len(error.diagnostics), *[0] * 8, None, None, None)
-        chunk.add("results", "failed", error.diagnostics[0].message, *[None] * 11)
-    else:
-        _Deck(chunk, deck, LintContext(deck, dialect=settings.dialect), data).add(settings)
-    chunk.decks += 1
+        counts = (len(error.diagnostics), *[0] * 8)
+        row = (settings.units or "user", "illegal", *counts, None, None, None)
+        return {"decks": [row], "findings": _findings(error.diagnostics)}
+    return _Deck(deck, LintContext(deck, dialect=settings.dialect), data).rows(settings)
 
 
-def _add_findings(chunk: Chunk, found: tuple[Diagnostic, ...]) -> None:
-    for one in found:
-        place = (one.line, one.column, one.end_line, one.end_column)
-        fix = one.fix and one.fix.applicability
-        chunk.add("findings", one.code, one.slug, one.severity.value, one.message, *place, fix, one.blocks)
+def _findings(found: Iterable[Diagnostic]) -> list[tuple[object, ...]]:
+    return [
+        (
+            *(one.code, one.slug, one.severity.value, one.message),
+            *(one.line, one.column, one.end_line, one.end_column),
+            one.fix and one.fix.applicability,
+            one.blocks,
+        )
+        for one in found
+    ]
 
 
 @dataclass
 class _Deck:
-    chunk: Chunk
     deck: Deck
     context: LintContext
     data: bytes
+    made: Rows = field(default_factory=lambda: {table.name: [] for table in TABLES})
 
     @property
     def scene(self) -> Scene:
         return self.context.scene
 
-    def add(self, settings: LintSettings) -> None:
+    def rows(self, settings: LintSettings) -> Rows:
         found = with_severities(lint_context(self.context, settings.rules), settings)
-        _add_findings(self.chunk, found)
+        self.made["findings"] = _findings(found)
         content, blocks = self._keywords()
         sets = self._sets()
-        self._elements()
         self._curves()
         self._laws()
         self._parameters()
-        self._results()
         counts = Counter(one.severity for one in found)
         illegal = counts[Severity.ERROR] or any(
             one.weight is Severity.ERROR for one in problems_in(self.context, _checks())
         )
         oceans = [block for _, block in self.scene.deck.blocks("OCEAN")]
-        self.chunk.add(
-            "decks",
+        row = (
             self.deck.units,
             "illegal" if illegal else "legal" if self.deck.sections else "empty",
             *(counts[severity] for severity in (Severity.ERROR, Severity.WARNING, Severity.INFO)),
@@ -103,6 +103,8 @@ class _Deck:
             number(oceans[-1], "depth") if oceans else None,
             content,
         )
+        self.made["decks"].append(row)
+        return self.made
 
     def _line(self, where: Where | None) -> int | None:
         return None if where is None else self.deck.place(Problem(SYN001, "", where=where)).line
@@ -120,7 +122,7 @@ class _Deck:
             known = type(block) is not Opaque
             facts = (known, is_superseded(keyword), is_extension(keyword))
             row = (place, section, keyword, self._line(where), *facts, digest, (total - digest) % (1 << _DIGEST))
-            self.chunk.add("keywords", *row)
+            self.made["keywords"].append(row)
         return total % (1 << _DIGEST), len(found)
 
     def _sets(self) -> int:
@@ -131,7 +133,8 @@ class _Deck:
             ids = self.scene.element_ids[entry.elements]
             ends = (int(ids.min()), int(ids.max())) if len(ids) else (None, None)
             is_used = key in used or key in opaque
-            self.chunk.add("sets", entry.name, len(ids), *ends, not entry.open, is_used, self._line(entry.where))
+            row = (entry.name, len(ids), *ends, not entry.open, is_used, self._line(entry.where))
+            self.made["sets"].append(row)
         return len(named)
 
     def _names_of_sets(self) -> set[str]:
@@ -146,55 +149,17 @@ class _Deck:
         blocks = (block for section in self.deck.sections for block in section.blocks)
         return "\n".join(line for block in blocks if type(block) is Opaque for line in block.lines).casefold()
 
-    def _elements(self) -> None:
-        scene = self.scene
-        count = len(scene.element_ids)
-        if not count:
-            return
-        ends = scene.element_nodes
-        known = (ends >= 0) & (len(scene.node_ids) > 0)
-        ids = (
-            np.where(known, scene.node_ids[np.where(known, ends, 0)], np.nan)
-            if known.any()
-            else np.full((count, 2), np.nan)
-        )
-        nodes = ids if np.isnan(ids).any() else ids.astype(np.int64)
-        middle = _middle(scene, ends, known)
-        laws = scene.law
-        arrays = scene.law_arrays()
-        of_law = np.array([*(law.curve + 1 for law in scene.laws.set_laws), 0])
-        curves = np.where(laws == LawKind.CURVE, of_law[scene.laws.of_element], 0).tolist()
-        friction = scene.resistance.column("friction")
-        columns: list[Any] = [
-            scene.element_ids,
-            *(_whole(column) for column in nodes.T),
-            *middle.T,
-            scene.length,
-            scene.diameter,
-            scene.submerged_weight,
-            [_KINDS[kind] for kind in laws.tolist()],
-            scene.law_sets,
-            [curve or None for curve in curves],
-            arrays.linear_stiffness,
-            friction[:, 0],
-            friction[:, 1],
-        ]
-        self.chunk.add_columns("elements", count, columns)
-
     def _curves(self) -> None:
         for place, entry in enumerate(self.scene.laws.curves, 1):
             curve = entry.curve
-            ratios, forces, slopes = _sorted_points(entry)
-            count = len(ratios)
+            ratios, forces = (curve.ratios, curve.forces) if curve else np.ascontiguousarray(entry.points.T)
             steepest = float(curve.slopes.max()) if curve is not None else None
-            ends = (float(ratios[0]), float(ratios[-1]), float(forces.max())) if count else (None, None, None)
+            ends = (float(ratios[0]), float(ratios[-1]), float(forces.max())) if len(ratios) else (None, None, None)
             followers = len(self.scene.laws.followers(place - 1)) if len(self.scene.element_ids) else 0
-            shape = _number(ratios.tobytes() + forces.tobytes())
-            line = self._line(entry.title)
-            row = (entry.name, entry.embedment, count, *ends, steepest, followers, shape, line)
-            self.chunk.add("curves", place, *row)
-            columns = [np.full(count, place), np.arange(1, count + 1), ratios, forces, slopes]
-            self.chunk.add_columns("points", count, columns)
+            shape = number_of(ratios.tobytes() + forces.tobytes())
+            points = (ratios.tolist(), forces.tolist())
+            row = (*points, *ends, steepest, followers, shape, self._line(entry.title))
+            self.made["curves"].append((place, entry.name, entry.embedment, *row))
 
     def _laws(self) -> None:
         scene = self.scene
@@ -205,7 +170,7 @@ class _Deck:
             kind, curve = _KINDS[law.kind], law.curve + 1 or None
             held = len(law.set_.elements)
             row = (keyword, law.family, kind, law.set_.name, curve, law.stiffness, held, elements, self._line(where))
-            self.chunk.add("laws", place, *row)
+            self.made["laws"].append((place, *row))
 
     def _parameters(self) -> None:
         if "PARAMETERS" not in self.deck.keywords("PREPROCESSOR"):
@@ -219,54 +184,13 @@ class _Deck:
             equation = str(found.value) if isinstance(found.value, Equation) else None
             is_used = None if varied else key in used
             amount = None if text is not None or value is None else float(value)
-            self.chunk.add("parameters", found.name, amount, text, equation, is_used, self._line(found.where))
-
-    def _results(self) -> None:
-        """What `evaluate` gives for the deck's own coordinates, without a second reading."""
-        try:
-            evaluation = evaluate_scene(self.scene)
-            watch = CaseWatch(evaluation)
-            for part in evaluation.parts():
-                watch.take(part)
-        except DeckError as error:
-            first = error.diagnostics[0]
-            self.chunk.add("results", "failed", f"line {first.line}: {first.code} {first.message}", *[None] * 11)
-            return
-        row = watch.summary("", (), None)
-        extent = (row.touchdown_from, row.touchdown_to, row.contact_length)
-        force = (row.largest_force, row.largest_force_element, row.largest_uplift, row.largest_uplift_element)
-        counts = (row.elements, row.in_contact)
-        self.chunk.add("results", row.verdict, row.reason, *counts, *extent, *force, row.reaction, row.ratio)
+            row = (found.name, amount, text, equation, is_used, self._line(found.where))
+            self.made["parameters"].append(row)
 
 
 def _checks() -> list[Any]:
     """The rules whose findings say whether a deck is legal."""
     return [one for one in rules() if isinstance(one.check, Noticed)]
-
-
-def _whole(ids: Any) -> Any:
-    """Numbers of nodes; None for those that are not known."""
-    return ids if ids.dtype == np.int64 else [None if math.isnan(one) else int(one) for one in ids.tolist()]
-
-
-def _middle(scene: Scene, ends: Any, known: Any) -> Any:
-    """The middle (m, 3) of the nodes of each element, NaN where one is not known."""
-    if not len(scene.node_ids):
-        return np.full((len(ends), 3), np.nan)
-    places = scene.coordinates[np.where(known, ends, 0)]
-    with np.errstate(all="ignore"):
-        found = (places[:, 0] + places[:, 1]) / 2.0
-    found[~known.all(axis=1)] = np.nan
-    return found
-
-
-def _sorted_points(entry: SceneCurve) -> tuple[Any, Any, Any]:
-    """Ratios, forces and slopes of a curve; the points as given and NaN for slopes where they make none."""
-    curve = entry.curve
-    if curve is not None:
-        return curve.ratios, curve.forces, np.append(curve.slopes, curve.slopes[-1])
-    ratios, forces = np.ascontiguousarray(entry.points.T)
-    return ratios, forces, np.full(len(ratios), np.nan)
 
 
 def _names_in_equations(data: bytes) -> set[str]:
@@ -279,7 +203,8 @@ def _names_in_equations(data: bytes) -> set[str]:
 # ------------------------------------------------------------------------------------------------ digests of values
 
 
-def _number(data: bytes) -> int:
+def number_of(data: bytes) -> int:
+    """A digest of bytes as a whole number of 63 bits."""
     return int.from_bytes(blake2b(data, digest_size=8).digest()) >> 1
 
 
@@ -291,7 +216,7 @@ def _digest(section: str, block: Any) -> int:
         pieces += (line.encode("utf-8", "backslashreplace") for line in lines if line)
     else:
         pieces += _pieces(block.model_dump(exclude={"keyword"}, exclude_unset=True, context=AS_TABLES))
-    return _number(b"\0".join(pieces))
+    return number_of(b"\0".join(pieces))
 
 
 def _pieces(value: object) -> Iterator[bytes]:

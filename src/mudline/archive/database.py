@@ -11,7 +11,7 @@ import re
 import sys
 import threading
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,13 +20,13 @@ from typing import Any
 
 import duckdb
 
-from mudline.archive.store import DAMAGED, DATA, VIEWS, Archive
-from mudline.archive.tables import DECK, FILES, STORED, TABLES, Column, Table
+from mudline.archive.store import AGAIN, DATA, VIEWS, Archive
+from mudline.archive.tables import DECK, FILES, STORED, TABLES, Table
 from mudline.files import write_atomically
 
 BATCH = 100_000
 """Rows of an answer that are fetched at once."""
-_TYPES = {"text": "VARCHAR", "whole": "BIGINT", "number": "DOUBLE", "flag": "BOOLEAN", "time": "TIMESTAMP"}
+_TYPES = {"text": "VARCHAR", "whole": "BIGINT", "number": "DOUBLE", "flag": "BOOLEAN", "numbers": "DOUBLE[]"}
 _CONFIG = {
     "autoinstall_known_extensions": "false",
     "autoload_known_extensions": "false",
@@ -59,22 +59,15 @@ class Database:
 
     connection: duckdb.DuckDBPyConnection
 
-    def ask(self, sql: str, parameters: Mapping[str, object] | None = None) -> Any:
+    def ask(self, sql: str) -> Any:
         """The answer as a pyarrow.RecordBatchReader; raises QueryError. Ctrl-C ends a long question."""
         statement = self._checked(sql)
-        unknown = {name for name in parameters or {} if name not in statement.named_parameters}
-        if unknown:
-            raise QueryError(f"the SQL has no parameter ${min(unknown)}: remove it, or name it in the SQL")
-        missing = {name for name in statement.named_parameters if name not in (parameters or {})}
-        if missing:
-            raise QueryError(f"the parameter ${min(missing)} has no value: give --param {min(missing)}=VALUE")
-        given = dict(parameters) if parameters else None
 
         def answer() -> Any:
             with warnings.catch_warnings():
                 # A relation would spare a copy, and lack the place of an error in the SQL.
                 warnings.simplefilter("ignore", UserWarning)
-                return self.connection.execute(statement, given).to_arrow_reader(BATCH)
+                return self.connection.execute(statement).to_arrow_reader(BATCH)
 
         return self._interruptible(answer, sql)
 
@@ -205,36 +198,23 @@ def write_views(archive: Archive) -> None:
 
 
 def _create_views(connection: duckdb.DuckDBPyConnection, archive: Archive) -> None:
-    """Create `stored.TABLE` over the files, and of each table the view of what holds, with the deck's file."""
+    """Create `stored.TABLE` over the files, and of each table a view with the deck's file."""
     connection.execute("CREATE SCHEMA stored")
     for table in STORED:
-        names = ", ".join(f"'{path}'" for path in archive.paths(table.name))
-        rows = f"SELECT * FROM read_parquet([{names}])" if names else _nothing(table)  # noqa: S608 - names of ours
+        path = archive.path(table.name)
+        rows = f"SELECT * FROM read_parquet('{path}')" if path else _nothing(table)  # noqa: S608 - names of ours
         connection.execute(f"CREATE VIEW stored.{table.name} AS {rows}")
-    connection.execute(
-        f"CREATE VIEW stored.held AS SELECT * EXCLUDE (n) FROM (SELECT *, row_number() OVER "  # noqa: S608 - names of ours
-        f"(PARTITION BY file ORDER BY written DESC, deck DESC NULLS LAST) AS n FROM stored.{FILES.name}) "
-        "WHERE n = 1 AND deck IS NOT NULL"
-    )
-    first, *others = TABLES
-    about = (
-        "h.bytes, CASE WHEN h.modified >= 0 THEN make_timestamp(h.modified // 1000) END AS modified, "
-        "h.content AS digest"
-    )
-    connection.execute(
-        f"CREATE VIEW {first.name} AS SELECT h.file, {about}, d.* "  # noqa: S608 - as above
-        f"FROM stored.held AS h JOIN stored.{first.name} AS d USING (deck)"
-    )
-    for table in others:
+    modified = "CASE WHEN modified >= 0 THEN make_timestamp(modified // 1000) END AS modified"
+    connection.execute(f"CREATE VIEW files AS SELECT file, deck, bytes, {modified}, digest FROM stored.{FILES.name}")  # noqa: S608 - as above
+    for table in TABLES:
         connection.execute(
-            f"CREATE VIEW {table.name} AS SELECT h.file, t.* "  # noqa: S608 - as above
-            f"FROM stored.held AS h JOIN stored.{table.name} AS t USING (deck)"
+            f"CREATE VIEW {table.name} AS SELECT f.file, t.* "  # noqa: S608 - as above
+            f"FROM stored.{FILES.name} AS f JOIN stored.{table.name} AS t USING (deck)"
         )
 
 
 def _nothing(table: Table) -> str:
-    columns: list[Column] = [DECK, *table.columns]
-    values = ", ".join(f"CAST(NULL AS {_TYPES[column.kind]}) AS {column.name}" for column in columns)
+    values = ", ".join(f"CAST(NULL AS {_TYPES[column.kind]}) AS {column.name}" for column in (DECK, *table.columns))
     return f"SELECT {values} WHERE false"
 
 
@@ -253,7 +233,7 @@ def _explained(error: BaseException, sql: str) -> QueryError:
     if kind == "IO" and "No files found" in message:
         return MissingFileError(f"{message}: ask again")
     if (file := _DATA_FILE.search(message)) and "Cannot open" not in message:
-        return QueryError(f"{file[0]} {DAMAGED}")
+        return QueryError(f"{file[0]} is damaged: {AGAIN}")
     if _DISABLED in message:
         what = message.partition(" - ")[0]
         message = f"{what}: a question reads the tables of the archive and nothing else"

@@ -1,9 +1,6 @@
-"""The folder of an archive: Parquet files named by the digest of their content, and a manifest for each batch of them.
+"""The folder of an archive: a Parquet file for each table, named by the digest of its content, and their list.
 
-A batch exists once its manifest does, which names its files. Everything is written beside its place and renamed, so
-that a run may be killed at any moment; runs at the same time write different files. Nothing is ever changed: a newer
-row of `files` holds before an older one, and a batch that has the rows of others names them in its manifest, so that
-these are left out and removed. Small batches are made one, so that questions open few files.
+Everything is written beside its place and renamed, the list last: a run may be killed at any moment.
 """
 
 from __future__ import annotations
@@ -12,78 +9,59 @@ import json
 import os
 import re
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from hashlib import blake2b
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple, TypeAlias
 
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from mudline.archive.chunk import MOST_DECKS, ArrowTable, numbered, renumbered, schema_of
-from mudline.archive.tables import FILES, STORED, TABLES
+from mudline.archive.tables import DECK, Table
 from mudline.files import write_atomically
 from mudline.short_repr import cut
 
-FORMAT = "mudline-archive/1"
+ArrowTable: TypeAlias = Any
+"""A pyarrow.Table; pyarrow has no types."""
+
+FORMAT = "mudline-archive/2"
 MARKER = "archive.json"
 DATA = "data"
-BATCHES = "batches"
 VIEWS = "archive.duckdb"
-
-MOST_SMALL = 8
-"""Small batches from which on they are made one."""
-SMALL = 32_000_000
-"""Bytes of a batch that is small."""
-
-DAMAGED = "is damaged: mudline index --check reads its decks again"
-"""What is wrong with a file whose content is not what it was written with, and what to do."""
+AGAIN = "mudline index reads the decks again"
 
 _ABOUT = "decks in Parquet: mudline query asks it, docs/archive.md describes it"
 _LEFT = 3600.0
-_DIGEST = 16
-_IS_MANIFEST = re.compile(f"[0-9a-f]{{{2 * _DIGEST}}}\\.json")
-_IS_DATA = re.compile(f"[a-z]+-[0-9a-f]{{{2 * _DIGEST}}}\\.parquet")
-_BY_NAME = {table.name: table for table in STORED}
+"""Seconds after which a file that no list names is that of a killed run."""
+_IS_DATA = re.compile("[a-z]+-[0-9a-f]{32}\\.parquet")
+_TYPES = {
+    "text": pa.string(),
+    "whole": pa.int64(),
+    "number": pa.float64(),
+    "numbers": pa.list_(pa.float64()),
+    "flag": pa.bool_(),
+}
 
 
 class ArchiveError(Exception):
     """A folder is not an archive, is of another version, is damaged or cannot be read; the message names it."""
 
 
-@dataclass(frozen=True, slots=True)
-class Stored:
-    """A Parquet file of a batch: its name in the folder of data, its rows and its size."""
+class Stored(NamedTuple):
+    """A Parquet file: its name in the folder of data, and its size."""
 
     file: str
-    rows: int
     bytes: int
-
-
-@dataclass(frozen=True, slots=True)
-class Batch:
-    """A batch by the name of its manifest: its files by table, and the batches whose rows it holds now."""
-
-    name: str
-    files: Mapping[str, Stored]
-    replaces: frozenset[str]
-
-    @property
-    def bytes(self) -> int:
-        """Size of its files."""
-        return sum(one.bytes for one in self.files.values())
 
 
 @dataclass
 class Archive:
-    """An archive on disk; `damaged` are the batches that are left out, with what is wrong with them."""
+    """An archive on disk, with the file of each table."""
 
     folder: Path
-    batches: dict[str, Batch] = field(default_factory=dict)
-    damaged: dict[str, str] = field(default_factory=dict)
-    _superseded: set[str] = field(default_factory=set)
+    files: dict[str, Stored] = field(default_factory=dict)
 
     @classmethod
     def opened(cls, folder: Path) -> Archive:
@@ -103,14 +81,13 @@ class Archive:
         except (ValueError, RecursionError):
             found = None
         form = found.get("format") if isinstance(found, dict) else None
-        if form is None:
-            raise ArchiveError(f"{marker.as_posix()} is damaged: index the decks into a new folder")
-        if form != FORMAT:
+        if form is not None and form != FORMAT:
             message = f"{folder.as_posix()} has the format {cut(str(form), 40)!r}, this mudline reads {FORMAT!r}"
             raise ArchiveError(f"{message}: index the decks into a new folder")
-        archive = cls(folder)
-        archive.load()
-        return archive
+        try:
+            return cls(folder, {name: Stored(*row) for name, row in found["tables"].items()})
+        except (AttributeError, KeyError, TypeError) as error:
+            raise ArchiveError(f"{marker.as_posix()} is damaged: index the decks into a new folder") from error
 
     @classmethod
     def made(cls, folder: Path) -> Archive:
@@ -124,139 +101,89 @@ class Archive:
                 message = f"{folder.as_posix()} has other files and is not an archive: give a new or empty folder"
                 raise ArchiveError(message)
             folder.mkdir(parents=True, exist_ok=True)
-            write_atomically(folder / MARKER, json.dumps({"format": FORMAT, "about": _ABOUT}).encode())
+            cls(folder).write({})
         (folder / DATA).mkdir(exist_ok=True)
-        (folder / BATCHES).mkdir(exist_ok=True)
         return cls.opened(folder)
 
-    def load(self) -> None:
-        """Read the manifests; those that are damaged, or whose files are, are left out. Raises ArchiveError."""
-        self.batches, self.damaged = {}, {}
-        for path in sorted(self._manifests()):
-            try:
-                batch = _batch(path)
-                self._check_files(batch)
-            except FileNotFoundError:  # another run has just replaced it
-                continue
-            except ArchiveError as error:
-                self.damaged[path.stem] = str(error)
-            except OSError as error:  # it may be sound: nothing is dropped
-                raise ArchiveError(f"{path.as_posix()} cannot be read: {error.strerror}") from error
-            else:
-                self.batches[batch.name] = batch
-        self._superseded = {name for batch in self.batches.values() for name in batch.replaces}
-        for name in self._superseded:
-            self.batches.pop(name, None)
-            self.damaged.pop(name, None)
+    def damage(self, *, thorough: bool) -> str:
+        """What is wrong with a file, or ""; `thorough` compares its content with the digest in its name, too.
 
-    def _check_files(self, batch: Batch) -> None:
-        for stored in batch.files.values():
+        Raises ArchiveError for one that cannot be opened: it may be sound.
+        """
+        for table, stored in self.files.items():
             path = self.folder / DATA / stored.file
             try:
                 size = path.stat().st_size
+                if size == stored.bytes and thorough and _file_name(table, path.read_bytes()) != stored.file:
+                    return f"{path.as_posix()} has changed since it was written: {AGAIN}"
             except FileNotFoundError:
-                if (self.folder / BATCHES / f"{batch.name}.json").exists():
-                    raise ArchiveError(_damaged(path, "is missing")) from None
-                raise
-            if size != stored.bytes:
-                raise ArchiveError(_damaged(path, f"has {size} bytes and not {stored.bytes}"))
-
-    def verified(self) -> None:
-        """Leave out each batch with a file whose content is not what its name says."""
-        for batch in list(self.batches.values()):
-            for table, stored in batch.files.items():
-                path = self.folder / DATA / stored.file
-                if stored.file != _file_name(table, path.read_bytes()):
-                    self.damaged[batch.name] = _damaged(path, "has changed since it was written")
-                    self.batches.pop(batch.name, None)
-
-    def paths(self, table: str) -> list[str]:
-        """The files of a table, from the folder, each once."""
-        found = {batch.files[table].file: None for batch in self.batches.values() if table in batch.files}
-        return [f"{DATA}/{name}" for name in found]
-
-    def read(self, table: str, batches: Sequence[Batch] | None = None) -> ArrowTable:
-        """All rows of a table, or those of some batches; raises ArchiveError for a damaged file."""
-        chosen = self.batches.values() if batches is None else batches
-        names = {batch.files[table].file: None for batch in chosen if table in batch.files}
-        schema = schema_of(_BY_NAME[table])
-        parts = [schema.empty_table()]
-        for name in names:
-            path = self.folder / DATA / name
-            try:
-                data = path.read_bytes()
+                return f"{path.as_posix()} is missing: {AGAIN}"
             except OSError as error:
                 raise ArchiveError(f"{path.as_posix()} cannot be read: {error.strerror}") from error
-            try:
-                parts.append(pq.read_table(pa.BufferReader(data), partitioning=None).cast(schema))
-            except (OSError, ValueError) as error:
-                raise ArchiveError(f"{path.as_posix()} {DAMAGED}") from error
-        return pa.concat_tables(parts)
+            if size != stored.bytes:
+                return f"{path.as_posix()} has {size} bytes and not {stored.bytes}: {AGAIN}"
+        return ""
 
-    def write(self, tables: Mapping[str, ArrowTable], links: ArrowTable, replaces: Sequence[str] = ()) -> None:
-        """Write a batch, whose decks are numbered from 0; raises OSError.
+    def path(self, table: str) -> str | None:
+        """The file of a table, from the folder; None while there is none."""
+        return f"{DATA}/{self.files[table].file}" if table in self.files else None
 
-        `links` are further rows of `files`: those of decks in other batches, and of files that are gone.
-        """
-        ready = numbered(dict(tables))
-        ready[FILES.name] = pa.concat_tables([table for table in (ready.get(FILES.name), links) if table is not None])
-        files = {name: self._put(name, table) for name, table in ready.items() if table.num_rows}
-        gone = sorted({*replaces, *(name for one in replaces for name in self._known(one))})
-        self._put_manifest({name: [one.file, one.rows, one.bytes] for name, one in files.items()}, gone)
+    def read(self, table: Table) -> ArrowTable:
+        """All rows of a table; raises ArchiveError for a file that cannot be read."""
+        path = self.path(table.name)
+        if path is None:
+            return schema_of(table).empty_table()
+        try:
+            data = (self.folder / path).read_bytes()
+            return pq.read_table(pa.BufferReader(data), partitioning=None).cast(schema_of(table))
+        except (OSError, ValueError) as error:
+            raise ArchiveError(f"{(self.folder / path).as_posix()} cannot be read: run mudline index again") from error
 
-    def _known(self, name: str) -> frozenset[str]:
-        return self.batches[name].replaces if name in self.batches else frozenset()
+    def write(self, tables: Mapping[str, ArrowTable]) -> None:
+        """Replace all tables, and remove the files that held them; raises OSError."""
+        before = {one.file for one in self.files.values()}
+        self.files = {name: self._put(name, table) for name, table in tables.items()}
+        content = {"format": FORMAT, "about": _ABOUT, "tables": self.files}
+        write_atomically(self.folder / MARKER, json.dumps(content, indent=1).encode())
+        named = {one.file for one in self.files.values()}
+        for path in (self.folder / DATA).glob("*.parquet"):
+            with suppress(OSError):
+                is_left = _IS_DATA.fullmatch(path.name) and time.time() - path.stat().st_mtime > _LEFT
+                if path.name not in named and (path.name in before or is_left):
+                    path.unlink()
 
     def _put(self, name: str, table: ArrowTable) -> Stored:
         sink = pa.BufferOutputStream()
         pq.write_table(table, sink, compression="zstd", compression_level=1)
         data = sink.getvalue().to_pybytes()
-        stored = Stored(_file_name(name, data), table.num_rows, len(data))
+        stored = Stored(_file_name(name, data), len(data))
         write_atomically(self.folder / DATA / stored.file, data)
         return stored
 
-    def _put_manifest(self, files: Mapping[str, Sequence[object]], replaces: Sequence[str]) -> None:
-        content = {"format": FORMAT, "files": files, "replaces": list(replaces)}
-        data = json.dumps(content, indent=1, sort_keys=True).encode()
-        name = _digest(data)
-        write_atomically(self.folder / BATCHES / f"{name}.json", data)
-        self.batches[name] = Batch(name, {table: Stored(*row) for table, row in files.items()}, frozenset(replaces))  # type: ignore[arg-type]
-        for one in replaces:
-            self.batches.pop(one, None)
-            self._superseded.add(one)
 
-    def tidy(self) -> None:
-        """Remove replaced batches, and files of no batch that were left an hour ago or more."""
-        for name in self._superseded:
-            with suppress(OSError):
-                (self.folder / BATCHES / f"{name}.json").unlink(missing_ok=True)
-        named = {stored.file for batch in self._on_disk() for stored in batch.files.values()}
-        data = (path for path in (self.folder / DATA).glob("*.parquet") if _IS_DATA.fullmatch(path.name))
-        files = [*data, *self.folder.glob(f".{VIEWS}.*")]
-        for path in files:
-            with suppress(OSError):
-                if path.name not in named and time.time() - path.stat().st_mtime > _LEFT:
-                    path.unlink()
+def schema_of(table: Table) -> Any:
+    """The schema of a table's file."""
+    return pa.schema([(column.name, _TYPES[column.kind]) for column in (DECK, *table.columns)])
 
-    def drop_damaged(self) -> None:
-        """Remove the manifests of damaged batches: their decks have been read again."""
-        for name in self.damaged:
-            with suppress(OSError):
-                (self.folder / BATCHES / f"{name}.json").unlink(missing_ok=True)
 
-    def _manifests(self) -> Iterator[Path]:
-        """The manifests; other files that somebody has put there are left alone. Raises ArchiveError."""
-        folder = self.folder / BATCHES
-        try:
-            names = os.listdir(folder)  # noqa: PTH208 - glob finds nothing where it may not look
-        except OSError as error:
-            raise ArchiveError(f"{folder.as_posix()} cannot be read: {error.strerror}") from error
-        return (folder / name for name in names if _IS_MANIFEST.fullmatch(name))
+def table_of(table: Table, rows: Iterable[tuple[object, ...]]) -> ArrowTable:
+    """Rows as a table: the number of the deck, then the values of the columns; NaN is no value."""
+    schema = schema_of(table)
+    columns = list(zip(*rows, strict=True)) or [() for _ in schema]
+    arrays = [_array(column, kind.type) for column, kind in zip(columns, schema, strict=True)]
+    return pa.Table.from_arrays(arrays, schema=schema)
 
-    def _on_disk(self) -> Iterator[Batch]:
-        for path in self._manifests():
-            with suppress(ArchiveError, OSError):
-                yield _batch(path)
+
+def _array(values: tuple[object, ...], kind: Any) -> Any:
+    try:
+        return pa.array(values, kind, from_pandas=True)
+    except UnicodeEncodeError:
+        return pa.array([escaped(one) if isinstance(one, str) else one for one in values], kind, from_pandas=True)
+
+
+def escaped(text: str) -> str:
+    """A text as UTF-8 holds it: halves of surrogate pairs, which names of files may have, are written out."""
+    return text.encode("utf-8", "backslashreplace").decode()
 
 
 def _check_name(folder: Path) -> None:
@@ -268,80 +195,5 @@ def _check_name(folder: Path) -> None:
         raise ArchiveError(f"{name}: the path of an archive must be UTF-8: rename the folder") from error
 
 
-def _damaged(path: Path, how: str) -> str:
-    return f"{path.as_posix()} {how}: mudline index reads its decks again"
-
-
-def _batch(path: Path) -> Batch:
-    """A batch of its manifest; raises ArchiveError, OSError."""
-    data = path.read_bytes()
-    if path.stem != _digest(data):
-        raise ArchiveError(_damaged(path, "is damaged"))
-    content: Any = json.loads(data)
-    if content["format"] != FORMAT:
-        raise ArchiveError(_damaged(path, f"has the format {cut(str(content['format']), 40)!r}"))
-    return Batch(
-        path.stem, {name: Stored(*row) for name, row in content["files"].items()}, frozenset(content["replaces"])
-    )
-
-
 def _file_name(table: str, data: bytes) -> str:
-    return f"{table}-{_digest(data)}.parquet"
-
-
-def _digest(data: bytes) -> str:
-    return blake2b(data, digest_size=_DIGEST).hexdigest()
-
-
-def newest(files: ArrowTable) -> ArrowTable:
-    """The row of each file that holds: the newest one."""
-    order = files.sort_by([(FILES.columns[-1].name, "ascending"), ("deck", "ascending")])
-    index = {file: at for at, file in enumerate(order.column("file").to_pylist())}
-    return order.take(pa.array(index.values(), pa.int64()))
-
-
-# -------------------------------------------------------------------------------------------------------- small batches
-
-
-def compact(archive: Archive) -> None:
-    """Make one batch of the small ones, where there are many; raises ArchiveError, OSError.
-
-    The decks get new numbers, so that two runs that do this at the same time write no row twice: the rows of files that
-    name them are written again, newer by a nanosecond.
-    """
-    import pyarrow.compute as pc  # noqa: PLC0415 - slow to import, and questions are asked without it
-
-    small = [batch for batch in archive.batches.values() if batch.bytes < SMALL]
-    if len(small) < MOST_SMALL:
-        return
-    files, given = newest(archive.read(FILES.name)), archive.read(FILES.name, small)
-    decks = archive.read(TABLES[0].name, small)
-    moving = pc.fill_null(pc.is_in(files.column("deck"), _unique(decks.column("deck"))), fill_value=False)
-    moved, others = files.filter(moving), files.filter(pc.invert(moving))
-    links = others.filter(pc.is_in(_row_names(others), _unique(_row_names(given))))
-    if len(small) == len(archive.batches):  # no other batch has an older row of a file that is gone
-        links = links.filter(pc.is_valid(links.column("deck")))
-    live = _unique(moved.column("deck"))
-    if len(live) >= MOST_DECKS:
-        return
-    at = FILES.columns[-1].name
-    newer = pc.add(moved.column(at), 1)
-    tables = {FILES.name: moved.set_column(moved.schema.get_field_index(at), moved.schema.field(at), newer)}
-    for table in TABLES:
-        rows = archive.read(table.name, small)
-        tables[table.name] = rows.filter(pc.is_in(rows.column("deck"), live))
-    archive.write(renumbered(tables), links, [batch.name for batch in small])
-
-
-def _unique(column: ArrowTable) -> ArrowTable:
-    import pyarrow.compute as pc  # noqa: PLC0415 - as above
-
-    found = pc.unique(column)
-    return found.combine_chunks() if isinstance(found, pa.ChunkedArray) else found
-
-
-def _row_names(files: ArrowTable) -> ArrowTable:
-    """What a row of files is known by: the file and the time of the row."""
-    import pyarrow.compute as pc  # noqa: PLC0415 - as above
-
-    return pc.binary_join_element_wise(files.column("file"), pc.cast(files.column("written"), pa.string()), "\n")
+    return f"{table}-{blake2b(data, digest_size=16).hexdigest()}.parquet"

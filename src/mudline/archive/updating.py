@@ -1,111 +1,123 @@
-"""Decks on their way into an archive: which of them are to be read, reading them, and batches of what was read."""
+"""Decks on their way into an archive: which of them are known, reading the others, and the tables with all of them.
+
+Rows are kept by what they were made from: a content with its form, the settings, the program, and the files that the
+deck names. A file only says whose rows are its own, so that a moved or copied deck is not read again.
+"""
 
 from __future__ import annotations
 
+import json
+import os
 import time
-import zlib
-from base64 import b64decode, b64encode
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
+from hashlib import blake2b
 from pathlib import Path
 from typing import NamedTuple
 
 import pyarrow as pa
+import pyarrow.compute as pc
 
-from mudline.archive.chunk import ArrowTable, Chunk, schema_of, together
-from mudline.archive.contents import add_deck
+from mudline.archive.contents import Rows, number_of, rows_of
 from mudline.archive.database import write_views
-from mudline.archive.known import Known, Looked, depends_on, digest_of, key_of, start_of
-from mudline.archive.store import VIEWS, Archive, compact
-from mudline.archive.tables import FILES
+from mudline.archive.store import VIEWS, Archive, escaped, table_of
+from mudline.archive.tables import FILES, TABLES
 from mudline.files import is_url, recording_looks
 from mudline.linting.engine import LintSettings
-from mudline.linting.registry import rules
+from mudline.linting.registry import plugin_files, rules
 from mudline.linting.rule import Rule
+from mudline.running.remembered import changed_since, program, state
 
 DECKS = 2000
-"""Decks of a batch at most."""
-BYTES = 64_000_000
-"""Bytes of a batch in memory from which on it is written."""
+"""Decks that have been read from which on they are written."""
 SECONDS = 20.0
 """Time after which what was read is written."""
+NEW = 2_000_000_000
+"""Nanoseconds within which a second change of a file may leave its date as it is."""
+_DIGEST = 16
+
+
+class Looked(NamedTuple):
+    """A file as it was just before it was read: its size, and its date or -1 where that is too new to trust."""
+
+    bytes: int
+    modified: int
+
+
+def looked(size: int, modified: int) -> Looked:
+    """A file of this size and date, in ns since 1970 or -1, which was looked at just now."""
+    return Looked(size, -1 if time.time_ns() - modified < NEW else modified)
+
+
+class Entry(NamedTuple):
+    """What is known of a file: the number of its rows, and the columns of `files` behind its name."""
+
+    deck: int
+    bytes: int
+    modified: int
+    digest: str
+    key: str
+    depends: str
 
 
 class Order(NamedTuple):
-    """A deck to read: its place in the archive, its path, its content with size, date and key, and how to lint it.
+    """A deck to read: its place in the archive, its path from the folder `here`, its content, and how to lint it.
 
-    It can be sent to another process: the settings are without their rules, which `codes` names; `start` is their
-    digest.
+    It can be sent to another process: the settings are without their rules, which `codes` names.
     """
 
     place: str
     path: str
+    here: str
     data: bytes
     now: Looked
-    content: str
+    digest: str
     key: str
     settings: LintSettings
     codes: tuple[str, ...]
-    start: str
-
-    def having(self, path: str, data: bytes, now: Looked) -> Order:
-        """The same with another content, which was read from this path: size, date and key are those of it."""
-        content = digest_of(data)
-        return self._replace(path=path, data=data, now=now, content=content, key=key_of(self.start, path, content))
 
 
 class Read(NamedTuple):
-    """What some decks gave: the tables that have rows, and how many decks there are."""
+    """What a deck gave."""
 
-    tables: dict[str, ArrowTable]
-    decks: int
-
-    def packed(self) -> dict[str, str]:
-        """The tables as text by their names, for JSON."""
-        return {name: _packed(table) for name, table in self.tables.items()}
-
-    @classmethod
-    def of_packed(cls, tables: dict[str, str], decks: int) -> Read:
-        """Of what `packed` gave; raises ValueError for anything else."""
-        return cls({name: _unpacked(text) for name, text in tables.items()}, decks)
+    place: str
+    entry: Entry
+    rows: Rows
 
 
-def _packed(table: ArrowTable) -> str:
-    sink = pa.BufferOutputStream()
-    with pa.ipc.new_stream(sink, table.schema) as stream:
-        stream.write_table(table)
-    return b64encode(zlib.compress(sink.getvalue(), 1)).decode("ascii")
-
-
-def _unpacked(text: str) -> ArrowTable:
-    try:
-        data = zlib.decompress(b64decode(text))
-    except zlib.error as error:
-        raise ValueError(str(error)) from error
-    with pa.ipc.open_stream(data) as stream:
-        return stream.read_all()
-
-
-def read_decks(orders: Sequence[Order]) -> Read:
-    """Read decks: what a process does with its part. Never raises for content."""
-    chunk = Chunk()
-    for one in orders:
-        began = time.time()
-        path = Path(one.path)
-        with recording_looks() as looked_at:
-            number = chunk.decks
-            folder = None if is_url(one.path) else path.parent
-            add_deck(chunk, one.data, path.name, replace(one.settings, rules=_named(one.codes)), folder)
-        file = (one.place, *one.now, one.content, one.key, depends_on(looked_at, one.path, began), 0)
-        chunk.rows[FILES.name].append((number, *file))
-    return Read(chunk.finished(), chunk.decks)
+def read_deck(order: Order) -> Read:
+    """Read a deck, in any process. Never raises for content."""
+    began = time.time()
+    path = order.path
+    if not is_url(path) and os.getcwd() != order.here:  # noqa: PTH109 - compared as text
+        path = os.path.join(order.here, path)  # noqa: PTH118 - as above
+    with recording_looks() as looked_at:
+        folder = None if is_url(path) else Path(path).parent
+        settings = replace(order.settings, rules=_named(order.codes))
+        made = rows_of(order.data, os.path.basename(path), settings, folder)  # noqa: PTH119 - a text
+    depends = _depends_on(looked_at, path, began)
+    number = number_of(f"{order.key} {depends}".encode())
+    return Read(order.place, Entry(number, *order.now, order.digest, order.key, depends), made)
 
 
 @cache
 def _named(codes: tuple[str, ...]) -> tuple[Rule, ...]:
     return tuple(rule for rule in rules() if rule.code.code in codes)
+
+
+def _depends_on(looked_at: Iterable[str], path: str, began: float) -> str:
+    """The files that rows depend on with what is in them now, from the deck's folder, as JSON; "" for none.
+
+    One that has changed since a moment has a state that never holds: what was read of it is not certain.
+    """
+    folder = os.path.dirname(os.path.abspath(path))  # noqa: PTH100, PTH120 - links stay
+    found = {}
+    for one in looked_at:
+        name = os.path.relpath(one, folder).replace(os.sep, "/")
+        found[escaped(name)] = "?" if changed_since(began, one) else state(one)
+    return json.dumps(found, sort_keys=True) if found else ""
 
 
 @dataclass
@@ -121,150 +133,195 @@ class Counts:
 
 @dataclass
 class Update:
-    """A run that brings decks into an archive. Raises ArchiveError for damaged files, OSError where it cannot write.
+    """A run that brings decks into an archive. Raises ArchiveError where it cannot be read, OSError, where written.
 
-    `check` compares contents where size and date of a file are as they were, too; `is_at_url` is that of Known.
+    `is_at_url` says whether there is something at a URL; it raises OSError where that cannot be found out.
     """
 
     archive: Archive
-    check: bool = False
     is_at_url: Callable[[str], bool] = bool
     counts: Counts = field(default_factory=Counts)
-    seen: set[str] = field(default_factory=set)
+    damage: str = ""
+    _files: dict[str, Entry] = field(default_factory=dict)
+    _by_key: dict[str, Entry] = field(default_factory=dict)
+    _seen: set[str] = field(default_factory=set)
     _arrived: Counter[str] = field(default_factory=Counter)
-    _read: list[Read] = field(default_factory=list)
-    _links: list[tuple[object, ...]] = field(default_factory=list)
+    _changes: dict[str, Entry | None] = field(default_factory=dict)
+    _rows: dict[int, Rows] = field(default_factory=dict)
     _starts: dict[int, tuple[str, LintSettings, tuple[str, ...], LintSettings]] = field(default_factory=dict)
-    _decks: int = 0
-    _bytes: int = 0
+    _places: dict[str, str] = field(default_factory=dict)
     _due: float = 0.0
-    _wrote: bool = False
 
     def __post_init__(self) -> None:
-        if self.check:
-            self.archive.verified()
-        self.known = Known(self.archive, self.is_at_url)
+        self._root = os.path.dirname(os.path.abspath(self.archive.folder))  # noqa: PTH100, PTH120 - links stay
+        self._here = os.getcwd()  # noqa: PTH109 - sent as text
+        self._state = cache(state)  # many decks may continue the same one
+        self.damage = self.archive.damage(thorough=True)
+        self._files = {} if self.damage else _entries(self.archive)
+        self._by_key = {entry.key: entry for entry in self._files.values()}
         self._due = time.monotonic() + SECONDS
 
-    def is_unchanged(self, path: str, now: Looked, settings: LintSettings) -> bool:
-        """Whether a deck is known as it is, by its size and date; counts it if so."""
-        place = self.known.place(path)
-        if self.check or not self.known.unchanged(place, path, now, self._start(settings)[0]):
-            return False
-        self.seen.add(place)
-        self.counts.unchanged += 1
-        return True
+    # ------------------------------------------------------------------------------------------------ what is known
 
-    def order(self, path: str, data: bytes, now: Looked, settings: LintSettings) -> Order | None:
-        """What is to be read of a deck with this content; None where that is known. The deck is counted."""
+    def order(self, path: str, now: Looked, read: Callable[[], bytes], settings: LintSettings) -> Order | None:
+        """What is to be read of a deck, whose content `read` gives; None where its rows are known. It is counted.
+
+        A file whose size and date are as they were is not opened. Raises OSError for one that cannot be read.
+        """
         start, plain, codes, _ = self._start(settings)
-        place = self.known.place(path)
-        if place in self.seen:
+        place = self._place(path)
+        if place in self._seen:
             return None
-        self.seen.add(place)
-        if self.known.unchanged(place, path, now, start, data):
+        entry = self._files.get(place)
+        if entry and now.modified != -1 and now == entry[1:3] and self._holds(entry, start, path, entry.digest):
+            self._seen.add(place)
             self.counts.unchanged += 1
             return None
-        content = digest_of(data)
-        key = key_of(start, path, content)
-        same = self.known.same_content(key, path)
-        if same is not None:
-            self._links.append((same.deck, place, *now, content, key, same.depends, 0))
-        if place in self.known.files:
-            self.counts.changed += 1
-        else:
-            self._arrived[key] += 1
-            self.counts.new += 1
-        return None if same is not None else Order(place, path, data, now, content, key, plain, codes, start)
-
-    def may_know(self, now: Looked) -> bool:
-        """Whether a file of this size may have a content that the archive has; else nobody needs to compare it."""
-        return now.bytes in self.known.sizes
-
-    def unread_order(self, path: str, now: Looked, settings: LintSettings) -> Order | None:
-        """As `order`, for a file with an unknown size that others read; `not_read` is called where they cannot."""
-        start, plain, codes, _ = self._start(settings)
-        place = self.known.place(path)
-        if place in self.seen:
+        data = read()
+        self._seen.add(place)
+        digest = _digest(data)
+        if entry and self._holds(entry, start, path, digest):
+            self.counts.unchanged += 1
             return None
-        self.seen.add(place)
-        if place in self.known.files:
+        key = _key(start, path, digest)
+        if entry:
             self.counts.changed += 1
         else:
             self.counts.new += 1
-        return Order(place, path, b"", now, "", "", plain, codes, start)
+            self._arrived[key] += 1
+        same = self._by_key.get(key)
+        if same is not None and self._depends_hold(same, path):
+            self._changes[place] = Entry(same.deck, *now, digest, key, same.depends)
+            return None
+        return Order(place, path, self._here, data, now, digest, key, plain, codes)
 
-    def not_read(self, order: Order) -> None:
-        """Take back the count of a deck that could not be read after all; it stays as it was."""
-        if order.place in self.known.files:
-            self.counts.changed -= 1
-        else:
-            self.counts.new -= 1
-            if order.key:
-                self._arrived[order.key] -= 1
+    def _holds(self, entry: Entry, start: str, path: str, digest: str) -> bool:
+        """Whether the rows of a file are those of this content under settings with this digest."""
+        return entry.key == _key(start, path, digest) and self._depends_hold(entry, path)
+
+    def _depends_hold(self, entry: Entry, path: str) -> bool:
+        if not entry.depends:
+            return True
+        folder = os.path.dirname(path)  # noqa: PTH120 - many files
+        found = json.loads(entry.depends)
+        return all(self._state(os.path.abspath(os.path.join(folder, name))) == was for name, was in found.items())  # noqa: PTH100, PTH118
 
     def _start(self, settings: LintSettings) -> tuple[str, LintSettings, tuple[str, ...], LintSettings]:
+        """A digest of program and settings, the settings without their rules, the codes of these, and the settings."""
         found = self._starts.get(id(settings))
         if found is None:
             codes = tuple(rule.code.code for rule in settings.rules)
-            found = (start_of(settings), replace(settings, rules=()), codes, settings)
-            self._starts[id(settings)] = found
+            severities = sorted((code, severity.value) for code, severity in settings.severities.items())
+            plugins = [(path, state(path)) for path in plugin_files()]
+            words = repr((program(), plugins, codes, severities, settings.units, settings.dialect))
+            start = _digest(words.encode("utf-8", "backslashreplace"))
+            found = self._starts[id(settings)] = (start, replace(settings, rules=()), codes, settings)
         return found
 
-    def take(self, read: Read) -> None:
-        """Take what was read; a batch is written when enough has come together."""
-        self._read.append(read)
-        self._decks += read.decks
-        self._bytes += sum(table.nbytes for table in read.tables.values())
-        if self._decks >= DECKS or self._bytes >= BYTES or time.monotonic() > self._due:
-            self.flush()
+    def _place(self, path: str) -> str:
+        """A path from the folder that holds the archive, so that both may be moved; as it is from another drive.
 
-    def flush(self) -> None:
-        """Write what has been taken and not yet written."""
-        if self._read or self._links:
-            now = self.known.latest = max(time.time_ns(), self.known.latest + 2)
-            read, self._read = self._read, []
-            self._decks = self._bytes = 0
-            links, self._links = self._links, []
-            tables = together([one.tables for one in read], [one.decks for one in read])
-            if FILES.name in tables:
-                tables[FILES.name] = _written(tables[FILES.name], now)
-            self.archive.write(tables, _written(_rows(links), now))
-            self._wrote = True
-        self._due = time.monotonic() + SECONDS
+        A URL is its own place.
+        """
+        if is_url(path):
+            return escaped(path)
+        folder, name = os.path.split(path)
+        if folder not in self._places:
+            absolute = os.path.abspath(folder)  # noqa: PTH100 - links stay what they are called
+            try:
+                found = os.path.relpath(absolute, self._root).replace(os.sep, "/")
+            except ValueError:
+                found = absolute.replace(os.sep, "/")
+            self._places[folder] = "" if found == "." else found.rstrip("/") + "/"
+        return escaped(self._places[folder] + name)
+
+    # --------------------------------------------------------------------------------------------- what has been read
+
+    def take(self, read: Read) -> None:
+        """Take what was read; it is written when enough has come together."""
+        self._changes[read.place] = read.entry
+        self._rows[read.entry.deck] = read.rows
+        if len(self._rows) >= DECKS or time.monotonic() > self._due:
+            self.save()
 
     def remove_gone(self, folders: Sequence[str], *, everywhere: bool) -> None:
         """Drop the decks that are no longer found below folders, or, `everywhere`, whose files are gone."""
-        for place in self.known.gone(folders, self.seen, everywhere=everywhere):
-            key = self.known.files[place].key
+        for place in self._gone(folders, everywhere=everywhere):
+            key = self._files[place].key
             if self._arrived[key]:
                 self._arrived[key] -= 1
                 self.counts.new -= 1
                 self.counts.moved += 1
             else:
                 self.counts.gone += 1
-            self._links.append((None, place, *[None] * 5, 0))
+            self._changes[place] = None
 
-    def finish(self) -> None:
-        """Write the rest, make small batches one, and write the views again; the archive is in order after that."""
-        self.flush()
-        if self._wrote:
-            compact(self.archive)
-        damaged = bool(self.archive.damaged)
-        self.archive.drop_damaged()
-        self.archive.tidy()
-        if self._wrote or damaged or not (self.archive.folder / VIEWS).exists():
+    def _gone(self, below: Sequence[str], *, everywhere: bool) -> Iterator[str]:
+        """The places of files that are not found any more; not those that nobody may look at."""
+        starts = tuple(self._place(f"{folder.rstrip('/') if is_url(folder) else folder}/_")[:-1] for folder in below)
+        for place in self._files:
+            if place in self._seen:
+                continue
+            elsewhere = place.startswith("../") or is_url(place)
+            inside = any(place.startswith(start) if start else not elsewhere for start in starts)
+            if not inside and not everywhere:
+                continue
+            try:
+                is_there = self._is_there(place)
+            except (OSError, ValueError):
+                continue
+            if inside or not is_there:
+                yield place
+
+    def _is_there(self, place: str) -> bool:
+        """Raises OSError for a file that may not be looked at."""
+        if is_url(place):
+            return self.is_at_url(place)
+        try:
+            os.stat(os.path.normpath(os.path.join(self._root, place)))  # noqa: PTH116, PTH118 - many files
+        except (FileNotFoundError, NotADirectoryError):
+            return False
+        return True
+
+    def save(self) -> None:
+        """Write the tables with all that has been read; what another run has written meanwhile stays."""
+        if self._changes or self.damage:
+            self.archive = Archive.made(self.archive.folder)
+            if self.archive.damage(thorough=False) or self.damage:
+                self.archive.files = {}
+            held = {place: entry for place, entry in (_entries(self.archive) | self._changes).items() if entry}
+            live = pa.array(sorted({entry.deck for entry in held.values()} - self._rows.keys()), pa.int64())
+            tables = {FILES.name: table_of(FILES, ((deck, place, *rest) for place, (deck, *rest) in held.items()))}
+            for table in TABLES:
+                before = self.archive.read(table)
+                kept = before.filter(pc.is_in(before.column(0), live))
+                new = ((deck, *row) for deck, made in self._rows.items() for row in made.get(table.name, ()))
+                tables[table.name] = pa.concat_tables([kept, table_of(table, new)]).combine_chunks()
+            self.archive.write(tables)
             write_views(self.archive)
+            self._changes, self._rows, self.damage = {}, {}, ""
+        elif not (self.archive.folder / VIEWS).exists():
+            write_views(self.archive)
+        self._due = time.monotonic() + SECONDS
 
 
-def _rows(rows: list[tuple[object, ...]]) -> ArrowTable:
-    schema = schema_of(FILES)
-    columns = list(zip(*rows, strict=True)) if rows else [() for _ in schema]
-    return pa.Table.from_arrays(
-        [pa.array(list(column), kind.type) for column, kind in zip(columns, schema, strict=True)], schema=schema
-    )
+def _entries(archive: Archive) -> dict[str, Entry]:
+    """The files of an archive by their places."""
+    rows = archive.read(FILES)
+    columns = {name: rows.column(name).to_pylist() for name in rows.schema.names}
+    places = columns.pop("file")
+    return {place: Entry(*values) for place, *values in zip(places, *columns.values(), strict=True)}
 
 
-def _written(files: ArrowTable, now: int) -> ArrowTable:
-    at = len(files.schema) - 1
-    return files.set_column(at, files.schema.field(at), pa.array([now] * files.num_rows, pa.int64()))
+def _digest(data: bytes) -> str:
+    return blake2b(data, digest_size=_DIGEST).hexdigest()
+
+
+def _key(start: str, name: str, digest: str) -> str:
+    """The key of a content in a file of this name, whose suffix gives form and units.
+
+    At a URL it is another one: files beside it are not looked for.
+    """
+    suffix = os.path.splitext(name)[1].lower()  # noqa: PTH122 - many files
+    where = " at a URL" if is_url(name) else ""
+    return _digest(f"{start} {suffix}{where} {digest}".encode("utf-8", "surrogatepass"))

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 from string import Formatter
 from tempfile import TemporaryDirectory
-from typing import NamedTuple, overload
+from typing import NamedTuple
 
 import click
 
@@ -167,13 +167,9 @@ class Order(NamedTuple):
     folder: str
     """The working folder of the command, from which paths are given."""
 
-    @overload
-    def seen(self, path: str) -> str: ...
-    @overload
-    def seen(self, path: None) -> None: ...
-    def seen(self, path: str | None) -> str | None:
+    def seen(self, path: str) -> str:
         """A path for a process that may have another working folder."""
-        if path is None or is_url(path) or os.getcwd() == self.folder:  # noqa: PTH109 - compared as text
+        if is_url(path) or os.getcwd() == self.folder:  # noqa: PTH109 - compared as text
             return path
         return os.path.join(self.folder, path)  # noqa: PTH118 - as above
 
@@ -225,7 +221,7 @@ def _evaluated(order: Order, near: Path) -> tuple[CaseSummary, list[ContactWarni
     Raises DeckError, click.ClickException, OSError.
     """
     file, given = order.case.file, order.inputs
-    positions, elements = (_local(order.seen(path), near) for path in (given.positions, given.elements))
+    positions, elements = (_local(path and order.seen(path), near) for path in (given.positions, given.elements))
     inputs = replace(given, positions=positions, elements=elements)
     deck = load_bytes(order.data, file.name, units=order.units, folder=file.seen_from(order.folder).folder)
     evaluation = inputs.evaluation(deck)

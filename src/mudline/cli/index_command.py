@@ -6,7 +6,6 @@ import os
 from collections.abc import Iterator, Sequence
 from contextlib import closing, suppress
 from importlib.util import find_spec
-from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -42,7 +41,6 @@ def lacks_libraries(command: str) -> bool:
 @options.command("index")
 @options.paths
 @click.option("-o", "--output", required=True, metavar="ARCHIVE", help="The folder of the archive; made if missing.")
-@click.option("--check", is_flag=True, help="Compare contents, of decks and of the archive, not only sizes and dates.")
 @click.option("--prune", is_flag=True, help="Also drop decks outside PATHS whose files are no longer there.")
 @options.config
 @options.isolated
@@ -54,7 +52,6 @@ def command(
     *,
     paths: tuple[str, ...],
     output: str,
-    check: bool,
     prune: bool,
     config: str | None,
     isolated: bool,
@@ -83,12 +80,12 @@ def command(
 
     folder = Path(output)
     try:
-        update = Update(Archive.made(folder), check, storage.exists)
-        for problem in update.archive.damaged.values():
-            notify(problem)
+        update = Update(Archive.made(folder), storage.exists)
+        if update.damage:
+            notify(update.damage)
         _index(inputs, settings.of, update, view, jobs, scheduler)
         update.remove_gone(_folders(paths, listed=listed), everywhere=prune)
-        update.finish()
+        update.save()
     except ArchiveError as error:
         raise click.ClickException(str(error)) from error
     except OSError as error:
@@ -122,46 +119,36 @@ def _folders(paths: Sequence[str], *, listed: bool) -> list[str]:
 def _index(
     inputs: Inputs, settings_of: SettingsOf, update: Update, view: View, jobs: int, scheduler: str | None
 ) -> None:
-    """Read the decks that are to be read; what has been read is written, also when the run is interrupted."""
-    from mudline.archive.updating import read_decks  # noqa: PLC0415 - an extra
+    """Read the decks that have changed; what has been read is written, also when the run is interrupted."""
+    from mudline.archive.updating import read_deck  # noqa: PLC0415 - an extra
 
     with Progress(len(inputs.files), view, shown=wants_bar(view)) as progress, executor(jobs, scheduler) as pool:
-        parts = ((None, part) for part in _parts(_orders(inputs, settings_of, update, progress)))
+        orders = _orders(inputs, settings_of, update, progress)
         try:
-            with closing(in_order(pool, read_decks, parts, len(inputs.files) // _DECKS)) as found:
+            with closing(in_order(pool, read_deck, orders, len(inputs.files))) as found:
                 for _, read in found:
                     if read is not None:
                         update.take(read)
+                    progress.advance()
         except BaseException:
-            update.flush()
+            update.save()
             raise
 
 
-def _orders(inputs: Inputs, settings_of: SettingsOf, update: Update, progress: Progress) -> Iterator[Order]:
-    """The decks that have changed; what cannot be read is reported, and stays in the archive as it was."""
-    from mudline.archive.known import looked  # noqa: PLC0415 - an extra
+def _orders(
+    inputs: Inputs, settings_of: SettingsOf, update: Update, progress: Progress
+) -> Iterator[tuple[None, Order | None]]:
+    """The decks, those to be read with an order; one that cannot be opened is reported, and stays as it was."""
+    from mudline.archive.updating import looked  # noqa: PLC0415 - an extra
 
     for file in inputs.files:
-        path = file.path or file.name
-        settings = settings_of(file)
         try:
             now = looked(*file.size_and_date())
-            order = None
-            if not update.is_unchanged(path, now, settings):
-                order = update.order(path, file.read(), now, settings)
+            yield None, update.order(file.path or file.name, now, file.read, settings_of(file))
         except OSError as error:
             progress.hide()
             inputs.fail(f"{file.name}: {reason(error)}")
-        else:
-            if order is not None:
-                yield order
-        progress.advance()
-
-
-def _parts(orders: Iterator[Order]) -> Iterator[list[Order]]:
-    """Decks that are read together."""
-    while part := list(islice(orders, _DECKS)):
-        yield part
+            yield None, None
 
 
 def _notify_counts(update: Update, folder: Path) -> None:

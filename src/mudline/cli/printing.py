@@ -200,36 +200,22 @@ def _fitted(widths: list[int], to_left: list[bool], available: int) -> list[int]
     return fitted
 
 
-_PERIOD = 600.0
-"""Seconds of a run from which the time that is left is estimated: a step of a study may take half a minute."""
-
-
 class Bar:
-    """A bar on one line of standard error, drawn without a thread; it leaves nothing behind.
+    """A bar on one line of standard error, drawn without a thread; it leaves nothing behind."""
 
-    A total of whole steps is shown as their number, a share of 1.0 in percent behind what is done.
-    """
-
-    def __init__(self, total: float, color: str) -> None:
+    def __init__(self, total: int, color: str) -> None:
         from rich.progress import (  # noqa: PLC0415 - large, and a bar is rare
             BarColumn,
             MofNCompleteColumn,
             Progress,
-            ProgressColumn,
-            TaskProgressColumn,
-            TextColumn,
             TimeRemainingColumn,
         )
 
         plain = color == "never" or bool(os.environ.get("NO_COLOR"))
-        count: tuple[ProgressColumn, ...] = (BarColumn(bar_width=None), MofNCompleteColumn())
-        if isinstance(total, float):
-            words = TextColumn("{task.description}", markup=False)
-            count = (words, BarColumn(bar_width=None), TaskProgressColumn())
         self._progress = Progress(
-            *count,
+            BarColumn(bar_width=None),
+            MofNCompleteColumn(),
             TimeRemainingColumn(compact=True),
-            speed_estimate_period=_PERIOD,
             console=Console(file=sys.stderr, force_interactive=True, no_color=plain),
             auto_refresh=False,
             transient=True,
@@ -239,9 +225,9 @@ class Bar:
         )
         self._task = self._progress.add_task("", total=total)
 
-    def draw(self, done: float, words: str = "") -> None:
-        """Show so many steps as done, and words on what comes next."""
-        self._progress.update(self._task, completed=done, description=words)
+    def draw(self, done: int) -> None:
+        """Show so many steps as done."""
+        self._progress.update(self._task, completed=done)
         self._progress.start()
         self._progress.refresh()
 

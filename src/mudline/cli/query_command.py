@@ -1,4 +1,4 @@
-"""`mudline query`: questions to an archive, in SQL or by name; answers as a table, CSV, JSON or Parquet."""
+"""`mudline query`: questions to an archive in SQL; answers as a table, CSV, JSON or Parquet."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import datetime as dt
 import decimal
 import json
 import math
-import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, nullcontext
@@ -21,7 +20,6 @@ from mudline.cli.index_command import lacks_libraries
 from mudline.cli.streams import counted, emit, encoded, notify, writing
 from mudline.cli.view import View
 from mudline.files import suffix_of
-from mudline.keywords.text import suggestion
 from mudline.quantities import csv_lines
 
 if TYPE_CHECKING:
@@ -33,16 +31,11 @@ MOST_ROWS = 40
 """Rows of a table on the terminal, unless more is asked for."""
 _FORMATS = ("text", "csv", "json", "parquet")
 _SAFE = 2**53
-_WHOLE = re.compile(r"[+-]?[0-9]{1,18}")
 
 
 @options.command("query")
-@click.argument("archive", required=False, metavar="ARCHIVE", shell_complete=options.complete_files)
-@click.argument("sql", required=False, metavar="[SQL]")
-@click.option(
-    "--ask", is_flag=False, flag_value="", metavar="[NAME]", help="Ask a ready question; without a name, list them."
-)
-@click.option("--param", multiple=True, metavar="NAME=VALUE", help="The value of $NAME in the SQL. Repeatable.")
+@click.argument("archive", metavar="ARCHIVE", shell_complete=options.complete_files)
+@click.argument("sql", metavar="SQL")
 @click.option("-o", "--output", metavar="OUT.csv|json|parquet", help="Write the answer to a file.")
 @options.output_format(*_FORMATS)
 @click.option(
@@ -54,10 +47,8 @@ _WHOLE = re.compile(r"[+-]?[0-9]{1,18}")
 @options.common
 def command(
     *,
-    archive: str | None,
-    sql: str | None,
-    ask: str | None,
-    param: tuple[str, ...],
+    archive: str,
+    sql: str,
     output: str | None,
     output_format: str,
     memory_limit: str,
@@ -66,17 +57,11 @@ def command(
 ) -> int:
     """Answer a question about an archive of mudline index, in SQL.
 
-    The tables are decks, keywords, sets, elements, curves, points, laws, parameters, findings and results. A question
-    reads the archive and nothing else. Needs pip install 'mudline[archive]'.
+    The tables are files, decks, keywords, sets, curves, laws, parameters and findings. A question reads the archive and
+    nothing else. Needs pip install 'mudline[archive]'.
     """
     if lacks_libraries("query"):
         return WRONG_USAGE
-    if ask == "":
-        _list_questions(view)
-        return DONE
-    if archive is None:
-        raise click.UsageError("no archive: give the folder that mudline index wrote")
-    question, values = _question(sql, ask, param)
     form = _form(output, output_format)
     from mudline.archive.database import QueryError  # noqa: PLC0415 - an extra
     from mudline.archive.store import ArchiveError  # noqa: PLC0415 - an extra
@@ -84,7 +69,7 @@ def command(
     target = None if output is None else Path(output).absolute()
     limits = (memory_limit, jobs)
     try:
-        _answer(Path(archive), question, values, limits, partial(_deliver, form=form, target=target, view=view))
+        _answer(Path(archive), sql, limits, partial(_deliver, form=form, target=target, view=view))
     except (ArchiveError, QueryError) as error:
         raise click.ClickException(str(error)) from error
     if target is not None and not view.quiet:
@@ -96,9 +81,7 @@ Deliver = Callable[["Database", Arrow], None]
 """What is done with an answer while the archive is open."""
 
 
-def _answer(
-    folder: Path, question: str, values: dict[str, object], limits: tuple[str, int], deliver: Deliver, tries: int = 3
-) -> None:
+def _answer(folder: Path, sql: str, limits: tuple[str, int], deliver: Deliver, tries: int = 3) -> None:
     """Ask and deliver the answer; raises ArchiveError, QueryError, click.ClickException.
 
     Where another run has just replaced the files, it is asked again.
@@ -107,19 +90,19 @@ def _answer(
     from mudline.archive.store import Archive  # noqa: PLC0415 - an extra
 
     archive = Archive.opened(folder)
-    if archive.damaged:
-        raise click.ClickException("\n".join(archive.damaged.values()))
+    if damage := archive.damage(thorough=False):
+        raise click.ClickException(damage)
     reader = None
     try:
         with opened(archive, *limits) as database:
-            reader = database.ask(question, values)
+            reader = database.ask(sql)
             deliver(database, reader)
     except MemoryError as error:
         raise click.ClickException("the answer needs more memory than it may use: raise --memory-limit") from error
     except MissingFileError:
         if tries <= 1 or reader is not None:
             raise
-        _answer(folder, question, values, limits, deliver, tries - 1)
+        _answer(folder, sql, limits, deliver, tries - 1)
 
 
 def _deliver(database: Database, reader: Arrow, form: str, target: Path | None, view: View) -> None:
@@ -133,56 +116,6 @@ def _deliver(database: Database, reader: Arrow, form: str, target: Path | None, 
     else:
         for piece in _pieces(database, reader, form):
             emit([piece])
-
-
-def _list_questions(view: View) -> None:
-    from mudline.archive.tables import QUESTIONS  # noqa: PLC0415 - only here and where one is asked
-
-    rows = [
-        [one.name, one.answers, ", ".join(f"{name}={value:.6g}" for name, value in one.parameters.items())]
-        for one in QUESTIONS.values()
-    ]
-    columns = ("question", "answers", "parameters")
-    view.printer().table("Ready questions", columns, rows, left=columns)
-
-
-def _question(sql: str | None, ask: str | None, param: tuple[str, ...]) -> tuple[str, dict[str, object]]:
-    """The SQL and its parameters; raises click.UsageError."""
-    given = {name: _value(text) for name, text in map(_split, param)}
-    if ask is None:
-        if sql is None or not sql.strip():
-            raise click.UsageError("no question: give SQL, or --ask NAME; --ask alone lists the ready questions")
-        return sql, given
-    if sql is not None:
-        raise click.UsageError("SQL and --ask exclude each other: give one of them")
-    from mudline.archive.tables import QUESTIONS  # noqa: PLC0415 - only here and where they are listed
-
-    question = QUESTIONS.get(ask)
-    if question is None:
-        near = suggestion(ask, QUESTIONS)
-        raise click.UsageError(f"no ready question is called {ask!r}{near}: --ask alone lists them")
-    if unknown := sorted(given.keys() - question.parameters.keys()):
-        known = ", ".join(question.parameters)
-        raise click.UsageError(f"--ask {ask} has no parameter {unknown[0]!r}: it has {known}")
-    return question.sql, {**question.parameters, **given}
-
-
-def _split(text: str) -> tuple[str, str]:
-    name, sign, value = text.partition("=")
-    if not (sign and name.strip()):
-        raise click.UsageError(f"--param {text!r}: expected NAME=VALUE")
-    return name.strip(), value
-
-
-def _value(text: str) -> object:
-    """A number where the text is one."""
-    if _WHOLE.fullmatch(text):
-        return int(text)
-    try:
-        number = float(text)
-    except ValueError:
-        return text
-    return number if math.isfinite(number) else text
 
 
 def _form(output: str | None, output_format: str) -> str:

@@ -35,8 +35,8 @@ class View:
 
         return Printer(self.color)
 
-    def bar(self, total: float) -> Bar:
-        """A bar of so many steps; of 1.0 in percent, with words."""
+    def bar(self, total: int) -> Bar:
+        """A bar of so many steps."""
         from mudline.cli.printing import Bar  # noqa: PLC0415 - as above
 
         return Bar(total, self.color)

@@ -55,7 +55,7 @@ class ContactModel:
         self._seabed: Seabed = given.seabed or FlatSeabed()
         with np.errstate(all="ignore"):  # what overflows is refused where a step comes to it
             self._tables = Tables(given)
-            self._choice = BackendChoice(backend, threads, self._tables, flat=isinstance(self._seabed, FlatSeabed))
+            self._choice = BackendChoice(backend, threads, self._tables)
             self.plan: Plan = make_plan(given, self._tables, self._choice)
             self._numpy = NumpyDriver(self._tables, self._seabed)
         self._compiled: CompiledDriver | None = None
@@ -211,9 +211,7 @@ class ContactModel:
         if self._compiled is None:
             from mudline.contact.compiled.driver import CompiledDriver  # noqa: PLC0415 - loads numba
 
-            self._compiled = CompiledDriver(
-                self._tables, self._seabed, self._choice.threads, self._choice.note_compiled
-            )
+            self._compiled = CompiledDriver(self._tables, self._seabed, self._choice.threads)
         return None if self._compiled.broken else self._compiled
 
     def _blank(self, positions: RealArray, mask: BoolArray, times: FloatArray | None) -> ContactResult:

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import os
-import platform
-import sys
 from collections.abc import Iterator
-from contextlib import suppress
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -18,9 +15,6 @@ from mudline.contact.arrays import FloatArray
 from mudline.contact.input import ContactInput, LawKind
 from mudline.contact.tables import Tables
 from mudline.short_repr import UnknownNameError, counted, outline
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,10 +206,9 @@ Backend = Literal["auto", "numpy", "fast"]
 
 MOST_PARAMETERS = 6
 """Parameters of a normal law with an equation up to which there are compiled loops for it."""
-_WORTH_LOADING = 2_000_000
-"""Nodes times steps from which on compiled loops that are in the cache save what it takes to load them."""
-_WORTH_COMPILING = 15_000_000
-"""The same where they have to be compiled first."""
+_WORTH_COMPILING, _WORTH_COMPILING_PLAIN = 5_000_000, 50_000_000
+"""Nodes times steps from which on compiled loops are worth loading, and at the first time compiling: where a law has a
+history, and where none has, which numpy does nearly as fast."""
 
 
 class BackendChoice:
@@ -226,14 +219,15 @@ class BackendChoice:
         uncovered: why there are no compiled loops for the laws; empty where there are.
     """
 
-    def __init__(self, backend: Backend, threads: int | None, tables: Tables, *, flat: bool) -> None:
+    def __init__(self, backend: Backend, threads: int | None, tables: Tables) -> None:
         if backend not in ("auto", "numpy", "fast"):
             raise ValueError(f"backend must be auto, numpy or fast, not {backend!r}")
         if backend == "fast":
             import_module("numba")
         if threads is not None and threads < 1:
             raise ValueError(f"threads must be 1 or more, not {threads}")
-        self._backend, self._tables, self._flat = backend, tables, flat
+        self._backend, self._nodes = backend, len(tables.given.node_ids)
+        self._worth = _WORTH_COMPILING if tables.history else _WORTH_COMPILING_PLAIN
         processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
         self.threads = threads or processors or 1
         rich = [rows.law for rows in (*tables.normal, *tables.nodal) if len(rows.columns) > MOST_PARAMETERS]
@@ -245,39 +239,4 @@ class BackendChoice:
             return False
         if self._backend == "fast":
             return True
-        total = steps * len(self._tables.given.node_ids)
-        if total < _WORTH_LOADING or find_spec("numba") is None:
-            return False
-        return total >= _WORTH_COMPILING or ((marker := self._marker()) is not None and marker.exists())
-
-    def note_compiled(self) -> None:
-        """Remember that the loops for these laws are in the cache of compiled code."""
-        marker = self._marker()
-        if marker is not None and not marker.exists():
-            with suppress(OSError):  # the next process decides as if nothing were compiled
-                marker.parent.mkdir(parents=True, exist_ok=True)
-                marker.touch()
-
-    def _marker(self) -> Path | None:
-        """An empty file that stands for compiled loops; its name changes with all that they depend on."""
-        # only long series ask, and most scenes do without
-        import hashlib  # noqa: PLC0415
-        from importlib import metadata  # noqa: PLC0415
-
-        from mudline.cache_folder import cache_folder  # noqa: PLC0415
-        from mudline.contact.compiled import features_of  # noqa: PLC0415
-        from mudline.contact.compiled.functions import edition  # noqa: PLC0415 - loads all laws
-
-        folder = cache_folder()
-        if folder is None:
-            return None
-        laws = tuple(rows.law for rows in (*self._tables.normal, *self._tables.nodal))
-        facts = (
-            features_of(self._tables, flat=self._flat),
-            [law.name for law in laws],
-            edition(laws),
-            metadata.version("numba"),
-            sys.version,
-            platform.machine(),
-        )
-        return folder / f"loops-{hashlib.sha256(repr(facts).encode()).hexdigest()[:24]}"
+        return steps * self._nodes >= self._worth and find_spec("numba") is not None

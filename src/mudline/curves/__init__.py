@@ -11,18 +11,11 @@ units the deck uses. With the points sorted by ratio and s_i = (F_(i+1) - F_i) /
 * r >= r_n, the last:  f = F_n + s_(n-1) (r - r_n).
 
 The force is exact at every point and nothing is clamped.
-
-Blocks of ratios are evaluated by numpy or by compiled loops. Loading numba takes about a second, so the compiled loops
-are loaded by the first query that is large enough to make more of them likely; once they are loaded, they also serve
-smaller ones.
 """
 
 from __future__ import annotations
 
-import sys
-from functools import cache
-from importlib import import_module
-from typing import Literal, NoReturn, Protocol, cast
+from typing import NoReturn
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -40,13 +33,6 @@ from mudline.curves.search import BLOCK, Knots, Search, Workspace, blocks, searc
 from mudline.short_repr import counted, cut
 
 __all__ = ["CurveError", "ForceCurve"]
-
-Backend = Literal["auto", "numpy", "fast"]
-
-_COMPILED = "mudline.curves.compiled"
-
-_WORTH_LOADING = 2**22
-_WORTH_CALLING = 2**12
 
 
 class ForceCurve:
@@ -86,22 +72,14 @@ class ForceCurve:
             object.__setattr__(self, field, value)
 
     def evaluate(
-        self,
-        ratios: ArrayLike,
-        *,
-        out: tuple[FloatArray, FloatArray] | None = None,
-        backend: Backend = "auto",
+        self, ratios: ArrayLike, *, out: tuple[FloatArray, FloatArray] | None = None
     ) -> tuple[FloatArray, FloatArray]:
         """Return force and slope (d force / d ratio) at `ratios`, each of their shape.
 
         `out=(force, slope)` receives the values in place: float64 arrays of the shape of `ratios`, which may be the
         memory of `ratios` itself; after an error their content is undefined.
 
-        `backend` is "numpy", "fast" (compiled loops; the same results bit for bit) or "auto": "fast" for large queries
-        if the extra `mudline[fast]` is installed.
-
         Raises:
-            ImportError: `backend="fast"` without the extra.
             ValueError: a ratio is NaN or infinite, or the force there overflows; or `ratios` are not real numbers, or
                 `out` does not fit.
         """
@@ -111,13 +89,13 @@ class ForceCurve:
         replaced = out is not None and any(np.may_share_memory(query, array) for array in out)
         done = 0
         with workspace() as work, np.errstate(all="ignore"), blocks(query, force, slope) as pieces:
-            law = law_for(self._knots, query.size, work, backend)
+            search = search_for(self._knots, query.size, work)
             for block, block_force, block_slope in pieces:
                 ratio = block
                 if replaced:
                     ratio = work.kept[: len(block)]
                     ratio[...] = block
-                if not law.fill(ratio, block_force, block_slope):
+                if not _fill(self._knots, search, work, ratio, block_force, block_slope):
                     bad = _recompute_overflowed(self._knots, ratio, block_force)
                     if bad.size:
                         _refuse(ratio, int(bad[0]), done)
@@ -131,10 +109,10 @@ class ForceCurve:
         each in one piece of memory.
         """
         with workspace() as work:
-            law = NumpyLaw(self._knots, search_for(self._knots, len(ratios), work), work)
+            search = search_for(self._knots, len(ratios), work)
             for start in range(0, len(ratios), BLOCK):
                 piece = slice(start, start + BLOCK)
-                if not law.fill(ratios[piece], force[piece], slope[piece]):
+                if not _fill(self._knots, search, work, ratios[piece], force[piece], slope[piece]):
                     _recompute_overflowed(self._knots, ratios[piece], force[piece])
 
     def segment(self, ratios: ArrayLike) -> IndexArray:
@@ -252,64 +230,18 @@ def _checked_out(out: tuple[FloatArray, FloatArray], shape: tuple[int, ...]) -> 
     return out
 
 
-class Law(Protocol):
-    """A way to evaluate a curve.
-
-    All ways do the same operations in the same order and round after each, so that they agree bit for bit.
-    """
-
-    def fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
-        """Write force and slope at each ratio; return whether every force is finite."""
-        ...
-
-
-class NumpyLaw:
-    """Evaluates with numpy alone."""
-
-    def __init__(self, knots: Knots, search: Search, work: Workspace) -> None:
-        self._knots = knots
-        self._search = search
-        self._work = work
-
-    def fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
-        """See `Law`."""
-        knots, work, size = self._knots, self._work, len(ratio)
-        point = self._search.passed(ratio)
-        offset = work.real[:size]
-        np.take(knots.ratios, point, out=offset, mode="clip")
-        np.subtract(ratio, offset, out=offset)
-        np.take(knots.tails, point, out=slope, mode="clip")
-        np.multiply(offset, slope, out=offset)
-        np.take(knots.forces, point, out=force, mode="clip")
-        np.add(force, offset, out=force)
-        return bool(np.isfinite(force, out=work.flag[:size]).all())
-
-
-def law_for(knots: Knots, total: int, work: Workspace, backend: Backend = "auto") -> Law:
-    """Return the way to evaluate a query of `total` ratios.
-
-    Raises:
-        ImportError: `backend` is "fast", but the extra `mudline[fast]` is not installed.
-        ValueError: `backend` is unknown.
-    """
-    if backend not in ("auto", "numpy", "fast"):
-        raise ValueError(f"backend must be auto, numpy or fast, not {backend!r}")
-    if backend == "fast" or (backend == "auto" and _pays(total)):
-        return cast("Law", import_module(_COMPILED).compiled_law(knots))
-    return NumpyLaw(knots, search_for(knots, total, work), work)
-
-
-def _pays(total: int) -> bool:
-    return total >= _WORTH_CALLING and (_COMPILED in sys.modules or (total >= _WORTH_LOADING and _loads()))
-
-
-@cache
-def _loads() -> bool:
-    try:
-        import_module(_COMPILED)
-    except ImportError:
-        return False
-    return True
+def _fill(
+    knots: Knots, search: Search, work: Workspace, ratio: FloatArray, force: FloatArray, slope: FloatArray
+) -> bool:
+    """Write force and slope at each ratio of a block; return whether every force is finite."""
+    point, offset = search.passed(ratio), work.real[: len(ratio)]
+    np.take(knots.ratios, point, out=offset, mode="clip")
+    np.subtract(ratio, offset, out=offset)
+    np.take(knots.tails, point, out=slope, mode="clip")
+    np.multiply(offset, slope, out=offset)
+    np.take(knots.forces, point, out=force, mode="clip")
+    np.add(force, offset, out=force)
+    return bool(np.isfinite(force, out=work.flag[: len(ratio)]).all())
 
 
 def _recompute_overflowed(knots: Knots, ratio: FloatArray, force: FloatArray) -> IndexArray:

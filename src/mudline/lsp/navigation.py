@@ -24,6 +24,7 @@ from mudline.lsp.decks import Analysis, Decks, failed
 from mudline.lsp.documents import Document, address_of
 from mudline.lsp.names import WORDS, Occurrence, Thing, occurrences
 from mudline.lsp.sites import Site, site
+from mudline.lsp.things import is_label
 from mudline.scene.deck_values import find_file
 from mudline.scene.references import given_names
 from mudline.scene.restart import decks_before, find_deck
@@ -136,7 +137,7 @@ class Navigator:
     def _numbered(self, found: Site) -> list[types.Location]:
         """Where the node or element is defined whose number stands in a field."""
         scene, kind = self.analysis.scene, found.slot.about.names or found.slot.about.defines
-        if scene is None or kind not in (Names.NODE, Names.ELEMENT) or not isinstance(found.value, int | float):
+        if scene is None or kind not in (Names.NODE, Names.ELEMENT) or not is_label(found.value):
             return []
         table = scene.nodes if kind is Names.NODE else scene.table.numbered
         index = int(table.indices(np.array([found.value], dtype=np.int64))[0])

@@ -9,6 +9,7 @@ from lsprotocol import types
 
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Span
+from mudline.keywords.table import LARGEST_WHOLE
 from mudline.keywords.text import shown
 from mudline.keywords.values import Equation, Names
 from mudline.lsp.decks import Analysis, value_text
@@ -182,9 +183,14 @@ def number_help(analysis: Analysis, found: Site, value: float) -> str:
     """The node or element that a number in a field stands for."""
     kind = found.slot.about.names or found.slot.about.defines
     scene = analysis.scene
-    if scene is None or kind not in (Names.NODE, Names.ELEMENT) or not float(value).is_integer():
+    if scene is None or kind not in (Names.NODE, Names.ELEMENT) or not is_label(value):
         return ""
     return "\n\n".join(_node(scene, int(value)) if kind is Names.NODE else _element(scene, int(value)))
+
+
+def is_label(value: object) -> bool:
+    """Whether a value may be the number of a node or an element."""
+    return isinstance(value, int | float) and float(value).is_integer() and abs(value) <= LARGEST_WHOLE
 
 
 def _node(scene: Scene, number: int) -> Iterator[str]:

@@ -5,7 +5,6 @@ A scheduler and its workers are Dask's own, and so are retries, heartbeats and T
 
 from __future__ import annotations
 
-import logging
 import os
 import re
 import signal
@@ -14,7 +13,6 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
-from concurrent.futures import CancelledError
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from importlib.util import find_spec
@@ -114,7 +112,8 @@ class Pool:
 
     def result(self, future: Future[_Made]) -> _Made:
         """What came back; raises RunError, and whatever the function raised."""
-        from concurrent.futures.process import BrokenProcessPool  # noqa: PLC0415 - most runs are too small for it
+        from concurrent.futures import CancelledError  # noqa: PLC0415 - most runs are too small for it
+        from concurrent.futures.process import BrokenProcessPool  # noqa: PLC0415 - as above
 
         try:
             return future.result()
@@ -299,7 +298,8 @@ def check_address(address: str) -> None:
         raise RunError("--scheduler needs dask.distributed: pip install 'mudline[cluster]'")
     if found["protocol"] == "tls" or _is_loopback(found["host"].strip("[]")):
         return
-    import dask.config  # noqa: PLC0415 - few runs have a scheduler
+
+    import dask.config  # noqa: PLC0415 - as above
     import distributed  # noqa: F401, PLC0415 - brings its defaults, in which this is null
 
     if dask.config.get("distributed.comm.require-encryption", None) is not False:
@@ -322,11 +322,14 @@ def _is_loopback(host: str) -> bool:
 @contextmanager
 def _connected(address: str) -> Iterator[Client]:
     """A client of the scheduler, which has a worker; raises RunError."""
-    import dask.config  # noqa: PLC0415 - few runs have a scheduler
+    import logging  # noqa: PLC0415 - few runs have a scheduler
+
+    import dask.config  # noqa: PLC0415 - as above
     from distributed import Client  # noqa: PLC0415 - as above
 
-    for name in ("distributed", "tornado", "asyncio"):  # what goes wrong is reported once, by the command
-        logging.getLogger(name).setLevel(logging.CRITICAL)
+    for name in ("asyncio", *logging.root.manager.loggerDict):  # what goes wrong is reported once, by the command
+        if name.partition(".")[0] in {"asyncio", "distributed", "tornado"}:
+            logging.getLogger(name).setLevel(logging.CRITICAL)
     dask.config.set({"distributed.admin.large-graph-warning-threshold": "1 TB"})  # files are sent, and may be large
     try:
         client = Client(address, timeout=CONNECTING, set_as_default=False)

@@ -13,7 +13,6 @@ from contextlib import contextmanager
 from datetime import datetime
 from typing import Any
 from urllib.parse import urlsplit
-from urllib.request import url2pathname
 
 from mudline.files import is_url
 
@@ -26,6 +25,8 @@ def as_path(given: str) -> str:
     """The path that a file:// URL stands for; anything else as it is. Raises UrlError for a URL of another machine."""
     if not given.lower().startswith("file://"):
         return given
+    from urllib.request import url2pathname  # noqa: PLC0415 - imports what speaks HTTP and TLS
+
     parts = urlsplit(given)
     if parts.netloc not in ("", "localhost"):
         raise UrlError(errno.EINVAL, "a file:// URL has three slashes, as in file:///folder/deck.keyxm", given)
@@ -58,7 +59,8 @@ def is_folder(url: str) -> bool:
 def files_below(url: str) -> list[str]:
     """The URLs of all files below a folder, sorted; raises UrlError."""
     with _opened(url) as (system, inside):
-        return sorted(str(system.unstrip_protocol(name)) for name in system.find(inside))
+        start = inside.rstrip("/")
+        return sorted(f"{url.rstrip('/')}{name.removeprefix(start)}" for name in system.find(inside))
 
 
 def size_and_date(url: str) -> tuple[int, int]:

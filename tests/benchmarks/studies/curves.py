@@ -34,7 +34,7 @@ POINTS = (3, 5, 7, 10, 15, 20, 30, 50, 75, 100, 150, 200, 300)
 def _table(entries: int, curve: ForceCurve) -> Evaluation:
     """A lookup table: the curve resampled at even distances, with straight lines between."""
     first, last = float(curve.ratios[0]), float(curve.ratios[-1])
-    forces = curve.evaluate(np.linspace(first, last, entries), backend="numpy")[0]
+    forces = curve.evaluate(np.linspace(first, last, entries))[0]
     slopes, scale = np.diff(forces), (entries - 1) / (last - first)
 
     def evaluate(query: FloatArray) -> NDArray[np.floating]:
@@ -46,8 +46,7 @@ def _table(entries: int, curve: ForceCurve) -> Evaluation:
 
 
 METHODS: dict[str, Callable[[ForceCurve], Evaluation]] = {
-    "mudline, numpy": lambda curve: lambda ratios: curve.evaluate(ratios, backend="numpy")[0],
-    "mudline, fast": lambda curve: lambda ratios: curve.evaluate(ratios, backend="fast")[0],
+    "mudline": lambda curve: lambda ratios: curve.evaluate(ratios)[0],
     "np.interp": lambda curve: lambda ratios: np.interp(ratios, curve.ratios, curve.forces),
     "scipy PPoly": lambda curve: PPoly(np.array([curve.slopes, curve.forces[:-1]]), curve.ratios),
     "scipy PCHIP": lambda curve: PchipInterpolator(curve.ratios, curve.forces),
@@ -114,7 +113,7 @@ def backbones() -> Iterator[tuple[str, str, int, float, float]]:
                 ratios = placed(points)
                 curve = ForceCurve(np.column_stack([ratios, force(ratios)]))
                 smooth = PchipInterpolator(curve.ratios, curve.forces)(queries)
-                found = (curve.evaluate(queries, backend="numpy")[0], smooth)
+                found = (curve.evaluate(queries)[0], smooth)
                 straight, rounded = (float(np.abs(forces - true).max() / true.max()) for forces in found)
                 yield name, spacing, points, straight, rounded
 

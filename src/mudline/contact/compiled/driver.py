@@ -39,7 +39,6 @@ from mudline.contact.laws import curve, friction, linear, suction, trench, unloa
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed import FlatSeabed, Seabed
 from mudline.contact.tables import Batch, ContactState, NormalRows, Tables
-from mudline.curves.compiled import compiled
 
 _BATCH = 2**20
 """Nodes times steps at a time, at most."""
@@ -79,8 +78,14 @@ for _module in (functions, vectors, curve, friction, linear, suction, trench, un
 
 @cache
 def _loop(make: Callable[..., Loop], *options: Any) -> Loop:
-    """The compiled loop for options, each made once."""
-    return compiled(make(*options), no_cfunc_wrapper=True)
+    """The loop for options, made once; compiled at the first call, or loaded from the cache."""
+    always: Any = {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
+    loop: Any = make(*options)
+    try:
+        made: Loop = numba.njit(cache=True, **always)(loop)
+    except RuntimeError:  # there is no place where numba may write
+        made = numba.njit(**always)(loop)
+    return made
 
 
 _Task = tuple[bool, int, int]
@@ -92,14 +97,10 @@ _Job = tuple[tuple[Any, ...], tuple[Any, ...]]
 class CompiledDriver:
     """Evaluates batches of steps. Holds no state of a series; may be shared by threads."""
 
-    def __init__(self, tables: Tables, seabed: Seabed, threads: int, compiled: Callable[[], None]) -> None:
-        """Prepare the tables of the loops, and the loops, which are compiled when they are first called.
-
-        `compiled` is called once they are.
-        """
+    def __init__(self, tables: Tables, seabed: Seabed, threads: int) -> None:
+        """Prepare the tables of the loops, and the loops, which are compiled when they are first called."""
         given = tables.given
-        self._tables, self._threads, self._note_compiled = tables, threads, compiled
-        self._noted = False
+        self._tables, self._threads = tables, threads
         self._pool: ThreadPoolExecutor | None = None
         self._normal = None if seabed.same_normal is None else read_only(seabed.same_normal.reshape(1, 1, 3))
         self._nodes, self._elements = len(given.node_ids), len(given.element_ids)
@@ -142,9 +143,6 @@ class CompiledDriver:
             warnings.warn(f"the laws cannot be compiled and are evaluated with numpy: {first}", RuntimeWarning, 3)
             self.broken = True
             return None
-        if not self._noted:
-            self._noted = True
-            self._note_compiled()
         return None if wrong else after
 
     def _run(self, batch: Batch, job: _Job) -> int:
