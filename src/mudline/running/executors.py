@@ -327,8 +327,9 @@ def _connected(address: str) -> Iterator[Client]:
     import dask.config  # noqa: PLC0415 - as above
     from distributed import Client  # noqa: PLC0415 - as above
 
-    for name in ("distributed", "tornado", "asyncio"):  # what goes wrong is reported once, by the command
-        logging.getLogger(name).setLevel(logging.CRITICAL)
+    for name in ("asyncio", *logging.root.manager.loggerDict):  # what goes wrong is reported once, by the command
+        if name.partition(".")[0] in {"asyncio", "distributed", "tornado"}:
+            logging.getLogger(name).setLevel(logging.CRITICAL)
     dask.config.set({"distributed.admin.large-graph-warning-threshold": "1 TB"})  # files are sent, and may be large
     try:
         client = Client(address, timeout=CONNECTING, set_as_default=False)
