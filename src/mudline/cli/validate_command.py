@@ -19,7 +19,7 @@ from mudline.cli.view import Progress, View, wants_bar
 from mudline.codes.contact import SBD006
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Diagnostic, Problem, Severity
-from mudline.linting.engine import grouped_problems, unsuppressed
+from mudline.linting.engine import joined_problems, unsuppressed
 from mudline.linting.output.json import as_object
 from mudline.linting.registry import rules, select
 from mudline.linting.rule import LintContext
@@ -161,7 +161,7 @@ def judge(data: bytes, file: Input, units: str | None, *, verbose: bool) -> tupl
     except DeckError as error:
         return Verdict(file.name, 0, 0, 0, 0, len(error.diagnostics), 0, "illegal"), list(error.diagnostics)
     context = LintContext(deck)
-    problems = grouped_problems(context, rules(), suppress=False)
+    problems = joined_problems(context, rules(), suppress=False)
     errors = deck.diagnose([one for one in problems if one.weight is Severity.ERROR])
     warnings = _warnings(context, problems, legal=not errors)
     keywords = sum(len(section.blocks) for section in deck.sections)

@@ -9,15 +9,26 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
 
+from mudline.codes.contact import SBD006
 from mudline.codes.lines import SYN004, SYN005, SYN007, SYN008, SYN009, SYN010
 from mudline.codes.references import REF007
+from mudline.deck.model import Deck, Opaque
 from mudline.deck.reading import TextOrigin
-from mudline.diagnostics import Problem, Severity, Span, Where
+from mudline.diagnostics import Blocks as Blocking
+from mudline.diagnostics import Problem, Repair, Severity, Span, Where
 from mudline.keywords import catalogue
+from mudline.keywords.values import Names
+from mudline.linting.rules.references import REF016
+from mudline.scene.references import given_names
+from mudline.scene.sets import set_key
 from mudline.syntax.edits import TextEdit
-from mudline.syntax.rows import NUMBER
-from mudline.syntax.tree import RawBlock, RawSection
+from mudline.syntax.fields import trimmed
+from mudline.syntax.tree import Kind, RawBlock, RawSection
 
+FEWEST_LETTERS = 4
+"""Letters of a name that a misspelt one is taken for: shorter ones are all alike."""
+
+_LETTERS = re.compile(r"[^A-Za-z]")
 _NAMES = (SYN004, SYN005, SYN008, SYN009, SYN010)
 
 
@@ -26,15 +37,17 @@ class Correction:
     """Edits that may correct a finding, and the part of the text that is read differently then.
 
     `message` is what the finding says where the correction holds, "" for its own message, and `place` where it is then,
-    None for its own place. New findings tell against a correction that is `guessed`.
+    None for its own place. One that is `certain` needs no trial; one that `joins` makes its lines part of the block
+    above.
     """
 
     cause: Problem
     edits: tuple[TextEdit, ...]
     region: Span
     message: str = ""
-    guessed: bool = False
     place: Span | None = None
+    certain: bool = False
+    joins: bool = False
 
 
 def start_of(text: TextOrigin, problem: Problem) -> int:
@@ -57,19 +70,29 @@ def misspelt(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction
     for problem in problems:
         if problem.code in _NAMES and problem.repair is not None:
             alike.setdefault((problem.code.code, problem.message), []).append(problem)
+    text = blocks.text
     for found in alike.values():
         problem = min(found, key=lambda one: start_of(blocks.text, one))
         repairs = [one.repair.edits for one in found if one.repair is not None]
         edits = tuple(TextEdit(span, written) for span, written in sorted(chain.from_iterable(repairs)))
         first = edits[0].span
         region = blocks.section_at(first.start) if problem.code is SYN010 else blocks.block_at(first.start)
-        yield Correction(problem, edits, region)
+        if all(_is_near(text, edit) for edit in edits):
+            yield Correction(problem, edits, region, joins=edits[0].text.startswith("C "))
+
+
+def _is_near(text: TextOrigin, edit: TextEdit) -> bool:
+    """Whether a name of four letters or more was meant, which differs in more than its digits."""
+    written = text.source.unified[slice(*edit.span)]
+    letters = _LETTERS.sub("", edit.text)
+    return len(letters) >= FEWEST_LETTERS or letters.casefold() != _LETTERS.sub("", written).casefold()
 
 
 class Blocks:
-    """The blocks of a text by their place, sorted out when somebody asks."""
+    """The blocks of a deck's text by their place, sorted out when somebody asks."""
 
-    def __init__(self, text: TextOrigin) -> None:
+    def __init__(self, deck: Deck, text: TextOrigin) -> None:
+        self.deck = deck
         self.text = text
         self.end = len(text.source.unified)
 
@@ -81,6 +104,11 @@ class Blocks:
     def blocks(self) -> list[tuple[str, RawBlock]]:
         """All of them, each with the name of its section."""
         return [(section.name, block) for section in self._sections for block in section.blocks]
+
+    @cached_property
+    def keywords(self) -> set[str]:
+        """The names of all blocks."""
+        return {block.name for _, block in self.blocks}
 
     @cached_property
     def _heads(self) -> list[int]:
@@ -103,6 +131,29 @@ class Blocks:
         at = bisect_right(self._block_starts, offset)
         block = self.blocks[at - 1][1] if at else None
         return block if block is not None and offset < whole(block).end else None
+
+    def section_name(self, offset: int) -> str:
+        """The name of the section around an offset, "" before the first."""
+        return self._sections[max(bisect_right(self._heads, offset) - 1, 0)].name
+
+    @cached_property
+    def missing_sets(self) -> list[str]:
+        """The names of sets that are used and nothing defines."""
+        blocks = self.deck.blocks("ELEMENT SETS")
+        defined = {set_key(each.name) for _, block in blocks for each in block.sets if each.name}
+        return self._missing(Names.SET, {*defined, "all"})
+
+    @cached_property
+    def missing_curves(self) -> list[str]:
+        """The names of curves that are used and nothing defines."""
+        blocks = self.deck.blocks("SEABED STIFFNESS")
+        return self._missing(
+            Names.CURVE, {set_key(each.name) for _, block in blocks for each in block.curves if each.name}
+        )
+
+    def _missing(self, what: Names, defined: set[str]) -> list[str]:
+        given = (name for _, _, name in given_names(self.deck, what))
+        return list(dict.fromkeys(name for name in given if name and set_key(name) not in defined))
 
     def section_at(self, offset: int) -> Span:
         """From the head of the section around an offset to the next one."""
@@ -131,12 +182,17 @@ def missing_sections(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Co
     if run := [(head, block.name) for head, block in zip(heads, tree.preamble.blocks, strict=True) if head in outside]:
         end = tree.sections[0].head.span.start if tree.sections and tree.sections[0].head else blocks.end
         first = outside[run[0][0]]
+        if run[0][1] in catalogue.SECTIONS:
+            star = Span(run[0][0], run[0][0] + 1)
+            message = f"*{run[0][1]} is no keyword: write ${run[0][1]}"
+            yield Correction(first, (TextEdit(star, "$"),), Span(star.start, end), message, certain=True)
+            return
         edits, words = _section_lines(run, "")
         if len(run) > 1:
             message = f"the line {words} is missing above this one: *{run[0][1]} stands before any $SECTION"
         else:
             message = ""
-        yield Correction(first, edits, Span(run[0][0], end), message)
+        yield Correction(first, edits, Span(run[0][0], end), message, certain=True)
     for section in tree.sections:
         placed = [(head_start(text, block), block.name) for block in section.blocks]
         for begin, behind in _runs(placed, elsewhere):
@@ -194,7 +250,7 @@ def _moved(
             f"*{run[0][1]} does not belong in ${section}, {nor} below it: "
             f"the line {words} seems to be missing above this one"
         )
-    return Correction(first, edits, Span(run[0][0], end), message)
+    return Correction(first, edits, Span(run[0][0], end), message, certain=True)
 
 
 def _section_lines(run: list[tuple[int, str]], current: str) -> tuple[tuple[TextEdit, ...], str]:
@@ -208,177 +264,72 @@ def _section_lines(run: list[tuple[int, str]], current: str) -> tuple[tuple[Text
     return tuple(edits), edits[0].text.strip() if edits else ""
 
 
-# --------------------------------------------------------------------------------------------------------------- values
+# --------------------------------------------------------------------------------------------------------------- copies
 
-MOST_POINTS = 64
-"""Points of a curve that are put in order."""
-
-_ROW_NUMBER = re.compile(r"[ \t]*([0-9]{1,10})[ \t]*(?=,)")
-_RIGID = re.compile(r"[ \t]*TYPE[ \t]*=[ \t]*(RIGID)[ \t\r\n]*", re.IGNORECASE)
-_USER_UNITS = (".keyx", ".keyxu")
-_OF_DENSITIES = ("UNT004", "UNT005", "UNT006")
-"""Codes of rules that compare with the density of the water."""
-_MASSES = (0.001, 1000.0)
-"""Factors between units of mass that are exchanged: kilograms and tonnes."""
+_DEFINES = {"NODE": REF007, "ELEMENT": REF007, "ELEMENT SETS": REF016}
 
 
-def value_corrections(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """Return corrections of what was read as it stands and is at odds with the rest of the deck."""
-    parts = (_numbers, _copies, _columns, _points, _law_lines, _rigid, _water)
-    return chain.from_iterable(part(blocks, problems) for part in parts)
-
-
-def _numbers(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """A number that is given twice: one of those that nothing has."""
-    text = blocks.text
-    missing = list(dict.fromkeys(one.lacks for one in problems if one.code.code in ("REF005", "REF006") and one.lacks))
-    for problem in problems if missing else ():
-        if problem.code is not REF007:
-            continue
-        line = line_at(text, start_of(text, problem))
-        found = _ROW_NUMBER.match(text.source.unified, *line)
-        for number in missing if found else ():
-            if found and number in _between(text, line):
-                message = f"number {found[1]} is given twice, and {number} is not defined: is this one {number}?"
-                yield Correction(problem, (TextEdit(Span(*found.span(1)), number),), line, message, guessed=True)
-
-
-def _between(text: TextOrigin, line: Span) -> set[str]:
-    """The numbers that a row would have if it followed the row above it, or came before the one below it."""
-    unified = text.source.unified
-    above = _ROW_NUMBER.match(unified, *line_at(text, max(line.start - 1, 0)))
-    below = _ROW_NUMBER.match(unified, *line_at(text, min(line.end + 1, len(unified))))
-    after, before = (int(row[1]) if row else None for row in (above, below))
-    return {str(each) for each in (after and after + 1, before and before - 1) if each}
-
-
-def _copies(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
+def copies(blocks: Blocks) -> Iterator[Correction]:
     """Blocks of the model that stand there once more, word for word: without the copies."""
-    text = blocks.text
-    repeats = [one for one in problems if one.code.code in ("REF007", "REF016")]
-    if not repeats:
+    model = [block for name, block in blocks.blocks if name == "MODEL"]
+    names = [block.name for block in model if block.name in _DEFINES]
+    if len(set(names)) == len(names):
         return
-    unified = text.source.unified
+    unified = blocks.text.source.unified
     known: dict[str, RawBlock] = {}
     runs: list[list[tuple[RawBlock, RawBlock]]] = [[]]
-    for name, block in blocks.blocks:
-        written = unified[slice(*whole(block))].strip() if name == "MODEL" else ""
-        if written and written in known:
+    for block in model:
+        written = unified[slice(*whole(block))].strip()
+        if written in known:
             runs[-1].append((block, known[written]))
         elif runs[-1]:
             runs.append([])
         known.setdefault(written, block)
-    for run in filter(None, runs):
-        first, last = whole(run[0][0]), whole(run[-1][0])
-        cause = next((one for one in repeats if first.start <= start_of(text, one) < last.end), None)
-        if cause is None:
-            continue
-        begin, end = (text.source.position(at)[0] for at in (first.start, last.end - 1))
-        original = text.source.position(run[0][1].head.span.start)[0]
-        message = f"lines {begin} to {end} repeat the lines from {original} on word for word: remove them"
-        edits = tuple(TextEdit(whole(block), "") for block, _ in run)
-        yield Correction(cause, edits, Span(first.start, last.end), message)
+    for run in runs:
+        defining = next((block for block, _ in run if block.name in _DEFINES and block.leaves), None)
+        if defining is not None:
+            yield _without(blocks, run, defining)
 
 
-# --------------------------------------------------------------------------------------------------------- curves
-
-
-def _columns(_: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """Curves with their columns exchanged."""
-    for problem in problems:
-        if problem.code.code == "CRV009" and problem.repair is not None:
-            edits = tuple(TextEdit(span, written) for span, written in problem.repair.edits)
-            yield Correction(problem, edits, Span(edits[0].span.start, edits[-1].span.end))
-
-
-def _points(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """Several findings about the shape of one curve: without the point of a large ratio, or with rising forces."""
+def _without(blocks: Blocks, run: list[tuple[RawBlock, RawBlock]], defining: RawBlock) -> Correction:
+    """The text without a run of copies; `defining` is the first of them that defines something."""
     text = blocks.text
-    of_curve: dict[Where, list[Problem]] = {}
-    for problem in problems:
-        where = problem.where
-        if problem.code.code.startswith("CRV") and where is not None and "points" in where.path:
-            curve = where._replace(path=where.path[: where.path.index("points")])
-            of_curve.setdefault(curve, []).append(problem)
-    for curve, found in of_curve.items():
-        far = [one for one in found if one.code.code == "CRV010"]
-        for problem in far if len(found) > 1 else ():
-            line = line_at(text, start_of(text, problem))
-            yield Correction(problem, (TextEdit(Span(line.start, line.end + 1), ""),), line)
-        falling = [one for one in found if one.code.code == "CRV005"]
-        if not far and len(falling) == 1 < len(found) and (edits := _rising(text, curve)):
-            region = Span(edits[0].span.start, edits[-1].span.end)
-            yield Correction(falling[0], edits, region, guessed=True)
+    first, last = whole(run[0][0]), whole(run[-1][0])
+    begin, end = (text.source.position(at)[0] for at in (first.start, last.end - 1))
+    original = run[0][1].head.span.start
+    message = f"lines {begin} to {end} repeat the lines from {text.source.position(original)[0]} on word for word"
+    severity = None if blocks.section_at(original) == blocks.section_at(first.start) else Severity.WARNING
+    code = _DEFINES[defining.name]
+    rows = next((leaf for leaf in defining.leaves if leaf.kind not in (Kind.COMMENT, Kind.BLANK)), defining.leaves[0])
+    place = trimmed(text.source.unified, *line_at(text, rows.span.start))
+    cause = Problem(code, f"{message}: remove them", place, severity, blocks=Blocking.NEVER)
+    edits = tuple(TextEdit(whole(block), "") for block, _ in run)
+    return Correction(cause, edits, Span(first.start, last.end), certain=True)
 
 
-def _rising(text: TextOrigin, curve: Where) -> tuple[TextEdit, ...]:
-    """The points of a curve in their order, with its forces in rising order."""
-    rows: list[tuple[Span, list[float]]] = []
-    for number in range(MOST_POINTS + 1):
-        span = text.span(curve.inside("points", number))
-        if span is None or (rows and span.start <= rows[-1][0].start):
-            break
-        values = NUMBER.findall(text.source.unified[slice(*span)])
-        if len(values) != 2:
-            return ()
-        rows.append((span, [float(value.upper().replace("D", "E")) for value in values]))
-    if not 1 < len(rows) <= MOST_POINTS:
-        return ()
-    forces = sorted(force for _, (_, force) in rows)
-    ratios = sorted(ratio for _, (ratio, _) in rows)
-    return tuple(
-        TextEdit(span, f"{ratio!r}, {force!r}") for (span, _), ratio, force in zip(rows, ratios, forces, strict=True)
-    )
+# ----------------------------------------------------------------------------------------------------------------- laws
+
+_LAW = re.compile(r"^[ \t]*TYPE[ \t]*=[ \t]*(?:ELASTIC|RIGID)[ \t]*$", re.IGNORECASE | re.MULTILINE)
 
 
-# ----------------------------------------------------------------------------------------------------------- laws
-
-
-def _law_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """Lines of *SEABED PROPERTIES under another keyword: its line above them."""
+def stray_laws(blocks: Blocks) -> Iterator[Correction]:
+    """Lines of *SEABED PROPERTIES in blocks that are passed through: its keyword line above them."""
     text = blocks.text
-    for problem in problems:
-        if problem.code.code == "SBD006" and problem.repair is not None:
-            edits = tuple(TextEdit(span, written) for span, written in problem.repair.edits)
-            yield Correction(problem, edits, line_at(text, edits[0].span.start))
-
-
-def _rigid(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """A rigid seabed under extensions that need an elastic one: an elastic one."""
-    text = blocks.text
-    cause = next((one for one in problems if one.code.code == "EXT001"), None)
-    if cause is None:
-        return
-    edits: list[TextEdit] = []
-    for _, block in blocks.blocks:
-        if block.name == "SEABED PROPERTIES":
-            found = (_RIGID.fullmatch(text.source.unified, *leaf.span) for leaf in block.leaves)
-            edits += [TextEdit(Span(*one.span(1)), "ELASTIC") for one in found if one]
-    if edits:
-        yield Correction(cause, tuple(edits), line_at(text, start_of(text, cause)), place=edits[0].span)
-
-
-# ---------------------------------------------------------------------------------------------------------- units
-
-
-def _water(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """In user units, values that do not fit the density of the water: that density in the other unit of mass."""
-    text = blocks.text
-    wrong = [one for one in problems if one.code.code.startswith("UNT")]
-    cause = next((one for one in wrong if one.code.code in _OF_DENSITIES), None)
-    if cause is None or len(wrong) < 2 or not text.source.name.lower().endswith(_USER_UNITS):
-        return
-    ocean = next((block for name, block in blocks.blocks if (name, block.name) == ("MODEL", "OCEAN")), None)
-    values = list(NUMBER.finditer(text.source.unified, *whole(ocean))) if ocean else []
-    if len(values) != 3:
-        return
-    density = values[1]
-    place = Span(*density.span())
-    for factor in _MASSES:
-        other = f"{float(density[0]) * factor:.6g}"
-        message = (
-            f"the density {density[0]} of the water does not fit the rest of the deck, in which {other} would: "
-            "write it in the deck's unit of mass"
-        )
-        edits = (TextEdit(place, other),)
-        yield Correction(cause, edits, line_at(text, place.start), message, guessed=True, place=place)
+    for number, section in enumerate(blocks.deck.sections):
+        for index, block in enumerate(section.blocks):
+            if type(block) is not Opaque or section.name not in (catalogue.sections_of(block.keyword) or ()):
+                continue
+            if not any(map(_LAW.match, block.lines)):
+                continue
+            found = _LAW.search(text.source.unified, text.heads[Where(number, index)].end)
+            if found:
+                message = (
+                    f"*{block.keyword} has no such line: begin *SEABED PROPERTIES above it, else no seabed law applies"
+                )
+                place = Span(found.start(), found.start())
+                repair = Repair(
+                    "unsafe", "begin *SEABED PROPERTIES above this line", ((place, "*SEABED PROPERTIES\n"),)
+                )
+                cause = Problem(SBD006, message, Span(*found.span()), repair=repair)
+                edit = TextEdit(place, "*SEABED PROPERTIES\n")
+                yield Correction(cause, (edit,), blocks.block_at(place.start), certain=True)

@@ -7,9 +7,10 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import lru_cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from mudline.deck.loading import load_bytes
-from mudline.deck.model import BaseProblem, Deck
+from mudline.deck.model import BaseProblem, Deck, Opaque
 from mudline.deck.reading import units_of
 from mudline.diagnostics import Blocks, DeckError, Diagnostic, Problem, Severity
 from mudline.keywords.model import Block
@@ -17,6 +18,9 @@ from mudline.keywords.reader import ReadBlock, read_block, read_piece
 from mudline.linting.rule import LintContext, Noticed, Rule
 from mudline.linting.suppression import suppressions
 from mudline.syntax.tree import RawBlock
+
+if TYPE_CHECKING:
+    from mudline.linting.recovery import Recovered
 
 
 class Fixing(StrEnum):
@@ -51,50 +55,70 @@ class LintSettings:
 def lint_context(context: LintContext, chosen: Sequence[Rule]) -> list[Diagnostic]:
     """All findings of the chosen rules in a deck, in the order of the file, without those that comments suppress.
 
-    Those that follow from another finding are under it.
+    Those that say no more than another one are under it.
     """
-    return context.deck.diagnose(grouped_problems(context, chosen))
+    return context.deck.diagnose(joined_problems(context, chosen))
 
 
-def grouped_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: bool = True) -> list[Problem]:
-    """What the chosen rules find in a deck, with what follows from a finding under it (`Problem.following`).
+def joined_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: bool = True) -> list[Problem]:
+    """What the chosen rules find in a deck as it was meant: what only follows from a fault is not among it.
 
-    `suppress` False keeps what comments of the deck suppress.
+    What says no more than another finding is under that (`Problem.following`). `suppress` False keeps what comments of
+    the deck suppress.
     """
-
-    def found_in(looked_at: LintContext) -> list[Problem]:
-        found = problems_in(looked_at, chosen)
-        return unsuppressed(looked_at, found, chosen) if suppress else found
-
-    def check(data: bytes) -> tuple[LintContext, list[Problem]]:
-        deck = context.deck
-        units = None if units_of(deck) == deck.units else deck.units
-        read = read_deck(data, deck.file, units=units, folder=deck.folder)
-        corrected = LintContext(read, dialect=context.dialect)
-        return corrected, found_in(corrected)
-
-    found = found_in(context)
-    if not found:
+    meant = _meant(context, chosen, suppress=suppress)
+    if meant is None:
+        found = problems_in(context, chosen)
+    else:
+        checked = problems_in(LintContext(meant.deck, dialect=context.dialect), chosen)
+        found = [*meant.causes, *map(meant.as_written, checked)]
+    found = unsuppressed(context, found, chosen) if suppress and found else found
+    if not found or context.text is None:
         return found
-    from mudline.linting.causes import under_causes  # noqa: PLC0415 - most decks are without a finding
+    from mudline.linting.joining import joined_findings  # noqa: PLC0415 - most decks are without a finding
 
-    return under_causes(context, found, check)
+    return joined_findings(context.text, found)
+
+
+def _meant(context: LintContext, chosen: Sequence[Rule], *, suppress: bool) -> Recovered | None:
+    """The deck as it was meant; None where it is so, or was made by a program."""
+    deck = context.deck
+    if context.text is None or not may_recover(deck):
+        return None
+    codes = {rule.code.code for rule in chosen}
+    told = [one for one in deck.problems if one.code.code in codes]
+    hiding = context.once(suppressions) if suppress else None
+    told = hiding.split(told, ())[0] if hiding else told
+    units = None if units_of(deck) == deck.units else deck.units
+
+    def reread(data: bytes) -> Deck:
+        return read_deck(data, deck.file, units=units, folder=deck.folder)
+
+    from mudline.linting.recovery import recovered  # noqa: PLC0415 - most decks do without
+
+    return recovered(deck, told, codes, reread, _read_once)
+
+
+def may_recover(deck: Deck) -> bool:
+    """Whether something in a deck was not read, is passed through, or may stand there twice."""
+    if deck.problems:
+        return True
+    model = [block for section in deck.sections if section.name == "MODEL" for block in section.blocks]
+    names = [block.keyword for block in model]
+    opaque = any(type(block) is Opaque for block in model)
+    return opaque or "ELEMENT" not in names or any(names.count(each) > 1 for each in ("NODE", "ELEMENT"))
 
 
 def named_causes(deck: Deck, refused: Sequence[Diagnostic], chosen: Sequence[Rule]) -> list[Diagnostic]:
-    """The findings for which a deck was refused, with the cause in the place of those that follow from it."""
-    waiting = {_place(one): one for one in refused}
-    named: list[Diagnostic] = []
-    for found in deck.diagnose(grouped_problems(LintContext(deck), chosen, suppress=False)):
-        if found.following and any(_place(one) in waiting for one in (found, *found.following)):
-            named.append(found)
-            for one in (found, *found.following):
-                waiting.pop(_place(one), None)
-    return sorted([*named, *waiting.values()], key=lambda one: one.sort_key)
-
-
-def _place(found: Diagnostic) -> tuple[str, str, int, int]:
-    return found.file, found.code, found.line, found.column
+    """The reasons for which a deck was refused, with the cause in the place of what follows from it."""
+    context = LintContext(deck)
+    found = joined_problems(context, chosen, suppress=False)
+    meant = _meant(context, chosen, suppress=False)
+    causes = {one.code for one in meant.causes} if meant else set()
+    codes = {one.code for one in refused}
+    told = [one for one in found if one.blocking is not Blocks.NEVER or one.code in causes]
+    told = [one for one in told if one.blocking is not Blocks.WITH_TENSION or one.code.code in codes]
+    return deck.diagnose(told) or list(refused)
 
 
 def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:

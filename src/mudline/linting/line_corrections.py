@@ -3,24 +3,22 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
-from itertools import chain, islice
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import chain
 
 from mudline.codes.fields import SYN002, SYN003
 from mudline.codes.lines import SYN001, SYN004, SYN011, SYN013, SYN014
-from mudline.codes.references import REF007, REF009
+from mudline.codes.references import REF007
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Problem, Severity, Span
 from mudline.keywords import catalogue
 from mudline.keywords.reader import all_keys, read_block
 from mudline.linting.corrections import Blocks, Correction, line_at, start_of, whole
 from mudline.syntax.edits import TextEdit
+from mudline.syntax.fields import first_key
 from mudline.syntax.rows import NUMBER
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, RawBlock, parse
-
-MOST_KEYWORDS = 4
-"""Keywords that are tried for the lines of a block."""
 
 MOST_SETTINGS = 8
 """Settings of a block that may be the values of one row."""
@@ -28,9 +26,14 @@ MOST_SETTINGS = 8
 LONGEST_PIECE = 600
 """Characters of a block that are read to see which keyword its lines belong to."""
 
-_OF_FOREIGN_LINES = (SYN001, SYN002, SYN003, SYN004, REF007, REF009)
+_OF_FOREIGN_LINES = (SYN001, SYN002, SYN003, SYN004)
 """What the lines of another keyword give in a block."""
+_EACH_OTHER = {"NODE": "ELEMENT", "ELEMENT": "NODE"}
+"""Keywords of rows of numbers, and the one that a deck with it has besides."""
+_ROW_NUMBER = re.compile(r"[ \t]*([0-9]{1,10})[ \t]*(?=,)")
 _MISREAD = str.maketrans({"O": "0", "o": "0", "l": "1", "I": "1"})
+_GAP = re.compile(r"(?<=[0-9.])(?:[ \t]+|[ \t]*;[ \t]*)(?=[-+.0-9])")
+_UNIT = re.compile(r"[ \t]*[A-Za-z%]")
 _CURVE_NAMES = {"EMBEDMENT": "SET", "SEABED STIFFNESS": "CURVE"}
 """Keywords of points, and the setting that names the curve."""
 _VALUES = {"RIGID": range(5, 9), "MOORING": range(3, 4)}
@@ -42,9 +45,12 @@ _LACKS_NAME = re.compile(r"expected (CURVE|SET)= before this line|(SET|CURVE)= h
 def line_corrections(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Return corrections of lines that cannot be read as they stand."""
     if not any(one.code in (*_OF_FOREIGN_LINES, SYN011, SYN013, SYN014) for one in problems):
-        return iter(())
-    parts = (_stars, _tables, _keyword_lines, _first_keyword, _options, _names, _settings, _cut_off, _rows)
-    return chain.from_iterable(part(blocks, problems) for part in parts)
+        return _elements_among_nodes(blocks)
+    parts = (_stars, _tables, _first_keyword, _options, _names, _settings, _cut_off, _rows)
+    found = [one for part in parts for one in part(blocks, problems)]
+    explained = {id(one.cause) for one in found}
+    others = [one for one in problems if one.repair is None and id(one) not in explained]
+    return chain(found, _keyword_lines(blocks, others), _elements_among_nodes(blocks))
 
 
 # ------------------------------------------------------------------------------------------- *KEYWORD lines
@@ -81,18 +87,18 @@ def _keyword_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Corr
             end = (block.leaves or [block.head])[-1].span.end
             inside = [(at, number) for at, number in wanted if block.head.span.end <= at < end]
             if inside and any(problems[number].weight is Severity.ERROR for _, number in inside):
-                yield from _missing_line(text, section.name, block, problems[inside[0][1]], inside[0][0])
+                yield from _missing_line(blocks, section.name, block, problems[inside[0][1]], inside[0][0])
 
 
-def _missing_line(text: TextOrigin, section: str, block: RawBlock, cause: Problem, at: int) -> Iterator[Correction]:
+def _missing_line(blocks: Blocks, section: str, block: RawBlock, cause: Problem, at: int) -> Iterator[Correction]:
+    text = blocks.text
     unified = text.source.unified
     end = block.leaves[-1].span.end
     line = unified.rfind("\n", 0, at) + 1
     settings = [leaf.span.start for leaf in block.leaves if leaf.kind is Kind.SETTING and leaf.span.start < line]
     first = next((leaf.span.start for leaf in block.leaves if leaf.kind not in (Kind.COMMENT, Kind.BLANK)), end)
     for place in (at for at in (line, *settings[-1:]) if at > first):  # the block has lines of its own before it
-        read = _reads_as(text, section, block.name, unified[place:end])
-        for keyword in islice(read, MOST_KEYWORDS):
+        for keyword in _reads_as(blocks, section, block.name, unified[place:end]):
             number = text.source.position(place)[0] if place < line else None
             yield _keyword_line(keyword, cause, Span(place, end), number)
 
@@ -102,7 +108,7 @@ def _keyword_line(keyword: str, cause: Problem, lines: Span, number: int | None 
     which = "this line and those below it" if number is None else f"the lines from line {number} on"
     message = f"{which} read as *{keyword}: that line seems to be missing above them"
     edit = TextEdit(Span(lines.start, lines.start), f"*{keyword}\n")
-    return Correction(cause, (edit,), lines, message, guessed=True)
+    return Correction(cause, (edit,), lines, message)
 
 
 def _first_keyword(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
@@ -115,29 +121,58 @@ def _first_keyword(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Corr
         if cause is None:
             continue
         place, end = lines[0].span.start, section.leaves[-1].span.end
-        for keyword in islice(_reads_as(text, section.name, "", text.source.unified[place:end]), MOST_KEYWORDS):
+        for keyword in _reads_as(blocks, section.name, "", text.source.unified[place:end]):
             yield _keyword_line(keyword, cause, Span(place, end))
 
 
-def _reads_as(text: TextOrigin, section: str, own: str, lines: str) -> Iterator[str]:
-    """The keywords of a section that take some lines as they stand.
+def _elements_among_nodes(blocks: Blocks) -> Iterator[Correction]:
+    """Rows of *NODE that begin its numbers again, where the deck lacks *ELEMENT and they read as that."""
+    text = blocks.text
+    model = [block for name, block in blocks.blocks if name == "MODEL"]
+    if "ELEMENT" in {block.name for block in model}:
+        return
+    for block in (block for block in model if block.name == "NODE" and block.leaves):
+        given: set[str] = set()
+        end = block.leaves[-1].span.end
+        for line in _lines(text, block):
+            number = _ROW_NUMBER.match(text.source.unified, *line)
+            if number and number[1] in given:
+                if "ELEMENT" in _reads_as(blocks, "MODEL", "NODE", text.source.unified[line.start : end]):
+                    cause = Problem(REF007, f"node {number[1]} is defined twice", Span(*number.span(1)))
+                    yield _keyword_line("ELEMENT", cause, Span(line.start, end))
+                break
+            given.update(number.groups() if number else ())
 
-    Numbers alone fit several keywords: they are those of one that the deck lacks.
+
+def _reads_as(blocks: Blocks, section: str, own: str, lines: str) -> list[str]:
+    """The keywords of a section that take some lines as they stand, first those that define what the deck lacks.
+
+    Numbers alone fit several keywords: they are nodes or elements, where the deck has only the other of the two.
     """
-    given = {block.name for each in text.tree.sections for block in each.blocks}
+    given = blocks.keywords
     piece = lines if len(lines) <= LONGEST_PIECE else lines[: lines.rfind("\n", 0, LONGEST_PIECE) + 1]
-    first = piece.split("\n", 1)[0].strip(" \t*").upper()
-    for keyword in catalogue.read_keywords():
-        declared = catalogue.block_class(section, keyword)
-        if declared is None or keyword in (own, first):
+    text = f"${section}\n*{own or 'NODE'}\n{piece}"
+    leaves = parse(Source("", text, clean=True)).sections[0].blocks[0].leaves
+    first = next((leaf for leaf in leaves if leaf.kind not in (Kind.COMMENT, Kind.BLANK)), None)
+    if first is None:
+        return []
+    if first.kind in (Kind.SETTING, Kind.UNDECIDED):
+        key = first_key(text, first.span)
+        candidates: Iterable[str] = catalogue.read_keywords()
+    else:
+        key = ""
+        candidates = [each for each, other in _EACH_OTHER.items() if each not in given and other in given]
+    lacked = {"ELEMENT SETS": bool(blocks.missing_sets), "SEABED STIFFNESS": bool(blocks.missing_curves)}
+    found: list[str] = []
+    for keyword in candidates:
+        declared = catalogue.block_class(section, keyword) if keyword != own else None
+        if declared is None or (key and key not in all_keys(declared)):
             continue
-        source = Source.from_bytes(f"${section}\n*{keyword}\n{piece}".encode(errors="replace"), "")
-        raw = parse(source).sections[0].blocks[0]
-        if keyword in given and not any(leaf.kind is Kind.SETTING for leaf in raw.leaves):
-            continue
-        read = read_block(source.unified, raw, declared, last=False)
+        source = f"${section}\n*{keyword}\n{piece}"
+        read = read_block(source, parse(Source("", source, clean=True)).sections[0].blocks[0], declared, last=False)
         if not read.lost and not any(one.weight is Severity.ERROR for one in read.problems):
-            yield keyword
+            found.append(keyword)
+    return sorted(found, key=lambda keyword: (not lacked.get(keyword), keyword in given))
 
 
 # ------------------------------------------------------------------------------------------- names and rows
@@ -181,7 +216,7 @@ def _lines(text: TextOrigin, block: RawBlock) -> Iterator[Span]:
 def _names(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """A setting without its name, or points in front of it: the names that nothing defines."""
     text = blocks.text
-    missing = {"SET": _undefined(problems, "REF001"), "CURVE": _undefined(problems, "REF002")}
+    missing = {"SET": [*blocks.missing_sets], "CURVE": [*blocks.missing_curves]}
     for problem in problems:
         found = _LACKS_NAME.match(problem.message) if problem.code in (SYN001, SYN003) else None
         if found is None or problem.span is None:
@@ -189,11 +224,12 @@ def _names(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
         key = found[1] or found[2]
         if found[1] and (moved := _name_below(text, blocks.raw_at(problem.span.start), problem, key)):
             yield moved
-        for name in missing[key]:
+        if missing[key]:
+            name = missing[key].pop(0)
             at, written = problem.span.end, name
             if found[1]:
                 at, written = line_at(text, problem.span.start).start, f" {key}={name}\n"
-            yield Correction(problem, (TextEdit(Span(at, at), written),), blocks.block_at(at))
+            yield Correction(problem, (TextEdit(Span(at, at), written),), line_at(text, problem.span.start))
 
 
 def _name_below(text: TextOrigin, block: RawBlock | None, problem: Problem, key: str) -> Correction | None:
@@ -209,7 +245,7 @@ def _name_below(text: TextOrigin, block: RawBlock | None, problem: Problem, key:
         begin = line_at(text, at).start
         message = f"{written.strip()} in line {text.source.position(line.start)[0]} stands below its points: move it up"
         edits = TextEdit(Span(begin, begin), f"{written}\n"), TextEdit(Span(line.start, line.end + 1), "")
-        return Correction(problem, edits, Span(begin, line.end), message, guessed=True)
+        return Correction(problem, edits, Span(begin, line.end), message)
     return None
 
 
@@ -232,7 +268,7 @@ def _options(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction
             edit = TextEdit(Span(line.start, line.start), f" OPTION={option}\n")
             number = text.source.position(line.start)[0]
             message = f"{count} values are not FLEXIBLE's: OPTION={option} seems to be missing above line {number}"
-            yield Correction(problem, (edit,), Span(line.start, whole(block).end), message, guessed=True)
+            yield Correction(problem, (edit,), Span(line.start, whole(block).end), message)
 
 
 def _settings(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
@@ -272,25 +308,20 @@ def _as_row(text: TextOrigin, block: RawBlock) -> str:
 def _cut_off(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """A file that ends behind *SEABED STIFFNESS: the curves that nothing defines."""
     text = blocks.text
-    missing = _undefined(problems, "REF002")
+    missing = blocks.missing_curves
     for problem in problems if missing else ():
         at = start_of(text, problem)
         block = blocks.raw_at(at) if problem.code is SYN014 else None
-        if block is not None and block.name == "SEABED STIFFNESS":
+        if block is not None and block.name == "SEABED STIFFNESS" and not block.leaves:
             end = len(text.source.unified)
             curves = "".join(f"\n CURVE={name}\n 0.0, 0.0\n 1.0, 100000.0" for name in missing)
-            yield Correction(problem, (TextEdit(Span(end, end), f"{curves}\n"),), whole(block))
-
-
-def _undefined(problems: Sequence[Problem], code: str) -> list[str]:
-    """The names that findings of a code say are not defined."""
-    return list(dict.fromkeys(one.lacks for one in problems if one.lacks and one.code.code == code))
+            edit = TextEdit(Span(end, end), f"{curves}\n")
+            yield Correction(problem, (edit,), whole(block), certain=True)
 
 
 def _rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Numbers and rows with a typing error: what they were to be, as far as that can be seen."""
     text = blocks.text
-    missing = [*_undefined(problems, "REF005"), *_undefined(problems, "REF006")]
     for problem in problems:
         make: Callable[[str], list[str]]
         span = problem.span
@@ -304,22 +335,21 @@ def _rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
         else:
             continue
         written = text.source.unified[slice(*span)]
-        alone = len(missing) == 1 and problem.code is SYN002
-        for other in dict.fromkeys([*make(written), *(missing if alone else ())]):
+        for other in make(written):
             if other != written:
-                yield Correction(problem, (TextEdit(span, other),), line_at(text, span.start))
+                certain = problem.code is SYN002
+                yield Correction(problem, (TextEdit(span, other),), line_at(text, span.start), certain=certain)
 
 
 def _numbers(written: str) -> list[str]:
     """The numbers that a word with a wrong letter may be."""
     translated = written.translate(_MISREAD)
     found = [translated] if NUMBER.fullmatch(translated) else []
-    if begun := NUMBER.match(written):
+    if (begun := NUMBER.match(written)) and _UNIT.match(written, begun.end()):
         found.append(begun[0])
     return found
 
 
 def _row(written: str) -> list[str]:
-    """The numbers of a line, with commas between them."""
-    found = NUMBER.findall(written)
-    return [f" {', '.join(found)}"] if len(found) > 1 else []
+    """The numbers of a line, with commas where blanks or semicolons part them."""
+    return [_GAP.sub(", ", written)]

@@ -1,0 +1,200 @@
+"""The deck as it was meant, for findings alone: faults of reading are recovered from, and all checks see the outcome.
+
+A fault of reading has corrections; one is taken if the block around it then reads better, which reading the lines of
+that block tells. The deck with all of them is read, resolved and checked in the place of the one as written, once, and
+what is found in it is told at the lines that it has in the file.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import chain
+
+from mudline.codes.fields import SYN002
+from mudline.codes.lines import SYN007, SYN008, SYN010
+from mudline.deck.model import Deck
+from mudline.deck.reading import TextOrigin, read_source
+from mudline.diagnostics import Problem, Severity, Span
+from mudline.keywords.reader import BlockReader
+from mudline.linting.corrections import (
+    Blocks,
+    Correction,
+    copies,
+    line_at,
+    missing_sections,
+    misspelt,
+    stray_laws,
+)
+from mudline.linting.line_corrections import line_corrections
+from mudline.syntax.edits import OverlapError, TextEdit, apply_edits, edited_bytes, with_line_ends
+from mudline.syntax.source import Source
+
+MOST_ROUNDS = 4
+"""Times that the corrected lines are looked through for faults that the ones before them hid."""
+
+MOST_TRIALS = 200
+"""Corrections of a deck that are tried: a file of another kind would have as many as it has lines."""
+
+LONGEST_LINE, LONGEST_TRIED = 4096, 50_000
+"""Characters of a line that is corrected, and of a block that is read again to see whether it is better."""
+
+_OF_SECTIONS = (SYN007, SYN010)
+"""Faults whose correction says where blocks belong, and not how they read."""
+
+
+@dataclass
+class Recovered:
+    """A deck with its faults corrected, and the finding of each in terms of the file; `steps` lead back to that."""
+
+    deck: Deck
+    causes: list[Problem] = field(default_factory=list)
+    steps: list[tuple[TextOrigin, list[TextEdit]]] = field(default_factory=list)
+
+    def as_written(self, problem: Problem) -> Problem:
+        """A problem of the recovered deck at its place in the file; a repair that a correction touches is left out."""
+        origin = self.deck.origin
+        span = problem.span
+        if span is None and problem.where is not None and isinstance(origin, TextOrigin):
+            span = origin.span(problem.where)
+        repair = problem.repair
+        for _, edits in reversed(self.steps):
+            span = span and _before(span, edits)
+            if repair is not None and any(_touches(place, edits) for place, _ in repair.edits):
+                repair = None
+            if repair is not None:
+                repair = replace(repair, edits=tuple((_before(place, edits), text) for place, text in repair.edits))
+        return replace(problem, span=span, where=problem.where if span else None, repair=repair)
+
+
+def recovered(
+    deck: Deck, told: Sequence[Problem], codes: Collection[str], reread: Callable[[bytes], Deck], read: BlockReader
+) -> Recovered | None:
+    """Return the deck as it was meant; None for one that was meant as it is written.
+
+    `told` are those of the faults of reading that are reported: others are not recovered from, as nobody would learn
+    why. `codes` are those that are reported at all, `reread` reads a text, and `read` a block of it.
+    """
+    found = Recovered(deck)
+    trials = MOST_TRIALS
+    while len(found.steps) < MOST_ROUNDS and isinstance(text := found.deck.origin, TextOrigin):
+        blocks = Blocks(found.deck, text)
+        round_ = _Round(blocks, read, codes, trials)
+        taken = round_.taken(told)
+        trials = round_.trials
+        edits = with_line_ends(text.source, chain.from_iterable(one.edits for one in taken))
+        try:
+            next_deck = reread(edited_bytes(text.source, edits)) if edits else None
+        except (OverlapError, UnicodeEncodeError):  # of a character that the encoding lacks
+            next_deck = None
+        if next_deck is None:
+            break
+        found.causes += [found.as_written(_cause(one)) for one in taken]
+        found.steps.append((text, edits))
+        found.deck = next_deck
+        told = [one for one in next_deck.problems if one.code.code in codes]
+    return found if found.steps else None
+
+
+def _cause(correction: Correction) -> Problem:
+    cause = correction.cause
+    return replace(cause, message=correction.message or cause.message, span=correction.place or cause.span)
+
+
+class _Round:
+    """The corrections of a text that are taken, of which no two are in the same lines."""
+
+    def __init__(self, blocks: Blocks, read: BlockReader, codes: Collection[str], trials: int) -> None:
+        self.blocks = blocks
+        self.text = blocks.text
+        self.read = read
+        self.codes = codes
+        self.trials = trials
+        self.errors: dict[Span, int] = {}
+
+    def taken(self, problems: Sequence[Problem]) -> list[Correction]:
+        """The first one of each fault that makes its block better."""
+        blocks = self.blocks
+        made = chain(
+            misspelt(blocks, problems),
+            missing_sections(blocks, problems),
+            line_corrections(blocks, problems),
+            copies(blocks),
+            stray_laws(blocks),
+        )
+        taken: list[Correction] = []
+        for one in sorted(made, key=lambda each: (each.edits[0].span.start, each.cause.code is SYN002)):
+            line = line_at(self.text, one.edits[0].span.start)
+            unsaid = one.cause.code.code not in self.codes
+            if (
+                unsaid
+                or line.end - line.start > LONGEST_LINE
+                or any(_meet(one.region, other.region) for other in taken)
+            ):
+                continue
+            if self._is_better(one):
+                taken.append(one)
+        return taken
+
+    def _is_better(self, correction: Correction) -> bool:
+        """Whether the blocks around a correction have fewer faults with it, and its own is gone."""
+        if correction.certain or correction.cause.code in _OF_SECTIONS:
+            return True
+        edits = correction.edits
+        start = self.blocks.block_at(max(edits[0].span.start - correction.joins, 0)).start
+        end = self.blocks.block_at(edits[-1].span.end - (edits[-1].span.end > edits[0].span.start)).end
+        section = self.blocks.section_name(start)
+        region = Span(start, max(end, edits[-1].span.end))
+        if not section or region.end - region.start > LONGEST_TRIED or self.trials <= 0:
+            return False
+        self.trials -= 1
+        before = self.errors.get(region)
+        if before is None:
+            before = self.errors[region] = len(list(self._faults(section, region, ())))
+        after = list(self._faults(section, region, edits))
+        at = correction.cause.code
+        if correction.cause.code is SYN008 and correction.cause.repair is None:
+            return True
+        still = any(one.code is at and _said(one) == _said(correction.cause) for one in after)
+        return not still and (not after or len(after) < before)
+
+    def _faults(self, section: str, region: Span, edits: Sequence[TextEdit]) -> Iterator[Problem]:
+        """What is wrong in some lines of a section with edits of the whole text made."""
+        text = self.text.source.unified[slice(*region)]
+        moved = [TextEdit(edit.span.moved(-region.start), edit.text) for edit in edits]
+        head = "" if text.startswith("$") else f"${section}\n"
+        source = Source(self.text.source.name, head + apply_edits(text, moved), clean=self.text.source.clean)
+        for one in read_source(source, units="user", read=self.read).problems:
+            if one.weight is Severity.ERROR or one.code.code in ("SYN009", "SYN013"):
+                yield one
+
+
+def _said(problem: Problem) -> str:
+    return problem.message
+
+
+def _meet(one: Span, other: Span) -> bool:
+    return one.start < other.end and other.start < one.end
+
+
+def _touches(place: Span, edits: Sequence[TextEdit]) -> bool:
+    """Whether an edit of the recovered text is in one of its corrections."""
+    grown = 0
+    for edit in sorted(edits, key=lambda each: each.span):
+        start = edit.span.start + grown
+        if place.start < start + len(edit.text) and start < max(place.end, place.start + 1):
+            return True
+        grown += len(edit.text) - (edit.span.end - edit.span.start)
+    return False
+
+
+def _before(span: Span, edits: Sequence[TextEdit]) -> Span:
+    """A span of an edited text in the text as it was."""
+    start, end = span
+    for edit in sorted(edits, key=lambda each: each.span):
+        if edit.span.start >= end:
+            break
+        grown = len(edit.text) - (edit.span.end - edit.span.start)
+        start = max(start - grown, edit.span.start) if edit.span.start < start else start
+        end = max(end - grown, edit.span.start)
+    return Span(start, max(start, end))
