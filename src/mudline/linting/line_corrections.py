@@ -33,6 +33,7 @@ _EACH_OTHER = {"NODE": "ELEMENT", "ELEMENT": "NODE"}
 _ROW_NUMBER = re.compile(r"[ \t]*([0-9]{1,10})[ \t]*(?=,)")
 _MISREAD = str.maketrans({"O": "0", "o": "0", "l": "1", "I": "1"})
 _GAP = re.compile(r"(?<=[0-9.])(?:[ \t]+|[ \t]*;[ \t]*)(?=[-+.0-9])")
+_STAR = "*"
 _UNIT = re.compile(r"[ \t]*[A-Za-z%]")
 _CURVE_NAMES = {"EMBEDMENT": "SET", "SEABED STIFFNESS": "CURVE"}
 """Keywords of points, and the setting that names the curve."""
@@ -50,7 +51,8 @@ def line_corrections(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Co
     found = [one for part in parts for one in part(blocks, problems)]
     explained = {id(one.cause) for one in found}
     others = [one for one in problems if one.repair is None and id(one) not in explained]
-    return chain(found, _keyword_lines(blocks, others), _elements_among_nodes(blocks))
+    among = () if any(one.edits[0].text == _STAR for one in found) else _elements_among_nodes(blocks)
+    return chain(found, _keyword_lines(blocks, others), among)
 
 
 # ------------------------------------------------------------------------------------------- *KEYWORD lines
@@ -71,7 +73,10 @@ def _stars(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
         if written.upper() in known:
             message = f"{written} without its star is read as data: write *{written.upper()}"
             region = Span(line.start, blocks.block_at(line.start).end)
-            yield Correction(problem, (TextEdit(Span(line.start, line.start), "*"),), region, message)
+            certain = blocks.section_name(line.start) in (catalogue.sections_of(written.upper()) or ())
+            yield Correction(
+                problem, (TextEdit(Span(line.start, line.start), _STAR),), region, message, certain=certain
+            )
 
 
 def _keyword_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:

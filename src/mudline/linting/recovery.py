@@ -163,7 +163,9 @@ class _Round:
         text = self.text.source.unified[slice(*region)]
         moved = [TextEdit(edit.span.moved(-region.start), edit.text) for edit in edits]
         head = "" if text.startswith("$") else f"${section}\n"
-        source = Source(self.text.source.name, head + apply_edits(text, moved), clean=self.text.source.clean)
+        lines = apply_edits(text, moved)
+        behind = ("" if lines.endswith("\n") else "\n") + "$MODEL\n"  # so that no block is the last one
+        source = Source(self.text.source.name, f"{head}{lines}{behind}", clean=self.text.source.clean)
         for one in read_source(source, units="user", read=self.read).problems:
             if one.weight is Severity.ERROR or one.code.code in ("SYN009", "SYN013"):
                 yield one
