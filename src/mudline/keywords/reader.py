@@ -230,7 +230,7 @@ class _Reader:
             code = SYN014 if self.last else SYN001
             where = "the file" if self.last else f"*{self.raw.name}"
             message = f"{where} is incomplete: missing {wanted}"
-            lines = [leaf for leaf in (self.raw.head, *self.raw.leaves) if leaf.kind is not Kind.BLANK]
+            lines = [leaf for leaf in (self.raw.head, *self.raw.leaves) if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
             span = trimmed(self.text, *lines[-1].span)
             self.problems.append(Problem(code, message, span))
             return

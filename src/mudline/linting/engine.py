@@ -72,7 +72,7 @@ def joined_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: b
     else:
         checked = problems_in(LintContext(meant.deck, dialect=context.dialect), chosen)
         found = [*meant.causes, *map(meant.as_written, checked)]
-    found = unsuppressed(context, found, chosen) if suppress and found else found
+    found = unsuppressed(context, found, chosen) if suppress else found
     if not found or context.text is None:
         return found
     from mudline.linting.joining import joined_findings  # noqa: PLC0415 - most decks are without a finding

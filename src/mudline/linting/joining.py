@@ -135,13 +135,15 @@ def _lacking(text: TextOrigin, problems: list[Problem]) -> Iterator[_Group]:
 
 
 def _spelt_wrong(text: TextOrigin, problems: list[Problem], rows: _Rows) -> Iterator[_Group]:
-    """A decimal comma or a character that nobody sees, in a row that was misread for it."""
+    """A decimal comma of a setting, or the NUL character of a number, under what is said of the value."""
     for problem in problems:
-        if problem.code in (SYN012, SYN015):
-            line = text.place(problem).line
-            misread = next((found[0] for code in _MISREAD if (found := rows.get((code.code, line)))), None)
-            if misread is not None and misread.weight is Severity.ERROR:
-                yield _Cause(misread), [problem], problem.message
+        place = text.place(problem)
+        misread = next((found[0] for code in _MISREAD if (found := rows.get((code.code, place.line)))), None)
+        if misread is None or misread.weight is not Severity.ERROR:
+            continue
+        setting = problem.code is SYN015 and "=" in text.source.line(place.line)
+        if setting or (problem.code is SYN012 and text.place(misread).column <= place.column):
+            yield _Cause(misread), [problem], problem.message
 
 
 def _meant_numbers(text: TextOrigin, problems: list[Problem]) -> Iterator[_Group]:

@@ -333,6 +333,8 @@ def _rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
         if span is None or problem.weight is not Severity.ERROR:
             continue
         if problem.code is SYN002:
+            if not _is_known_by(problem, blocks.raw_at(span.start)):
+                continue
             make = _numbers
         elif problem.code in (SYN001, SYN003):
             span = line_at(text, span.start)
@@ -344,6 +346,11 @@ def _rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
             if other != written:
                 certain = problem.code is SYN002
                 yield Correction(problem, (TextEdit(span, other),), line_at(text, span.start), certain=certain)
+
+
+def _is_known_by(problem: Problem, block: RawBlock | None) -> bool:
+    """Whether other values are known by a number: it is a whole one, or says what the units are."""
+    return " whole number" in problem.message or (block is not None and block.name == "OCEAN")
 
 
 def _numbers(written: str) -> list[str]:

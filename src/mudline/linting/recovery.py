@@ -7,15 +7,16 @@ what is found in it is told at the lines that it has in the file.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain
 
 from mudline.codes.fields import SYN002
-from mudline.codes.lines import SYN007, SYN008, SYN010
+from mudline.codes.lines import SYN007, SYN008, SYN009, SYN010, SYN013
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin, read_source
-from mudline.diagnostics import Problem, Severity, Span
+from mudline.diagnostics import Code, Problem, Severity, Span
 from mudline.keywords.reader import BlockReader
 from mudline.linting.corrections import (
     Blocks,
@@ -39,6 +40,8 @@ MOST_TRIALS = 200
 LONGEST_LINE, LONGEST_TRIED = 4096, 50_000
 """Characters of a line that is corrected, and of a block that is read again to see whether it is better."""
 
+_OF_KEYWORDS = (SYN008, SYN009)
+"""Faults whose correction says what keyword a block has, which must then read without a fault."""
 _OF_SECTIONS = (SYN007, SYN010)
 """Faults whose correction says where blocks belong, and not how they read."""
 
@@ -110,7 +113,7 @@ class _Round:
         self.read = read
         self.codes = codes
         self.trials = trials
-        self.errors: dict[Span, int] = {}
+        self.errors: dict[Span, Counter[tuple[Code, str]]] = {}
 
     def taken(self, problems: Sequence[Problem]) -> list[Correction]:
         """The first one of each fault that makes its block better."""
@@ -148,17 +151,16 @@ class _Round:
         if not section or region.end - region.start > LONGEST_TRIED or self.trials <= 0:
             return False
         self.trials -= 1
-        before = self.errors.get(region)
-        if before is None:
-            before = self.errors[region] = len(list(self._faults(section, region, ())))
-        after = list(self._faults(section, region, edits))
-        at = correction.cause.code
-        if correction.cause.code is SYN008 and correction.cause.repair is None:
-            return True
-        still = any(one.code is at and _said(one) == _said(correction.cause) for one in after)
-        return not still and (not after or len(after) < before)
+        if region not in self.errors:
+            self.errors[region] = Counter(self._faults(section, region, ()))
+        before = self.errors[region]
+        after = Counter(self._faults(section, region, edits))
+        cause = (correction.cause.code, correction.cause.message)
+        if after[cause] >= max(before[cause], 1):
+            return False
+        return after <= before or (cause[0] not in _OF_KEYWORDS and after.total() < before.total())
 
-    def _faults(self, section: str, region: Span, edits: Sequence[TextEdit]) -> Iterator[Problem]:
+    def _faults(self, section: str, region: Span, edits: Sequence[TextEdit]) -> Iterator[tuple[Code, str]]:
         """What is wrong in some lines of a section with edits of the whole text made."""
         text = self.text.source.unified[slice(*region)]
         moved = [TextEdit(edit.span.moved(-region.start), edit.text) for edit in edits]
@@ -167,12 +169,8 @@ class _Round:
         behind = ("" if lines.endswith("\n") else "\n") + "$MODEL\n"  # so that no block is the last one
         source = Source(self.text.source.name, f"{head}{lines}{behind}", clean=self.text.source.clean)
         for one in read_source(source, units="user", read=self.read).problems:
-            if one.weight is Severity.ERROR or one.code.code in ("SYN009", "SYN013"):
-                yield one
-
-
-def _said(problem: Problem) -> str:
-    return problem.message
+            if one.weight is Severity.ERROR or one.code in (SYN009, SYN013):
+                yield one.code, one.message
 
 
 def _meet(one: Span, other: Span) -> bool:
