@@ -64,13 +64,13 @@ def test_words_behind_a_name_are_told_and_can_be_removed() -> None:
     assert [text for _, text in found.repair.edits] == ["*NODE"]
 
 
-def test_sets_of_a_misplaced_keyword_may_be_there(tmp_path: Path) -> None:
+def test_sets_of_a_misplaced_keyword_are_there(tmp_path: Path) -> None:
     text = f"{TABLE}*ELEMENT SET\n SET=Clay\n 1\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=Clay\n STIFFNESS=1.0E4\n"
     deck = tmp_path / "deck.keyxm"
     deck.write_text(text, encoding="utf-8")
-    (cause,) = (one for one in mudline.lint(deck) if one.code == "SYN008")
-    assert cause.severity is Severity.ERROR
-    assert [(one.code, one.severity) for one in cause.following] == [("REF001", Severity.WARNING)]
+    found = {one.code: one.severity for one in mudline.lint(deck)}
+    assert found["SYN008"] is Severity.ERROR
+    assert "REF001" not in found
 
 
 @pytest.mark.parametrize("number", ["85 000.0", "1 250", "-2'500.5", "1_000_000"])

@@ -21,7 +21,7 @@ from tests.linting.findings import CLAY, PIPE, PROPERTIES, RESTART, found
 
 # A line and, behind the bar, the codes that are found in it.
 FAULTY = """\
-*TIME                                  | SYN007
+*TIME                                  | SYN001 SYN007
 $PREPROCESSOR                          |
 *PARAMETERS                            |
  depth, 500.0                          |
@@ -83,7 +83,7 @@ def test_no_fault_hides_another() -> None:
     deck = "\n".join(text.rstrip() for text, _, _ in lines)
     expected = [(number, code) for number, (_, _, codes) in enumerate(lines, 1) for code in codes.split()]
     found = lint_bytes(deck.encode(), "deck.keyxm", SYNTAX)
-    assert len(expected) == 21
+    assert len(expected) == 22
     assert {code for _, code in expected} == {rule.code.code for rule in SYNTAX}
     assert [(one.line, one.code) for one in found] == expected
 

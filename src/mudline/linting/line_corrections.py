@@ -103,7 +103,7 @@ def _missing_line(blocks: Blocks, section: str, block: RawBlock, cause: Problem,
     settings = [leaf.span.start for leaf in block.leaves if leaf.kind is Kind.SETTING and leaf.span.start < line]
     first = next((leaf.span.start for leaf in block.leaves if leaf.kind not in (Kind.COMMENT, Kind.BLANK)), end)
     for place in (at for at in (line, *settings[-1:]) if at > first):  # the block has lines of its own before it
-        for keyword in _reads_as(blocks, section, block.name, unified[place:end]):
+        for keyword in _reads_as(blocks, section, block.name, unified[place:end], legal=place < line):
             number = text.source.position(place)[0] if place < line else None
             yield _keyword_line(keyword, cause, Span(place, end), number)
 
@@ -149,10 +149,11 @@ def _elements_among_nodes(blocks: Blocks) -> Iterator[Correction]:
             given.update(number.groups() if number else ())
 
 
-def _reads_as(blocks: Blocks, section: str, own: str, lines: str) -> list[str]:
+def _reads_as(blocks: Blocks, section: str, own: str, lines: str, *, legal: bool = False) -> list[str]:
     """The keywords of a section that take some lines as they stand, first those that define what the deck lacks.
 
-    Numbers alone fit several keywords: they are nodes or elements, where the deck has only the other of the two.
+    Numbers alone fit several keywords: they are nodes or elements, where the deck has only the other of the two. Where
+    the block above can have the first line (`legal`), the names that the deck lacks must say that it is another one's.
     """
     given = blocks.keywords
     piece = lines if len(lines) <= LONGEST_PIECE else lines[: lines.rfind("\n", 0, LONGEST_PIECE) + 1]
@@ -177,6 +178,7 @@ def _reads_as(blocks: Blocks, section: str, own: str, lines: str) -> list[str]:
         read = read_block(source, parse(Source("", source, clean=True)).sections[0].blocks[0], declared, last=False)
         if not read.lost and not any(one.weight is Severity.ERROR for one in read.problems):
             found.append(keyword)
+    found = [each for each in found if lacked.get(each, True)] if legal else found
     return sorted(found, key=lambda keyword: (not lacked.get(keyword), keyword in given))
 
 
