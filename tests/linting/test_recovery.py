@@ -141,17 +141,16 @@ def test_a_second_fault_stays_beside_the_first(first: str, second: str) -> None:
     assert {(code, line), (wanted, at)} <= places
 
 
-def test_a_finding_that_sums_up_more_than_what_follows_stays() -> None:
+def test_what_is_found_beside_a_missing_line_is_told_of_the_deck_as_meant() -> None:
     fewer = (" 1, 2, 3, 4, 5\n", " 1, 2, 3, 4\n")
     assert [(one.code, one.line) for one in found(changed(fewer))] == [("SBD006", 10)]
     both = found(changed(fewer, ("*SEABED PROPERTIES\n", "")))
-    assert [(one.code, one.line) for one in both if one.code == "SBD006"] == [("SBD006", 9)]
-    assert [len(one.following) for one in both if one.code == "SYN004"] == [8]
+    assert [(one.code, one.line) for one in both] == [("SBD006", 10), ("SYN004", 26)]
 
 
 TWICE = {
-    "a keyword": ("*ELEMENT SETS", "*ELEMENT SETZ", [("SYN009", 11, [14])]),
-    "a setting": (" STIFFNESS=", " STIFNESS=", [("SYN004", 29, [32])]),
+    "a keyword": ("*ELEMENT SETS", "*ELEMENT SETZ", [("SYN009", 11, [])]),
+    "a setting": (" STIFFNESS=", " STIFNESS=", [("SYN004", 29, [])]),
     "the name of a set": ("SET=Left\n STIFFNESS=Clay", "SET=Lift\n STIFFNESS=Clay\n SET=Lift", [("REF001", 28, [30])]),
 }
 
@@ -163,6 +162,8 @@ def test_the_same_slip_twice_is_one_finding(right: str, wrong: str, expected: li
     alike = [[other.line for other in each.following if other.code == each.code] for each in causes]
     assert [(one.code, one.line, lines) for one, lines in zip(causes, alike, strict=True)] == expected
     assert "; the same in line " in causes[0].message
+    if causes[0].fix is not None:  # it corrects all of them
+        assert len(causes[0].fix.edits) == 2
 
 
 def test_two_slips_alike_are_two_findings() -> None:
@@ -172,7 +173,7 @@ def test_two_slips_alike_are_two_findings() -> None:
 
 def test_a_name_below_its_points_is_to_be_moved() -> None:
     (one,) = found(changed((" CURVE=Clay\n 0.0, 0.0\n", " 0.0, 0.0\n CURVE=Clay\n")))
-    assert one.message.startswith("CURVE=Clay in line 21 stands below its points: move it up; ")
+    assert one.message.startswith("CURVE=Clay in line 21 stands below its points: move it up")
     others = found(changed((" CURVE=Clay\n", " 0.0, 0.0\n 0.5, 900.0\n CURVE=Clay\n")))
     assert [(each.line, "move it up" in each.message) for each in others] == [(20, False)]
 
@@ -181,8 +182,8 @@ def test_a_missing_option_is_named() -> None:
     section = DECK[DECK.index(" SET=ALL\n 1.0E8") : DECK.index("*SEABED STIFFNESS")]
     pipe = " 207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0\n"
     (one,) = found(changed((section, f" SET=Left\n{pipe} SET=Right\n{pipe}")))
-    assert (one.code, one.line, len(one.following)) == ("SYN003", 18, 1)
-    assert one.message.startswith("5 values are not FLEXIBLE's: OPTION=RIGID seems to be missing above line 17;")
+    assert (one.code, one.line) == ("SYN003", 18)
+    assert one.message == "5 values are not FLEXIBLE's: OPTION=RIGID seems to be missing above line 17"
 
 
 @pytest.mark.parametrize(("keyword", "line"), [("*ELEMENT", 9), ("*SEABED PROPERTIES", 27)])
@@ -198,9 +199,9 @@ def test_a_title_below_a_section_is_no_keyword() -> None:
     assert one.message.startswith("1 line of $MODEL under no keyword")
 
 
-def test_two_causes_have_what_follows_from_each() -> None:
+def test_two_slips_are_two_findings() -> None:
     both = found(changed(("*ELEMENT\n", "*ELEMNT\n"), ("*SEABED STIFFNESS\n", "*SEABED STIFFNES\n")))
-    assert [(one.code, one.line, len(one.following)) for one in both] == [("SYN009", 8, 10), ("SYN009", 19, 2)]
+    assert [(one.code, one.line) for one in both] == [("SYN009", 8), ("SYN009", 19)]
 
 
 def test_what_follows_is_not_left_out_where_its_cause_is_not_reported() -> None:
@@ -210,11 +211,6 @@ def test_what_follows_is_not_left_out_where_its_cause_is_not_reported() -> None:
     assert [(one.line, [each.line for each in one.following]) for one in lacking] == [(9, []), (9, [10])]
     suppressed = text.replace("*NODS\n", "C mudline: ignore SYN009\n*NODS\n")
     assert {one.code for one in found(suppressed)} >= {"REF006"}
-
-
-def test_a_suppressed_finding_is_not_counted() -> None:
-    text = changed(("*NODE\n", "*NODS\n"), ("*ELEMENT\n", "*ELEMENT\nC mudline: ignore REF006\n"))
-    assert [len(one.following) for one in found(text) if one.code == "SYN009"] == [1]
 
 
 def test_numbers_that_fit_another_keyword_of_the_deck_are_not_taken_for_its_lines() -> None:
@@ -228,15 +224,11 @@ def test_a_row_that_stays_wrong_is_no_cause() -> None:
     assert "SYN003" in codes
 
 
-def test_a_severity_of_the_configuration_does_not_hide_what_follows() -> None:
+def test_the_severity_of_the_configuration_holds_for_the_cause() -> None:
     text = changed(("*NODE\n", "*NODS\n")).encode()
     mild = LintSettings(tuple(rules()), severities={"SYN009": Severity.INFO})
     (one,) = lint_one("deck.keyxm", text, mild).found
-    assert (one.code, one.severity) == ("SYN009", Severity.WARNING)
-    strict = LintSettings(tuple(rules()), severities={"SYN009": Severity.INFO, "REF006": Severity.ERROR})
-    (one,) = lint_one("deck.keyxm", text, strict).found
-    assert one.severity is Severity.ERROR
-    assert {each.severity for each in one.following} == {Severity.ERROR}
+    assert (one.code, one.severity) == ("SYN009", Severity.INFO)
 
 
 def test_a_refused_deck_is_refused_with_the_cause() -> None:
@@ -254,10 +246,10 @@ def test_a_missing_line_is_named() -> None:
 @pytest.mark.parametrize("name", ["deck.keyxm", "deck.keyx"])
 @pytest.mark.parametrize("end", ["\r\n", "\r"])
 def test_line_ends_and_units_change_nothing(name: str, end: str) -> None:
-    for change, code, line, count in CAUSES.values():
-        text = changed(change).replace("\n", end)
-        one = found(text, name)[-1] if name == "deck.keyxm" else next(one for one in found(text, name) if one.following)
-        assert (one.code, one.line, len(one.following)) == (code, line, count)
+    for change, code, line in CAUSES.values():
+        told = [one for one in found(changed(change).replace("\n", end), name) if one.code != "STY006"]
+        assert (code, line) in [(one.code, one.line) for one in told]
+        assert len(told) == 1 or name == "deck.keyx"
 
 
 def test_a_fix_is_made_as_before() -> None:
@@ -284,8 +276,8 @@ def test_the_table_of_an_interface_is_named() -> None:
     curves = DECK[DECK.index("*SEABED STIFFNESS") : DECK.index("$LOAD CASE")]
     text = changed((curves, "*ELASTIC SURFACE\n 50000.0, 0.3, 0.5\n" + table))
     (one,) = (each for each in found(text) if each.severity is Severity.ERROR)
-    assert (one.code, one.line, len(one.following)) == ("SYN003", 22, 4)
-    assert "write SET=Left on a line of its own, and 0.1, 1000 below it; 4 findings" in one.message
+    assert (one.code, one.line) == ("SYN003", 22)
+    assert one.message.endswith("write SET=Left on a line of its own, and 0.1, 1000 below it")
 
 
 def test_hints_of_a_setting_say_what_to_write() -> None:
@@ -320,7 +312,6 @@ def test_what_follows_is_in_no_output(form: str) -> None:
     text = changed(("*NODE\n", "*NODS\n"))
     written = "".join(form_module(form).write(found(text), LintRun(["deck.keyxm"], "1.0")))
     assert "SYN009" in written
-    assert "3 findings that follow from it are left out" in written
     assert "REF006" not in written
 
 
@@ -371,7 +362,6 @@ def test_values_of_a_misread_row_are_not_judged() -> None:
     text = changed((SECTION, STEEL.replace("207.0E9, 79.6E9", "207.0E9 79.6E9")))
     (one,) = found(text)
     assert (one.code, one.line) == ("SYN003", 19)
-    assert {each.code for each in one.following} == {"SYN002", "UNT005", "GEO001"}
 
 
 ONE_CAUSE = {
@@ -411,4 +401,4 @@ def test_two_softening_parts_of_a_curve_are_two_findings() -> None:
 
 def test_names_come_from_the_findings_and_not_from_their_words() -> None:
     text = changed((" SET=Left\n STIFF", " SET=O'Brien's\n STIFF"), (" SET=Left\n 1,", " SET=\n 1,"))
-    assert [(one.code, len(one.following)) for one in found(text)][:1] == [("SYN003", 1)]
+    assert [(one.code, one.line) for one in found(text)][:1] == [("SYN003", 12)]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain
 
@@ -77,8 +77,21 @@ def misspelt(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction
         edits = tuple(TextEdit(span, written) for span, written in sorted(chain.from_iterable(repairs)))
         first = edits[0].span
         region = blocks.section_at(first.start) if problem.code is SYN010 else blocks.block_at(first.start)
+        words = ""
+        if others := [one for one in found if one is not problem]:
+            repair = problem.repair and replace(problem.repair, edits=tuple((each.span, each.text) for each in edits))
+            problem = replace(problem, repair=repair)
+            words = f"{problem.message}; {also_in(text, others)}"
         if all(_is_near(text, edit) for edit in edits):
-            yield Correction(problem, edits, region, joins=edits[0].text.startswith("C "))
+            yield Correction(problem, edits, region, words, joins=edits[0].text.startswith("C "))
+
+
+def also_in(text: TextOrigin, others: Sequence[Problem]) -> str:
+    """Where else the same is found, in words."""
+    *lines, last = sorted({text.place(one).line for one in others})
+    if not lines:
+        return f"the same in line {last}"
+    return f"the same in {len(lines) + 1} more lines, the last of them line {last}"
 
 
 def _is_near(text: TextOrigin, edit: TextEdit) -> bool:

@@ -17,7 +17,7 @@ from mudline.codes.references import REF005, REF006, REF007
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import MORE, Problem, Severity, Span, Where
 from mudline.diagnostics import Blocks as Blocking
-from mudline.linting.corrections import line_at, whole
+from mudline.linting.corrections import also_in, line_at, whole
 from mudline.short_repr import counted
 from mudline.syntax.rows import NUMBER
 from mudline.syntax.tree import RawBlock
@@ -237,14 +237,6 @@ def _of_water(text: TextOrigin, problems: list[Problem]) -> Iterator[_Group]:
         )
         others = [one for one in wrong if one is not cause]
         yield _Cause(cause, message, Span(*density.span())), others, left_out(len(others))
-
-
-def also_in(text: TextOrigin, others: Sequence[Problem]) -> str:
-    """Where else the same is found, in words."""
-    *lines, last = sorted({text.place(one).line for one in others})
-    if not lines:
-        return f"the same in line {last}"
-    return f"the same in {len(lines) + 1} more lines, the last of them line {last}"
 
 
 def _said(problem: Problem) -> str:

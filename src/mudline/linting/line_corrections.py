@@ -12,11 +12,13 @@ from mudline.codes.references import REF007
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Problem, Severity, Span
 from mudline.keywords import catalogue
-from mudline.keywords.reader import all_keys, read_block
+from mudline.keywords.model import record_schema
+from mudline.keywords.reader import all_keys, read_block, schemas_of
+from mudline.keywords.values import Kind as Value
 from mudline.linting.corrections import Blocks, Correction, line_at, start_of, whole
 from mudline.syntax.edits import TextEdit
 from mudline.syntax.fields import first_key
-from mudline.syntax.rows import NUMBER
+from mudline.syntax.rows import NUMBER, read_number
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, RawBlock, parse
 
@@ -229,7 +231,11 @@ def _names(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
         if found is None or problem.span is None:
             continue
         key = found[1] or found[2]
-        if found[1] and (moved := _name_below(text, blocks.raw_at(problem.span.start), problem, key)):
+        if (
+            found[1]
+            and not missing[key]
+            and (moved := _name_below(text, blocks.raw_at(problem.span.start), problem, key))
+        ):
             yield moved
         if missing[key]:
             name = missing[key].pop(0)
@@ -249,11 +255,20 @@ def _name_below(text: TextOrigin, block: RawBlock | None, problem: Problem, key:
         written = text.source.unified[slice(*line)]
         if written.partition("=")[0].strip().upper() != key:
             break
+        last, first = (_first_number(text, each) for each in (line.start - 1, line.end + 1))
+        if last is not None and first is not None and first < last:
+            break  # the points below it are of a curve of their own
         begin = line_at(text, at).start
         message = f"{written.strip()} in line {text.source.position(line.start)[0]} stands below its points: move it up"
         edits = TextEdit(Span(begin, begin), f"{written}\n"), TextEdit(Span(line.start, line.end + 1), "")
         return Correction(problem, edits, Span(begin, line.end), message)
     return None
+
+
+def _first_number(text: TextOrigin, offset: int) -> float | None:
+    """The first number of the line around an offset, None for other lines."""
+    words = text.source.unified[slice(*line_at(text, offset))].split(",")
+    return read_number(words[0].strip())
 
 
 def _options(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
@@ -335,9 +350,10 @@ def _rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
         if span is None or problem.weight is not Severity.ERROR:
             continue
         if problem.code is SYN002:
-            if not _is_known_by(problem, blocks.raw_at(span.start)):
+            if _is_known_by(text, span, blocks.raw_at(span.start)):
+                make = _numbers
+            else:
                 continue
-            make = _numbers
         elif problem.code in (SYN001, SYN003):
             span = line_at(text, span.start)
             make = _row
@@ -350,9 +366,19 @@ def _rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
                 yield Correction(problem, (TextEdit(span, other),), line_at(text, span.start), certain=certain)
 
 
-def _is_known_by(problem: Problem, block: RawBlock | None) -> bool:
-    """Whether other values are known by a number: it is a whole one, or says what the units are."""
-    return " whole number" in problem.message or (block is not None and block.name == "OCEAN")
+def _is_known_by(text: TextOrigin, span: Span, block: RawBlock | None) -> bool:
+    """Whether other values are known by a value: it is a whole number, or says what the units are."""
+    declared = catalogue.declared(block.name) if block else None
+    if block is None or declared is None or block.name == "OCEAN":
+        return declared is not None
+    before = text.source.unified[line_at(text, span.start).start : span.start]
+    key = before.partition("=")[0].strip().upper() if "=" in before else ""
+    index = before.rpartition("=")[2].count(",")
+    for slot in (slot for schema in schemas_of(declared) for slot in schema.slots if slot.key == key):
+        columns = record_schema(slot.row).columns if slot.row else [slot]
+        if columns[min(index, len(columns) - 1)].kind in (Value.WHOLE, Value.IDENT):
+            return True
+    return False
 
 
 def _numbers(written: str) -> list[str]:
