@@ -13,7 +13,7 @@ from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules
 from mudline.running import executors
 from tests.cli.runner import run
-from tests.linting.test_causes import changed
+from tests.linting.test_recovery import changed
 
 ROWS = changed((" 0.0, 0.0\n 0.5, 20000.0\n", " 1, 0.0, 0.0\n 2, 0.1, 8000.0\n 3, 0.3, 15000.0\n 4, 0.5, 20000.0\n"))
 STARLESS = changed(("*ELEMENT\n", "ELEMENT\n"))

@@ -162,7 +162,9 @@ def judge(data: bytes, file: Input, units: str | None, *, verbose: bool) -> tupl
         return Verdict(file.name, 0, 0, 0, 0, len(error.diagnostics), 0, "illegal"), list(error.diagnostics)
     context = LintContext(deck)
     problems = joined_problems(context, rules(), suppress=False)
-    errors = deck.diagnose([one for one in problems if one.weight is Severity.ERROR])
+    wrong = [one for one in problems if one.weight is Severity.ERROR]
+    wrong = wrong or [one for one in context.scene.findings if one.weight is Severity.ERROR]  # of the deck as written
+    errors = deck.diagnose(wrong)
     warnings = _warnings(context, problems, legal=not errors)
     keywords = sum(len(section.blocks) for section in deck.sections)
     curves, elements = len(context.scene.laws.curves), len(context.scene.element_ids)

@@ -154,7 +154,10 @@ class _Round:
         if region not in self.errors:
             self.errors[region] = Counter(self._faults(section, region, ()))
         before = self.errors[region]
-        after = Counter(self._faults(section, region, edits))
+        try:
+            after = Counter(self._faults(section, region, edits))
+        except ValueError:  # of edits that overlap
+            return False
         cause = (correction.cause.code, correction.cause.message)
         if after[cause] >= max(before[cause], 1):
             return False
@@ -195,6 +198,7 @@ def _before(span: Span, edits: Sequence[TextEdit]) -> Span:
         if edit.span.start >= end:
             break
         grown = len(edit.text) - (edit.span.end - edit.span.start)
-        start = max(start - grown, edit.span.start) if edit.span.start < start else start
+        if edit.span.start < start + (not edit.text):  # what stands at the place of something left out is behind it
+            start = max(start - grown, edit.span.start)
         end = max(end - grown, edit.span.start)
     return Span(start, max(start, end))
