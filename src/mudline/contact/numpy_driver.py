@@ -248,8 +248,8 @@ class Nodes:
         from mudline.contact.trenches import resistance  # noqa: PLC0415 - most friction has no trench
 
         at = self._in_trench
-        nodes = taken(places.reshape(-1, self.end - self.begin), at).reshape(3, len(pressing), -1)
-        away = laid.away(laid.beside(self.begin, self._trench), nodes).vector
+        there = taken(places.reshape(-1, self.end - self.begin), at).reshape(3, len(pressing), -1)
+        away = laid.away(laid.beside(self.begin, self._trench), there).vector
         lateral = tuple(taken(axis, at) for axis in across)
         offset = self._plane.dot(lateral, away[3 - len(lateral) :])
         added = resistance(self._trench, offset, taken(pressing, at))
