@@ -6,8 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mudline.cli.evaluate_one import MOST_ROWS
-from mudline.cli.streams import counted
+from mudline.cli.streams import MOST_ROWS, counted
 from mudline.cli.view import View
 from mudline.files import is_url
 from mudline.quantities import CASES, headed, shown
