@@ -34,7 +34,7 @@ def _style(line: str) -> str:
 def unified_diff(old: str, new: str, name: str, *, created: bool = False) -> Iterator[str]:
     """The lines of a unified diff of two texts in which only LF ends a line; `created`: there was no old file."""
     before, after = _lines(old), _lines(new)
-    matcher = _Matcher(None, before, after, autojunk=False)
+    matcher = _Matcher(before, after)
     if before != after:
         yield from (f"--- {'/dev/null' if created else name}\n", f"+++ {name}\n")
         for hunk in matcher.get_grouped_opcodes():
@@ -51,17 +51,21 @@ def unified_diff(old: str, new: str, name: str, *, created: bool = False) -> Ite
 class _Matcher(SequenceMatcher[str]):
     """Compares long texts of equally many lines line by line, in linear time."""
 
+    def __init__(self, old: Sequence[str], new: Sequence[str]) -> None:
+        self.old, self.new = old, new
+        super().__init__(None, old, new, autojunk=False)
+
     def get_matching_blocks(self) -> list[Match]:
-        if len(self.a) != len(self.b) or len(self.a) < _LONG:
+        """Where lines are the same."""
+        size = len(self.old)
+        if size != len(self.new) or size < _LONG:
             return super().get_matching_blocks()
-        same = [i for i, (line, new) in enumerate(zip(self.a, self.b, strict=True)) if line == new]
-        found: list[Match] = []
-        for i in same:
-            if found and found[-1].a + found[-1].size == i:
-                found[-1] = found[-1]._replace(size=found[-1].size + 1)
-            else:
-                found.append(Match(i, i, 1))
-        return [*found, Match(len(self.a), len(self.b), 0)]
+        found = [Match(size, size, 0)]
+        for i in range(size - 1, -1, -1):
+            if self.old[i] == self.new[i]:
+                joined = found[-1].a == i + 1 and found[-1].size
+                found[-1:] = [Match(i, i, found[-1].size + 1)] if joined else [found[-1], Match(i, i, 1)]
+        return found[::-1]
 
 
 def _lines(text: str) -> list[str]:

@@ -54,7 +54,7 @@ class _Commands(click.Group):
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002 - click's signature
         if cmd_name == "help":
-            return _help
+            return cast("click.Command", _help)
         module = import_module(f"mudline.cli.{cmd_name}_command") if cmd_name in COMMANDS else None
         return cast("click.Command | None", module and module.command)
 
