@@ -77,8 +77,6 @@ def holds_the_slow_rows(text: str, columns: int) -> None:
 @pytest.mark.parametrize(
     ("spelling", "end"), list(zip(SPELLINGS, cycle(["\n", "\r\n", "\n"]), strict=False)), ids=ascii
 )
-    ("spelling", "end"), list(zip(SPELLINGS, cycle(["\n", "\r\n", "\n"]), strict=False)), ids=ascii
-)
 def test_every_spelling(spelling: str, end: str) -> None:
     for rows in (["1, 2", f"3, {spelling}", "5, 6"], [f"{spelling}, 1", "2, 3"], ["1,2", f"3,{spelling}"]):
         for text in (end.join(rows), end.join([*rows, ""])):
