@@ -18,7 +18,7 @@ import numpy as np
 
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDeck, Input, collect_any_form, refuses_bad_decks
-from mudline.cli.streams import MOST_REPORTED, emit, notify_diagnostics
+from mudline.cli.streams import emit, notify_diagnostics
 from mudline.cli.view import View
 from mudline.comparison.comparing import compare
 from mudline.comparison.model import Difference, Value, spans_of, text_of
@@ -26,6 +26,7 @@ from mudline.comparison.superseded import Comparison, without_spelling
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError
+from mudline.limits import SHOWN_ROWS
 from mudline.linting.output import visible
 from mudline.scene.model import resolve
 from mudline.short_repr import counted
@@ -276,7 +277,7 @@ def difference_lines(before: str, after: str, comparison: Comparison, view: View
             for kind, text in ranges:
                 mark, style = _MARKS[kind]
                 yield f"  {mark} {text}", style
-        most = len(differences) if view.verbose else MOST_REPORTED
+        most = len(differences) if view.verbose else SHOWN_ROWS
         for one in differences[:most]:
             mark, style = _MARKS[one.kind]
             yield f"  {mark} {visible(_described(one))}", style

@@ -15,10 +15,11 @@ from mudline.cli.evaluate_text import print_comparison, print_evaluation, print_
 from mudline.cli.inputs import GivenDeck, refuses_bad_decks
 from mudline.cli.pictures import Picture
 from mudline.cli.result_files import behind, beside, form_of_file, has_library, line_watch, result_files, write_tables
-from mudline.cli.streams import MOST_REPORTED, MOST_ROWS, counted, emit, emit_json, notify
+from mudline.cli.streams import counted, emit, emit_json, notify
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.contact import LawKind
 from mudline.files import is_url
+from mudline.limits import SHOWN_ROWS
 from mudline.quantities import csv_lines
 from mudline.results.against import Comparison, read_reference
 from mudline.results.evaluation import Evaluation, Prepared
@@ -143,7 +144,7 @@ def _evaluate_one(
     if not view.quiet:
         _notify_before(evaluation, comparison)
     shown = "" if output else output_format
-    most = None if view.verbose else MOST_ROWS
+    most = None if view.verbose else SHOWN_ROWS
     digest = StepSummary(evaluation, most, table == "nodes") if shown == "text" else None
     lines = line_watch(evaluation, shown or form_of_file(output), most)
     slow, watch = SlowSuction(), ContactWatch.of(evaluation)
@@ -188,7 +189,7 @@ def _evaluate_series(
     if output and not view.quiet:
         _notify_written(evaluation, Path(output), written)
     if not output and output_format == "text":
-        print_series(summary.totals, summary.line_watch(None if view.verbose else MOST_ROWS), view)
+        print_series(summary.totals, summary.line_watch(None if view.verbose else SHOWN_ROWS), view)
     return warnings
 
 
@@ -235,10 +236,10 @@ def _notify_before(evaluation: Evaluation, comparison: Comparison | None) -> Non
 
 def _notify_warnings(warnings: Sequence[ContactWarning]) -> None:
     """Report what is doubtful in the results."""
-    for one in warnings[:MOST_REPORTED]:
+    for one in warnings[:SHOWN_ROWS]:
         notify(f"warning: {one}")
-    if len(warnings) > MOST_REPORTED:
-        notify(f"{len(warnings) - MOST_REPORTED} more warnings: JSON has all")
+    if len(warnings) > SHOWN_ROWS:
+        notify(f"{len(warnings) - SHOWN_ROWS} more warnings: JSON has all")
 
 
 def _notify_written(evaluation: Evaluation, path: Path, others: Mapping[str, Path]) -> None:

@@ -19,6 +19,8 @@ from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 PHASES: FloatArray = np.linspace(1.0, 511.0, 16) / 512.0
 """Shares of a step at which masses side by side touch the seabed; the worst counts, which is mostly near an end."""
 
+MOST_STEPS = 5000
+"""Of a motion: smaller steps are not tried. A law with a very narrow stiff part would ask for millions."""
 _TOLERANCE = 1e-12
 """Of the largest term of the balance of forces: what is left of it when Newton's method has converged."""
 _MOST_ITERATIONS = 120
