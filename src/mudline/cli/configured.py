@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import TypeVar
 
@@ -12,6 +12,7 @@ import click
 
 from mudline.cli.inputs import is_deck
 from mudline.cli.streams import reason
+from mudline.lean import dataclass
 from mudline.linting.configuration import CodeFault, Configuration, ConfigurationError, Search, read_configuration
 from mudline.patterns import matches
 

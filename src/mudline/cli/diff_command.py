@@ -7,7 +7,7 @@ import math
 import os
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, field
 
 import click
 
@@ -22,6 +22,7 @@ from mudline.comparison.superseded import Comparison, without_spelling
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError
+from mudline.lean import dataclass
 from mudline.scene.model import resolve
 
 FORMAT = "mudline-diff/1"

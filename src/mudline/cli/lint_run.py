@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Generator, Iterator
 from contextlib import closing
-from dataclasses import KW_ONLY, dataclass, field, replace
+from dataclasses import KW_ONLY, field, replace
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -24,6 +24,7 @@ from mudline.cli.streams import counted, emit_deck, notify, reason, write_text
 from mudline.cli.view import View
 from mudline.deck.forms import form_of
 from mudline.diagnostics import Diagnostic
+from mudline.lean import dataclass
 from mudline.linting.configuration import Configuration, Given
 from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.fixing import FileReport, lint_one

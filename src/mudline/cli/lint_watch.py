@@ -6,7 +6,6 @@ import os
 import stat
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import NoReturn
 
@@ -15,6 +14,7 @@ import click
 from mudline.cli.inputs import GITIGNORE, STDIN, is_deck
 from mudline.cli.streams import notify
 from mudline.cli.view import View
+from mudline.lean import dataclass
 from mudline.linting.configuration import base_paths
 from mudline.linting.output import TEXT
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import NamedTuple
 
 from mudline.diagnostics import Span
+from mudline.lean import dataclass
 
 
 class ExpressionError(ValueError):
