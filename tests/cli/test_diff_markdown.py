@@ -12,7 +12,16 @@ from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.conftest import Place
 from tests.cli.runner import run
 
-HOSTILE = ("a|b", "`", "``a`", "*a* _b_ ~~c~~", "<script>alert(1)</script>", "@all #12 $x^2$", "[a](http://b)", "&amp;")
+HOSTILE: tuple[str, ...] = (
+    "a|b",
+    "`",
+    "``a`",
+    "*a* _b_ ~~c~~",
+    "<script>alert(1)</script>",
+    "@all #12 $x^2$",
+    "[a](http://b)",
+    "&amp;",
+)
 HOSTILE += ("</code></details>", "a\n```\n# b", "````")
 
 
