@@ -7,7 +7,7 @@ from dataclasses import field
 from pathlib import Path
 from typing import Any
 
-from mudline.cli.configured import Configured
+from mudline.cli.config_command import Configured
 from mudline.cli.inputs import Input, Inputs
 from mudline.diagnostics import Diagnostic, Edit, Fix, Severity
 from mudline.lean import dataclass

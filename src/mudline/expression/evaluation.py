@@ -37,7 +37,6 @@ from mudline.expression.nodes import (
     Text,
     UndefinedName,
     UnknownFunction,
-    children,
     shorten,
 )
 from mudline.lean import dataclass
@@ -330,7 +329,7 @@ def _parameter(node: Name, lookup: Lookup) -> Value:
 def _operation(node: Prefix | Power | Comparison) -> Steps:
     if isinstance(node, Prefix):
         return _prefixed(node.operator, Operand((yield node.operand), node.operand.span))
-    first, second = children(node)
+    first, second = (node.base, node.exponent) if isinstance(node, Power) else (node.left, node.right)
     left = Operand((yield first), first.span)
     right = Operand((yield second), second.span)
     return power(left, right) if isinstance(node, Power) else compare(node.operator, left, right)

@@ -41,7 +41,7 @@ _NUMBERS = re.compile(rf"(?:[ \t]*+{_NUMBER}[ \t]*+(?:,[ \t]*+{_NUMBER}[ \t]*+)*
 """Rows of numbers that are separated by commas: those of most tables."""
 _SHORT_TABLE = 1600
 """Characters of such rows: longer ones are read sooner with arrays."""
-_FEWEST_MIXED = 4
+_MIXED_FIELDS = 4
 """Fields of a row in which two commas can be decimal ones and another one is not."""
 
 Values = dict[str, Any]
@@ -284,7 +284,7 @@ def _counted(row: type[Part], fields: str) -> Iterator[tuple[str, FieldSpec]]:
     words = _words(fields)
     if not schema.fewest <= len(words) <= len(schema.columns):
         raise _OddError
-    if len(words) >= _FEWEST_MIXED and (" " in fields or "\t" in fields) and _TIGHT_COMMA.search(fields):
+    if len(words) >= _MIXED_FIELDS and (" " in fields or "\t" in fields) and _TIGHT_COMMA.search(fields):
         raise _OddError  # some of the commas may be decimal ones
     return zip(words, schema.columns, strict=False)
 
