@@ -189,7 +189,7 @@ def test_names_are_texts_and_no_formulas(place: Place) -> None:
 
 
 def test_more_rows_than_a_sheet_holds(place: Place, steps: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(xlsx, "MOST_ROWS", 10)
+    monkeypatch.setattr(xlsx, "SHEET_ROWS", 10)
     (folder / "out.xlsx").write_bytes(b"old")
     outcome = run("evaluate", place(), "--positions", steps, "-o", "out.xlsx")
     assert outcome.code == 2

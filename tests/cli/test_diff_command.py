@@ -300,7 +300,7 @@ def test_two_folders(place: Place) -> None:
 
 
 def test_what_does_not_fit_a_comment_is_left_out(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(diff_command, "LONGEST", 300)
+    monkeypatch.setattr(diff_command, "COMMENT_LETTERS", 300)
     for number in range(5):
         place(CLEAN, f"old/{number}.keyxm")
         place(CLEAN.replace("1000.0", "1200.0"), f"new/{number}.keyxm")
