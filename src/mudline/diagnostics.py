@@ -7,14 +7,13 @@ text, or a path into the values). A *diagnostic* is the public form of the same 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import StrEnum
 from typing import NamedTuple
 
+from mudline.lean import dataclass
+from mudline.limits import MOST_REPORTED
 from mudline.short_repr import counted, outline, short_repr
-
-MOST_REPORTED = 1000
-"""Findings of one code in a deck that are reported one by one."""
 
 MORE = f"and more of the same: the first {MOST_REPORTED} are listed"
 """The message of the finding behind them, which replaces all the others."""

@@ -10,7 +10,8 @@ from rich.cells import cell_len
 
 from mudline.cli.printing import excerpt
 from mudline.diagnostics import Diagnostic, Edit, Fix, Severity
-from mudline.linting.output import LONGEST, form, visible, visible_lines
+from mudline.limits import LONGEST_MESSAGE
+from mudline.linting.output import form, visible, visible_lines
 from mudline.syntax.source import Source
 from tests.builders.decks import BAD_NUMBER, CLEAN, UNUSED
 from tests.cli.conftest import Place
@@ -198,11 +199,6 @@ def test_fault_longer_than_the_screen() -> None:
     assert under.index("^") == source.index("x")
 
 
-def test_wide_characters_are_cut_by_columns() -> None:
-    source, _ = marked(bad_line(f" 2, -0.1, {chr(0x6F22) * 500}"))
-    assert cell_len(source) <= 120
-
-
 @pytest.mark.parametrize("width", [40, 80, 100, 200])
 def test_lines_fit_the_terminal(place: Place, monkeypatch: pytest.MonkeyPatch, width: int) -> None:
     monkeypatch.setenv("COLUMNS", str(width))
@@ -257,10 +253,6 @@ def lines(diagnostic: Diagnostic, source: Source = TEXT) -> list[str]:
     return [text.plain for text in excerpt(diagnostic, source, WIDTH)]
 
 
-def test_excerpt() -> None:
-    assert lines(found()) == [" 2 |  second, x", "   |  ^^^^^^"]
-
-
 @pytest.mark.parametrize(
     ("diagnostic", "under"),
     [
@@ -296,9 +288,9 @@ def test_visible_text(text: str, encoding: str, shown: str) -> None:
 
 
 def test_text_that_nobody_reads_to_its_end_is_cut() -> None:
-    assert visible("x" * LONGEST) == "x" * LONGEST
-    assert visible("x" * (LONGEST + 1)) == "x" * (LONGEST - 3) + "..."
-    assert len(visible("\x1b" * 10_000_000)) == LONGEST
+    assert visible("x" * LONGEST_MESSAGE) == "x" * LONGEST_MESSAGE
+    assert visible("x" * (LONGEST_MESSAGE + 1)) == "x" * (LONGEST_MESSAGE - 3) + "..."
+    assert len(visible("\x1b" * 10_000_000)) == LONGEST_MESSAGE
 
 
 def test_visible_lines_keep_their_ends() -> None:

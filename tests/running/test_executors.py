@@ -8,8 +8,8 @@ import time
 from collections.abc import Iterator
 from concurrent.futures import CancelledError, Future
 from contextlib import ExitStack
+from importlib.util import find_spec
 
-import dask.config
 import pytest
 
 from mudline.running import executors
@@ -49,7 +49,7 @@ def items(count: int, taken: list[int]) -> Iterator[tuple[int, int | None]]:
 
 @pytest.mark.usefixtures("eager")
 def test_results_are_in_order_and_few_are_taken_ahead(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(executors, "_LARGEST", 5)
+    monkeypatch.setattr(executors, "_TOGETHER", 5)
     taken: list[int] = []
     used = set()
     with executor(2) as pool:
@@ -114,7 +114,7 @@ def sleep(seconds: float) -> None:
 
 @pytest.mark.usefixtures("eager")
 def test_processes_end_at_once_with_the_block(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(executors, "_LARGEST", 1)
+    monkeypatch.setattr(executors, "_TOGETHER", 1)
     with pytest.raises(KeyboardInterrupt), executor(2) as pool:  # noqa: PT012 - what is under way is ended
         results = in_order(pool, sleep, ((number, 1000.0 * (number > 1)) for number in range(9)), 9)
         for number, _ in results:
@@ -147,7 +147,10 @@ def test_number_of_processes() -> None:
 
 # ---------------------------------------------------------------------------------------------------------- schedulers
 
+needs_dask = pytest.mark.skipif(find_spec("distributed") is None, reason="distributed is not installed")
 
+
+@needs_dask
 @pytest.mark.parametrize(
     "address", ["tcp://127.0.0.1:8786", "tcp://[::1]:8786", "tcp://localhost:8786", "tls://10.0.0.7:8786"]
 )
@@ -165,8 +168,11 @@ def test_what_is_no_address_is_refused(address: str) -> None:
         check_address(address)
 
 
+@needs_dask
 @pytest.mark.parametrize("host", ["10.0.0.7", "127.1", "[::]", "example.org", "localhost.example.org", "[2001:db8::1]"])
 def test_another_machine_without_tls_is_refused_unless_dask_is_told_otherwise(host: str) -> None:
+    import dask.config  # noqa: PLC0415 - an extra
+
     address = f"tcp://{host}:8786"
     for value in (None, True, "false"):
         with (

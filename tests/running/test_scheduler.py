@@ -5,11 +5,13 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 from shutil import rmtree
 
 import pytest
 
+from tests.archive.trial import contents
 from tests.builders.decks import BAD_NUMBER, CLEAN, UNSORTED
 from tests.cli.runner import run
 from tests.processes import started
@@ -57,6 +59,10 @@ def test_output_is_that_of_a_run_without_a_scheduler(tmp_path: Path, monkeypatch
             rmtree("results", ignore_errors=True)
             assert run(*words, "--scheduler", address, stdin=BAD_NUMBER.encode()) == alone
             assert alone.code in (1, 2)
+        if find_spec("duckdb") and find_spec("pyarrow"):
+            index = ("index", "decks", "--isolated", "-o")
+            assert run(*index, "far", "--scheduler", address).err.replace("far", "near") == run(*index, "near").err
+            assert contents(Path("far")) == contents(Path("near"))
     results = {path.name for path in (tmp_path / "here" / "results").iterdir()}
     assert {f"{number:02}.csv" for number in range(30) if number % 4 in {0, 2}} < results
 

@@ -146,3 +146,23 @@ def test_faults_end_the_command(tmp_path: Path, small: Path, monkeypatch: pytest
     monkeypatch.setattr("mudline.cli.study_command.find_spec", lambda _: None)
     outcome = run("study", small, "--plot", tmp_path / "work.png")
     assert (outcome.code, outcome.err) == (2, "mudline: --plot needs matplotlib: pip install 'mudline[plot]'\n")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        deck(CURVE.format(first="0.0").replace(" 0.00, 0.0\n", " 0.05, 0.0\n")),  # pulls at the mudline
+        deck(CURVE.format(first="0.0").replace("9000.0", "9e290")),
+        deck(CURVE.format(first="0.0").replace(" 0.50", " 0.1000001")),
+        deck().replace("0.05,", "1e-9,"),
+        deck().replace("50.0E3", "1e300"),
+    ],
+    ids=["pulls", "overflows", "narrow", "tiny step", "rigid"],
+)
+def test_extreme_decks_are_studied_as_far_as_they_can_be(text: str, tmp_path: Path) -> None:
+    path = tmp_path / "deck.keyxm"
+    path.write_text(text, encoding="utf-8")
+    outcome = run("study", path, "--output-format", "json")
+    assert (outcome.code, outcome.err) == (0, "")
+    assert_fits(outcome.json(), "study")
+    assert outcome.json()["extremes"]["failed"] == []

@@ -30,9 +30,10 @@ from mudline.cli.batch_text import print_cases
 from mudline.cli.evaluate_inputs import EvaluateInputs, takes_inputs
 from mudline.cli.inputs import STDIN, Input, Inputs, collect
 from mudline.cli.result_files import has_library, is_installed
-from mudline.cli.streams import MOST_REPORTED, counted, emit, emit_json, encoded, notify, reason
+from mudline.cli.streams import counted, emit, emit_json, encoded, notify, reason
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.files import is_url, remove_left, write_atomically
+from mudline.limits import SHOWN_ROWS
 from mudline.quantities import CASES, csv_lines
 from mudline.results.cases import CaseSummary, worst_first, write_parquet
 from mudline.running import storage
@@ -182,7 +183,6 @@ def _tasks(
             data, positions = case.file.read(), positions_of(case, given.positions)
             files = [path for path in (positions, given.elements) if path]
             _keep_inputs(case, files, order.output)
-            marks = [f"{path} {storage.size_and_date(path) if is_url(path) else ''}" for path in files]
         except OSError as error:
             found.fail(f"{name}: {reason(error)}")
             yield _Task(order, known=failed(name, reason(error))), None
@@ -190,10 +190,10 @@ def _tasks(
         except click.ClickException as error:
             yield _Task(order, known=failed(name, error.message)), None
             continue
-        key = "" if memory is None else memory.key(name, case.result, data, *marks)
+        key = "" if memory is None else memory.key(name, case.result, data, *files)
         known = None if memory is None or fresh else _known(memory, key, order.output)
         order = order._replace(data=data, inputs=replace(given, positions=positions))
-        near = [os.path.abspath(path) for path in files if not is_url(path)]  # noqa: PTH100 - links stay what they are
+        near = [os.path.abspath(path) for path in files]  # noqa: PTH100 - links stay what they are
         yield _Task(order, key, near, known), None if known else order
 
 
@@ -300,6 +300,6 @@ def _notify_warnings(done: Sequence[Done]) -> None:
     for one in done:
         for code, text in dict(one.warnings).items():
             decks.setdefault(code, []).append(text)
-    for texts in list(decks.values())[:MOST_REPORTED]:
+    for texts in list(decks.values())[:SHOWN_ROWS]:
         more = f" ({counted(len(texts) - 1, 'more deck')})" if len(texts) > 1 else ""
         notify(f"warning: {texts[0]}{more}")

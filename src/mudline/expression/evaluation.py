@@ -14,7 +14,6 @@ import math
 import operator as python
 import sys
 from collections.abc import Callable, Generator, Mapping, Sequence
-from dataclasses import dataclass
 from decimal import ROUND_HALF_UP, Context, Decimal
 from types import MappingProxyType
 from typing import Final, NamedTuple, assert_never, cast
@@ -38,9 +37,10 @@ from mudline.expression.nodes import (
     Text,
     UndefinedName,
     UnknownFunction,
-    children,
     shorten,
 )
+from mudline.lean import dataclass
+from mudline.limits import LONGEST_TEXT
 
 CONSTANTS: Final[Mapping[str, float]] = MappingProxyType({"pi": math.pi})
 """Names that have a value when no parameter bears them; in lower case, and compared without case."""
@@ -143,8 +143,6 @@ FORMS: Final[Mapping[str, Form]] = MappingProxyType(
 
 Value = float | str
 
-LONGEST_TEXT = 10_000
-"""The longest text that joining may make, in code points: parameters can double one another without end."""
 
 ARITHMETIC: Final[Mapping[str, Callable[[float, float], float]]] = {
     "+": python.add,
@@ -331,7 +329,7 @@ def _parameter(node: Name, lookup: Lookup) -> Value:
 def _operation(node: Prefix | Power | Comparison) -> Steps:
     if isinstance(node, Prefix):
         return _prefixed(node.operator, Operand((yield node.operand), node.operand.span))
-    first, second = children(node)
+    first, second = (node.base, node.exponent) if isinstance(node, Power) else (node.left, node.right)
     left = Operand((yield first), first.span)
     right = Operand((yield second), second.span)
     return power(left, right) if isinstance(node, Power) else compare(node.operator, left, right)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import zip_longest
 from typing import NamedTuple, Self
 
@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 from mudline.diagnostics import Span
 from mudline.keywords.model import FieldSpec
 from mudline.keywords.values import Kind
+from mudline.lean import dataclass
 from mudline.syntax.rows import GROUPED, PIECE, line_spans, row_fields
 
-LONGEST = 32
+WIDEST = 32
 """Longer fields, such as equations, do not widen their column: the fields after them on their row are shifted right."""
 
 _INTEGER = re.compile(r"[-+0-9]*")
@@ -84,7 +85,7 @@ class Column:
 
     def take(self, texts: Iterable[str]) -> None:
         """Widen the column for fields."""
-        short = [text for text in texts if len(text) <= LONGEST]
+        short = [text for text in texts if len(text) <= WIDEST]
         numbers = [] if self.text else [text for text in short if text[:1] in _NUMERIC]
         if len(numbers) < len(short):
             words = short if self.text else (text for text in short if text[:1] not in _NUMERIC)
@@ -224,7 +225,7 @@ class PlainRows:
 
     def measure(self, columns: Columns) -> None:
         """Widen the columns for the rows."""
-        short = self.sizes <= LONGEST
+        short = self.sizes <= WIDEST
         for number, column in enumerate(columns.upto(int(self.column.max()) + 1)):
             here = short & (self.column == number)
             lefts = self.lefts[here]

@@ -15,10 +15,11 @@ from mudline.codes.lines import SYN001, SYN005
 from mudline.codes.references import REF001, REF005, REF006, REF010
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import folded
-from mudline.diagnostics import MOST_REPORTED, Code, Severity, Where
+from mudline.diagnostics import Code, Severity, Where
 from mudline.keywords.model import Block, may_name, names_given
 from mudline.keywords.text import shown
 from mudline.keywords.values import Label, Names
+from mudline.limits import MOST_REPORTED
 from mudline.scene.context import Context
 from mudline.scene.deck_values import bare, makes_labels
 from mudline.scene.laws import LawTable
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
     from mudline.keywords.library.line_section_groups import LineSectionGroups
     from mudline.keywords.library.p_y import LateralSoil
 
-_MOST_FREEDOMS = 6
+_FREEDOMS = 6
 _MARKS = re.compile(r"[0-9]+|\b\w{1,2}\b")
 """Numbers and words of one or two letters: they distinguish things of a kind."""
 
@@ -161,7 +162,7 @@ def _freedom_and_step(values: FixedValues) -> tuple[int, object]:
 def _is_no_freedom(freedom: object) -> bool:
     """Whether a value is not a degree of freedom; one that could not be read may be one. Equations give 6.0 for 6."""
     known = isinstance(freedom, int | float) and not math.isnan(freedom)
-    return known and freedom not in range(1, _MOST_FREEDOMS + 1)
+    return known and freedom not in range(1, _FREEDOMS + 1)
 
 
 def check_lines(context: Context) -> None:

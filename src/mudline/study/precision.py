@@ -26,6 +26,8 @@ GOALS = (0.01, 0.001)
 """Relative errors for which a step is looked for."""
 LARGEST, SMALLEST = 2.5, 2e-3
 """omega dt that are tried; the smallest only where larger ones do not meet the goals."""
+_MOST_STEPS = 1500
+"""Of a motion: smaller steps are not tried."""
 _PER_OCTAVE = 10
 _FINER = 8
 """Steps between the largest one that meets a goal and the next."""
@@ -199,7 +201,8 @@ def _row_and_curve(  # noqa: PLR0913, PLR0917 - a scheme on a motion, and how it
     found = [_largest(mass, stepper, tried, goal) for goal in GOALS]
     usual = found[0].step or float(tried.steps[0])
     cost = seconds_per_evaluation(mass, stepper, usual, elements, timer)
-    at_own = None if own is None else _tried(mass, stepper, np.array([own.step]))
+    # a step that is smaller than all that are tried has no larger error than the smallest of them
+    at_own = None if own is None else _tried(mass, stepper, np.array([max(own.step, float(tried.steps[0]))]))
     error = None if at_own is None or not math.isfinite(at_own.errors[0]) else float(at_own.errors[0])
     names = (row.contact, row.kind, row.file, row.deck_line, scheme)
     rows = [
@@ -232,8 +235,11 @@ def _tried(mass: Mass, step: Stepper, steps: FloatArray) -> Ladder:
 def ladder(mass: Mass, step: Stepper) -> Ladder:
     """Try steps octave by octave, from the largest on, until two octaves meet every goal."""
     highest, met = LARGEST / mass.omega, 0
+    lowest = max(SMALLEST / mass.omega, mass.duration / _MOST_STEPS)
+    if not 0.0 < lowest < highest < math.inf:
+        raise ValueError("its stiffnesses differ too much")
     parts: list[Ladder] = []
-    while met < 2 and highest > SMALLEST / mass.omega:
+    while met < 2 and highest > lowest:
         steps = highest * 0.5 ** (np.arange(_PER_OCTAVE, 0, -1) / _PER_OCTAVE)
         parts.insert(0, _tried(mass, step, steps))
         met = met + 1 if (parts[0].errors <= min(GOALS)).all() else 0

@@ -15,7 +15,7 @@ from mudline.diagnostics import Where
 from mudline.scene.model import Scene
 from mudline.scene.oscillation import Oscillation, line_of, oscillations
 from mudline.study.drops import ALLOWED, CurveLaw, Drop, Landing, Law, LinearLaw, landings
-from mudline.study.schemes import HHT, SCHEMES
+from mudline.study.schemes import HHT, MOST_STEPS, SCHEMES
 
 LANDED = 6
 """Seabeds, those with the smallest critical steps, on which landings are tried."""
@@ -173,9 +173,12 @@ def judged(scene: Scene, contacts: Sequence[Contact], own: OwnStep | None) -> li
         row, landing = contact.row, None
         if contact.law is not None and left:
             left -= 1
-            drop = landing_on(scene, contact, contact.law)
-            row = _landed(scene, contact, contact.law, drop)
-            landing = None if own is None else landing_at(drop, own.step)
+            try:
+                drop = landing_on(scene, contact, contact.law)
+                row = _landed(scene, contact, contact.law, drop)
+                landing = None if own is None else landing_at(drop, own.step)
+            except (ValueError, ArithmeticError):  # a law that pulls, or whose forces overflow, has no landing
+                row, landing = contact.row, None
         if own is None:
             rows.append(Judged(row, ""))
             continue
@@ -233,13 +236,16 @@ def landing_on(scene: Scene, contact: Contact, law: Law) -> Drop:
 
 
 def landing_at(drop: Drop, step: float) -> Landing:
-    """Return the landings of HHT (-0.3) at one step."""
-    return landings(drop, SCHEMES[HHT], np.array([step]))
+    """Return the landings of HHT (-0.3) at one step, or at a larger one where it is too small to be tried."""
+    return landings(drop, SCHEMES[HHT], np.array([max(step, drop.duration / MOST_STEPS)]))
 
 
 def landing_step(drop: Drop, omega: float) -> float | None:
     """Return the largest step up to which no landing of HHT (-0.3) gains or loses 1 %; None for none that is tried."""
-    return largest_step(lambda dt: landings(drop, SCHEMES[HHT], dt).kept, SMALLEST / omega, LARGEST / omega)
+    smallest, largest = max(SMALLEST / omega, drop.duration / MOST_STEPS), LARGEST / omega
+    if not smallest < largest:
+        return None
+    return largest_step(lambda dt: landings(drop, SCHEMES[HHT], dt).kept, smallest, largest)
 
 
 def largest_step(meets: Callable[[FloatArray], BoolArray], smallest: float, largest: float) -> float | None:

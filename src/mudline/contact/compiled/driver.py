@@ -215,7 +215,8 @@ class CompiledDriver:
 def _tasks(tables: Tables, held: range, width: int) -> list[_Task]:
     """The ranges of elements `held`, each followed by the ranges of nodes whose elements are all written by then.
 
-    All have the same width. Ranges of nodes that have elements elsewhere are left out, and those without elements come first.
+    All have this width. Ranges of nodes that have elements elsewhere are left out, and those without elements come
+    first.
     """
     line, elements, nodes = tables.line, len(tables.half), len(tables.given.node_ids)
     found: dict[int, list[_Task]] = {number: [] for number in range(held.start - 1, held.stop)}
