@@ -11,10 +11,8 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import NamedTuple
 
+from mudline.limits import MOST_REPORTED
 from mudline.short_repr import counted, outline, short_repr
-
-MOST_REPORTED = 1000
-"""Findings of one code in a deck that are reported one by one."""
 
 MORE = f"and more of the same: the first {MOST_REPORTED} are listed"
 """The message of the finding behind them, which replaces all the others."""

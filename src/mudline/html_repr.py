@@ -6,12 +6,8 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from itertools import islice
 
+from mudline.limits import SHOWN_LETTERS, SHOWN_ROWS
 from mudline.short_repr import cut
-
-MOST_ROWS = 20
-"""Rows of a table."""
-_LONGEST = 60
-"""Characters of a cell."""
 
 Cell = str | float | None
 
@@ -29,9 +25,10 @@ def html_table(headings: Sequence[str], rows: Iterable[Sequence[Cell]], count: i
     if not count:
         return ""
     head = "".join(f"<th>{_text(name)}</th>" for name in headings)
-    body = "".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in islice(rows, MOST_ROWS))
-    more = f'<tr><td colspan="{len(headings)}">... and {count - MOST_ROWS} more</td></tr>' if count > MOST_ROWS else ""
-    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}{more}</tbody></table>"
+    body = "".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in islice(rows, SHOWN_ROWS))
+    more = f"... and {count - SHOWN_ROWS} more" if count > SHOWN_ROWS else ""
+    last = f'<tr><td colspan="{len(headings)}">{more}</td></tr>' if more else ""
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}{last}</tbody></table>"
 
 
 def _cell(value: Cell) -> str:
@@ -41,6 +38,6 @@ def _cell(value: Cell) -> str:
     return f'<td style="text-align: right">{text}</td>'
 
 
-def _text(text: str, most: int = _LONGEST) -> str:
+def _text(text: str, most: int = SHOWN_LETTERS) -> str:
     """A text as HTML has it; half a surrogate pair, as a name may hold, is escaped."""
     return escape(cut(text, most).encode("utf-8", "backslashreplace").decode())

@@ -6,12 +6,10 @@ from collections.abc import Collection, Iterable, Iterator, Sequence, Sized
 from dataclasses import fields, is_dataclass
 from enum import Enum
 
-LONGEST = 200
+from mudline.limits import LISTED, SHOWN_LETTERS
+
+LETTERS = 200
 """Characters of a representation."""
-MOST_NAMES = 8
-"""Most names that a list of names shows."""
-_MOST_NUMBERS = 10
-_LONGEST_TEXT = 40
 _LONGEST_TUPLE = 4
 
 
@@ -36,15 +34,15 @@ def short_repr(thing: object) -> str:
 
 
 def with_fields(thing: object, given: Iterable[tuple[str, object]]) -> str:
-    """Return the class of a thing and its fields, arrays as shapes, in at most `LONGEST` characters."""
+    """Return the class of a thing and its fields, arrays as shapes, in at most `LETTERS` characters."""
     text = ", ".join(f"{name}={brief(value)}" for name, value in given)
-    return f"{type(thing).__name__}({cut(text, LONGEST - len(type(thing).__name__) - 2)})"
+    return f"{type(thing).__name__}({cut(text, LETTERS - len(type(thing).__name__) - 2)})"
 
 
 def outline(title: str, *parts: str) -> str:
-    """Return `<title: part; part>` without empty parts, in at most `LONGEST` characters."""
+    """Return `<title: part; part>` without empty parts, in at most `LETTERS` characters."""
     text = "; ".join(part for part in parts if part)
-    return f"<{cut(f'{title}: {text}', LONGEST - 2)}>"
+    return f"<{cut(f'{title}: {text}', LETTERS - 2)}>"
 
 
 def brief(value: object) -> str:
@@ -55,7 +53,7 @@ def brief(value: object) -> str:
     elif value is None or isinstance(value, bool | int | float):
         text = repr(value)
     elif isinstance(value, str):
-        text = repr(cut(value, _LONGEST_TEXT - 2))
+        text = repr(cut(value, SHOWN_LETTERS - 2))
     elif isinstance(shape, tuple):
         text = f"<{getattr(value, 'dtype', type(value).__name__)} {shape}>"
     elif type(value) is tuple and len(value) <= _LONGEST_TUPLE:
@@ -80,13 +78,13 @@ def counted(number: int, thing: str) -> str:
 
 def listed_numbers(numbers: Sequence[float]) -> str:
     """Return the first numbers, and how many there are besides."""
-    more = f" and {len(numbers) - _MOST_NUMBERS} more" if len(numbers) > _MOST_NUMBERS else ""
-    return ", ".join(map(repr, numbers[:_MOST_NUMBERS])) + more
+    more = f" and {len(numbers) - LISTED} more" if len(numbers) > LISTED else ""
+    return ", ".join(map(repr, numbers[:LISTED])) + more
 
 
 def listed(names: Collection[str]) -> str:
     """Return the first names in quotes, and how many there are besides."""
-    first = [repr(cut(name, _LONGEST_TEXT)) for name, _ in zip(names, range(MOST_NAMES), strict=False)]
+    first = [repr(cut(name, SHOWN_LETTERS)) for name, _ in zip(names, range(LISTED), strict=False)]
     rest = len(names) - len(first)
     return ", ".join([*first, f"and {rest} more"] if rest else first)
 

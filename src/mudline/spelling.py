@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from mudline.limits import LONGEST_MISSPELT, SPELLING_EFFORT
+
 _SHORT = 5
-_LONGEST = 256
-_MOST = 250_000
 
 
 @dataclass(slots=True)
@@ -17,14 +17,14 @@ class Effort:
     Where it ends there is no suggestion: very many misspelt words get one for the first of them only.
     """
 
-    left: int = _MOST
+    left: int = SPELLING_EFFORT
 
 
 def nearest(word: str, known: Iterable[str], effort: Effort | None = None) -> str:
     """Return the nearest known name within two edits (one for a short word), or ""; case does not matter."""
     effort = Effort() if effort is None else effort
     wanted = word.casefold()
-    if len(wanted) > _LONGEST or effort.left < 0:
+    if len(wanted) > LONGEST_MISSPELT or effort.left < 0:
         return ""
     most = 1 if len(wanted) < _SHORT else 2
     found: list[tuple[int, str]] = []

@@ -19,7 +19,7 @@ from mudline.deck.loading import load_bytes
 from mudline.keywords.model import Comment
 from mudline.results.evaluation import evaluate_scene
 from mudline.scene.model import resolve
-from mudline.short_repr import LONGEST, brief, cut, listed, short_repr
+from mudline.short_repr import LETTERS, brief, cut, listed, short_repr
 from tests.builders.decks import BAD_NUMBER, CLEAN, ILLEGAL
 from tests.processes import TIMEOUT
 
@@ -146,7 +146,7 @@ def test_errors_of_a_deck_and_a_scene_are_counted() -> None:
 
 
 def test_values_in_short() -> None:
-    assert brief("x" * 100) == repr("x" * 35 + "...")
+    assert brief("x" * 100) == repr("x" * 55 + "...")
     assert brief((1, "a")) == "(1, 'a')"
     assert brief((1,)) == "(1,)"
     assert brief((1, 2, 3, 4, 5)) == "5 items"
@@ -159,9 +159,9 @@ def test_values_in_short() -> None:
     assert listed([]) == ""
     assert short_repr(3) == "int()"
     long = Comment(before=1, text="x" * 5000)
-    assert len(repr(long)) < LONGEST
+    assert len(repr(long)) < LETTERS
     curve = mudline.ForceCurve([(index + 1 / 3, index + 1 / 7) for index in range(8)], "c" * 500)
-    assert len(repr(curve)) < LONGEST
+    assert len(repr(curve)) < LETTERS
 
 
 @pytest.mark.parametrize("name", USED)

@@ -157,7 +157,7 @@ def test_units_that_differ_are_shown_and_compared() -> None:
 
 
 def test_only_the_first_of_many_rows_are_listed(four: str, place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mudline.cli.batch_text.MOST_ROWS", 1)
+    monkeypatch.setattr("mudline.cli.batch_text.SHOWN_ROWS", 1)
     place(BAD_NUMBER, "decks/e.keyxm")
     outcome = batch(four).out
     assert "1 more deck: -v shows all\n" in outcome

@@ -126,8 +126,8 @@ def test_many_reasons_are_counted(place: Place) -> None:
     outcome = run("convert", place(deck), "--to", "json")
     assert outcome.code == 1
     lines = outcome.err.splitlines()
-    assert len(lines) == 21
-    assert lines[-1] == "mudline: 30 more errors: mudline lint shows all"
+    assert len(lines) == 41
+    assert lines[-1] == "mudline: 10 more errors: mudline lint shows all"
 
 
 def test_deck_that_is_illegal_but_legible_is_converted(place: Place) -> None:

@@ -112,11 +112,11 @@ def test_a_deck_that_cannot_be_read(place: Place) -> None:
 
 
 def test_many_differences_are_counted(place: Place) -> None:
-    nodes = "".join(f" {number}, 0, {number}\n" for number in range(100, 130))
+    nodes = "".join(f" {number}, 0, {number}\n" for number in range(100, 150))
     more = place(CLEAN.replace("*ELEMENT\n", f"*NODE\n{nodes}*ELEMENT\n"), "b.keyxm")
-    assert "nodes\n  + 100-129: 30 nodes\n30 differences\n" in run("diff", place(), more).out
-    assert "nodes\n  - 100-129: 30 nodes\n" in run("diff", more, "deck.keyxm").out
-    assert run("diff", "-v", "deck.keyxm", more).out.count("  + ") == 30
+    assert "nodes\n  + 100-149: 50 nodes\n50 differences\n" in run("diff", place(), more).out
+    assert "nodes\n  - 100-149: 50 nodes\n" in run("diff", more, "deck.keyxm").out
+    assert run("diff", "-v", "deck.keyxm", more).out.count("  + ") == 50
     moved = place(Path(more).read_text(encoding="utf-8").replace(", 0, ", ", 1, "), "c.keyxm")
     assert "  and 10 more (-v shows all)\n" in run("diff", more, moved).out
 

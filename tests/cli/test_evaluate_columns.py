@@ -94,7 +94,7 @@ def test_headings_that_the_file_lacks(place: Place, text: str, columns: str, mes
 
 def test_long_headers_are_cut_in_messages(place: Place) -> None:
     header = ",".join(f"c{number}" for number in range(20))
-    assert "'c11' and 8 more" in evaluated(place(), f"{header}\n", "node=n").err
+    assert "'c9' and 10 more" in evaluated(place(), f"{header}\n", "node=n").err
 
 
 def test_columns_are_for_positions_from_csv(place: Place) -> None:

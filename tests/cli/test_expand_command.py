@@ -137,7 +137,7 @@ def test_files_that_the_deck_names_are_not_copied_and_that_is_told(place: Place)
 
 
 def test_many_files_in_the_way_are_counted(place: Place) -> None:
-    name = place(STUDY.replace("50, 100, 50", "1, 10"))
+    name = place(STUDY.replace("50, 100, 50", "1, 20"))
     run("expand", name, "-o", "out")
     outcome = run("expand", name, "-o", "out")
     assert outcome.err.splitlines()[-2:] == ["mudline: and 1 more of the same", "mudline: nothing is written"]

@@ -10,7 +10,8 @@ from rich.cells import cell_len
 
 from mudline.cli.printing import excerpt
 from mudline.diagnostics import Diagnostic, Edit, Fix, Severity
-from mudline.linting.output import LONGEST, form, visible, visible_lines
+from mudline.limits import LONGEST_MESSAGE
+from mudline.linting.output import form, visible, visible_lines
 from mudline.syntax.source import Source
 from tests.builders.decks import BAD_NUMBER, CLEAN, UNUSED
 from tests.cli.conftest import Place
@@ -296,9 +297,9 @@ def test_visible_text(text: str, encoding: str, shown: str) -> None:
 
 
 def test_text_that_nobody_reads_to_its_end_is_cut() -> None:
-    assert visible("x" * LONGEST) == "x" * LONGEST
-    assert visible("x" * (LONGEST + 1)) == "x" * (LONGEST - 3) + "..."
-    assert len(visible("\x1b" * 10_000_000)) == LONGEST
+    assert visible("x" * LONGEST_MESSAGE) == "x" * LONGEST_MESSAGE
+    assert visible("x" * (LONGEST_MESSAGE + 1)) == "x" * (LONGEST_MESSAGE - 3) + "..."
+    assert len(visible("\x1b" * 10_000_000)) == LONGEST_MESSAGE
 
 
 def test_visible_lines_keep_their_ends() -> None:

@@ -9,9 +9,10 @@ import pytest
 
 from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck, Opaque, Section
-from mudline.diagnostics import MOST_REPORTED, DeckError, Diagnostic
+from mudline.diagnostics import DeckError, Diagnostic
 from mudline.keywords.library.ocean import Ocean
 from mudline.keywords.model import Comment
+from mudline.limits import MOST_REPORTED
 
 Document = dict[str, Any]
 

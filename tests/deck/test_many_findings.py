@@ -7,7 +7,7 @@ from collections import Counter
 import pytest
 
 from mudline.deck.loading import load_bytes
-from mudline.diagnostics import MOST_REPORTED
+from mudline.limits import MOST_REPORTED
 
 
 @pytest.mark.untraced

@@ -16,6 +16,7 @@ from tests.docs.keyword_index import keyword_index
 from tests.docs.keyword_page import keyword_pages
 from tests.docs.law_page import law_page
 from tests.docs.layer_picture import layer_picture
+from tests.docs.limits_page import limits_page
 from tests.docs.refresh import copy_of_files, refreshed
 from tests.docs.rule_pages import rule_index, rule_page
 from tests.editors.textmate import GRAMMAR, grammar_text
@@ -36,7 +37,7 @@ def pages() -> Mapping[str, str]:
     """The text of every page by its path in the repository; what it is made of does not change while this runs."""
     indexes = {"docs/keywords.md": keyword_index(), "docs/rules/README.md": rule_index(rules())}
     of_rules = {f"docs/rules/{rule.code.code}.md": rule_page(rule) for rule in rules()}
-    single = {"docs/laws.md": law_page(), "docs/architecture.svg": layer_picture()}
+    single = {"docs/laws.md": law_page(), "docs/limits.md": limits_page(), "docs/architecture.svg": layer_picture()}
     return indexes | keyword_pages() | of_rules | single | pages_with_tables()
 
 

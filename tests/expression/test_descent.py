@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 from mudline.expression.evaluation import evaluate
 from mudline.expression.nodes import Expression, ExpressionError
 from mudline.expression.parsing import (
-    DEEPEST,
     LEVELS,
     by_grammar,
     descend,
@@ -22,6 +21,7 @@ from mudline.expression.parsing import (
     tokens,
     tree,
 )
+from mudline.limits import DEEPEST
 
 MARKS = st.sampled_from([*'+-*/^(),=<>"#[ \t', "**", "==", "!=", "<>", "<=", ">=", '""'])
 WORDS = st.sampled_from(["and", "or", "not", "AND", "Or", "NOT", "and_1", "nothing", "x", "x y not", "Water Depth"])

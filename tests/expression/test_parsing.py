@@ -8,7 +8,8 @@ import sys
 import pytest
 
 from mudline.expression.nodes import Expression, ExpressionError, NameSpan
-from mudline.expression.parsing import DEEPEST, LONGEST, parse
+from mudline.expression.parsing import parse
+from mudline.limits import DEEPEST, LONGEST_EQUATION
 from tests.processes import TIMEOUT
 
 
@@ -130,15 +131,15 @@ def test_the_fault_of_deep_nesting_is_its_first_bracket_too_many() -> None:
 
 
 def test_length_limit() -> None:
-    assert parse("1".ljust(LONGEST)).names == ()
+    assert parse("1".ljust(LONGEST_EQUATION)).names == ()
     with pytest.raises(ExpressionError, match="longer than 10000 characters") as caught:
-        parse("1".ljust(LONGEST + 3))
-    assert caught.value.span == (LONGEST, LONGEST + 3)
+        parse("1".ljust(LONGEST_EQUATION + 3))
+    assert caught.value.span == (LONGEST_EQUATION, LONGEST_EQUATION + 3)
 
 
 def test_an_unclosed_tower_of_brackets_is_an_error_of_its_end() -> None:
     with pytest.raises(ExpressionError, match="is incomplete"):
-        parse("(" * LONGEST)
+        parse("(" * LONGEST_EQUATION)
 
 
 def test_importing_does_not_build_the_grammar() -> None:

@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 from mudline.deck.forms.json import to_json
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Severity
+from mudline.limits import MOST_PASSES
 from mudline.linting.engine import Fixing, LintSettings
-from mudline.linting.fixing import MOST_PASSES, Fixed, fix_bytes, lint_one
+from mudline.linting.fixing import Fixed, fix_bytes, lint_one
 from mudline.linting.registry import rules
 from mudline.linting.rule import Rule
 from mudline.linting.suppression import STY010

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from mudline.deck.forms.json import to_json
 from mudline.deck.loading import load_bytes
-from mudline.diagnostics import MOST_REPORTED
+from mudline.limits import MOST_REPORTED
 from mudline.linting.engine import Fixing, LintSettings, lint_bytes
 from mudline.linting.fixing import Fixed, fix_bytes
 from mudline.linting.registry import select

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import mudline
-from mudline.html_repr import MOST_ROWS, html_page, html_table
+from mudline.html_repr import html_page, html_table
+from mudline.limits import SHOWN_ROWS
 from tests.builders.decks import CLEAN
 
 HOSTILE = "<script>alert('x')</script>&\udc80"
@@ -57,7 +58,7 @@ def test_a_curve_shows_points_and_slopes() -> None:
     assert Cells(text).texts[2:] == ["ratio", "force", "slope", "0", "0", "10000", "0.1", "1000", "5000", "0.5", "3000"]
     assert "<script" not in text
     long = mudline.ForceCurve([(i / 10.0, float(i * i)) for i in range(500)])
-    assert Cells(long._repr_html_()).texts[-1] == f"... and {500 - MOST_ROWS} more"
+    assert Cells(long._repr_html_()).texts[-1] == f"... and {500 - SHOWN_ROWS} more"
 
 
 def test_a_result_shows_touchdown(deck: mudline.Deck) -> None:
@@ -70,7 +71,7 @@ def test_a_result_shows_touchdown(deck: mudline.Deck) -> None:
     series = contact.evaluate(np.repeat(scene.coordinates[None], 50, axis=0), times=np.arange(50.0))
     texts = Cells(series._repr_html_()).texts
     assert texts[1] == " 50 steps, 2 elements, 3 nodes, metric"
-    assert (texts.count("12.502"), texts[-1]) == (2 * MOST_ROWS, f"... and {50 - MOST_ROWS} more")
+    assert (texts.count("12.502"), texts[-1]) == (2 * SHOWN_ROWS, f"... and {50 - SHOWN_ROWS} more")
 
 
 def test_hostile_texts_are_escaped_and_long_ones_cut() -> None:

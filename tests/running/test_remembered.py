@@ -90,7 +90,7 @@ def test_what_is_at_a_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     assert state(str(file)) == state("a\0b") == ""
     file.write_text("long", encoding="utf-8")
     assert state(str(file)) != ""
-    monkeypatch.setattr(remembered, "LARGEST_READ", 3)
+    monkeypatch.setattr(remembered, "LARGEST_NEIGHBOUR", 3)
     first = state(str(file))
     os.utime(file, (1.0, 1.0))
     assert state(str(file)) not in ("", first)
@@ -131,20 +131,20 @@ def test_number_and_size_are_bounded(tmp_path: Path, monkeypatch: pytest.MonkeyP
         left = Memory(tmp_path / "memory.txt")
         return [number for number, key in enumerate(keys) if left.get(key) is not None]
 
-    monkeypatch.setattr(remembered, "MOST_ENTRIES", 5)
+    monkeypatch.setattr(remembered, "MOST_REMEMBERED", 5)
     assert filled(9) == [4, 5, 6, 7, 8]
-    monkeypatch.setattr(remembered, "MOST_BYTES", 1000 + 2 * (len('[["result"],{}]') + 42) + 1)
+    monkeypatch.setattr(remembered, "LARGEST_MEMORY", 1000 + 2 * (len('[["result"],{}]') + 42) + 1)
     assert filled(9) == [7, 8]
-    monkeypatch.setattr(remembered, "MOST_BYTES", 10)
+    monkeypatch.setattr(remembered, "LARGEST_MEMORY", 10)
     assert filled(9) == []
     monkeypatch.undo()
-    monkeypatch.setattr(remembered, "LONGEST", 5)
+    monkeypatch.setattr(remembered, "LONGEST_REMEMBERED", 5)
     assert filled(9) == []
 
 
 def test_working_folders_have_memories_of_their_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(cache_folder.PLACE, str(tmp_path / "cache"))
-    monkeypatch.setattr(remembered, "MOST_FILES", 2)
+    monkeypatch.setattr(remembered, "MOST_MEMORIES", 2)
     for name in "abc":
         (tmp_path / name).mkdir()
         monkeypatch.chdir(tmp_path / name)

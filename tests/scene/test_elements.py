@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from mudline.scene.numbering import MOST_GENERATED
+from mudline.limits import MOST_GENERATED
 from tests.builders.scenes import all_reported, ends_of, messages, reported, scene_of
 
 NODES = "$MODEL\n*NODE\n 1, 0, 0\n 21, 0, 200\n GEN=1, 21\n"

@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.diagnostics import Where
-from mudline.scene.numbering import MOST_GENERATED, Batch, Definitions, whole_numbers
+from mudline.limits import MOST_GENERATED
+from mudline.scene.numbering import Batch, Definitions, whole_numbers
 from tests.builders.scenes import all_reported, messages, nodes_of, reported, scene_of
 
 NODE = "$MODEL\n*NODE\n"

@@ -265,11 +265,11 @@ def test_many_names_are_cut() -> None:
     many = ByName("curve", [(f"Soil {number:03}", number) for number in range(300)])
     assert message_of(many, "Soil 2999") == (
         "no curve 'Soil 2999' (did you mean Soil 299?): there are 'Soil 000', 'Soil 001', 'Soil 002', 'Soil 003', "
-        "'Soil 004', 'Soil 005', 'Soil 006', 'Soil 007', and 292 more"
+        "'Soil 004', 'Soil 005', 'Soil 006', 'Soil 007', 'Soil 008', 'Soil 009', and 290 more"
     )
     assert repr(many) == (
         "<300 curves: 'Soil 000', 'Soil 001', 'Soil 002', 'Soil 003', 'Soil 004', 'Soil 005', 'Soil 006', 'Soil 007', "
-        "and 292 more>"
+        "'Soil 008', 'Soil 009', and 290 more>"
     )
     long = ByName("set", [("x" * 500, 1)])
     assert len(message_of(long, "y" * 500)) < 200

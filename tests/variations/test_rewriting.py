@@ -297,13 +297,13 @@ def test_a_file_that_the_encoding_of_the_deck_lacks(tmp_path: Path) -> None:
 
 def test_a_file_too_large_or_closed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "a.txt").write_text(" 1\n")
-    monkeypatch.setattr("mudline.variations.cases._LARGEST", 2)
-    assert "is larger than" in only(refused(acting("ADD, KEYWORD=OFFSET, FILE=a.txt"), folder=tmp_path))[3]
+    monkeypatch.setattr("mudline.variations.cases.LARGEST_FILE", 2)
+    assert "million bytes" in only(refused(acting("ADD, KEYWORD=OFFSET, FILE=a.txt"), folder=tmp_path))[3]
 
     def fail(_: Path) -> bytes:
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr("mudline.variations.cases._LARGEST", 20)
+    monkeypatch.setattr("mudline.variations.cases.LARGEST_FILE", 20)
     monkeypatch.setattr(Path, "read_bytes", fail)
     found = only(refused(acting("ADD, KEYWORD=OFFSET, FILE=a.txt"), folder=tmp_path))
     assert "a.txt cannot be read: permission denied" in found[3]

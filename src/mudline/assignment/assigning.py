@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import islice
 from typing import NamedTuple, cast
 
-from mudline.assignment.fields import MOST_LISTED, Target, Value, blocks_of, cell, values_of
+from mudline.assignment.fields import Target, Value, blocks_of, cell, values_of
 from mudline.assignment.paths import Assignment, Operand
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin, read_source
@@ -17,6 +17,7 @@ from mudline.formatting.document import same_meaning
 from mudline.keywords.model import Part, record_schema
 from mudline.keywords.table import Table
 from mudline.keywords.values import Equation, Kind
+from mudline.limits import LISTED
 from mudline.scene.deck_values import range_fault
 from mudline.scene.model import resolve
 from mudline.short_repr import cut
@@ -85,11 +86,11 @@ def assigned(deck: Deck, assignment: Assignment, target: Target, units: str | No
 
 def _the_one(deck: Deck, target: Target) -> Value | None:
     """The value at a path; None where the deck has no such record. Raises AssignmentError for several of them."""
-    all_found = list(islice(values_of(deck, target), MOST_LISTED * 100))
+    all_found = list(islice(values_of(deck, target), LISTED * 100))
     given = [one for one in all_found if one.value is not None]
     if len(given) > 1:
-        lines = [str(_line(deck, one)) for one in given[: MOST_LISTED + 1]]
-        listed = ", ".join(lines[:MOST_LISTED]) + (", ..." if len(lines) > MOST_LISTED else "")
+        lines = [str(_line(deck, one)) for one in given[: LISTED + 1]]
+        listed = ", ".join(lines[:LISTED]) + (", ..." if len(lines) > LISTED else "")
         raise AssignmentError(
             f"{target.path} is ambiguous: the deck has several such values, in lines {listed}; choose one by the name "
             "of its set, as in KEYWORD[set=NAME].field, or by its number, as in KEYWORD[2].field"

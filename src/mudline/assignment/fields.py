@@ -31,10 +31,8 @@ from mudline.keywords import catalogue
 from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Rows, record_schema
 from mudline.keywords.table import Table
 from mudline.keywords.values import Equation, Kind, Label
+from mudline.limits import LISTED
 from mudline.spelling import edits, nearest
-
-MOST_LISTED = 12
-"""Names of fields, or lines of a deck, in a message."""
 
 
 class DeclaredField(NamedTuple):
@@ -152,7 +150,7 @@ def _unknown_keyword(keyword: str) -> str:
 def _unknown_field(path: FieldPath, known: Sequence[DeclaredField]) -> str:
     names = dict.fromkeys(field.dotted for field in known)
     hint = _hint(path.names[-1], {name for field in known for name in _names_of(field.slot)})
-    listed = ", ".join(list(names)[:MOST_LISTED]) + (", ..." if len(names) > MOST_LISTED else "")
+    listed = ", ".join(list(names)[:LISTED]) + (", ..." if len(names) > LISTED else "")
     return f"*{path.keyword} has no field {'.'.join(path.names)!r}" + (hint or f": it has {listed or 'none'}")
 
 

@@ -10,12 +10,10 @@ from lark import Lark, Token, Transformer, UnexpectedInput, v_args
 from lark.exceptions import VisitError
 from lark.tree import Meta
 
+from mudline.limits import LONGEST_ASSIGNMENT
 from mudline.resources import grammar_file
 from mudline.syntax.rows import read_number
 from mudline.syntax.tree import canonical_name
-
-LONGEST = 2_000
-"""Letters of an assignment or a condition."""
 
 ORDERING = frozenset({"<", "<=", ">", ">="})
 _SAME = {"=": "==", "<>": "!="}
@@ -123,8 +121,8 @@ _FORMS = {
 
 
 def _parsed(text: str, start: str) -> object:
-    if len(text) > LONGEST:
-        raise PathError(f"more than {LONGEST} characters: expected {_FORMS[start]}")
+    if len(text) > LONGEST_ASSIGNMENT:
+        raise PathError(f"more than {LONGEST_ASSIGNMENT} characters: expected {_FORMS[start]}")
     try:
         tree = _grammar(start).parse(text)
         return _Builder(text).transform(tree)

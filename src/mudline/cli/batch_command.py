@@ -30,9 +30,10 @@ from mudline.cli.batch_text import print_cases
 from mudline.cli.evaluate_inputs import EvaluateInputs, takes_inputs
 from mudline.cli.inputs import STDIN, Input, Inputs, collect
 from mudline.cli.result_files import has_library, is_installed
-from mudline.cli.streams import MOST_REPORTED, counted, emit, emit_json, encoded, notify, reason
+from mudline.cli.streams import counted, emit, emit_json, encoded, notify, reason
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.files import is_url, remove_left, write_atomically
+from mudline.limits import SHOWN_ROWS
 from mudline.quantities import CASES, csv_lines
 from mudline.results.cases import CaseSummary, worst_first, write_parquet
 from mudline.running import storage
@@ -300,6 +301,6 @@ def _notify_warnings(done: Sequence[Done]) -> None:
     for one in done:
         for code, text in dict(one.warnings).items():
             decks.setdefault(code, []).append(text)
-    for texts in list(decks.values())[:MOST_REPORTED]:
+    for texts in list(decks.values())[:SHOWN_ROWS]:
         more = f" ({counted(len(texts) - 1, 'more deck')})" if len(texts) > 1 else ""
         notify(f"warning: {texts[0]}{more}")

@@ -6,10 +6,10 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mudline.cli.evaluate_one import MOST_ROWS
 from mudline.cli.streams import counted
 from mudline.cli.view import View
 from mudline.files import is_url
+from mudline.limits import SHOWN_ROWS
 from mudline.quantities import CASES, headed, shown
 from mudline.results.cases import CaseSummary
 
@@ -30,7 +30,7 @@ def print_cases(ranked: Sequence[CaseSummary], folder: str, names: Mapping[str, 
     printer = view.printer()
     failed = [row for row in ranked if row.failed]
     evaluated = ranked[len(failed) :]
-    most = None if view.verbose else MOST_ROWS
+    most = None if view.verbose else SHOWN_ROWS
     where = f" in {inside}" if (inside := _inside(folder)) else ""
     if failed:
         reasons = [(names[row.deck], row.reason or "") for row in failed[:most]]

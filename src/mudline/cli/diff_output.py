@@ -11,10 +11,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mudline.cli.streams import MOST_REPORTED
 from mudline.cli.view import View
 from mudline.comparison.model import Difference, Value, spans_of, text_of
 from mudline.comparison.superseded import Comparison
+from mudline.limits import SHOWN_ROWS
 from mudline.linting.output import visible
 from mudline.short_repr import counted
 
@@ -68,7 +68,7 @@ def difference_lines(before: str, after: str, comparison: Comparison, view: View
             for kind, text in ranges:
                 mark, style = _MARKS[kind]
                 yield f"  {mark} {text}", style
-        most = len(differences) if view.verbose else MOST_REPORTED
+        most = len(differences) if view.verbose else SHOWN_ROWS
         for one in differences[:most]:
             mark, style = _MARKS[one.kind]
             yield f"  {mark} {visible(_described(one))}", style

@@ -10,9 +10,10 @@ from mudline.cli.evaluate_inputs import read_file
 from mudline.cli.evaluate_text import print_comparison, print_evaluation, print_series
 from mudline.cli.pictures import Picture
 from mudline.cli.result_files import behind, beside, form_of_file, line_watch, result_files, write_tables
-from mudline.cli.streams import MOST_REPORTED, counted, emit, notify
+from mudline.cli.streams import counted, emit, notify
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.contact import LawKind
+from mudline.limits import SHOWN_ROWS
 from mudline.results.against import Comparison, read_reference
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import ResultConsumer, Sink, contents_of, tables_of
@@ -21,9 +22,6 @@ from mudline.results.series import SeriesSummary, series_tables
 from mudline.results.totals import SlowSuction, StepSummary
 from mudline.results.warnings import ContactWarning, ContactWatch, caption
 from mudline.short_repr import listed_numbers
-
-MOST_ROWS = 40
-"""Lines of a table on the terminal, unless more is asked for."""
 
 
 def evaluate_one(
@@ -43,7 +41,7 @@ def evaluate_one(
     if not view.quiet:
         _notify_before(evaluation, comparison)
     shown = "" if output else output_format
-    most = None if view.verbose else MOST_ROWS
+    most = None if view.verbose else SHOWN_ROWS
     digest = StepSummary(evaluation, most, table == "nodes") if shown == "text" else None
     lines = line_watch(evaluation, shown or form_of_file(output), most)
     slow, watch = SlowSuction(), ContactWatch.of(evaluation)
@@ -88,7 +86,7 @@ def evaluate_series(
     if output and not view.quiet:
         _notify_written(evaluation, Path(output), written)
     if not output and output_format == "text":
-        print_series(summary.totals, summary.line_watch(None if view.verbose else MOST_ROWS), view)
+        print_series(summary.totals, summary.line_watch(None if view.verbose else SHOWN_ROWS), view)
     return warnings
 
 
@@ -135,10 +133,10 @@ def _notify_before(evaluation: Evaluation, comparison: Comparison | None) -> Non
 
 def _notify_warnings(warnings: Sequence[ContactWarning]) -> None:
     """Report what is doubtful in the results."""
-    for one in warnings[:MOST_REPORTED]:
+    for one in warnings[:SHOWN_ROWS]:
         notify(f"warning: {one}")
-    if len(warnings) > MOST_REPORTED:
-        notify(f"{len(warnings) - MOST_REPORTED} more warnings: JSON has all")
+    if len(warnings) > SHOWN_ROWS:
+        notify(f"{len(warnings) - SHOWN_ROWS} more warnings: JSON has all")
 
 
 def _notify_written(evaluation: Evaluation, path: Path, others: Mapping[str, Path]) -> None:

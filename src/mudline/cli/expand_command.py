@@ -9,8 +9,9 @@ import click
 
 from mudline.cli import DONE, options
 from mudline.cli.inputs import STDIN, GivenDeck, takes_deck
-from mudline.cli.streams import MOST_REPORTED, emit, notify, reason, write_bytes, write_text
+from mudline.cli.streams import emit, notify, reason, write_bytes, write_text
 from mudline.cli.view import View
+from mudline.limits import SHOWN_ROWS
 from mudline.short_repr import counted
 from mudline.variations.files import MANIFEST, ExpansionPlan, PlannedDeck, conflicts, lacking, manifest_text
 from mudline.variations.planning import plan
@@ -54,10 +55,10 @@ def command(*, deck: GivenDeck, output: str | None, dry_run: bool, force: bool, 
 
 
 def _notify_some(messages: list[str]) -> None:
-    for message in messages[:MOST_REPORTED]:
+    for message in messages[:SHOWN_ROWS]:
         notify(message)
-    if len(messages) > MOST_REPORTED:
-        notify(f"and {len(messages) - MOST_REPORTED} more of the same")
+    if len(messages) > SHOWN_ROWS:
+        notify(f"and {len(messages) - SHOWN_ROWS} more of the same")
 
 
 def _write(planned: ExpansionPlan, folder: Path, view: View) -> None:

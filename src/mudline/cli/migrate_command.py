@@ -9,11 +9,12 @@ import click
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_changes
 from mudline.cli.inputs import Input, collect
-from mudline.cli.streams import MOST_REPORTED, emit_deck, notify, notify_diagnostics, write_bytes
+from mudline.cli.streams import emit_deck, notify, notify_diagnostics, write_bytes
 from mudline.cli.view import View
 from mudline.deck.forms import form_of
 from mudline.deck.loading import dump, load_bytes
 from mudline.diagnostics import DeckError
+from mudline.limits import SHOWN_ROWS
 from mudline.migration.migrating import Migration, Verdict, legacy_blocks, migrate, verify
 from mudline.migration.refusals import Continuations, misspelt
 from mudline.short_repr import counted
@@ -103,7 +104,7 @@ class _Run:
         return dump(migration.deck, form).encode()
 
     def _proved(self, verdict: Verdict) -> bool:
-        for difference in verdict.differences[:MOST_REPORTED]:
+        for difference in verdict.differences[:SHOWN_ROWS]:
             notify(f"{self.file.name}: {difference.what}: {difference.text}")
         if verdict.differences:
             count = counted(len(verdict.differences), "difference")

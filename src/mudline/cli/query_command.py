@@ -20,6 +20,7 @@ from mudline.cli.index_command import lacks_libraries
 from mudline.cli.streams import counted, emit, encoded, notify, writing
 from mudline.cli.view import View
 from mudline.files import suffix_of
+from mudline.limits import SHOWN_ROWS
 from mudline.quantities import csv_lines
 
 if TYPE_CHECKING:
@@ -27,8 +28,6 @@ if TYPE_CHECKING:
 
 Arrow: TypeAlias = Any
 """A reader, batch or type of pyarrow, which has no types; or a value that one holds."""
-MOST_ROWS = 40
-"""Rows of a table on the terminal, unless more is asked for."""
 _FORMATS = ("text", "csv", "json", "parquet")
 _SAFE = 2**53
 
@@ -157,7 +156,7 @@ def _print_table(database: Database, reader: Arrow, view: View) -> None:
     count = 0
     for batch in _batches(database, reader):
         count += batch.num_rows
-        part = batch if view.verbose else batch.slice(0, max(MOST_ROWS - len(rows), 0))
+        part = batch if view.verbose else batch.slice(0, max(SHOWN_ROWS - len(rows), 0))
         rows += zip(*_values(part), strict=True)
     left = [name for name, kind in zip(columns, reader.schema.types, strict=True) if not _is_number(kind)]
     note = f"{counted(count - len(rows), 'more row')}: -v shows all" if count > len(rows) else counted(count, "row")

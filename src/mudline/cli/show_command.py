@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDeck, takes_deck
-from mudline.cli.streams import MOST_ROWS, emit_json, notify
+from mudline.cli.streams import emit_json, notify
 from mudline.cli.view import View
+from mudline.limits import SHOWN_ROWS
 from mudline.quantities import UnitNames, headed, shown, unit_names
 from mudline.results.summary import summarise
 from mudline.scene.model import resolve
@@ -46,7 +47,7 @@ def command(*, deck: GivenDeck, output_format: str, view: View) -> int:
 def _print_summary(summary: dict[str, Any], view: View) -> None:
     """Print sections and keywords, then a table each of sets, curves, diameters and laws."""
     printer = view.printer()
-    most = None if view.verbose else MOST_ROWS
+    most = None if view.verbose else SHOWN_ROWS
     names = unit_names(summary["units"])
     _print_head(printer, summary, names)
     _print_sets(printer, summary["sets"], names)

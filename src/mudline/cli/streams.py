@@ -14,14 +14,10 @@ from typing import BinaryIO
 import click
 
 from mudline.diagnostics import Diagnostic
+from mudline.limits import SHOWN_ROWS
 from mudline.linting.output import visible, visible_lines
 from mudline.short_repr import counted as counted  # noqa: PLC0414 - commands that print findings take it here
 from mudline.syntax.source import Source
-
-MOST_REPORTED = 20
-"""Lines that a message or a group lists; the rest is counted."""
-MOST_ROWS = 40
-"""Rows of a table on the terminal where there may be very many; -v shows all."""
 
 
 def prepare() -> None:
@@ -92,11 +88,11 @@ def notify(message: str) -> None:
 
 def notify_diagnostics(diagnostics: Sequence[Diagnostic]) -> None:
     """Print why a deck cannot be used."""
-    for found in diagnostics[:MOST_REPORTED]:
+    for found in diagnostics[:SHOWN_ROWS]:
         place = visible(f"{found.file}:{found.line}:{found.column}")
         click.echo(f"{place}: {found.severity}: {found.code} {visible(found.message)}", err=True)
-    if len(diagnostics) > MOST_REPORTED:
-        notify(f"{len(diagnostics) - MOST_REPORTED} more errors: mudline lint shows all")
+    if len(diagnostics) > SHOWN_ROWS:
+        notify(f"{len(diagnostics) - SHOWN_ROWS} more errors: mudline lint shows all")
 
 
 def notify_missing(what: str, library: str, extra: str) -> None:

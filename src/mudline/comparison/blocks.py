@@ -15,6 +15,7 @@ from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Record, Rows
 from mudline.keywords.table import Cell, Table
 from mudline.keywords.values import Kind, Names
 from mudline.keywords.writer import field_text, joined
+from mudline.limits import MOST_MATCHED
 
 _KEYS = ("set", "name", "curve")
 
@@ -187,8 +188,6 @@ def _number(cell: float | str | None) -> float:
 _ONE_IN_ALL = ("MODEL", "PREPROCESSOR")
 """Sections of which several make one."""
 _COMMENT = re.compile(r"[Cc](?:(?:[ \t]|[-*=#_.~+]{2}).*)?$")
-_MOST_MATCHED = 2000
-"""Lines of a block up to which the longest common part is searched."""
 
 _Name = tuple[str, str]
 
@@ -298,7 +297,7 @@ def _changes(one: list[str], other: list[str]) -> list[tuple[str, int, int, int,
     while end < most and one[-1 - end] == other[-1 - end]:
         end += 1
     first, second = one[start : len(one) - end], other[start : len(other) - end]
-    if len(first) + len(second) > _MOST_MATCHED:
+    if len(first) + len(second) > MOST_MATCHED:
         return [("replace", start, len(one) - end, start, len(other) - end)]
     found = SequenceMatcher(None, first, second, autojunk=False).get_opcodes()
     return [(tag, i + start, i2 + start, j + start, j2 + start) for tag, i, i2, j, j2 in found]

@@ -18,10 +18,11 @@ from mudline.diagnostics import Where
 from mudline.keywords.model import Record
 from mudline.keywords.table import Table
 from mudline.keywords.values import Label
+from mudline.limits import MOST_GENERATED
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.laws import SetLaw
 from mudline.scene.model import Scene
-from mudline.scene.numbering import MOST_GENERATED, Floats, Indices, Numbered
+from mudline.scene.numbering import Floats, Indices, Numbered
 from mudline.scene.seabed import SeabedShape
 
 

@@ -12,7 +12,8 @@ import numpy as np
 from mudline.contact.columns import Column, ElementTable, NodeTable, Table, Values
 from mudline.contact.result import ContactResult, Part, TableName
 from mudline.contact.touchdown import LineTable, line_summaries
-from mudline.html_repr import MOST_ROWS, html_page, html_table
+from mudline.html_repr import html_page, html_table
+from mudline.limits import SHOWN_ROWS
 from mudline.quantities import ELEMENTS, LINES, RESULT_FORMAT, labelled, time_unit
 from mudline.short_repr import counted
 
@@ -101,7 +102,7 @@ def html(result: ContactResult) -> str:
         return html_page("ContactResult", summary)
     units = result.given.units
     lines = _table(result, "summary").rows
-    shown = line_summaries(series.steps(0, -(-MOST_ROWS // max(lines, 1))))
+    shown = line_summaries(series.steps(0, -(-SHOWN_ROWS // max(lines, 1))))
     headings = [labelled("time", time_unit(units)), "line"]
     headings += [labelled(each.label or name, each.unit_name(units)) for name, each in LINES.items() if name in _SHOWN]
     rows = (

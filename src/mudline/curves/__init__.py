@@ -30,6 +30,7 @@ from mudline.curves.points import (
     real_numbers,
 )
 from mudline.curves.search import BLOCK, Knots, Search, Workspace, blocks, search_for, workspace
+from mudline.limits import SHOWN_ROWS
 from mudline.short_repr import counted, cut
 
 __all__ = ["CurveError", "ForceCurve"]
@@ -216,9 +217,9 @@ class ForceCurve:
 
     def _repr_html_(self) -> str:
         """The points with the slopes behind them, for notebooks."""
-        from mudline.html_repr import MOST_ROWS, html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
+        from mudline.html_repr import html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
 
-        columns = (array[:MOST_ROWS].tolist() for array in (self.ratios, self.forces, np.append(self.slopes, np.nan)))
+        columns = (array[:SHOWN_ROWS].tolist() for array in (self.ratios, self.forces, np.append(self.slopes, np.nan)))
         table = html_table(("ratio", "force", "slope"), zip(*columns, strict=True), len(self.ratios))
         return html_page("ForceCurve", f"{self.name or ''} {counted(len(self.ratios), 'point')}".strip(), table)
 

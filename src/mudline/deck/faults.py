@@ -11,13 +11,12 @@ from pydantic_core import ErrorDetails
 
 from mudline.codes import DOC001, DOC002
 from mudline.deck.model import START, Deck, Origin, Range
-from mudline.diagnostics import MORE, MOST_REPORTED, DeckError, Diagnostic, Problem, Span, Where
+from mudline.diagnostics import MORE, DeckError, Diagnostic, Problem, Span, Where
 from mudline.keywords.values import Equation, Label
+from mudline.limits import MOST_REPORTED, SHOWN_LETTERS
 
 DocumentPath = tuple[str | int, ...]
 Locate = Callable[[DocumentPath], Range]
-
-_LONGEST = 200
 
 
 def refusal(file: str, message: str, place: Range = START) -> DeckError:
@@ -42,8 +41,8 @@ def shown(value: object) -> str:
     """A value of a document in a message, cut when long."""
     if isinstance(value, dict | list):
         return "an object" if isinstance(value, dict) else "a list"
-    text = repr(value[:_LONGEST] if isinstance(value, str) else value)
-    return text if len(text) <= _LONGEST else text[:_LONGEST] + "..."
+    text = repr(value[:SHOWN_LETTERS] if isinstance(value, str) else value)
+    return text if len(text) <= SHOWN_LETTERS else text[:SHOWN_LETTERS] + "..."
 
 
 _WANTED = {

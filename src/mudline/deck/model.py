@@ -11,6 +11,7 @@ from typing import Any, NamedTuple, Self
 from mudline.diagnostics import Blocks, Code, DeckError, Diagnostic, Edit, Fix, Problem, Repair, Severity, Where
 from mudline.keywords.model import Block, Comment, Part, record_schema
 from mudline.keywords.values import Text
+from mudline.limits import LONGEST_MESSAGE
 from mudline.short_repr import counted, cut, listed, outline, short_repr
 
 
@@ -46,9 +47,6 @@ class Range(NamedTuple):
     end_line: int
     end_column: int
 
-
-_LONGEST = 1000
-"""Characters of a message; names of the deck are part of it, and may be of any length."""
 
 _INTERNAL = frozenset(
     [
@@ -299,7 +297,7 @@ class BaseProblem(Problem):
 def _diagnostic(deck: Deck, problem: Problem) -> Diagnostic:
     code: Code = problem.code
     place = deck.origin.place(problem)
-    message = cut(problem.message, _LONGEST)
+    message = cut(problem.message, LONGEST_MESSAGE)
     if not message.isprintable():  # names of the deck are quoted verbatim
         message = "".join(char if char.isprintable() else "\ufffd" for char in message)
     fix = _fix(deck.origin, problem.repair, code) if problem.repair else None

@@ -12,12 +12,13 @@ from mudline.codes.fields import SYN002, SYN006
 from mudline.codes.lines import SYN007, SYN008, SYN009, SYN010, SYN011, SYN014
 from mudline.deck.model import START, Deck, Opaque, Origin, Range, Section
 from mudline.deck.parameters import Parameters
-from mudline.diagnostics import MORE, MOST_REPORTED, Code, Problem, Severity, Span, Where
+from mudline.diagnostics import MORE, Code, Problem, Severity, Span, Where
 from mudline.keywords import catalogue
 from mudline.keywords.catalogue import meant_in, meant_section, suggest_keyword, words_behind
 from mudline.keywords.model import Comment
 from mudline.keywords.reader import BlockReader, ReadBlock, read_block
 from mudline.keywords.text import hint, instead
+from mudline.limits import MOST_REPORTED
 from mudline.short_repr import counted, short_repr
 from mudline.syntax.fields import trimmed
 from mudline.syntax.source import Source

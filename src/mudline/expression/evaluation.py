@@ -41,6 +41,7 @@ from mudline.expression.nodes import (
     children,
     shorten,
 )
+from mudline.limits import LONGEST_TEXT
 
 CONSTANTS: Final[Mapping[str, float]] = MappingProxyType({"pi": math.pi})
 """Names that have a value when no parameter bears them; in lower case, and compared without case."""
@@ -143,8 +144,6 @@ FORMS: Final[Mapping[str, Form]] = MappingProxyType(
 
 Value = float | str
 
-LONGEST_TEXT = 10_000
-"""The longest text that joining may make, in code points: parameters can double one another without end."""
 
 ARITHMETIC: Final[Mapping[str, Callable[[float, float], float]]] = {
     "+": python.add,

@@ -35,6 +35,7 @@ from mudline.expression.nodes import (
     shorten,
     walk,
 )
+from mudline.limits import DEEPEST, LONGEST_EQUATION
 from mudline.resources import grammar_file
 from mudline.syntax.scanning import kept_parser, scanner
 
@@ -250,11 +251,6 @@ class _Reader:
 
 # ---------------------------------------------------------------------------------------------------------- the grammar
 
-LONGEST = 10_000
-"""The longest equation that is read, in code points."""
-
-DEEPEST = 100
-"""The most levels of brackets, calls, signs, `not` and powers inside one another."""
 
 Match = Node | Token
 
@@ -323,8 +319,8 @@ def parse(text: str) -> Expression:
     Raises:
         ExpressionError: the text is not an equation, longer than 10 000 code points, or nested more than 100 deep.
     """
-    if len(text) > LONGEST:
-        raise ExpressionError(f"the equation is longer than {LONGEST} characters", LONGEST, len(text))
+    if len(text) > LONGEST_EQUATION:
+        raise ExpressionError(f"the equation is longer than {LONGEST_EQUATION} characters", LONGEST_EQUATION, len(text))
     if expression := read_plain(text, plain_equations(), tree):
         return expression
     if not text.strip():

@@ -16,7 +16,7 @@ from mudline.keywords.model import FieldSpec
 from mudline.keywords.values import Kind
 from mudline.syntax.rows import GROUPED, PIECE, line_spans, row_fields
 
-LONGEST = 32
+WIDEST = 32
 """Longer fields, such as equations, do not widen their column: the fields after them on their row are shifted right."""
 
 _INTEGER = re.compile(r"[-+0-9]*")
@@ -84,7 +84,7 @@ class Column:
 
     def take(self, texts: Iterable[str]) -> None:
         """Widen the column for fields."""
-        short = [text for text in texts if len(text) <= LONGEST]
+        short = [text for text in texts if len(text) <= WIDEST]
         numbers = [] if self.text else [text for text in short if text[:1] in _NUMERIC]
         if len(numbers) < len(short):
             words = short if self.text else (text for text in short if text[:1] not in _NUMERIC)
@@ -224,7 +224,7 @@ class PlainRows:
 
     def measure(self, columns: Columns) -> None:
         """Widen the columns for the rows."""
-        short = self.sizes <= LONGEST
+        short = self.sizes <= WIDEST
         for number, column in enumerate(columns.upto(int(self.column.max()) + 1)):
             here = short & (self.column == number)
             lefts = self.lefts[here]

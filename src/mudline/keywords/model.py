@@ -34,9 +34,8 @@ from mudline.keywords.table import (
     read_table,
 )
 from mudline.keywords.values import Count, Equation, Facts, Kind, Label, Names, Text
+from mudline.limits import MOST_KEYS
 from mudline.short_repr import with_fields
-
-_MOST_KEYS = 100
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,7 +164,7 @@ class Part(BaseModel):
     @classmethod
     def _few_keys(cls, given: object) -> object:
         """Every unknown key would be a fault."""
-        if isinstance(given, dict) and len(given) > _MOST_KEYS:
+        if isinstance(given, dict) and len(given) > MOST_KEYS:
             raise ValueError(f"{len(given)} keys, expected {len(cls.model_fields)} at most")
         return given
 

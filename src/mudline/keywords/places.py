@@ -8,13 +8,12 @@ from dataclasses import dataclass, field
 from operator import itemgetter
 
 from mudline.diagnostics import Span
+from mudline.limits import MOST_COLUMNS
 from mudline.short_repr import short_repr
 from mudline.syntax.rows import row_fields, row_starts
 
 Path = tuple[str | int, ...]
 """Keys and indices as JSON has them, from the block inwards; a table is followed by row and column."""
-
-_MOST_COLUMNS = 64
 
 
 @dataclass(slots=True)
@@ -61,7 +60,7 @@ class Places:
         if row < 0:
             return None
         stop = self.text.find("\n", starts[row], run.end)
-        fields = row_fields(self.text, Span(starts[row], run.end if stop < 0 else stop), _MOST_COLUMNS)
+        fields = row_fields(self.text, Span(starts[row], run.end if stop < 0 else stop), MOST_COLUMNS)
         at = (column for column, given in enumerate(fields) if given.span.start <= offset <= given.span.end)
         column = next(at, None)
         return None if column is None else (row, column, fields[column].span)
@@ -80,7 +79,7 @@ class Places:
             return run
         start = starts[row - first]
         stop = self.text.find("\n", start, run.end)
-        fields = row_fields(self.text, Span(start, run.end if stop < 0 else stop), _MOST_COLUMNS)
+        fields = row_fields(self.text, Span(start, run.end if stop < 0 else stop), MOST_COLUMNS)
         if len(inner) > 1 and 0 <= int(inner[1]) < len(fields):
             return fields[int(inner[1])].span
         return Span(fields[0].span.start, fields[-1].span.end)

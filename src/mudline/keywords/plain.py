@@ -21,13 +21,11 @@ from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Record, colu
 from mudline.keywords.table import LARGEST_WHOLE, Column, from_numbers, from_rows
 from mudline.keywords.text import UnreadableError, Value, read_value
 from mudline.keywords.values import Equation, Kind
+from mudline.limits import LONGEST_TABLE
 from mudline.syntax.fields import Field, canonical_key
 from mudline.syntax.rows import line_spans, read_number, read_rows
 from mudline.syntax.tree import Kind as LeafKind
 from mudline.syntax.tree import Leaf
-
-LONGEST_TABLE = 4096
-"""Characters of a block with tables that is tried: a longer one would take twice the time where it is not plain."""
 
 _FIELD = r"[^\s,=\"{}\[\]/]+(?:[ \t]+[^\s,=\"{}\[\]/]+)*"
 _EQUATION = r"=\[[^\[\]\"\r\n]*\]"

@@ -17,6 +17,7 @@ from mudline.keywords.model import FieldSpec, columns_of, record_schema, row_for
 from mudline.keywords.places import Path, Places
 from mudline.keywords.table import LARGEST_WHOLE, Column, Table, from_rows, not_whole
 from mudline.keywords.values import Equation, Kind, Label
+from mudline.limits import MOST_REPORTED
 from mudline.spelling import Effort, nearest
 from mudline.syntax.fields import Field, is_one_field, split, trimmed
 from mudline.syntax.rows import Rows as RawRows
@@ -306,10 +307,6 @@ def _remarks(text: str, problems: list[Problem]) -> list[Span | None]:
     return found
 
 
-MOST_FAULTS = 1000
-"""Faults reported one by one; more of them in one table are counted."""
-
-
 class BlockReading(Protocol):
     """The reading of a block, which a table in it adds to."""
 
@@ -380,14 +377,14 @@ class TableBuilder:
             if self._label(table, raw, line(row), row, column):
                 continue
             reported += 1
-            if reported > MOST_FAULTS:
+            if reported > MOST_REPORTED:
                 continue
             if row not in broken and self._brackets(line(row)):
                 broken.add(row)
             if row not in broken:
                 self._fault(line(row), row, column, fault, raw)
-        if reported > MOST_FAULTS:
-            message = f"{reported - MOST_FAULTS} more faulty rows or fields in this table"
+        if reported > MOST_REPORTED:
+            message = f"{reported - MOST_REPORTED} more faulty rows or fields in this table"
             self.builder.damage(self.path[:-1], Problem(SYN002, message, line(-1)))
 
     def _label(self, table: Table, raw: RawRows, line: Span, row: int, column: int) -> bool:

@@ -18,18 +18,13 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import read_source
 from mudline.diagnostics import Diagnostic, Problem, Repair, Severity, Span
 from mudline.files import recording_looks
+from mudline.limits import MOST_PASSES, MOST_TRIES
 from mudline.linting.engine import Fixing, LintSettings, lint_bytes, problems_in, unsuppressed
 from mudline.linting.rule import LintContext
 from mudline.linting.suppression import MARK
 from mudline.syntax.edits import TextEdit, edited_bytes
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, SyntaxTree, parse
-
-MOST_PASSES = 20
-"""Times that repairs are made; each time those that do not overlap."""
-
-_MOST_TRIES = 200
-"""Times that a deck is read while it is fixed: bad repairs among good ones are found by halving."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +114,7 @@ class _Run:
         self.settings = settings
         self.fixed: list[Diagnostic] = []
         self.refused: set[tuple[str, str, int]] = set()
-        self.tries = _MOST_TRIES
+        self.tries = MOST_TRIES
         self.stopped = False
 
     def fix(self, state: FixState) -> FixState:

@@ -13,8 +13,9 @@ from typing import Any, TypeVar
 
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.reading import TextOrigin
-from mudline.diagnostics import MORE, MOST_REPORTED, Blocks, Code, Problem, Where
+from mudline.diagnostics import MORE, Blocks, Code, Problem, Where
 from mudline.keywords.catalogue import holds_in_soil, is_superseded
+from mudline.limits import MOST_REPORTED
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene, resolve
 from mudline.variations.names import (

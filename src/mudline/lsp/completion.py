@@ -15,6 +15,7 @@ from mudline.keywords import catalogue
 from mudline.keywords.model import Block, FieldSpec, Setting, record_schema
 from mudline.keywords.reader import all_keys
 from mudline.keywords.values import Names
+from mudline.limits import MOST_OFFERED
 from mudline.lsp.decks import Analysis, value_text
 from mudline.lsp.hover import field_help, keyword_help, section_help
 from mudline.lsp.sites import Spot, slot_of_key, spot
@@ -29,8 +30,6 @@ _SETTING = re.compile(r"(?:^|,)[ \t]*([A-Za-z][\w \t-]*)=([^=]*)$")
 _WORD = re.compile(r"[^,=\s][^,=]*$")
 _FIELD = re.compile(r'[^,{}="\[\]]+')
 _ESCAPED = re.compile(r"([$}\\])")
-_MOST = 500
-"""Names that are offered; the editor asks again when more is typed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -223,4 +222,4 @@ def _named(cursor: _Cursor, kind: Names | None) -> Iterator[tuple[str, str]]:
 
 
 def _first(names: Iterable[T]) -> Iterator[T]:
-    yield from (name for _, name in zip(range(_MOST), names, strict=False))
+    yield from (name for _, name in zip(range(MOST_OFFERED), names, strict=False))

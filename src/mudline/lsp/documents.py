@@ -14,11 +14,7 @@ from numpy.typing import NDArray
 from pygls.uris import from_fs_path, to_fs_path
 
 from mudline.diagnostics import Span
-
-LONG = 1_000_000
-"""Characters of a deck from which on it is checked only when typing pauses, and its tables are left out of answers."""
-LARGEST = 64_000_000
-"""Characters of a deck from which on nothing is said of it."""
+from mudline.limits import LARGEST_AT_ONCE, LARGEST_OPEN
 
 _LINE_END = re.compile(r"\r\n?|\n")
 _SURROGATE = re.compile("[\ud800-\udfff]")
@@ -122,12 +118,12 @@ class Document:
     @property
     def is_long(self) -> bool:
         """Whether the text is too long to be checked at every keystroke."""
-        return len(self.text) > LONG
+        return len(self.text) > LARGEST_AT_ONCE
 
     @property
     def is_too_large(self) -> bool:
         """Whether nothing is said of the text."""
-        return len(self.text) > LARGEST
+        return len(self.text) > LARGEST_OPEN
 
     # ---------------------------------------------------------------------------------------------------- places
 

@@ -9,6 +9,7 @@ from lsprotocol import types
 
 from mudline.deck.forms import KEYWORD, form_of
 from mudline.diagnostics import Diagnostic, Fix, Severity, Span
+from mudline.limits import SHOWN_ROWS
 from mudline.linting.engine import Fixing
 from mudline.linting.fixing import fix_bytes
 from mudline.linting.registry import page
@@ -23,7 +24,6 @@ _SEVERITIES = {
     Severity.WARNING: types.DiagnosticSeverity.Warning,
     Severity.INFO: types.DiagnosticSeverity.Information,
 }
-_MOST_RELATED = 20
 
 
 def span_of(document: Document, found: Diagnostic) -> Span:
@@ -43,7 +43,7 @@ def _shown(document: Document, found: Diagnostic) -> types.Diagnostic:
         types.DiagnosticRelatedInformation(
             types.Location(document.uri, document.range(span_of(document, one))), f"{one.code} {one.message}"
         )
-        for one in found.following[:_MOST_RELATED]
+        for one in found.following[:SHOWN_ROWS]
     ]
     return types.Diagnostic(
         range=document.range(span_of(document, found)),

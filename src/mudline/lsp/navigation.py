@@ -33,11 +33,6 @@ from mudline.syntax.edits import TextEdit, apply_edits
 
 # ----------------------------------------------------------------------------------------------------- decks of a chain
 
-_MOST_FILES = 1000
-_LARGEST = 5_000_000
-"""Bytes of a file beside a deck that is looked through for a *RESTART."""
-_RESTART = b"RESTART"
-
 
 class Linked(NamedTuple):
     """A deck of a chain with its text as a document, open or not."""

@@ -13,9 +13,10 @@ from pygls.protocol import LanguageServerProtocol, lsp_method
 
 from mudline import __version__
 from mudline.deck.forms import SUFFIXES
+from mudline.limits import LARGEST_OPEN
 from mudline.lsp import findings
 from mudline.lsp.decks import Analysis, Decks
-from mudline.lsp.documents import LARGEST, Document, file_of
+from mudline.lsp.documents import Document, file_of
 
 
 class DeckProtocol(LanguageServerProtocol):
@@ -138,7 +139,7 @@ class DeckServer(LanguageServer):
         """Say once, when a long deck is opened, what is not done for it."""
         size = f"{document.name.rpartition('/')[2]} has {len(document.text) / 1e6:.0f} million characters"
         if document.is_too_large:
-            self._show(f"{size}, and more than {LARGEST // 10**6} million are not checked here: use mudline lint")
+            self._show(f"{size}, and more than {LARGEST_OPEN // 10**6} million are not checked here: use mudline lint")
         elif document.is_long:
             self._show(f"{size}: it is checked when typing pauses, and rows of long tables get no colours and no hints")
 

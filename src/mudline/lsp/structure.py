@@ -18,16 +18,13 @@ from mudline.keywords.model import Block, FieldSpec, Part, record_schema
 from mudline.keywords.reader import ReadBlock, all_keys
 from mudline.keywords.values import Kind as FieldKind
 from mudline.keywords.values import Names
+from mudline.limits import LONGEST_COLOURED, MOST_OUTLINED
 from mudline.lsp.decks import Analysis, failed
 from mudline.lsp.documents import units_of
 from mudline.lsp.sites import slot_of_key
 from mudline.syntax.fields import Field, first_key, read_line, trimmed
 from mudline.syntax.rows import line_spans, read_number
 from mudline.syntax.tree import Kind, Leaf, RawBlock, RawSection
-
-_MOST_RECORDS = 1000
-"""Records of a block that the outline shows."""
-
 
 # ----------------------------------------------------------------------------------------------------------- outline
 
@@ -90,7 +87,7 @@ def _records(analysis: Analysis, block: Block, read: ReadBlock, stop: int) -> It
     for slot in record_schema(type(block)).slots:
         records = getattr(block, slot.name, None) if slot.record else None
         named = [(index, _name(record)) for index, record in enumerate(records or ())]
-        shown = [(index, name) for index, name in islice(named, _MOST_RECORDS) if name]
+        shown = [(index, name) for index, name in islice(named, MOST_OUTLINED) if name]
         if not shown:
             continue
         spans = [read.places.find((slot.json, index)) for index, _ in shown]
@@ -189,8 +186,6 @@ TYPES = [
 ]
 """Of a section, a keyword, a setting, and so on; standard names, which every editor has colours for."""
 LEGEND = types.SemanticTokensLegend(TYPES, [])
-LONGEST_RUN = 20_000
-"""Characters of numeric lines that are coloured."""
 _IN_EQUATION = re.compile(
     r'(?P<string>"[^"]*")|(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|(?P<name>[A-Za-z_]\w*)(?P<call>\s*\()?'
     r"|(?P<operator>[-+*/^<>=&|]+)"
@@ -236,7 +231,7 @@ def _of_leaf(text: str, leaf: Leaf, declared: type[Block] | None) -> Iterator[To
         kind = Kind.SETTING if known else Kind.COMMENT
     if kind in _WHOLE:
         yield trimmed(text, *leaf.span), _WHOLE[kind]
-    elif kind is Kind.RUN and leaf.span.end - leaf.span.start <= LONGEST_RUN:
+    elif kind is Kind.RUN and leaf.span.end - leaf.span.start <= LONGEST_COLOURED:
         for line in line_spans(text, leaf.span):
             yield from _of_line(text, line, declared)
     elif kind in (Kind.SETTING, Kind.TEXT):

@@ -12,6 +12,7 @@ from mudline.diagnostics import Span
 from mudline.keywords.table import LARGEST_WHOLE
 from mudline.keywords.text import shown
 from mudline.keywords.values import Equation, Names
+from mudline.limits import MOST_HINTS
 from mudline.lsp.decks import Analysis, value_text
 from mudline.lsp.names import Occurrence, equation_spans
 from mudline.lsp.sites import Site
@@ -229,9 +230,6 @@ def _contains(found: NamedSet, index: int) -> bool:
 
 # ---------------------------------------------------------------------------------------------------- between the lines
 
-_MOST_SHOWN = 2000
-"""Hints of a range."""
-
 
 def hints(analysis: Analysis, range_: types.Range) -> list[types.InlayHint]:
     """The values of equations in a range, and the elements and diameters of the sets that laws are given to."""
@@ -240,7 +238,7 @@ def hints(analysis: Analysis, range_: types.Range) -> list[types.InlayHint]:
         return []
     within = Span(document.offset(range_.start), document.offset(range_.end))
     found = [*_equations(analysis, within), *_sets(analysis, within)]
-    return [_hint(analysis, at, text) for at, text in sorted(found)[:_MOST_SHOWN]]
+    return [_hint(analysis, at, text) for at, text in sorted(found)[:MOST_HINTS]]
 
 
 def _hint(analysis: Analysis, offset: int, text: str) -> types.InlayHint:

@@ -16,6 +16,7 @@ from mudline.keywords.catalogue import in_order, is_superseded, sections_of, sug
 from mudline.keywords.model import Block
 from mudline.keywords.surfaces import Surface
 from mudline.keywords.values import Equation
+from mudline.limits import LARGEST_NEIGHBOUR
 from mudline.scene.deck_values import LARGEST_MOBILISATION
 from mudline.scene.laws import DIRECTIONS
 from mudline.scene.model import Scene
@@ -154,7 +155,6 @@ def _shapes(deck: Deck, block: Surface, where: Where) -> Iterator[Problem]:
 
 # ---------------------------------------------------------------------------------------------- decks that continue one
 
-_LARGEST = 50_000_000
 _NEWER = {"SEABED PROPERTIES", "SEABED STIFFNESS"}
 """New keywords whose laws would be combined with those of a migrated deck."""
 
@@ -187,7 +187,7 @@ class Continuations:
             return
         self._visited.add(file)
         try:
-            if file.stat().st_size > _LARGEST or b"RESTART" not in file.read_bytes().upper():
+            if file.stat().st_size > LARGEST_NEIGHBOUR or b"RESTART" not in file.read_bytes().upper():
                 return
             deck = load_path(file)
         except (OSError, DeckError):

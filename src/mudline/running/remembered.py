@@ -22,16 +22,8 @@ from typing import Any
 from mudline.cache_folder import cache_folder
 from mudline.files import write_atomically
 from mudline.installed import metadata_folders
+from mudline.limits import LARGEST_MEMORY, LARGEST_NEIGHBOUR, LONGEST_REMEMBERED, MOST_MEMORIES, MOST_REMEMBERED
 from mudline.resources import grammar_file
-
-LONGEST = 100_000
-"""Letters of one result; a longer one is not kept."""
-LARGEST_READ = 50_000_000
-"""Bytes of a file that a result depends on whose content is looked at in each run."""
-MOST_FILES = 40
-"""Memories in the user's folder for caches; those written last stay."""
-MOST_ENTRIES = 50_000
-MOST_BYTES = 64_000_000
 
 _KEY = 40
 _MAGIC = b"mudline-remembered/1 "
@@ -88,7 +80,7 @@ class Memory:
                 return
             states[path] = self._state(path)
         held = json.dumps([result, states], separators=(",", ":")) if result or states else ""
-        if len(held) <= LONGEST:
+        if len(held) <= LONGEST_REMEMBERED:
             self._entries[key] = held
             self._changed = True
 
@@ -100,11 +92,11 @@ class Memory:
         """Write what has changed, if anything has; does nothing where that is not possible."""
         if not self._changed:
             return
-        lines = [f"{key} {held}\n".encode("ascii") for key, held in list(self._entries.items())[-MOST_ENTRIES:]]
+        lines = [f"{key} {held}\n".encode("ascii") for key, held in list(self._entries.items())[-MOST_REMEMBERED:]]
         size = 0
         for number, line in enumerate(reversed(lines)):
             size += len(line)
-            if size > MOST_BYTES - 1000:
+            if size > LARGEST_MEMORY - 1000:
                 lines = lines[len(lines) - number :]
                 break
         body = b"".join(lines)
@@ -165,7 +157,7 @@ def state(path: str) -> str:
             digest.update(names.encode("utf-8", "surrogateescape"))
         elif not stat.S_ISREG(found.st_mode):
             return ""
-        elif found.st_size > LARGEST_READ:
+        elif found.st_size > LARGEST_NEIGHBOUR:
             digest.update(_version(path).encode("utf-8", "surrogateescape"))
         else:
             with open(path, "rb") as stream:  # noqa: PTH123 - as above
@@ -191,7 +183,7 @@ def changed_since(moment: float, path: str) -> bool:
 def _read(path: Path) -> dict[str, str]:
     """Keys and results; nothing for a file that is missing, damaged, too large or no memory."""
     try:
-        if not path.is_file() or path.stat().st_size > MOST_BYTES:
+        if not path.is_file() or path.stat().st_size > LARGEST_MEMORY:
             return {}
         head, _, body = path.read_bytes().partition(b"\n")
     except OSError:
@@ -210,6 +202,6 @@ def _drop_old(written: Path) -> None:
     start = f"{written.name.partition('-')[0]}-"
     with os.scandir(written.parent) as entries:
         files = [(entry.stat().st_mtime, entry.path) for entry in entries if entry.name.startswith(start)]
-    for _, path in sorted(files)[:-MOST_FILES]:
+    for _, path in sorted(files)[:-MOST_MEMORIES]:
         with suppress(OSError):
             Path(path).unlink()

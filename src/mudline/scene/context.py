@@ -14,12 +14,13 @@ from mudline.codes.fields import SYN016
 from mudline.codes.lines import SYN001, SYN004
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import EvaluatedDeck, folded
-from mudline.diagnostics import MORE, MOST_REPORTED, Blocks, Code, Problem, Severity, Where
+from mudline.diagnostics import MORE, Blocks, Code, Problem, Severity, Where
 from mudline.keywords import catalogue
 from mudline.keywords.catalogue import meant_in, suggest_keyword
 from mudline.keywords.model import ListRow
 from mudline.keywords.table import LARGEST_WHOLE
 from mudline.keywords.text import hint
+from mudline.limits import MOST_REPORTED
 from mudline.scene.deck_values import (
     definition_by,
     external_definers,

@@ -17,6 +17,7 @@ from mudline.codes import DAT001
 from mudline.diagnostics import DeckError, Diagnostic, Span
 from mudline.keywords.table import LARGEST_WHOLE
 from mudline.keywords.text import shown
+from mudline.limits import LISTED
 from mudline.scene.numbering import Floats, Ids
 from mudline.syntax.rows import read_number, read_rows_fast
 
@@ -25,9 +26,6 @@ _SEPARATORS = (",", ";", "\t")
 
 _UNUSED = "\0"
 """Begins the name of a column that nothing asks for."""
-
-_MOST_HEADINGS = 12
-"""Headings that a message lists."""
 
 
 class CsvTable(NamedTuple):
@@ -200,8 +198,8 @@ def _column_of(heading: str, given: Sequence[str]) -> tuple[int, int]:
 
 def _lacks(name: str, heading: str, found: Sequence[str]) -> str:
     what = "" if heading == name else f" for {name}"
-    listed = ", ".join(map(shown, found[:_MOST_HEADINGS])) or "nothing"
-    more = f" and {len(found) - _MOST_HEADINGS} more" if len(found) > _MOST_HEADINGS else ""
+    listed = ", ".join(map(shown, found[:LISTED])) or "nothing"
+    more = f" and {len(found) - LISTED} more" if len(found) > LISTED else ""
     return f"the header lacks {shown(heading)}{what}: it has {listed or 'nothing'}{more}"
 
 

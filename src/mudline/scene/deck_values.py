@@ -33,11 +33,6 @@ DEFAULT_GRAVITY = {"metric": 9.81, "imperial": 9.81 / FOOT}
 LARGEST_MOBILISATION = {"metric": 3.048, "imperial": 10.0}
 """Largest mobilisation length where none is given: 10 ft."""
 
-LARGEST_FILE = 200_000_000
-"""Bytes of a file that a deck names, at most."""
-
-_LONGEST_NAME = 4096
-
 
 def number(part: object, name: str, default: float = math.nan) -> float:
     """A value that is given and is a number, else `default`."""
@@ -88,7 +83,7 @@ def find_file(folder: Path | None, written: str) -> Path | None:
     finds nothing.
     """
     name = file_name(written)
-    if folder is None or not name or len(name) > _LONGEST_NAME or "\0" in name:
+    if folder is None or not name or "\0" in name:
         return None
     path = look(folder / name)
     try:

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.codes.fields import CRV001, CRV003, CRV011
-from mudline.diagnostics import MOST_REPORTED, Where
+from mudline.diagnostics import Where
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
+from mudline.limits import MOST_REPORTED
 from mudline.scene.context import Context
 from mudline.scene.numbering import Floats, Indices, Mask, identity, side_by_side
 from mudline.short_repr import short_repr

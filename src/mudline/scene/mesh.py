@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.codes.references import REF005, REF006, REF007, REF010
-from mudline.diagnostics import MOST_REPORTED, Blocks, Problem, Severity, Where
+from mudline.diagnostics import Blocks, Problem, Severity, Where
 from mudline.keywords.table import LARGEST_WHOLE, Table
 from mudline.keywords.text import shown
+from mudline.limits import MOST_GENERATED, MOST_REPORTED
 from mudline.scene.context import Context
 from mudline.scene.numbering import (
-    MOST_GENERATED,
     Batch,
     Definitions,
     Floats,

@@ -20,8 +20,6 @@ Indices = NDArray[np.intp]
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-MOST_GENERATED = 10_000_000
-"""Nodes or elements that the GEN= lines of a deck may make together: a slip of a digit must not fill the memory."""
 
 _FEW = 4096
 _FEW_RUNS = 8

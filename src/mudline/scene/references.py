@@ -15,10 +15,11 @@ from mudline.codes.lines import SYN001, SYN005
 from mudline.codes.references import REF001, REF005, REF006, REF010
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import folded
-from mudline.diagnostics import MOST_REPORTED, Code, Severity, Where
+from mudline.diagnostics import Code, Severity, Where
 from mudline.keywords.model import Block, may_name, names_given
 from mudline.keywords.text import shown
 from mudline.keywords.values import Label, Names
+from mudline.limits import MOST_REPORTED
 from mudline.scene.context import Context
 from mudline.scene.deck_values import bare, makes_labels
 from mudline.scene.laws import LawTable

@@ -15,6 +15,7 @@ from mudline.contact.input import LawKind
 from mudline.deck.parameters import EvaluatedDeck, folded
 from mudline.diagnostics import DeckError, Problem, Where
 from mudline.keywords.text import suggestion
+from mudline.limits import SHOWN_LETTERS
 from mudline.scene.context import Context
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.laws import Extension, LawTable, SeabedResistance, SetLaw, with_nodal_stiffness
@@ -23,16 +24,13 @@ from mudline.scene.numbering import Floats, Ids, Indices, Mask, Numbered
 from mudline.scene.seabed import SeabedShape
 from mudline.scene.sections import SectionTable, mass_per_length, submerged_weight, surroundings
 from mudline.scene.sets import Sets, set_key
-from mudline.short_repr import UnknownNameError, counted, cut, listed, short_repr
+from mudline.short_repr import LETTERS, UnknownNameError, counted, cut, listed, short_repr
 
 if TYPE_CHECKING:
     from mudline.curves import ForceCurve
 
 Value = TypeVar("Value")
 Default = TypeVar("Default")
-
-_LONGEST = 200
-_LONGEST_NAME = 60
 
 
 class ByName(Mapping[str, Value]):
@@ -75,7 +73,7 @@ class ByName(Mapping[str, Value]):
     def __repr__(self) -> str:
         if not self:
             return f"<no {self._kind}s>"
-        return cut(f"<{counted(len(self), self._kind)}: {listed(list(self))}", _LONGEST) + ">"
+        return cut(f"<{counted(len(self), self._kind)}: {listed(list(self))}", LETTERS) + ">"
 
     def _ipython_key_completions_(self) -> list[str]:
         """The names, for the completion of `["` in notebooks."""
@@ -88,7 +86,7 @@ class ByName(Mapping[str, Value]):
         if not isinstance(name, str):
             return UnknownNameError(f"a {self._kind} is found by its name, a str, not by {type(name).__name__}")
         names = list(self)
-        return UnknownNameError.among(self._kind, cut(name, _LONGEST_NAME), names, suggestion(name, names))
+        return UnknownNameError.among(self._kind, cut(name, SHOWN_LETTERS), names, suggestion(name, names))
 
 
 class LawArrays(NamedTuple):

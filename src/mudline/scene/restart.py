@@ -18,17 +18,12 @@ from mudline.deck.parameters import Parameters, evaluated
 from mudline.diagnostics import DeckError, Problem, Where
 from mudline.files import look, unsaved
 from mudline.keywords.text import shown
-from mudline.scene.deck_values import LARGEST_FILE, file_name, find_file
+from mudline.limits import LARGEST_FILE, MOST_CONTINUED, MOST_NEIGHBOURS
+from mudline.scene.deck_values import file_name, find_file
 
 if TYPE_CHECKING:
     from mudline.keywords.library.restart import Restart
 
-
-MOST_FOLLOWED = 20
-"""Decks in a chain; a longer one is not followed to its beginning."""
-
-_MOST_LISTED = 20_000
-"""Files of a folder that are looked through for a name in another case."""
 
 _ADVICE = "correct the name, or put the deck there"
 
@@ -112,8 +107,8 @@ def _follow(deck: Deck) -> _Chain:
             back = " -> ".join([*trail, path.name])
             message = f"LAST= leads back to a deck that is open already ({back}): choose the deck of the run before"
             return _Chain(bases, message, is_own=path.name == trail[0])
-        if len(bases) == MOST_FOLLOWED:
-            return _Chain(bases, f"more than {MOST_FOLLOWED} decks continue each other")
+        if len(bases) == MOST_CONTINUED:
+            return _Chain(bases, f"more than {MOST_CONTINUED} decks continue each other")
         base = read_base(path)
         if isinstance(base, str):
             return _Chain(bases, f"the deck that LAST= continues is not read: {base}; {_ADVICE}", is_own=not bases)
@@ -198,5 +193,5 @@ def _in_other_case(folder: Path | None, names: list[str]) -> Path | None:
 def _listed(folder: str, _changed: int) -> dict[str, str]:
     """The files of a folder by their names without case; listed once for all decks until the folder changes."""
     with os.scandir(folder) as entries:
-        names = sorted(islice((each.name for each in entries), _MOST_LISTED), reverse=True)
+        names = sorted(islice((each.name for each in entries), MOST_NEIGHBOURS), reverse=True)
     return {name.casefold(): name for name in names}

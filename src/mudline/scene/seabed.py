@@ -13,8 +13,9 @@ import numpy as np
 
 from mudline.diagnostics import Where
 from mudline.keywords.text import shown
+from mudline.limits import LARGEST_FILE
 from mudline.scene.context import Context
-from mudline.scene.deck_values import LARGEST_FILE, file_name, find_file, number, surfaces
+from mudline.scene.deck_values import file_name, find_file, number, surfaces
 from mudline.scene.numbering import Floats, side_by_side
 from mudline.short_repr import counted, short_repr
 from mudline.syntax.rows import read_number

@@ -9,9 +9,7 @@ from typing import NamedTuple
 
 from mudline.codes.fields import SYN003, SYN006
 from mudline.diagnostics import Problem, Span
-
-MOST_FIELDS = 100_000
-"""Fields read from one line; more is refused, so that a stray file cannot fill the memory."""
+from mudline.limits import MOST_FIELDS
 
 _KEY = re.compile(r"[ \t]*([A-Za-z][\w \t-]*)=")
 _BLANKS = re.compile(r"[ \t]+")

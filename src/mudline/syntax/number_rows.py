@@ -22,6 +22,8 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
+from mudline.limits import LONGEST_BLANK_SEPARATED, LONGEST_NUMBER
+
 # ---------------------------------------------------------------------------------------------------- digits to doubles
 
 Whole = NDArray[np.intp]
@@ -160,10 +162,6 @@ def nearest(digits: Words, power: Whole, cut: Flags | None = None) -> tuple[Floa
 
 # ----------------------------------------------------------------------------------------------------------------- rows
 
-LONGEST_NUMBER = 400
-"""Longer numbers are refused by `read_number`: nobody writes them, and reading one takes time square in its length."""
-LONGEST_BLANK_SEPARATED = 10_000
-"""The longest line without commas, in characters, that is read as several numbers."""
 
 _TAB, _LINE, _BLANK, _PLUS, _COMMA, _MINUS, _POINT, _ZERO = b"\t\n +,-.0"
 _EXPONENT, _ANY_CASE = ord("e"), 0x21  # what makes an e of E, d and D, and of nothing else

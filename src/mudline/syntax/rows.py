@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.diagnostics import Span
+from mudline.limits import LONGEST_BLANK_SEPARATED, LONGEST_NUMBER
 from mudline.syntax import number_rows
 from mudline.syntax.fields import Field, split
-from mudline.syntax.number_rows import LONGEST_BLANK_SEPARATED, LONGEST_NUMBER, NumberRows
+from mudline.syntax.number_rows import NumberRows
 
 NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eEdD][-+]?[0-9]+)?")
 """A number as decks write it."""

@@ -18,6 +18,7 @@ from mudline.keywords import catalogue
 from mudline.keywords.model import Block
 from mudline.keywords.text import shown, suggestion
 from mudline.keywords.values import Equation
+from mudline.limits import LARGEST_FILE, MOST_DECKS
 from mudline.scene.deck_values import find_file
 from mudline.spelling import Effort
 from mudline.syntax.fields import is_one_field
@@ -30,13 +31,10 @@ if TYPE_CHECKING:
     from mudline.keywords.library.parameters import Parameters as Block_
     from mudline.keywords.library.variation import NamedVariation, ValueRange, VariedBlock, VariedParameter
 
-MOST_DECKS = 100_000
-"""Decks that one deck may describe; more are refused, as they are a mistake."""
 
 _PLANNING = "PREPROCESSOR"
 """The section of keywords that describe the decks; actions do not add or remove them."""
 
-_LARGEST = 64 * 2**20
 
 Values = Mapping[str, str]
 """Values as they are written in `*PARAMETERS`, by the name of the parameter there."""
@@ -239,8 +237,8 @@ def _addition(deck: Deck, varied: VariedBlock, keyword: str, section: str) -> Ad
 
 def _content(path: Path, name: str) -> Source:
     try:
-        if path.stat().st_size > _LARGEST:
-            raise RefusedError(f"{name} is larger than {_LARGEST // 2**20} MiB: expected a block of a deck")
+        if path.stat().st_size > LARGEST_FILE:
+            raise RefusedError(f"{name} has more than {LARGEST_FILE // 10**6} million bytes: expected a block")
         source = Source.from_bytes(path.read_bytes(), name)
     except OSError as error:
         raise RefusedError(f"{name} cannot be read: {(error.strerror or str(error)).lower()}") from error

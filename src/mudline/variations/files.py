@@ -37,9 +37,9 @@ _DEVICES = frozenset(
     ["CON", "PRN", "AUX", "NUL", "CONIN$", "CONOUT$"]
     + [device + number for device in ("COM", "LPT") for number in "123456789\u00b9\u00b2\u00b3"]
 )
-LONGEST_PART = 240
+PART_BYTES = 240
 """Bytes of a folder's or a file's name; the systems in use end at 255."""
-LONGEST_PATH = 1000
+PATH_BYTES = 1000
 """Bytes of a path within the output folder."""
 
 
@@ -101,8 +101,8 @@ def path_fault(path: str) -> str:
         return "holds a backslash: separate folders by /"
     if path.startswith("/") or _DRIVE.match(path):
         return "is absolute: it would leave the output folder"
-    if len(path.encode(errors="replace")) > LONGEST_PATH:
-        return f"is longer than {LONGEST_PATH} bytes"
+    if len(path.encode(errors="replace")) > PATH_BYTES:
+        return f"is longer than {PATH_BYTES} bytes"
     return next((fault for part in path.split("/") if (fault := _part_fault(part))), "")
 
 
@@ -117,7 +117,7 @@ def _part_fault(part: str) -> str:
         f"holds {shown}, which not every system has in names of files": bool(sign),
         "has a part that ends with a space or a dot, which some systems drop": part.endswith((" ", ".")),
         f"has the part {device}, which is a device on some systems": device.upper() in _DEVICES,
-        f"has a part that is longer than {LONGEST_PART} bytes": len(part.encode(errors="replace")) > LONGEST_PART,
+        f"has a part that is longer than {PART_BYTES} bytes": len(part.encode(errors="replace")) > PART_BYTES,
     }
     return next((fault for fault, found in faults.items() if found), "")
 
@@ -152,7 +152,6 @@ class Taken:
 
 _KEYS = ("FILE", "LAST")
 """Settings that name a file in blocks that have no model."""
-_MOST = 1000
 
 
 def companions(deck: Deck) -> list[str]:
@@ -165,8 +164,6 @@ def companions(deck: Deck) -> list[str]:
         name = file_name(written)
         if name and not path_fault(name) and find_file(deck.folder, name):
             found[name] = None
-        if len(found) == _MOST:
-            break
     return list(found)
 
 

@@ -15,16 +15,15 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import read_source
 from mudline.diagnostics import DeckError, Problem, Severity, Where
 from mudline.keywords.text import shown
+from mudline.limits import MOST_DECKS, SHOWN_ROWS
 from mudline.spelling import Effort
 from mudline.syntax.source import Source
-from mudline.variations.cases import MOST_DECKS, CaseReader, Cases, Targets, Values
+from mudline.variations.cases import CaseReader, Cases, Targets, Values
 from mudline.variations.files import MANIFEST, ExpansionPlan, Namer, PlannedDeck, Rewriter, Taken, Template, companions
 from mudline.variations.names import name_key, placeholders, undefined_variation, unquoted
 
 if TYPE_CHECKING:
     from mudline.keywords.library.combinations import Combination
-
-_MOST_REPORTED = 20
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,7 +164,7 @@ class _Planner:
                 if fault:
                     self._report(f"the deck with {listed(values)}: its name {shown(path)} {fault}", group.where)
                     faults += 1
-                if faults == _MOST_REPORTED:
+                if faults == SHOWN_ROWS:
                     return decks
         return decks
 
@@ -180,7 +179,7 @@ class _Planner:
             content = self.rewriter.content(PlannedDeck("", "", (), deck.values, deck.actions))
             read = read_source(Source.from_bytes(content, deck.path), units=self.deck.units)
             faults = [problem for problem in read.problems if problem.weight is Severity.ERROR]
-            for fault in read.diagnose(faults[:_MOST_REPORTED]):
+            for fault in read.diagnose(faults[:SHOWN_ROWS]):
                 self._report(
                     f"the new deck {shown(deck.path)} cannot be read: line {fault.line}: {fault.message}", Where()
                 )

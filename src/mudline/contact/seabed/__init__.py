@@ -14,10 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mudline.contact.arrays import FloatArray, IndexArray
+from mudline.limits import LARGEST_COORDINATE
 from mudline.short_repr import outline
-
-LARGEST = 1e150
-"""Largest magnitude of a coordinate of a seabed: differences and squares stay finite."""
 
 
 def checked(what: str, values: ArrayLike, *shape: int | None) -> FloatArray:
@@ -26,11 +24,13 @@ def checked(what: str, values: ArrayLike, *shape: int | None) -> FloatArray:
     if array.ndim != len(shape) or any(n not in (None, m) for n, m in zip(shape, array.shape, strict=True)):
         wanted = ", ".join("n" if n is None else str(n) for n in shape)
         raise ValueError(f"{what} has shape {array.shape}; expected ({wanted})")
-    wrong = np.argwhere(~(np.abs(array) <= LARGEST))
+    wrong = np.argwhere(~(np.abs(array) <= LARGEST_COORDINATE))
     if len(wrong):
         index = tuple(wrong[0].tolist())
         place = f" of point {index[0] + 1}" if index else ""
-        raise ValueError(f"{what}{place} is {array[index]}; expected a finite number of magnitude up to {LARGEST:g}")
+        raise ValueError(
+            f"{what}{place} is {array[index]}; expected a finite number of magnitude up to {LARGEST_COORDINATE:g}"
+        )
     return array
 
 

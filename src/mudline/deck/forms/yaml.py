@@ -14,6 +14,7 @@ from mudline.deck.model import START, Deck, Range
 from mudline.diagnostics import DeckError
 from mudline.keywords.table import Listing
 from mudline.keywords.writer import joined
+from mudline.limits import DEEPEST, LONGEST_NUMBER
 
 try:
     from yaml import CSafeDumper as _SafeDumper
@@ -22,7 +23,6 @@ except ImportError:  # PyYAML without its C library
     from yaml import SafeDumper as _SafeDumper  # type: ignore[assignment]
     from yaml import SafeLoader as _SafeLoader  # type: ignore[assignment]
 
-_MOST_DIGITS = 400
 _TAG = "tag:yaml.org,2002:"
 # the tables of section 10.3.2 of the YAML 1.2.2 specification
 _CORE: dict[str, tuple[str, list[str]]] = {
@@ -67,7 +67,7 @@ def scalar(node: yaml.ScalarNode) -> Any:
         case "bool":
             return text.lower() == "true"
         case "int":
-            if len(text) > _MOST_DIGITS:
+            if len(text) > LONGEST_NUMBER:
                 raise ValueError(f"a whole number of {len(text)} digits is too large")
             return int(text, 8 if text.startswith("0o") else 16 if text.startswith("0x") else 10)
         case "float":
@@ -77,9 +77,6 @@ def scalar(node: yaml.ScalarNode) -> Any:
             return value
     raise ValueError(f"the tag {node.tag} is not used in a deck")
 
-
-DEEPEST = 100
-"""The most levels of a document; a deck has about ten."""
 
 SHORT_TABLE = 20
 """Tables up to this many rows are lists; longer ones a block of text, a row a line."""

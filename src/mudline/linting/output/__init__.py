@@ -16,6 +16,7 @@ from pkgutil import iter_modules
 from types import ModuleType
 
 from mudline.diagnostics import Diagnostic
+from mudline.limits import LONGEST_MESSAGE
 from mudline.short_repr import cut
 
 TEXT = "text"
@@ -23,8 +24,6 @@ TEXT = "text"
 
 TEXT_SUMMARY = "for people: place, message, the source line with a mark; standard output only"
 
-LONGEST = 1000
-"""Characters of a text that are shown."""
 
 _REPLACEMENT = "\ufffd"
 
@@ -72,7 +71,7 @@ def visible(text: str, encoding: str = "utf-8") -> str:
     Nothing in a deck acts on a terminal then. What a terminal's encoding lacks is escaped, so that the text is as long
     here as it is there. A text that nobody would read to its end is cut.
     """
-    shown = cut(text, LONGEST)
+    shown = cut(text, LONGEST_MESSAGE)
     if not shown.isprintable():
         shown = "".join(char if char.isprintable() else " " if char == "\t" else _REPLACEMENT for char in shown)
     if encoding.startswith("utf"):

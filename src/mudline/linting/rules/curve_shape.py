@@ -9,8 +9,9 @@ from itertools import chain
 import numpy as np
 
 from mudline.deck.reading import TextOrigin
-from mudline.diagnostics import MOST_REPORTED, Code, Problem, Repair, Severity, Span
+from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.keywords.text import shown
+from mudline.limits import MOST_REPORTED
 from mudline.linting.rule import LARGEST_RATIO, LintContext, rule
 from mudline.scene.force_curves import SceneCurve, clashes_and_repeats
 from mudline.scene.model import Scene

@@ -10,6 +10,7 @@ from mudline.contact.input import LawKind
 from mudline.diagnostics import Code, Problem, Repair, Severity, Where
 from mudline.keywords.catalogue import is_extension, is_superseded, supersedes
 from mudline.keywords.text import shown
+from mudline.limits import LISTED
 from mudline.linting.rule import LintContext, rule
 from mudline.scene.checks.laws import SBD002
 from mudline.scene.model import Scene
@@ -18,9 +19,6 @@ from mudline.syntax.edits import with_line_ends
 LEG001 = Code("LEG001", "superseded-keyword", Severity.INFO)
 SBD016 = Code("SBD016", "mixed-families", Severity.WARNING)
 SBD018 = Code("SBD018", "extension-keyword", Severity.ERROR)
-
-_MOST_LAWS = 6
-"""Sets whose laws a message lists."""
 
 
 @rule(LEG001)
@@ -129,8 +127,8 @@ def _laws_by_set(scene: Scene) -> str:
         if set_law.kind is LawKind.CURVE and index not in used
     ]
     parts += [f"no element gets {name}" for name in idle]
-    more = f", {len(parts) - _MOST_LAWS} more" if len(parts) > _MOST_LAWS else ""
-    return f" (partly inferred: {', '.join(parts[:_MOST_LAWS])}{more})"
+    more = f", {len(parts) - LISTED} more" if len(parts) > LISTED else ""
+    return f" (partly inferred: {', '.join(parts[:LISTED])}{more})"
 
 
 def _called(scene: Scene, index: int) -> str:

@@ -12,9 +12,10 @@ from mudline.codes.contact import SBD025
 from mudline.codes.references import REF010
 from mudline.contact.input import LawKind
 from mudline.deck.parameters import folded
-from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity
+from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.model import Record
 from mudline.keywords.text import shown
+from mudline.limits import MOST_REPORTED
 from mudline.linting.rule import LintContext, rule
 from mudline.linting.rules.seabed_friction import surfaces_of
 from mudline.linting.rules.seabed_position import first_of

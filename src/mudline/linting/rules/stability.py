@@ -17,8 +17,9 @@ from mudline.contact.stiffest import (
     release_stiffness,
     rounded_down,
 )
-from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity
+from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
+from mudline.limits import MOST_REPORTED
 from mudline.linting.rule import LintContext, rule
 from mudline.linting.rules.seabed_position import bounds_of
 from mudline.quantities import unit_names

@@ -10,6 +10,7 @@ from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.keywords.model import Part, record_schema
 from mudline.keywords.places import Path
 from mudline.keywords.reader import ReadBlock
+from mudline.limits import MOST_COLUMNS
 from mudline.linting.rules.style_lines import (
     data_leaves,
     first_of_lines,
@@ -44,7 +45,6 @@ _GATES = (re.compile("D" + _EXPONENT.format("D")), re.compile("d" + _EXPONENT.fo
 
 _SEEN = re.compile(r"[0-9.][dD][-+]?+[0-9]")
 _NUMBER = re.compile(r"(?<![^ \t\n,=])[-+]?(?:[0-9]++\.?[0-9]*+|\.[0-9]++)[dD][-+]?[0-9]++(?![^ \t\r\n,])")
-_MOST_COLUMNS = 64
 _TO_E = str.maketrans("dD", "eE")
 
 
@@ -225,7 +225,7 @@ class _Numbers:
             self.tables = {run.start for runs in read.places.runs.values() for _, run in runs}
             self.paths = {span: path for path, span in read.places.spans.items()}
         if leaf.start in self.tables or line.start in self.tables:
-            fields = row_fields(source, line, _MOST_COLUMNS)
+            fields = row_fields(source, line, MOST_COLUMNS)
             return [field.span for field in fields if _NUMBER.fullmatch(field.text)]
         spans = (Span(*match.span()) for match in _NUMBER.finditer(source, *line))
         return [span for span in spans if span in self.paths and _is_number(read.model, self.paths[span])]

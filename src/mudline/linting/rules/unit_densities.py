@@ -8,8 +8,9 @@ from itertools import islice
 from typing import TYPE_CHECKING, NamedTuple
 
 from mudline.codes.fields import SYN015
-from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity, Where
+from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.model import Part
+from mudline.limits import MOST_REPORTED
 from mudline.linting.rule import LintContext, entries_of_sets, limited, rule
 from mudline.scene.deck_values import FOOT, POUND, number
 from mudline.scene.deck_values import LENGTH_UNIT as METRES

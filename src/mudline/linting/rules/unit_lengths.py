@@ -8,8 +8,9 @@ from itertools import islice
 
 import numpy as np
 
-from mudline.diagnostics import MOST_REPORTED, Problem, Where
+from mudline.diagnostics import Problem, Where
 from mudline.keywords.model import Part
+from mudline.limits import MOST_REPORTED
 from mudline.linting.rule import LARGEST_RATIO, LintContext, rule
 from mudline.linting.rules.coordinates import UNT006, odd_coordinates
 from mudline.linting.rules.seabed_friction import given

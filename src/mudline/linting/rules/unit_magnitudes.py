@@ -11,8 +11,9 @@ import numpy as np
 
 from mudline.contact.input import LawKind
 from mudline.deck.reading import GRAVITIES
-from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity, Where
+from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.text import shown
+from mudline.limits import MOST_REPORTED
 from mudline.linting.rule import LintContext, entries_of_sets, limited, rule
 from mudline.linting.rules.curve_shape import swapped
 from mudline.linting.rules.seabed_friction import given, surfaces_of

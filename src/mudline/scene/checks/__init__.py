@@ -12,7 +12,8 @@ from functools import cache
 from itertools import islice
 from typing import TYPE_CHECKING
 
-from mudline.diagnostics import MORE, MOST_REPORTED, Code, Problem
+from mudline.diagnostics import MORE, Code, Problem
+from mudline.limits import MOST_REPORTED
 from mudline.resources import modules_of
 
 if TYPE_CHECKING:

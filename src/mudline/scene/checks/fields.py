@@ -10,11 +10,12 @@ import numpy as np
 
 from mudline.codes.references import REF015
 from mudline.deck.model import Opaque
-from mudline.diagnostics import MOST_REPORTED, Blocks, Code, Problem, Severity, Where
+from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.keywords.catalogue import ZERO_LENGTH
 from mudline.keywords.model import FieldSpec, ListRow, Part, Rows, record_schema
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
+from mudline.limits import MOST_REPORTED
 from mudline.scene.checks import check
 from mudline.scene.deck_values import missing_files, range_fault
 from mudline.scene.sections import format_of
