@@ -13,7 +13,6 @@ import threading
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -23,6 +22,7 @@ import duckdb
 from mudline.archive.store import AGAIN, DATA, VIEWS, Archive
 from mudline.archive.tables import DECK, FILES, STORED, TABLES, Table
 from mudline.files import write_atomically
+from mudline.lean import dataclass
 
 BATCH = 100_000
 """Rows of an answer that are fetched at once."""
@@ -47,10 +47,6 @@ _DISABLED = "file system operations are disabled"
 
 class QueryError(Exception):
     """A question that cannot be answered: the message says why, and where in the SQL."""
-
-
-class MissingFileError(QueryError):
-    """A file of the archive is no longer there: another run has replaced it."""
 
 
 @dataclass
@@ -231,7 +227,7 @@ def _explained(error: BaseException, sql: str) -> QueryError:
     if kind == "Out of Memory" or isinstance(error, duckdb.OutOfMemoryException):
         return QueryError(_TOO_MUCH)
     if kind == "IO" and "No files found" in message:
-        return MissingFileError(f"{message}: ask again")
+        return QueryError(f"{message}: another run has replaced it: ask again")
     if (file := _DATA_FILE.search(message)) and "Cannot open" not in message:
         return QueryError(f"{file[0]} is damaged: {AGAIN}")
     if _DISABLED in message:

@@ -15,7 +15,6 @@ from mudline.cli.streams import emit, emit_json, notify, notify_missing, writing
 from mudline.cli.view import View
 from mudline.curves import ForceCurve
 from mudline.deck.parameters import folded
-from mudline.files import suffix_of
 from mudline.linting.output import visible
 from mudline.quantities import UnitNames, csv_lines, finite, headed, shown, unit_names
 from mudline.results.summary import CURVE_SIDES, followers
@@ -25,7 +24,7 @@ from mudline.scene.model import Scene, resolve
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
 
-_MOST_DIAMETERS = 3
+_SHOWN_DIAMETERS = 3
 _AT = ("ratio", "force", "slope", "segment", "extrapolated")
 _OF_DIAMETER = ("diameter", "depth", "stiffness")
 _GOES_ON = "Below its first and above its last point a curve goes on with the slope of its end segment."
@@ -67,9 +66,7 @@ def command(
         raise click.UsageError(f"--weight {weight:g}: a line that lies on the seabed has a submerged weight above 0")
     if output_format == "csv" and ratios and weight is not None:
         raise click.UsageError("CSV holds one table: give --at or --weight, not both")
-    form = "" if picture is None else suffix_of(picture)
-    if picture and form not in {"png", "svg"}:
-        raise click.UsageError(f"{picture}: unknown file format: give a name ending in .png or .svg")
+    form = options.form_of_file(picture, ("png", "svg")) if picture else ""
     scene = resolve(deck.load()).require()
     try:
         rows = _curve_rows(scene, ratios, weight)
@@ -210,7 +207,7 @@ def _print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
     ends = ("from\nratio", "to\nratio", *(headed(f"{end}\nforce", names.line_force) for end in ("from", "to")))
     for (index, entry, _), row in zip(_used_curves(scene), rows, strict=True):
         sizes = _diameters(scene, index)
-        drawn = sizes if view.verbose or len(sizes) <= _MOST_DIAMETERS else [sizes[0], sizes[-1]]
+        drawn = sizes if view.verbose or len(sizes) <= _SHOWN_DIAMETERS else [sizes[0], sizes[-1]]
         stiffnesses = (headed(f"stiffness\nD={shown(size)}", names.stiffness) for size in drawn)
         note = "" if drawn == sizes else f"{len(sizes)} diameters follow this curve: -v shows all"
         shown_here = bool(followers(scene, index).any())

@@ -7,7 +7,7 @@ import os
 import sys
 from collections.abc import Generator, Iterable, Iterator
 from contextlib import closing
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, fields
 from functools import cache
 from textwrap import indent
 from typing import NamedTuple
@@ -19,6 +19,7 @@ from mudline.cli.view import Progress, View, wants_bar
 from mudline.codes.contact import SBD006
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Diagnostic, Problem, Severity
+from mudline.lean import dataclass
 from mudline.linting.engine import joined_problems, unsuppressed
 from mudline.linting.output.json import as_object
 from mudline.linting.registry import rules, select
@@ -150,14 +151,10 @@ class Order(NamedTuple):
 
 
 def judge_order(order: Order) -> tuple[Verdict, list[Diagnostic]]:
-    """The verdict on a deck and its findings as they are to be shown."""
-    return judge(order.data, order.file.seen_from(order.here), order.units, verbose=order.verbose)
-
-
-def judge(data: bytes, file: Input, units: str | None, *, verbose: bool) -> tuple[Verdict, list[Diagnostic]]:
-    """The verdict on the content of a file and its errors; `verbose` adds the warnings."""
+    """The verdict on a deck and its errors; `verbose` adds the warnings."""
+    file = order.file.seen_from(order.here)
     try:
-        deck = load_bytes(data, file.name, units=units, folder=file.folder)
+        deck = load_bytes(order.data, file.name, units=order.units, folder=file.folder)
     except DeckError as error:
         return Verdict(file.name, 0, 0, 0, 0, len(error.diagnostics), 0, "illegal"), list(error.diagnostics)
     context = LintContext(deck)
@@ -171,7 +168,7 @@ def judge(data: bytes, file: Input, units: str | None, *, verbose: bool) -> tupl
     behind = f", {counted(len(warnings), 'warning')}" if warnings else ""
     verdict = "illegal" if errors else f"legal{behind}" if deck.sections else "empty"
     counts = (len(deck.sections), keywords, curves, elements, len(errors), len(warnings))
-    found = sorted([*errors, *warnings], key=lambda one: one.sort_key) if verbose else errors
+    found = sorted([*errors, *warnings], key=lambda one: one.sort_key) if order.verbose else errors
     return Verdict(deck.file, *counts, verdict), found
 
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from importlib import import_module
+from operator import attrgetter
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Literal, NoReturn
 
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 from mudline.contact.arrays import BoolArray, FloatArray, IdArray, StateArray
 from mudline.contact.input import ContactInput, ElementError, PositionError
 from mudline.contact.tables import Tables
+from mudline.lean import dataclass
 from mudline.short_repr import outline, short_repr
 
 if TYPE_CHECKING:  # each is imported when it is asked for
@@ -203,9 +205,8 @@ class ContactResult:
         return self._each(lambda values: values[key])
 
     def _each(self, cut: Callable[[NDArray[Any]], NDArray[Any]]) -> ContactResult:
-        arrays = ((name, getattr(self, name)) for name in _BY_STEP)
-        of_steps: dict[str, Any] = {name: None if values is None else cut(values) for name, values in arrays}
-        return ContactResult(**of_steps, **{name: getattr(self, name) for name in _OF_ALL_STEPS})
+        arrays: list[Any] = [None if values is None else cut(values) for values in _get_by_step(self)]
+        return ContactResult(**dict(zip((*_BY_STEP, *_OF_ALL_STEPS), (*arrays, *_get_rest(self)), strict=True)))
 
 
 def _module(name: str) -> ModuleType:
@@ -235,6 +236,7 @@ class Part:
 
 _OF_ALL_STEPS = ("evaluated", "present", "rigid", "given")
 _BY_STEP = tuple(each.name for each in fields(ContactResult) if each.name not in _OF_ALL_STEPS)
+_get_by_step, _get_rest = attrgetter(*_BY_STEP), attrgetter(*_OF_ALL_STEPS)
 
 
 def blank_result(

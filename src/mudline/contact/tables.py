@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
@@ -13,6 +13,7 @@ from mudline.contact.input import AssignedLaw, ContactInput
 from mudline.contact.laws import NormalLaw, Reaction, Value
 from mudline.contact.line import Line
 from mudline.contact.seabed import heading
+from mudline.lean import dataclass
 from mudline.short_repr import outline
 
 if TYPE_CHECKING:
@@ -55,12 +56,13 @@ class ContactState:
 
     def copied(self) -> ContactState:
         """Return a state whose arrays may be written; positions stay as they are."""
-        return replace(
-            self,
-            unloading=self.unloading and _copied(self.unloading),
-            suction=self.suction and _copied(self.suction),
-            friction=self.friction and _copied(self.friction),
-            touchdown=None if self.touchdown is None else self.touchdown.copy(order="K"),
+        return ContactState(
+            self.positions,
+            self.laid,
+            self.unloading and _copied(self.unloading),
+            self.suction and _copied(self.suction),
+            self.friction and _copied(self.friction),
+            None if self.touchdown is None else self.touchdown.copy(order="K"),
         )
 
 

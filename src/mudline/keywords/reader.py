@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cache, partial
 from operator import attrgetter, itemgetter
 from typing import NamedTuple, Protocol, cast
@@ -20,6 +20,7 @@ from mudline.keywords.model import Block, Part, RecordSchema, record_schema
 from mudline.keywords.places import Path, Places
 from mudline.keywords.plain import read_plain
 from mudline.keywords.text import hint, instead, merge_per_line, shown, suggestion
+from mudline.lean import dataclass
 from mudline.short_repr import short_repr
 from mudline.spelling import nearest
 from mudline.syntax.fields import first_key, trimmed
@@ -48,9 +49,10 @@ class ReadBlock:
     @property
     def own(self) -> Places:
         """The places in the text that was read."""
-        if not isinstance(self.found, Places):
-            self.found = self.found()
-        return self.found
+        found = self.found  # read once: decks that share a block may be read in two threads
+        if not isinstance(found, Places):
+            found = self.found = found()
+        return found
 
     @property
     def places(self) -> Places:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from enum import StrEnum
 from functools import lru_cache
 from pathlib import Path
@@ -15,6 +15,7 @@ from mudline.deck.reading import units_of
 from mudline.diagnostics import Blocks, DeckError, Diagnostic, Problem, Severity
 from mudline.keywords.model import Block
 from mudline.keywords.reader import ReadBlock, read_block, read_piece
+from mudline.lean import dataclass
 from mudline.linting.rule import LintContext, Noticed, Rule
 from mudline.linting.suppression import suppressions
 from mudline.syntax.tree import RawBlock
@@ -155,7 +156,7 @@ def unsuppressed(context: LintContext, problems: list[Problem], chosen: Sequence
     return problems if found is None else found.split(problems, chosen)[0]
 
 
-_LONGEST_BLOCK = 4096
+_SHORT_BLOCK = 4096
 """Characters of a block that is remembered: decks of a project share their short blocks."""
 
 
@@ -177,7 +178,7 @@ def _read_once(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -
     """What `read_block` gives for a block; those of the same text share their model."""
     start = raw.head.span.start
     end = (raw.leaves[-1] if raw.leaves else raw.head).span.end
-    if end - start > _LONGEST_BLOCK:
+    if end - start > _SHORT_BLOCK:
         return read_block(text, raw, declared, last=last)
     piece = _Piece(text[start:end])
     piece.raw, piece.start = raw, start

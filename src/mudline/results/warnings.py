@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -19,6 +19,7 @@ from mudline.codes.lines import SYN009
 from mudline.contact import ContactResult, LawKind
 from mudline.contact.result import Part
 from mudline.diagnostics import Code, DeckError, Diagnostic, Problem, Severity, Where
+from mudline.lean import dataclass
 from mudline.quantities import shown, unit_names
 from mudline.results.evaluation import Evaluation, evaluate_scene
 from mudline.results.laws_in_use import UnknownKeyword, missing_laws, unknown_keywords, unused_curves
@@ -34,7 +35,7 @@ _MORE_WEIGHT = ("COATINGS", "INTERNAL FLUID", "DRILLING MUD", "MASS", "POINT BUO
 """Keywords that are not read, and make the weight another one than that of the sections."""
 _TOUCHING = 1e-3
 """Clearance over diameter of a line that touches the seabed: its datum is right."""
-_LONGEST_CAPTION = 90
+_CAPTION = 90
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,7 +109,7 @@ def caption(warnings: Sequence[ContactWarning]) -> str:
     """The line of a plot that says what is doubtful, "" where nothing is."""
     if not warnings:
         return ""
-    return cut(f"{counted(len(warnings), 'warning')}: {'; '.join(one.brief for one in warnings)}", _LONGEST_CAPTION)
+    return cut(f"{counted(len(warnings), 'warning')}: {'; '.join(one.brief for one in warnings)}", _CAPTION)
 
 
 class _Clearance(NamedTuple):

@@ -14,13 +14,14 @@ import time
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass, field
+from dataclasses import field
 from importlib.util import find_spec
 from ipaddress import ip_address
 from itertools import islice
 from typing import TYPE_CHECKING, TypeVar
 
 from mudline import __version__
+from mudline.lean import dataclass
 
 if TYPE_CHECKING:  # imported by runs that are large enough
     from concurrent.futures import Executor, Future
@@ -43,7 +44,7 @@ _AHEAD = 3
 _SECONDS = {False: 0.2, True: 1.0}
 """Seconds that the items should take that are sent together: to a process, and to a worker on another machine."""
 _FIRST = 4
-_LARGEST = 500
+_TOGETHER = 500
 """Items that are sent together: before their pace is known, and at most."""
 _COUNTED = 5.0
 """Seconds after which the workers of a scheduler are counted again: they come and go."""
@@ -170,7 +171,7 @@ def in_order(
     while True:
         wanted = _SECONDS[pool.scheduler is not None] * done / spent if spent else _FIRST
         share = (count - number) / (2 * pool.size)
-        part = list(islice(rest, max(1, min(int(wanted), int(share), _LARGEST))))
+        part = list(islice(rest, max(1, min(int(wanted), int(share), _TOGETHER))))
         number += len(part)
         orders = [given for _, given in part if given is not None]
         if part:

@@ -15,12 +15,11 @@ All of it is a function of z_max alone.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws import Law, Parameter, Value, where
+from mudline.lean import dataclass
 from mudline.short_repr import short_repr
 
 
@@ -69,12 +68,12 @@ class UnloadingHistory:
 
 
 _ROUNDING = 2.0**-50
-_LARGEST = float(np.finfo(np.float64).max)
+_FINITE = float(np.finfo(np.float64).max)
 
 
 def line_stiffness(stiffness: Value, z_max: Value, force_max: Value) -> Value:
     """Return ku' of the line through the deepest point; `stiffness` is already as steep as the virgin path."""
-    secant = np.minimum(force_max / where(z_max > 0.0, z_max, 1.0), _LARGEST)
+    secant = np.minimum(force_max / where(z_max > 0.0, z_max, 1.0), _FINITE)
     return np.maximum(stiffness, secant)
 
 

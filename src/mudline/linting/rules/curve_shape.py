@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import chain
 
 import numpy as np
@@ -11,6 +10,7 @@ import numpy as np
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.keywords.text import shown
+from mudline.lean import dataclass
 from mudline.limits import MOST_REPORTED
 from mudline.linting.rule import LARGEST_RATIO, LintContext, rule
 from mudline.scene.force_curves import SceneCurve, clashes_and_repeats
@@ -33,8 +33,9 @@ _NO_PLAIN_NUMBERS = frozenset('["{')
 
 def swapped(curve: SceneCurve) -> bool:
     """Whether all points other than (0, 0) have a first number above 10 and a second one below 2."""
-    points = curve.points[(curve.points != 0.0).any(axis=1)]
-    return bool(points.size and (points[:, 0] > _LIKE_A_FORCE).all() and (points[:, 1] < _LIKE_A_RATIO).all())
+    ratios, forces = curve.points.T
+    exchanged = (ratios > _LIKE_A_FORCE) & (forces < _LIKE_A_RATIO)
+    return bool(exchanged.any() and (exchanged | ((ratios == 0.0) & (forces == 0.0))).all())
 
 
 @rule(CRV009)
