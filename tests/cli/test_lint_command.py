@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from tests.linting.test_causes import changed
+from tests.linting.test_recovery import changed
 
 from mudline import cache_folder
 from mudline.diagnostics import Diagnostic
