@@ -10,7 +10,6 @@ import sys
 from pathlib import Path
 
 import pytest
-from tests.linting.test_recovery import changed
 
 from mudline import cache_folder
 from mudline.diagnostics import Diagnostic
@@ -21,6 +20,7 @@ from tests.builders.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED
 from tests.builders.decks import UNUSED as SOFT
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Outcome, assert_fits, run
+from tests.linting.test_recovery import changed
 from tests.processes import TIMEOUT
 
 UNUSED = SOFT.replace(" 0.1, 1.0\n", " 0.1, 100.0\n")

@@ -29,6 +29,7 @@ from mudline.linting.corrections import (
     stray_laws,
 )
 from mudline.linting.line_corrections import line_corrections
+from mudline.linting.rules.keyword_families import LEG001
 from mudline.syntax.edits import OverlapError, TextEdit, apply_edits, edited_bytes, with_line_ends
 from mudline.syntax.source import Source
 
@@ -61,7 +62,9 @@ class Recovered:
         span = problem.span
         if span is None and problem.where is not None and isinstance(origin, TextOrigin):
             span = origin.span(problem.where)
-        repair = problem.repair
+        repair = (
+            None if problem.code is LEG001 else problem.repair
+        )  # a deck is migrated as it is written, or not at all
         for _, edits in reversed(self.steps):
             span = span and _before(span, edits)
             if repair is not None and any(_touches(place, edits) for place, _ in repair.edits):
