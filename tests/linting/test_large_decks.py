@@ -16,7 +16,6 @@ from mudline.linting.engine import problems_in
 from mudline.linting.registry import rules
 from mudline.linting.rule import LintContext
 from mudline.scene import numbering
-from mudline.scene.numbering import blocks_of, constant, looked_up, one_index
 from tests.growth import TWOFOLD, call_growth
 
 COUNT = 400_000
@@ -43,23 +42,6 @@ def test_memory_of_linting() -> None:
         tracemalloc.stop()
     assert {problem.code.code for problem in found} <= {"SBD006"}
     assert peak < 150 * COUNT
-
-
-def test_constant_indices() -> None:
-    table = np.array([1.0, 2.0, np.nan])
-    for index in (0, 1, -1):
-        np.testing.assert_array_equal(looked_up(table, constant(index, 4)), np.full(4, table[index]))
-        assert one_index(constant(index, 4)) == index
-    np.testing.assert_array_equal(looked_up(table, np.array([1, 0])), [2.0, 1.0])
-    assert one_index(np.array([0, 0])) is None
-    assert one_index(constant(3, 0)) is None
-
-
-def test_blocks_cover_all_rows(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(numbering, "_AT_ONCE", 4)
-    rows = np.arange(10)
-    assert [rows[block].tolist() for block in blocks_of(10)] == [[0, 1, 2, 3], [4, 5, 6, 7], [8, 9]]
-    assert list(blocks_of(0)) == []
 
 
 def test_numbers_in_many_orders(monkeypatch: pytest.MonkeyPatch) -> None:
