@@ -75,16 +75,6 @@ def test_no_threads_at_all_are_refused(threads: int) -> None:
         ContactModel(chain([LINEAR]), threads=threads)
 
 
-def test_there_is_a_thread_for_each_processor(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert ContactModel(chain([LINEAR]), threads=7)._choice.threads == 7
-    assert ContactModel(chain([LINEAR]))._choice.threads >= 1
-    monkeypatch.delattr("os.sched_getaffinity", raising=False)
-    monkeypatch.setattr("os.cpu_count", lambda: 5)
-    assert ContactModel(chain([LINEAR]))._choice.threads == 5
-    monkeypatch.setattr("os.cpu_count", lambda: None)
-    assert ContactModel(chain([LINEAR]))._choice.threads == 1
-
-
 def test_numpy_alone_does_not_load_numba() -> None:
     program = """if True:
         import sys, numpy as np

@@ -39,7 +39,7 @@ def without_suction(elements: int, seed: int) -> ContactInput:
     return without(everything(elements, seed), "suction", "suction spring")
 
 
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(lines, seeds)
 def test_no_force_where_there_is_no_contact(elements: int, seed: int) -> None:
     inputs = without(without_suction(elements, seed), "nodal")
@@ -59,7 +59,7 @@ def test_no_force_where_there_is_no_contact(elements: int, seed: int) -> None:
     assert not np.signbit(result.force[above]).any()
 
 
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(lines, seeds)
 def test_the_seabed_never_pulls_without_suction_where_tension_is_cut(elements: int, seed: int) -> None:
     inputs = replace(without_suction(elements, seed), curves=(PULLING, SAND), tension="cut")
@@ -93,7 +93,7 @@ def largest_added(inputs: ContactInput, pressed: FloatArray) -> FloatArray:
     return np.where(pressed > 0.0, found, 0.0)
 
 
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(lines, seeds)
 def test_friction_never_exceeds_its_limit(elements: int, seed: int) -> None:
     inputs = without(everything(elements, seed), "lateral")
@@ -130,7 +130,7 @@ def work(reaction: FloatArray, positions: FloatArray) -> float:
     return float(-(reaction[1:] * np.diff(positions, axis=0)).sum())
 
 
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(lines, seeds, st.booleans())
 def test_closed_cycles_never_give_work(elements: int, seed: int, trenches: bool) -> None:
     inputs = without(on_fixed_axes(everything(elements, seed)), "lateral", "suction spring")
@@ -207,7 +207,7 @@ def carried(inputs: ContactInput, seabed: Seabed, degrees: float, shift: FloatAr
     return replace(inputs, seabed=seabed)
 
 
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(lines, seeds, st.floats(-180.0, 180.0), st.floats(-50.0, 50.0), st.floats(-50.0, 50.0), st.booleans())
 def test_a_scene_may_be_turned_and_shifted(
     elements: int, seed: int, degrees: float, y: float, z: float, slopes: bool

@@ -238,21 +238,10 @@ def test_a_closed_line_begins_with_its_first_element(ends: tuple[tuple[int, int]
     assert sorted(found.node_arc.tolist()) == [0.0, 2.0, 4.0]
 
 
-def test_elements_that_join_the_same_nodes_or_a_node_with_itself() -> None:
-    for ends in (((0, 1), (0, 1)), ((0, 1), (1, 0)), ((0, 0),), ((0, 0), (0, 1)), ((0, 1), (1, 1))):
-        found = lines(*ends)
-        assert sorted(np.concatenate(found.elements).tolist()) == list(range(len(ends)))
-
-
 def test_no_elements() -> None:
     found = lines(nodes=2)
     assert (found.elements, found.nodes) == ([], [])
     assert found.of_node.tolist() == [-1, -1]
-
-
-def test_lengths_that_overflow_are_no_error() -> None:
-    found = lines((0, 1), (1, 2), length=1.5e308)
-    assert found.node_arc.tolist() == [0.0, 1.5e308, np.inf]
 
 
 @settings(max_examples=80)

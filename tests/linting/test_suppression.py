@@ -126,15 +126,6 @@ def test_the_report_of_unused_comments_can_be_hidden_by_name_only() -> None:
     assert "STY010" in codes(unused.replace("$MODEL", "C mudline: ignore-file\n$MODEL"))
 
 
-@pytest.mark.parametrize("end", ["\r", "\r\n"])
-def test_line_ends_do_not_matter(end: str) -> None:
-    assert codes(before(" 0.5, 900.0", "C mudline: ignore CRV005").replace("\n", end)) == ["REF003"]
-
-
-def test_a_comment_at_the_end_holds_for_nothing() -> None:
-    assert codes(FALLING + "C mudline: ignore CRV005\n")[-1] == "STY010"
-
-
 @pytest.mark.parametrize("form", ["json", "yaml"])
 @pytest.mark.parametrize(
     ("line", "comment", "left"),

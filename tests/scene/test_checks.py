@@ -14,26 +14,6 @@ def test_no_check_is_there_twice() -> None:
     assert len(all_checks()) == len({check.find for check in all_checks()})
 
 
-@pytest.mark.parametrize(
-    ("lines", "code"),
-    [
-        ("*SEABED PROPERTIES\n SET=ALL\n STIFFNESS=50000\n", "SBD003"),
-        ("*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n*SEABED PROFILE\n TYPE=3D\n FILE=a.txt\n", "SBD011"),
-        (LINEAR_BED + "*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=95.0\n", "SBD012"),
-        ("*ELASTIC SURFACE\n 50000\n 0.0, 0.0\n 0.0, 1.0\n", "SBD023"),
-        ("*ELASTIC SURFACE\n 50000\n 2.0\n*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n SLOPE=0\n", "EXT002"),
-        (LINEAR_BED + "*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n SLOPE=0\n BOUNDS=5.0, 5.0\n", "EXT007"),
-        ("*RIGID SURFACE\n 0.3\n*SEABED UNLOADING\n SET=ALL\n STIFFNESS=1\n", "EXT001"),
-        ("*NODE\n 20, -0.05, 0.0\n*ELEMENT\n 20, 1, 20\n" + LINEAR_BED, "GEO004"),
-        (LINEAR_BED.replace("ALL", "a") + "*ELEMENT SETS\n SET=a\n SUBSET=a\n", "REF008"),
-    ],
-)
-def test_what_lint_finds_is_refused_with_its_code(lines: str, code: str) -> None:
-    with pytest.raises(DeckError) as caught:
-        scene_of(PIPE + STEEL + lines).contact()
-    assert [one.code for one in caught.value.diagnostics] == [code]
-
-
 def test_cohesion_needs_a_diameter_unless_it_is_overridden() -> None:
     suction = "*SEABED SUCTION\n SET=ALL\n COHESION=5000\n"
     (found,) = scene_of(PIPE + LINEAR_BED + suction).problems

@@ -21,7 +21,6 @@ from mudline.scene.model import resolve
 from tests.builders.decks import CURVED_BED, FOOT, IMPERIAL, LINEAR_BED, METRIC, POUND, Units, full_bed, line_deck
 from tests.builders.scenes import scene_of
 
-RUBBING = LINEAR_BED + " FRICTION=0.3, 0.5\n"
 NODAL = "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=90000\n"
 WEIGHT = (7850.0 * math.pi / 4 * (0.25**2 - 0.22**2) - 1025.0 * math.pi / 4 * 0.25**2) * 9.81
 
@@ -166,29 +165,6 @@ def test_suction_of_cohesion_and_of_explicit_laws() -> None:
     assert refusal(rigid).startswith("4: EXT001 *SEABED SUCTION needs an elastic seabed")
 
 
-@pytest.mark.parametrize(
-    ("seabed", "message"),
-    [
-        (LINEAR_BED + "*SEABED SUCTION\n SET=ALL\n FORCE=70, 0.2\n", "6: EXT005 the suction law is incomplete"),
-        (
-            LINEAR_BED + "*SEABED SUCTION\n SET=ALL\n COHESION=5\n CUTOFF=0.8, 0.2\n",
-            "8: EXT004 corners 0.8, 0.2: they must be 0.01 <= first <= second <= 0.99",
-        ),
-        (LINEAR_BED + "*SEABED SUCTION\n SET=ALL\n COHESION=5\n CUTOFF=0.001, 0.2\n", "8: EXT004 corners 0.001, 0.2"),
-        (
-            LINEAR_BED + " SUCTION=5, 1\n*SEABED SUCTION\n SET=ALL\n COHESION=5\n",
-            "7: EXT006 10 elements (first: 1) have SUCTION= of the seabed too",
-        ),
-        (
-            CURVED_BED.replace("0.5, 4000", "0.5, -4000") + "*SEABED SUCTION\n SET=ALL\n COHESION=5\n",
-            "10: EXT006 10 elements (first: 1) have a curve that is negative in contact too",
-        ),
-    ],
-)
-def test_suction_that_cannot_be_evaluated(seabed: str, message: str) -> None:
-    assert refusal(seabed).startswith(message)
-
-
 def test_user_units_have_no_defaults_of_suction() -> None:
     def reported(lines: str) -> str:
         text = line_deck(METRIC, LINEAR_BED + "*SEABED SUCTION\n SET=ALL\n" + lines)
@@ -269,36 +245,6 @@ def test_a_trench_counts_its_own_elements() -> None:
     assert rows.amount.tolist() == [500.0, 1000.0, 1000.0, 1000.0, 1000.0, 500.0]
     laid = made_law(seabed.replace("0,0,9,9", "LAID"), "trench peak")
     assert np.isnan([laid[name] for name in ("start_y", "start_z", "end_y", "end_z")]).all()
-
-
-@pytest.mark.parametrize(
-    ("seabed", "message"),
-    [
-        (
-            LINEAR_BED + "*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n PEAK=1\n",
-            "6: EXT003 10 elements (first: 1) have a trench and no lateral friction spring",
-        ),
-        (RUBBING + "*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 3, 2\n PEAK=1\n", "8: EXT003 invalid trench geometry"),
-        (
-            RUBBING + " LATERAL=5\n*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n PEAK=1\n",
-            "8: EXT003 10 elements (first: 1) have a trench and no lateral friction spring",
-        ),
-        (
-            RUBBING + "*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n PEAK=1\n CENTRELINE=1, 2, 1, 2\n",
-            "10: EXT003 the two points of the centreline coincide",
-        ),
-        (
-            LINEAR_BED + "*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n SLOPE=90\n",
-            "8: EXT007 slope 90.0: it must be between -90 and 90 degrees",
-        ),
-        (
-            LINEAR_BED + "*SEABED PROFILE\n TYPE=2D\n FILE=none.txt\n",
-            "5: RUN001 the seabed is not known: 'none.txt' was not found",
-        ),
-    ],
-)
-def test_what_cannot_be_evaluated_is_told_at_its_line(seabed: str, message: str) -> None:
-    assert refusal(seabed).startswith(message)
 
 
 # rigid and shaped seabeds

@@ -273,10 +273,3 @@ def test_many_names_are_cut() -> None:
     )
     long = ByName("set", [("x" * 500, 1)])
     assert len(message_of(long, "y" * 500)) < 200
-
-
-def test_repr() -> None:
-    assert repr(scene_of(DECK).curves) == "<2 curves: 'Soft Clay', 'SAND'>"
-    assert repr(scene_of("$MODEL\n").sets) == "<1 set: 'ALL'>"
-    assert repr(scene_of("$MODEL\n").curves) == "<no curves>"
-    assert str(UnknownNameError()) == ""
