@@ -194,8 +194,3 @@ def test_every_function_of_equations_is_described() -> None:
     assert undescribed == []
 
 
-def test_output_that_a_page_does_not_show_is_noticed() -> None:
-    assert agree(["a", "...", "c"], ["a", "b", "b", "c"])
-    assert not agree(["a", "...", "c"], ["a", "b"])
-    assert not agree(["a"], ["a", "b"])
-    assert not agree(["a.c"], ["abc"])

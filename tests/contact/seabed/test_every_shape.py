@@ -71,16 +71,6 @@ def test_parts_and_shapes_give_the_same_as_the_whole(seabed: Seabed) -> None:
 
 
 @every_seabed
-def test_outputs_and_points_may_be_strided(seabed: Seabed) -> None:
-    points = cloud(50)
-    gap, normal = located(seabed, points)
-    spread, spread_normal = np.zeros((2, 50)), np.zeros((50, 6))
-    seabed.locate(np.asfortranarray(points), spread.T[:, 1], spread_normal[:, ::2])
-    assert np.array_equal(spread[1], gap, equal_nan=True)
-    assert np.array_equal(spread_normal[:, ::2], normal)
-
-
-@every_seabed
 def test_on_a_facet_a_step_along_the_normal_changes_the_gap_by_the_step(seabed: Seabed) -> None:
     points, step = cloud(), 1e-3
     gap, normal = located(seabed, points)
