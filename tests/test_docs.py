@@ -192,5 +192,3 @@ def test_every_function_of_equations_is_described() -> None:
     text = (ROOT / "docs/language.md").read_text(encoding="utf-8")
     undescribed = [name for name in (*FUNCTIONS, *FORMS) if f"`{name}(" not in text]
     assert undescribed == []
-
-
