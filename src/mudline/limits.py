@@ -34,8 +34,8 @@ LONGEST_EQUATION = 10_000
 """Characters of an equation: the grammar takes memory for each."""
 LONGEST_TEXT = 10_000
 """Characters of a text that equations join: parameters can double one another without end."""
-DEEPEST = 100
-"""Levels of brackets, calls and signs in an equation, and of lists in a document: each takes a call in Python."""
+DEEPEST = 30
+"""Levels of brackets, calls and signs in an equation, and of lists in a document: each takes a dozen calls."""
 MOST_KEYS = 100
 """Keys of a block in a document: every unknown one would be a finding."""
 LONGEST_ASSIGNMENT = 2000

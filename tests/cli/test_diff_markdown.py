@@ -6,14 +6,14 @@ from html import unescape
 
 import pytest
 
-from mudline.cli import diff_output
-from mudline.cli.diff_output import code, fenced
+from mudline.cli import diff_command
+from mudline.cli.diff_command import code, fenced
 from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.conftest import Place
 from tests.cli.runner import run
 
 HOSTILE = ("a|b", "`", "``a`", "*a* _b_ ~~c~~", "<script>alert(1)</script>", "@all #12 $x^2$", "[a](http://b)", "&amp;")
-HOSTILE += ("</code></details>", "a\n```\n# b", "````")
+BLOCKS = ("</code></details>", "a\n```\n# b", "````")
 
 
 def rendered(text: str) -> str:
@@ -21,7 +21,7 @@ def rendered(text: str) -> str:
     return str(pytest.importorskip("markdown_it").MarkdownIt("commonmark").render(text))
 
 
-@pytest.mark.parametrize("text", HOSTILE)
+@pytest.mark.parametrize("text", [*HOSTILE, *BLOCKS])
 def test_text_of_a_deck_is_code_and_nothing_else(text: str) -> None:
     if "\n" not in text:
         assert unescape(rendered(code(text))) == f"<p><code>{text}</code></p>\n"
@@ -61,7 +61,7 @@ def test_two_folders(place: Place) -> None:
 
 
 def test_what_does_not_fit_a_comment_is_left_out(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(diff_output, "LONGEST", 300)
+    monkeypatch.setattr(diff_command, "LONGEST", 300)
     for number in range(5):
         place(CLEAN, f"old/{number}.keyxm")
         place(CLEAN.replace("1000.0", "1200.0"), f"new/{number}.keyxm")

@@ -11,7 +11,7 @@ import pytest
 
 from mudline import cache_folder
 from mudline.cli import lint_run
-from mudline.cli.configured import Configured
+from mudline.cli.config_command import Configured
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.known_findings import known_findings
 from mudline.diagnostics import Diagnostic, Severity

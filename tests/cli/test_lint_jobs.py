@@ -71,7 +71,7 @@ def test_run_that_ends_early_ends_its_processes(decks: str, monkeypatch: pytest.
         if multiprocessing.active_children():
             raise KeyboardInterrupt
 
-    monkeypatch.setattr("mudline.cli.lint_run.Run._take", interrupt)
+    monkeypatch.setattr("mudline.cli.lint_report.Report.add", interrupt)
     assert run("lint", decks, "--jobs", "2", "--no-cache").code == 130
     assert multiprocessing.active_children() == []
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import count
 from pathlib import Path
 from types import SimpleNamespace
@@ -12,8 +12,7 @@ from types import SimpleNamespace
 import pytest
 
 from mudline.cli import lint_watch
-from mudline.cli.lint_watch import Watched
-from tests.builders.decks import BAD_NUMBER, CLEAN, UNSORTED
+from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.conftest import Place
 from tests.cli.runner import Outcome, run
 
@@ -40,8 +39,8 @@ def watch(folder: Path, steps: Steps, *words: str, terminal: bool = False) -> Ou
     """Run with one change of a file at each wait (None: it is removed), and Ctrl-C at the end."""
     left: Iterator[tuple[str, str | None]] = iter(steps)
 
-    def wait(files: Watched, before: lint_watch.State) -> None:
-        assert files.state() == before
+    def wait(paths: Sequence[str], before: lint_watch.State) -> None:
+        assert lint_watch.state(paths) == before
         name, text = next(left, ("", ""))
         if not name:
             raise KeyboardInterrupt
@@ -50,7 +49,7 @@ def watch(folder: Path, steps: Steps, *words: str, terminal: bool = False) -> Ou
             path.unlink()
         else:
             path.write_text(text, encoding="utf-8")
-        real(files, before)
+        real(paths, before)
 
     real = lint_watch.wait_for_change
     with pytest.MonkeyPatch.context() as patch:
@@ -88,17 +87,6 @@ def test_wrong_configuration_is_told_and_waited_out(folder: Path, place: Place) 
     assert "waiting" not in outcome.err
 
 
-def test_base_of_a_configuration(folder: Path, place: Place) -> None:
-    place(UNSORTED)
-    place("extend = 'base.toml'\n", "mudline.toml")
-    place("", "base.toml")
-    outcome = watch(folder, [("base.toml", "severity = { CRV002 = 'error' }\n")], "deck.keyxm", "--fail-on", "error")
-    assert [line for line in outcome.out.splitlines() if line.startswith("Found")] == [
-        "Found 1 info in 1 file.",
-        "Found 1 error in 1 file.",
-    ]
-
-
 def test_deck_beside_the_one_watched(folder: Path, place: Place) -> None:
     outcome = watch(folder, [("base.keyxm", CLEAN)], place())
     assert outcome.out.count("No findings in 1 file.") == 2
@@ -109,11 +97,11 @@ def test_terminal_is_cleared(folder: Path, place: Place) -> None:
 
 
 def test_change_is_seen_while_waiting(folder: Path, place: Place) -> None:
-    files = Watched((place(), "nowhere/deck.keyxm", "\0"))
-    before = files.state()
+    files = (place(), "nowhere/deck.keyxm", "\0")
+    before = lint_watch.state(files)
     threading.Timer(0.1, lambda: place(BAD_NUMBER)).start()
     lint_watch.wait_for_change(files, before)
-    assert files.state() != before
+    assert lint_watch.state(files) != before
     assert (folder / "deck.keyxm").exists()
 
 

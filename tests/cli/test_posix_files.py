@@ -14,8 +14,8 @@ from unittest.mock import Mock
 import pytest
 
 from mudline import files
+from mudline.__main__ import Ended
 from mudline.cli.inputs import collect
-from mudline.cli.signals import Ended
 from mudline.files import replacement, write_atomically
 from tests.builders.decks import CLEAN
 from tests.cli.conftest import Place

@@ -278,7 +278,7 @@ def _paths(value: object, path: Path = ()) -> list[Path]:
 
 
 @given(st.sampled_from(_paths(json.loads(JSON))), _values)
-@settings(max_examples=50)
+@settings(max_examples=25)
 def test_any_value_at_any_place_is_read_or_refused_as_the_schema_says(path: Path, value: object) -> None:
     made = changed(path, value)
     accepted = validator().is_valid(made)
@@ -289,7 +289,7 @@ def test_any_value_at_any_place_is_read_or_refused_as_the_schema_says(path: Path
 
 
 @given(mutated(deck_texts().map(lambda t: dump(load_bytes(t.encode(), "a.keyxm"), "json").encode())), st.booleans())
-@settings(max_examples=50)
+@settings(max_examples=25)
 def test_mutated_json_is_read_or_refused(data: bytes, as_yaml: bool) -> None:
     deck = read_or_refuse(data, "a.yaml" if as_yaml else "a.json")
     if deck is not None:
@@ -297,7 +297,7 @@ def test_mutated_json_is_read_or_refused(data: bytes, as_yaml: bool) -> None:
 
 
 @given(st.text(max_size=40) | st.text("{}[]:-,'\"&*!|> \n#?%@a1", max_size=40), st.sampled_from(["a.json", "a.yaml"]))
-@settings(max_examples=200)
+@settings(max_examples=60)
 def test_random_text_is_refused(text: str, name: str) -> None:
     with pytest.raises(DeckError):
         load_bytes(text.encode(), name)

@@ -67,7 +67,7 @@ def test_samples(path: Path) -> None:
 
 
 @given(deck_texts())
-@settings(max_examples=50)
+@settings(max_examples=15)
 def test_decks(text: str) -> None:
     deck = deck_of(text)
     assert [str(found) for found in deck.diagnose(deck.problems) if found.severity is Severity.ERROR] == []
@@ -84,7 +84,7 @@ def test_a_curve_named_like_the_beginning_of_a_number(value: str) -> None:
 
 
 @given(deck_texts())
-@settings(max_examples=40)
+@settings(max_examples=12)
 def test_no_comment_is_lost(text: str) -> None:
     lines = iter(range(10**6))
     numbered = re.sub(
@@ -96,7 +96,7 @@ def test_no_comment_is_lost(text: str) -> None:
 
 
 @given(mutated(deck_texts().map(str.encode)))
-@settings(max_examples=60)
+@settings(max_examples=20)
 def test_what_reads_without_an_error_is_the_same_in_every_form(data: bytes) -> None:
     deck = load_bytes(data, NAME)
     assume(all(problem.weight is not Severity.ERROR for problem in deck.problems))
@@ -173,7 +173,7 @@ def test_every_keyword_is_tried() -> None:
     st.lists(st.tuples(st.floats(allow_nan=False, allow_infinity=False), st.floats(-1e9, 1e9)), min_size=1, max_size=30)
 )
 @example([(-0.0, 5e-324), (1.7976931348623157e308, 0.1 + 0.2)])
-@settings(max_examples=60)
+@settings(max_examples=15)
 def test_numbers_to_the_last_bit(points: list[tuple[float, float]]) -> None:
     text = "$MODEL\n*SEABED STIFFNESS\nCURVE=a\n" + "".join(f"{x!r},{y!r}\n" for x, y in points)
     deck = deck_of(text)

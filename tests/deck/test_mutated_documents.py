@@ -94,7 +94,7 @@ def read(text: str, form: str) -> Deck | tuple[Diagnostic, ...]:
 
 
 @given(mutants())
-@settings(max_examples=75)
+@settings(max_examples=30)
 def test_schema_and_reader_agree(mutant: tuple[Values, DocumentPath]) -> None:
     made, _ = mutant
     allowed = validator().is_valid(made)
@@ -112,7 +112,7 @@ def test_schema_and_reader_agree(mutant: tuple[Values, DocumentPath]) -> None:
 
 
 @given(mutants())
-@settings(max_examples=75)
+@settings(max_examples=30)
 def test_a_refusal_names_the_place(mutant: tuple[Values, DocumentPath]) -> None:
     made, path = mutant
     for text, form in ((json.dumps(made, indent=1), "json"), (as_yaml_text(made), "yaml")):
@@ -128,7 +128,7 @@ def test_a_refusal_names_the_place(mutant: tuple[Values, DocumentPath]) -> None:
 
 
 @given(blocks, st.data())
-@settings(max_examples=75)
+@settings(max_examples=30)
 def test_what_keyword_text_cannot_say_is_refused(made: Values, data: st.DataObject) -> None:
     """Any text in the place of another one is kept to the letter, or the deck is not written."""
     texts = [path for path in paths(made) if path[0] == "sections" and isinstance(at(made, path), str)]

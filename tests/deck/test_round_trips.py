@@ -5,12 +5,13 @@ from __future__ import annotations
 import json
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck
 from tests.builders.documents import KEYWORDS, Keyword, Values, alone, block, declared, document, validator
+from tests.syntax.test_lossless import BOM
 
 
 def read(text: str, form: str) -> Deck:
@@ -64,7 +65,7 @@ def held_in_text(deck: Deck) -> None:
 @pytest.mark.untraced
 @pytest.mark.parametrize("keyword", KEYWORDS, ids=lambda keyword: f"{keyword[0]}-{keyword[1]}".replace(" ", "-"))
 @given(data=st.data())
-@settings(max_examples=8)
+@settings(max_examples=3)
 def test_every_keyword(keyword: Keyword, data: st.DataObject) -> None:
     deck = of(alone(keyword, data.draw(block(keyword))))
     (found,) = deck.sections[0].blocks
@@ -74,8 +75,29 @@ def test_every_keyword(keyword: Keyword, data: st.DataObject) -> None:
 
 
 @given(document())
-@settings(max_examples=40)
+@settings(max_examples=10)
 def test_whole_decks(made: Values) -> None:
     deck = of(made)
     held_in_documents(deck)
     held_in_text(deck)
+
+
+texts = document().map(lambda made: dump(of(made), "keyword"))
+ends = st.sampled_from([["\n"], ["\r\n"], ["\r"], ["\n", "\r\n"], ["\r", "\r\n"]])
+
+
+def with_ends(text: str, chosen: list[str]) -> str:
+    """A text with other line ends, in turn."""
+    lines = text.split("\n")
+    return "".join(line + chosen[index % len(chosen)] for index, line in enumerate(lines[:-1])) + lines[-1]
+
+
+@given(texts, ends, st.booleans())
+@settings(max_examples=15)
+def test_line_ends_and_marks_change_no_model(text: str, chosen: list[str], marked: bool) -> None:
+    deck = load_bytes(text.encode(), "a.keyxm")
+    assume(not text.startswith("\ufeff"))
+    again = load_bytes((BOM if marked else b"") + with_ends(text, chosen).encode(), "a.keyxm")
+    assert again.sections == deck.sections
+    assert (again.preamble, again.comments) == (deck.preamble, deck.comments)
+    assert dump(again, "json") == dump(deck, "json")

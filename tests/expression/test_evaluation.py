@@ -11,6 +11,7 @@ import pytest
 from mudline.expression.evaluation import evaluate
 from mudline.expression.nodes import EvaluationError, ExpressionError, UndefinedName, UnknownFunction
 from mudline.expression.parsing import parse
+from mudline.limits import DEEPEST
 
 PARAMETERS: dict[str, float | str] = {
     "x": 3.0,
@@ -288,7 +289,7 @@ def test_joined_text_is_limited() -> None:
         ("*".join(["1"] * 5000), 1.0),
         (" or ".join(["0"] * 2000), 0.0),
         ("max(" + ",".join(["1"] * 4000) + ")", 1.0),
-        ("1+(" * 100 + "0" + ")" * 100, 100.0),
+        ("1+(" * DEEPEST + "0" + ")" * DEEPEST, DEEPEST),
     ],
 )
 def test_long_equations(text: str, expected: float) -> None:
@@ -296,7 +297,7 @@ def test_long_equations(text: str, expected: float) -> None:
 
 
 def test_parameters_defined_through_parameters_cost_little_stack() -> None:
-    deep = parse("(" * 100 + "a" + ")" * 100)
+    deep = parse("(" * DEEPEST + "a" + ")" * DEEPEST)
 
     def chained(level: int) -> Callable[[str], float | str]:
         return (lambda _: evaluate(deep, chained(level - 1))) if level else (lambda _: 4.0)

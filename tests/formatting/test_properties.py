@@ -15,9 +15,15 @@ from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Opaque
 from mudline.diagnostics import DeckError, Severity
 from mudline.formatting.document import formatted, same_meaning
+from mudline.formatting.rows import Columns, PlainRows, RowKind, WordRows, word_rows
 from mudline.keywords import catalogue
+from mudline.keywords.library.element import ElementRow
+from mudline.keywords.library.node import NodeRow
+from mudline.keywords.model import Row, record_schema
+from mudline.syntax.rows import read_number
 from mudline.syntax.source import Source
 from tests.builders.keyword_texts import deck_texts, mutated
+from tests.builders.spellings import numbers
 from tests.growth import FOURFOLD, TWOFOLD, call_growth, calls, growth
 from tests.samples import SAMPLES
 
@@ -104,13 +110,13 @@ def test_what_conversion_writes_is_canonical(path: Path, form: str) -> None:
 
 
 @given(deck_texts(), st.booleans())
-@settings(max_examples=60)
+@settings(max_examples=20)
 def test_decks(text: str, bom: bool) -> None:
     check((BOM if bom else b"") + text.encode())
 
 
 @given(deck_texts())
-@settings(max_examples=40)
+@settings(max_examples=8)
 def test_decks_in_other_encodings(text: str) -> None:
     check(text.encode("cp1252", errors="ignore") + b"C \xe9\n")
 
@@ -119,7 +125,7 @@ _sample_bytes = st.sampled_from([path.read_bytes()[:6000] for path in FILES if p
 
 
 @given(mutated(st.one_of(deck_texts().map(str.encode), _sample_bytes)))
-@settings(max_examples=60)
+@settings(max_examples=20)
 def test_mutated_decks(data: bytes) -> None:
     check(data.replace(b"\x00", b"\x01"))  # with a NUL, few bytes and a line end more may look like UTF-16
 
@@ -141,8 +147,91 @@ def test_an_end_of_file_mark(data: bytes) -> None:
 
 
 @given(st.text(st.sampled_from('$*C c=1-,.\t\r\nx[]{}"/\x85\u2028\u0660\x0b\x0c\xdf'), max_size=60))
-@settings(max_examples=120)
+@settings(max_examples=50)
 def test_random_lines(text: str) -> None:
     check(text.encode())
     check(b"$MODEL\n*SEABED STIFFNESS\nCURVE=x\n" + text.encode())
     check(b"$PREPROCESSOR\n*PARAMETERS\n" + text.encode())
+
+
+def kind(row: type[Row]) -> RowKind:
+    columns = record_schema(row).columns
+    return RowKind(columns[0], tuple(columns), table=True)
+
+
+def laid_out(rows: WordRows | PlainRows, row: type[Row], *others: WordRows | PlainRows) -> str:
+    columns = Columns(kind(row))
+    for part in (rows, *others):
+        part.measure(columns)
+    return rows.lines(columns.shapes())
+
+
+_fields = st.one_of(numbers, numbers, st.just(""), st.just("1" * 40), st.sampled_from(["0", "1.5", "-2E+3", "+.5d0"]))
+_pads = st.sampled_from(["", " ", "\t", "  "])
+_row = st.lists(st.tuples(_pads, _fields, _pads).map("".join), min_size=1, max_size=5).map(",".join)
+_ends = st.sampled_from(["\n", "\n", "\r\n", ",\n", " , ,\n"])
+_lines = st.lists(
+    st.tuples(_row.filter(lambda row: bool(row.strip(" \t"))), _ends).map("".join), min_size=1, max_size=8
+)
+
+
+@given(_lines.map("".join), st.booleans())
+@settings(max_examples=50)
+def test_both_ways_give_the_same(text: str, cut: bool) -> None:
+    text = text.rstrip("\r\n") if cut else text
+    plain = PlainRows.read(text, 4)
+    words = word_rows(text, 4)
+    if plain is not None:
+        assert laid_out(plain, NodeRow) == laid_out(words, NodeRow)
+        other = word_rows("1234567.5, {label}, =[a, b]\n", 4)
+        assert laid_out(plain, ElementRow, other) == laid_out(words, ElementRow, other)
+
+
+@given(
+    st.lists(st.lists(numbers.filter(lambda text: read_number(text) is not None), min_size=2, max_size=4), min_size=1)
+)
+@settings(max_examples=20)
+def test_numbers_parted_by_blanks(rows: list[list[str]]) -> None:
+    text = "".join(" \t" + "  ".join(row) + " \r\n" for row in rows)
+    plain = PlainRows.read(text, 4)
+    assert plain is not None
+    assert laid_out(plain, NodeRow) == laid_out(word_rows(text, 4), NodeRow)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "1, =[a]\n",
+        "1, {a}\n",
+        "1, abc\n",
+        "1, \xe9\n",
+        "1, e5\n",
+        "1, 2\n3 4\n",
+        "1, 2\n, ,\n",
+        ",\n",
+        "1, 2, 3, 4, 5\n",
+        "1 , 2 3\n",
+    ],
+)
+def test_what_is_not_simply_numbers_is_declined(text: str) -> None:
+    assert PlainRows.read(text, 4) is None
+
+
+def test_empty_fields_behind_those_that_count_go() -> None:
+    rows = PlainRows.read("1,2,3,4,\n10,20,30,40,, ,\n5,6\n", 4)
+    assert rows is not None
+    assert laid_out(rows, NodeRow) == "  1,  2,  3,  4\n 10, 20, 30, 40\n  5,  6\n"
+
+
+def test_decimal_points_stand_under_each_other() -> None:
+    rows = PlainRows.read("1,0,-1.5E+02\n10,100.25,3D0\n100,.5,,\n", 4)
+    assert rows is not None
+    assert laid_out(rows, NodeRow) == "   1,   0,    -1.5E+02\n  10, 100.25,  3D0\n 100,    .5\n"
+
+
+def test_a_very_long_number_does_not_widen_its_column() -> None:
+    text = f"1,{'1' * 33},5\n20,2,6\n"
+    rows = PlainRows.read(text, 4)
+    assert rows is not None
+    assert laid_out(rows, NodeRow) == f"  1, {'1' * 33}, 5\n 20, 2, 6\n"
+    assert laid_out(word_rows(text, 4), NodeRow) == laid_out(rows, NodeRow)

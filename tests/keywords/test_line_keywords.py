@@ -168,7 +168,7 @@ def test_other_keywords_are_not_kept_with_a_module() -> None:
 
 @given(st.sampled_from([kept.keyword for kept in OPAQUE]), st.lists(texts, max_size=5))
 @example("LINES", ["\ufeff$"])
-@settings(max_examples=100)
+@settings(max_examples=50)
 def test_nothing_of_a_kept_block_is_lost(keyword: str, lines: list[str]) -> None:
     text = f"$MODEL\n*{keyword}\n" + "".join(f"{no_head(line)}\n" for line in lines)
     deck = deck_of(text)

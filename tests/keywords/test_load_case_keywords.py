@@ -226,7 +226,7 @@ BLOCKS = {
 }
 
 
-@settings(max_examples=120)
+@settings(max_examples=30)
 @given(st.sampled_from(sorted(BLOCKS)).flatmap(lambda name: st.tuples(st.just(name), BLOCKS[name])))
 def test_round_trips(drawn: tuple[str, Lines]) -> None:
     name, lines = drawn

@@ -136,7 +136,7 @@ def compare(text: str) -> bool:
     return late
 
 
-@settings(max_examples=50)
+@settings(max_examples=25)
 @given(st.one_of(deck_texts().map(str.encode), mutated(deck_texts().map(str.encode))))
 def test_blocks_of_any_deck(data: bytes) -> None:
     same(data)
@@ -172,7 +172,7 @@ def test_the_end_of_the_file_is_left_to_the_reader(head: str) -> None:
     assert compare(f"{text}$MODEL\n")
 
 
-@settings(max_examples=60)
+@settings(max_examples=25)
 @given(st.data())
 def test_blocks_of_any_records(data: st.DataObject) -> None:
     head = data.draw(st.sampled_from(list(BLOCKS)))
@@ -192,7 +192,7 @@ def lines_of(data: st.DataObject, rule: str) -> list[Content]:
     return [Content(terminal, Span(at, at + 1), at) for at, terminal in enumerate(terminals)]
 
 
-@settings(max_examples=200)
+@settings(max_examples=100)
 @given(st.data())
 def test_lines_that_fit_have_the_tree_that_lark_makes_of_them(data: st.DataObject) -> None:
     rule = data.draw(st.sampled_from(RULES))
@@ -214,7 +214,7 @@ def test_a_few_lines_fit_where_they_do_for_lark(rule: str) -> None:
     assert fits
 
 
-@settings(max_examples=200)
+@settings(max_examples=100)
 @given(st.data())
 def test_cutting_into_records_gives_the_tree_of_the_whole(data: st.DataObject) -> None:
     rule = data.draw(st.sampled_from([rule for rule in RULES if grammar.records_of(rule)]))

@@ -12,7 +12,7 @@ from mudline.linting.engine import read_deck
 from mudline.linting.registry import rules
 from mudline.linting.rule import MOST_POINTS, LintContext
 from tests.builders.keyword_texts import mutated
-from tests.deck.test_bytes import texts
+from tests.deck.test_round_trips import texts
 
 HEAD = "$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n*SEABED STIFFNESS\n CURVE=Clay\n"
 CLAY = [(0.0, 0.0), (0.1, 1200.0), (0.5, 4200.0)]

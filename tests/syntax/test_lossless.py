@@ -69,7 +69,7 @@ def test_long_runs_are_cut_as_short_ones(parts: list[tuple[str, int]], ended: bo
 
 
 @given(deck_texts(), st.booleans())
-@settings(max_examples=60)
+@settings(max_examples=15)
 def test_decks(text: str, bom: bool) -> None:
     source = read_back((BOM if bom else b"") + text.encode())
     assert source.text == text
@@ -80,7 +80,7 @@ _sample_bytes = st.sampled_from([path.read_bytes()[:6000] for path in FILES])
 
 
 @given(mutated(st.one_of(deck_texts().map(str.encode), _sample_bytes)))
-@settings(max_examples=60)
+@settings(max_examples=20)
 def test_mutated_decks(data: bytes) -> None:
     read_back(data)
 
@@ -93,20 +93,20 @@ def test_mutated_decks(data: bytes) -> None:
 @example(BOM + BOM)
 @example(b"C\r")
 @example(b"C \r\n*\r$\r1\r\r2")
-@settings(max_examples=150)
+@settings(max_examples=100)
 def test_random_bytes(data: bytes) -> None:
     read_back(data)
 
 
 @given(st.text(st.sampled_from('$*C c=1-,.\t\r\nx[]{}"/\x85\u2028\u0660\x0b\x0c'), max_size=60))
-@settings(max_examples=250)
+@settings(max_examples=150)
 def test_random_lines(text: str) -> None:
     source = read_back(text.encode())
     assert source.text == text or not source.readable
 
 
 @given(st.text(max_size=60), st.sampled_from(["cp1252", "latin-1", "utf-8"]))
-@settings(max_examples=100)
+@settings(max_examples=60)
 def test_random_text_in_any_encoding(text: str, encoding: str) -> None:
     read_back(text.encode(encoding, errors="ignore"))
 

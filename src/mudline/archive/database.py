@@ -13,7 +13,6 @@ import threading
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -23,6 +22,7 @@ import duckdb
 from mudline.archive.store import AGAIN, DATA, VIEWS, Archive
 from mudline.archive.tables import DECK, FILES, STORED, TABLES, Table
 from mudline.files import write_atomically
+from mudline.lean import dataclass
 
 BATCH = 100_000
 """Rows of an answer that are fetched at once."""

@@ -6,7 +6,7 @@ import os
 from collections import Counter
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path, PurePosixPath
 from string import Formatter
 from tempfile import TemporaryDirectory
@@ -22,6 +22,7 @@ from mudline.cli.view import View
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Diagnostic
 from mudline.files import is_url, recording_looks, suffix_of
+from mudline.lean import dataclass
 from mudline.results.cases import CaseSummary, CaseWatch
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import FORMS, ResultConsumer
@@ -64,9 +65,9 @@ def named_cases(files: Sequence[Input], form: str) -> tuple[str, list[Case]]:
     paths = [os.path.abspath(file.path or file.name) for file in files]  # noqa: PTH100 - links stay what they are called
     try:
         common = os.path.commonpath([os.path.dirname(path) for path in paths])  # noqa: PTH120 - as above
-    except ValueError:  # on several drives
-        common = ""
-    inside = [_inside(path, common) for path in paths]
+    except ValueError as error:
+        raise click.UsageError("the decks have no common folder: run mudline batch for each drive") from error
+    inside = [Path(os.path.relpath(path, common)).as_posix() for path in paths]
     if all(is_url(file.path or "") for file in files):
         common = os.path.relpath(common, Path.cwd()).replace(os.sep, "/").replace(":/", "://", 1)
     plain = [str(PurePosixPath(name).with_suffix("")) for name in inside]
@@ -79,14 +80,6 @@ def named_cases(files: Sequence[Input], form: str) -> tuple[str, list[Case]]:
     return common, [Case(file, name, f"{stem}.{form}") for file, name, stem in zip(files, inside, stems, strict=True)]
 
 
-def _inside(path: str, common: str) -> str:
-    """A path below a folder; of another drive, below a folder with the name of the drive."""
-    if common:
-        return Path(os.path.relpath(path, common)).as_posix()
-    found = Path(path)
-    return PurePosixPath(found.drive.strip(":\\/") or "root", *found.parts[1:]).as_posix()
-
-
 def _others(stem: str, form: str) -> list[str]:
     return [f"{stem}-{table}" for table in FORMS[form].beside]
 
@@ -96,7 +89,7 @@ def _others(stem: str, form: str) -> list[str]:
 
 def check_positions(given: str | None) -> None:
     """Refuse a pattern with unknown fields, and a file that is not there; raises click.ClickException."""
-    if given is None or _there(given):
+    if given is None or Path(given).exists():
         return
     try:
         names = {name for _, name, _, _ in Formatter().parse(given) if name is not None}
@@ -113,13 +106,13 @@ def positions_of(case: Case, given: str | None) -> str | None:
 
     Raises click.ClickException where there is none or several, OSError.
     """
-    if given is None or _is_file(given):
+    if given is None or Path(given).is_file():
         return given
-    if _there(given):
+    if Path(given).is_dir():
         return _in_folder(case, given)
     folder = os.path.dirname(case.file.path or case.file.name) or "."  # noqa: PTH120 - as it was given
     path = given.replace("{name}", case.name).replace("{folder}", folder)
-    if not _is_file(path):
+    if not Path(path).is_file():
         raise click.ClickException(f"its positions were not found: {path}")
     return path
 
@@ -127,24 +120,14 @@ def positions_of(case: Case, given: str | None) -> str | None:
 def _in_folder(case: Case, folder: str) -> str:
     """The file with the name of the deck: in the folder that the deck is in below the common one, or at the top."""
     stem = str(PurePosixPath(case.inside).with_suffix(""))
-    for start in dict.fromkeys((storage.join(folder, stem), storage.join(folder, case.name))):
-        found = [slashed(path) for end in _POSITIONS if _is_file(path := start + end)]
+    for start in dict.fromkeys((stem, case.name)):
+        found = [path.as_posix() for end in _POSITIONS if (path := Path(folder, f"{start}{end}")).is_file()]
         if len(found) > 1:
             raise click.ClickException(f"several files of positions: {', '.join(found)}")
         if found:
             return found[0]
     ends = f"{', '.join(_POSITIONS[:-1])} or {_POSITIONS[-1]}"
-    raise click.ClickException(f"its positions were not found: {slashed(storage.join(folder, stem))} with {ends}")
-
-
-def _there(path: str) -> bool:
-    return "{" not in path and storage.exists(path) if is_url(path) else Path(path).exists()
-
-
-def _is_file(path: str) -> bool:
-    if not is_url(path):
-        return Path(path).is_file()
-    return _there(path) and not storage.is_folder(path)
+    raise click.ClickException(f"its positions were not found: {Path(folder, stem).as_posix()} with {ends}")
 
 
 def slashed(path: str) -> str:
@@ -221,7 +204,7 @@ def _evaluated(order: Order, near: Path) -> tuple[CaseSummary, list[ContactWarni
     Raises DeckError, click.ClickException, OSError.
     """
     file, given = order.case.file, order.inputs
-    positions, elements = (_local(path and order.seen(path), near) for path in (given.positions, given.elements))
+    positions, elements = (path and order.seen(path) for path in (given.positions, given.elements))
     inputs = replace(given, positions=positions, elements=elements)
     deck = load_bytes(order.data, file.name, units=order.units, folder=file.seen_from(order.folder).folder)
     evaluation = inputs.evaluation(deck)
@@ -250,15 +233,6 @@ def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer]) -> None:
     for part in evaluation.parts():
         for consumer in consumers:
             consumer.take(part)
-
-
-def _local(path: str | None, near: Path) -> str | None:
-    """A file as it can be opened: that of a URL is copied; raises OSError."""
-    if path is None or not is_url(path):
-        return path
-    copy = near / PurePosixPath(path).name
-    copy.write_bytes(storage.read(path))
-    return str(copy)
 
 
 def _stored(path: Path, near: Path, output: str) -> str:

@@ -183,7 +183,6 @@ def _tasks(
             data, positions = case.file.read(), positions_of(case, given.positions)
             files = [path for path in (positions, given.elements) if path]
             _keep_inputs(case, files, order.output)
-            marks = [f"{path} {storage.size_and_date(path) if is_url(path) else ''}" for path in files]
         except OSError as error:
             found.fail(f"{name}: {reason(error)}")
             yield _Task(order, known=failed(name, reason(error))), None
@@ -191,10 +190,10 @@ def _tasks(
         except click.ClickException as error:
             yield _Task(order, known=failed(name, error.message)), None
             continue
-        key = "" if memory is None else memory.key(name, case.result, data, *marks)
+        key = "" if memory is None else memory.key(name, case.result, data, *files)
         known = None if memory is None or fresh else _known(memory, key, order.output)
         order = order._replace(data=data, inputs=replace(given, positions=positions))
-        near = [os.path.abspath(path) for path in files if not is_url(path)]  # noqa: PTH100 - links stay what they are
+        near = [os.path.abspath(path) for path in files]  # noqa: PTH100 - links stay what they are
         yield _Task(order, key, near, known), None if known else order
 
 

@@ -17,10 +17,6 @@ if TYPE_CHECKING:
     from mudline.cli.printing import Printer
 
 _DIGITS = 5
-_NAME = 30
-"""Columns that a deck's name gets on a narrow terminal."""
-_GAP = 2
-"""Columns between two others."""
 _LARGE = 1e7
 """Numbers from here on have an exponent."""
 
@@ -48,21 +44,15 @@ def print_cases(ranked: Sequence[CaseSummary], folder: str, names: Mapping[str, 
 def _print_evaluated(
     printer: Printer, title: str, listed: Sequence[CaseSummary], names: Mapping[str, str], note: str
 ) -> None:
-    """A line for each deck: on a narrow terminal without the columns that are needed least."""
+    """A line for each deck, without columns that say nothing."""
     systems = {row.units for row in listed}
     columns = _columns(next(iter(systems)) or "" if len(systems) == 1 else "")
-    cells = {head: [cell(row) for row in listed] for head, cell in columns.items()}
-    unused = [head for head in cells if head.startswith(("warn", "largest\nuplift")) and not any(cells[head])]
-    unused += ["units"] if len(systems) == 1 else []
-    unused += ["steps"] if all(row.steps == 1 for row in listed) else []
-    cells = {head: column for head, column in cells.items() if head not in unused}
-    widths = {head: max(map(len, (*head.split("\n"), *column))) + _GAP for head, column in cells.items()}
-    wanted = min(_NAME, max(len(names[row.deck]) for row in listed))
-    for head in ("in\ncontact", "element", "steps"):
-        if head in widths and sum(widths.values()) + wanted > printer.width:
-            del widths[head], cells[head]
-    decks = [names[row.deck] for row in listed]
-    printer.table(title, ("deck", *cells), zip(decks, *cells.values(), strict=True), left=("deck",), note=note)
+    if len(systems) == 1:
+        del columns["units"]
+    if all(row.steps == 1 for row in listed):
+        del columns["steps"]
+    cells = [[names[row.deck], *(cell(row) for cell in columns.values())] for row in listed]
+    printer.table(title, ("deck", *columns), cells, left=("deck",), optional=tuple(columns), note=note)
 
 
 def _inside(folder: str) -> str:

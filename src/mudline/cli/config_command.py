@@ -1,21 +1,34 @@
-"""`mudline config`."""
+"""`mudline config`, and the configuration of each deck: the file that `--config` names, or the nearest one."""
 
 from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import field
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import click
 
 from mudline.cli import DONE, options
-from mudline.cli.configured import Configured
-from mudline.cli.streams import emit
-from mudline.linting.configuration import EXTEND, KEYS, TABLES, Configuration
+from mudline.cli.inputs import is_deck
+from mudline.cli.streams import emit, reason
+from mudline.lean import dataclass
+from mudline.linting.configuration import (
+    EXTEND,
+    KEYS,
+    TABLES,
+    CodeFault,
+    Configuration,
+    ConfigurationError,
+    Search,
+    read_configuration,
+)
 from mudline.linting.output import visible
-from mudline.linting.registry import code_fault
+from mudline.patterns import matches
+
+T = TypeVar("T")
 
 _DEFAULTS = {EXTEND: "", "fail-on": "warning", "dialect": "mudline"}
 
@@ -28,6 +41,8 @@ _DEFAULTS = {EXTEND: "", "fail-on": "warning", "dialect": "mudline"}
 @options.common
 def command(*, path: str, config: str | None, isolated: bool, output_format: str) -> int:
     """Show the configuration of a deck, or of the decks in a directory, and where each value comes from."""
+    from mudline.linting.registry import code_fault  # noqa: PLC0415 - of the commands, lint alone needs all rules
+
     inside = str(Path(path) / "-") if os.path.isdir(path) else path  # noqa: PTH112 - Path raises for a long name
     rows = list(_rows(Configured(config, isolated, code_fault).of(inside)))
     if output_format == "json":
@@ -48,3 +63,59 @@ def _rows(found: Configuration) -> Iterator[tuple[str, Any, str]]:
             yield key, found.values[key], f"{path.as_posix()}:{line}"
         else:
             yield key, _DEFAULTS.get(key, {} if key in TABLES else []), "default"
+
+
+# ---------------------------------------------------------------------------------------------------- of each deck
+
+
+@dataclass
+class Configured:
+    """The configuration of each deck: that of `--config`, none (`isolated`), or the nearest one upwards.
+
+    `code_fault` checks the words that are to name rules, as `read_configuration` says.
+    """
+
+    config: str | None = None
+    isolated: bool = False
+    code_fault: CodeFault | None = None
+    _fixed: Configuration | None = field(init=False, default=None)
+    _search: Search = field(init=False)
+    _of_folder: dict[str, Configuration] = field(init=False, default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if self.config is not None and self.isolated:
+            raise click.UsageError("--config and --isolated exclude each other: give one of them")
+        self._search = Search(self.code_fault)
+        if self.isolated:
+            self._fixed = Configuration()
+        elif self.config is not None:
+            path = Path(self.config)
+            self._fixed = _read(lambda: read_configuration(path, code_fault=self.code_fault)) or Configuration()
+
+    def of(self, path: str | None) -> Configuration:
+        """The configuration of a file; that of standard input is the working folder's."""
+        if self._fixed is not None:
+            return self._fixed
+        folder = os.path.dirname(path or "-")  # noqa: PTH120 - asked for each of many files
+        if folder not in self._of_folder:
+            whole = Path(os.path.abspath(folder))  # noqa: PTH100 - links stay what they are called
+            self._of_folder[folder] = _read(lambda: self._search.nearest(whole))
+        return self._of_folder[folder]
+
+    def wanted(self, path: str) -> bool:
+        """Whether a file in a searched directory is linted: `include` adds to the suffixes, `exclude` removes."""
+        found = self.of(path)
+        include, exclude = found.words("include"), found.words("exclude")
+        if not (include or exclude):
+            return is_deck(path)
+        relative = found.relative(path)
+        return (is_deck(path) or matches(relative, include)) and not matches(relative, exclude)
+
+
+def _read(read: Callable[[], T]) -> T:
+    try:
+        return read()
+    except ConfigurationError as error:
+        raise click.ClickException(str(error)) from error
+    except OSError as error:
+        raise click.ClickException(f"{error.filename}: the configuration cannot be read: {reason(error)}") from error

@@ -1,24 +1,34 @@
-"""`mudline evaluate`: its options, and what is refused of them."""
+"""`mudline evaluate`: results on the terminal or in a file, the picture, notes about what is doubtful or left out."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from pathlib import Path
 
 import click
 
 from mudline.cli import DONE, FOUND, evaluate_inputs, options, pictures
-from mudline.cli.evaluate_inputs import EvaluateInputs, takes_inputs
-from mudline.cli.evaluate_one import evaluate_one, evaluate_series
-from mudline.cli.evaluate_text import print_plan
+from mudline.cli.evaluate_inputs import EvaluateInputs, read_file, takes_inputs
+from mudline.cli.evaluate_text import print_comparison, print_evaluation, print_plan, print_series
 from mudline.cli.inputs import GivenDeck, refuses_bad_decks
 from mudline.cli.pictures import Picture
-from mudline.cli.result_files import form_of_file, has_library
-from mudline.cli.streams import emit, emit_json
-from mudline.cli.view import View
+from mudline.cli.result_files import behind, beside, form_of_file, has_library, line_watch, result_files, write_tables
+from mudline.cli.streams import counted, emit, emit_json, notify
+from mudline.cli.view import Progress, View, wants_bar
+from mudline.contact import LawKind
 from mudline.files import is_url
+from mudline.limits import SHOWN_ROWS
 from mudline.quantities import csv_lines
-from mudline.results.evaluation import Prepared
-from mudline.results.forms import FORMS, plan_rows
+from mudline.results.against import Comparison, read_reference
+from mudline.results.evaluation import Evaluation, Prepared
+from mudline.results.forms import FORMS, ResultConsumer, Sink, contents_of, plan_rows, tables_of
+from mudline.results.forms.text import text_writer, write_text
+from mudline.results.series import SeriesSummary, series_tables
+from mudline.results.totals import SlowSuction, StepSummary
+from mudline.results.warnings import ContactWarning, ContactWatch, caption
+from mudline.short_repr import listed_numbers
 
 
 @options.command("evaluate")
@@ -92,9 +102,9 @@ def command(
     if summary_only:
         if evaluation.time is None:
             raise click.UsageError(f"--summary-only is for time steps: {inputs.positions} is one state")
-        warnings = evaluate_series(evaluation, output, table, output_format, view)
+        warnings = _evaluate_series(evaluation, output, table, output_format, view)
     else:
-        warnings = evaluate_one(
+        warnings = _evaluate_one(
             evaluation,
             view,
             output=output,
@@ -115,3 +125,146 @@ def _show_plan(prepared: Prepared, form: str, view: View) -> None:
         emit(csv_lines([("stage", "active", "why"), *(row.values() for row in rows)]))
     else:
         print_plan(prepared.model.plan, view)
+
+
+def _evaluate_one(
+    evaluation: Evaluation,
+    view: View,
+    *,
+    output: str | None,
+    picture: Picture,
+    against: str | None,
+    table: str,
+    output_format: str,
+) -> list[ContactWarning]:
+    """Evaluate a deck, print or write the results; returns what is doubtful. Raises DeckError, click.ClickException."""
+    reference = read_file(against, lambda file: read_reference(file, evaluation)) if against else None
+    comparison = None if reference is None else Comparison(evaluation, reference)
+    drawing = picture.data(evaluation)
+    if not view.quiet:
+        _notify_before(evaluation, comparison)
+    shown = "" if output else output_format
+    most = None if view.verbose else SHOWN_ROWS
+    digest = StepSummary(evaluation, most, table == "nodes") if shown == "text" else None
+    lines = line_watch(evaluation, shown or form_of_file(output), most)
+    slow, watch = SlowSuction(), ContactWatch.of(evaluation)
+    given = (comparison, drawing, digest, lines, slow, watch)
+    consumers: list[ResultConsumer] = [one for one in given if one is not None]
+    with _sink(evaluation, comparison, output, shown, table, view) as sink:
+        _run(evaluation, [*consumers, sink], view, bar=shown in {"", "text"})
+        warnings = watch.warnings()
+        sink.finish(behind(evaluation, warnings, comparison, lines))
+    if drawing is not None:
+        picture.draw(drawing, caption(warnings), view)
+    if not view.quiet:
+        _notify_warnings(warnings)
+        if note := watch.note():
+            notify(note)
+        _notify_slow(evaluation, slow)
+    if output and not view.quiet:
+        _notify_written(evaluation, Path(output), beside(Path(output)))
+    if digest is not None and lines is not None:
+        print_evaluation(digest, lines, table, view)
+    if comparison is not None and output_format == "text":
+        print_comparison(comparison, view)
+    return warnings
+
+
+def _evaluate_series(
+    evaluation: Evaluation, output: str | None, table: str, output_format: str, view: View
+) -> list[ContactWarning]:
+    """Summarise a series, print or write the summary; returns what is doubtful. Raises what `_evaluate_one` does."""
+    if not view.quiet:
+        _notify_before(evaluation, None)
+    summary = SeriesSummary(evaluation)
+    _run(evaluation, [summary], view, bar=True)
+    tables, warnings = series_tables(summary), summary.watch.warnings()
+    if output:
+        written = write_tables(tables, Path(output))
+    elif output_format != "text":
+        write_text(tables, output_format, emit, table)
+    if not view.quiet:
+        _notify_warnings(warnings)
+        _notify_slow(evaluation, summary.slow)
+    if output and not view.quiet:
+        _notify_written(evaluation, Path(output), written)
+    if not output and output_format == "text":
+        print_series(summary.totals, summary.line_watch(None if view.verbose else SHOWN_ROWS), view)
+    return warnings
+
+
+def _sink(
+    evaluation: Evaluation, comparison: Comparison | None, output: str | None, shown: str, table: str, view: View
+) -> AbstractContextManager[Sink]:
+    """Where the rows go: files, standard output, or nowhere."""
+    elements = evaluation.element_table(None if comparison is None else comparison.others)
+    if output:
+        return result_files(evaluation, elements, Path(output), view)
+    if shown == "text":
+        return nullcontext(Sink(evaluation, {}, None))
+    tables = tables_of(evaluation, shown, elements, table)
+    writer = text_writer(shown, contents_of(evaluation, tables), emit, table)
+    return nullcontext(Sink(evaluation, tables, writer))
+
+
+def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer], view: View, *, bar: bool) -> None:
+    """Evaluate a few steps at a time and pass them on, with a bar on a terminal."""
+    with Progress(evaluation.steps, view, shown=bar and wants_bar(view)) as progress:
+        for part in evaluation.parts():
+            for consumer in consumers:
+                consumer.take(part)
+            progress.advance(part.count)
+
+
+# ----------------------------------------------------------------------------------------------------------- notes
+
+
+def _notify_before(evaluation: Evaluation, comparison: Comparison | None) -> None:
+    """Report what is left out, and what is guessed."""
+    missing = len(evaluation.present) - len(evaluation.nodes)
+    if missing:
+        notify(f"no positions for {counted(missing, 'node')}: {counted(evaluation.skipped, 'element')} left out")
+    if evaluation.lengths_from_positions:
+        notify(f"the length of {counted(evaluation.lengths_from_positions, 'element')} comes from the first positions")
+    if rigid := int((evaluation.scene.law == LawKind.RIGID).sum()):
+        notify(f"{counted(rigid, 'element')} on a rigid seabed: a constraint, whose reaction is not evaluated")
+    for stage, why in evaluation.model.input.left_out.items():
+        notify(f"{stage}: {why}")
+    if comparison is not None:
+        _notify_unmatched(comparison)
+
+
+def _notify_warnings(warnings: Sequence[ContactWarning]) -> None:
+    """Report what is doubtful in the results."""
+    for one in warnings[:SHOWN_ROWS]:
+        notify(f"warning: {one}")
+    if len(warnings) > SHOWN_ROWS:
+        notify(f"{len(warnings) - SHOWN_ROWS} more warnings: JSON has all")
+
+
+def _notify_written(evaluation: Evaluation, path: Path, others: Mapping[str, Path]) -> None:
+    """Report the files of results."""
+    for table, file in others.items():
+        notify(f"{table} -> {file.as_posix()}")
+    notify(f"{evaluation.scene.deck.file} -> {path.as_posix()}")
+
+
+def _notify_slow(evaluation: Evaluation, slow: SlowSuction) -> None:
+    """Report where suction is less than its power law gives."""
+    if slow.element is not None:
+        number = int(evaluation.scene.element_ids[slow.element])
+        when = f"at {slow.steps} of {counted(evaluation.steps, 'step')}, element {number} first"
+        notify(f"the pull-out velocity is below REGULARISATION= {when}: the suction force there is less than alpha v^n")
+
+
+def _notify_unmatched(comparison: Comparison) -> None:
+    """Report what is in one of the results only."""
+    file = comparison.reference.file
+    for numbers, thing, where in (
+        (comparison.reference.unknown.tolist(), "element", f"of {file} not in the deck"),
+        (comparison.missing.tolist(), "evaluated element", f"not in {file}"),
+        (comparison.reference.lost_times.tolist(), "time", f"of {file} not evaluated"),
+        (comparison.reference.missing_times.tolist(), "evaluated time", f"not in {file}"),
+    ):
+        if numbers:
+            notify(f"{counted(len(numbers), thing)} {where}: {listed_numbers(numbers)}")

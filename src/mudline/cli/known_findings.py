@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Any
 
-from mudline.cli.configured import Configured
+from mudline.cli.config_command import Configured
 from mudline.cli.inputs import Input, Inputs
 from mudline.diagnostics import Diagnostic, Edit, Fix, Severity
+from mudline.lean import dataclass
 from mudline.linting.configuration import Given
 from mudline.running.remembered import Memory, of_working_folder
 

@@ -7,7 +7,7 @@ from functools import partial
 import click
 
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.configured import Configured
+from mudline.cli.config_command import Configured
 from mudline.cli.inputs import collect
 from mudline.cli.known_findings import known_findings
 from mudline.cli.lint_report import Report, complete, outputs
@@ -141,16 +141,17 @@ def command(
         from mudline.cli import lint_run  # noqa: PLC0415 - decks that have not changed are not read
 
         settings = lint_run.checked_settings(config, given, fixing, isolated=isolated, fail_on=fail_on)
-        run = lint_run.Run(inputs, settings, report, known, baseline, recording=recording, diff=diff)
-        run.jobs, run.scheduler = jobs, scheduler
-        failing = run.go() and not exit_zero
-        return max(inputs.code, FOUND if failing else DONE)
+        words = {"recording": recording, "diff": diff}
+        failing = lint_run.lint_files(
+            inputs, settings, report, known, baseline, jobs=jobs, scheduler=scheduler, **words
+        )
+        return max(inputs.code, FOUND if failing and not exit_zero else DONE)
 
     if watch:
         from mudline.cli import lint_run  # noqa: PLC0415 - as above
-        from mudline.cli.lint_watch import Watched, refuse, watched  # noqa: PLC0415 - most runs end
+        from mudline.cli.lint_watch import refuse, watched  # noqa: PLC0415 - most runs end
 
         lint_run.checked_settings(config, given, fixing, isolated=isolated, fail_on=fail_on)
         refuse({"--fix": fix, "--diff": diff, "--write-baseline": recording}, paths, wanted.form)
-        watched(once, Watched(paths, tuple(path for path in (config, baseline) if path)), view)
+        watched(once, [*paths, *(path for path in (config, baseline) if path)], view)
     return once()

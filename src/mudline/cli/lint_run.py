@@ -9,21 +9,21 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Generator, Iterator
 from contextlib import closing
-from dataclasses import KW_ONLY, dataclass, field, replace
+from dataclasses import field, replace
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
 import click
 
-from mudline.cli.configured import Configured
+from mudline.cli.config_command import Configured
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.known_findings import KnownFindings
 from mudline.cli.lint_report import Report
 from mudline.cli.streams import counted, emit_deck, notify, reason, write_text
 from mudline.cli.view import View
 from mudline.deck.forms import form_of
-from mudline.diagnostics import Diagnostic
+from mudline.lean import dataclass
 from mudline.linting.configuration import Configuration, Given
 from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.fixing import FileReport, lint_one
@@ -102,121 +102,105 @@ def checked_settings(config: str | None, given: Given, fixing: str, *, isolated:
     return settings
 
 
-@dataclass
-class Run:
-    """All files: fixed decks are written or shown, known findings left out, the others reported.
+def lint_files(
+    inputs: Inputs,
+    settings: Settings,
+    report: Report,
+    known: KnownFindings | None,
+    baseline: str | None,
+    *,
+    recording: bool,
+    diff: bool,
+    jobs: int,
+    scheduler: str | None,
+) -> bool:
+    """Lint all files; returns whether there is a reason to fail.
 
-    `baseline` is the file of the findings that are known already, or that are to be recorded. With `diff` nothing is
-    written.
+    Fixed decks are written or shown, with `diff` shown only. `baseline` is the file of the findings that are left out,
+    or that are to be recorded.
     """
+    recorded = _baseline(baseline, recording=recording)
+    fixing = settings.fixing is not Fixing.NONE
+    differs, documents = False, 0
+    if fixing:  # a deck that is fixed may be one that others continue
+        jobs = 1
+    with closing(_lint_all(inputs, settings.of, known, jobs, scheduler)) as results:
+        for file, data, result in results:
+            own, content = settings.of(file), data if result.changed is None else result.changed
+            if fixing:
+                documents += form_of(file.name) != "keyword"
+                if result.note:
+                    notify(f"{file.name}: {result.note}")
+                differs = differs or (diff and content != data)
+                if not _deliver(inputs, file, data, content, report.view, diff=diff):
+                    unfixed = replace(own, fixing=Fixing.NONE)
+                    content, result = data, lint_one(file.name, data, unfixed, file.folder)  # noqa: PLW2901 - of the deck as it stays
+            found = list(result.found)
+            if recorded is not None:
+                path = file.path or file.name
+                if recording:
+                    recorded.record(found, content, path)
+                found = recorded.unknown(found, content, path)
+            report.add(file.name, content, found, len(result.fixed), own.fail_on)
+    if documents:
+        notify(f"{counted(documents, 'deck')} in JSON or YAML not fixed: only keyword text is")
+    report.finish()
+    if recorded is not None and baseline is not None:
+        _report_baseline(recorded, Path(baseline), report.view, recording=recording)
+    return report.failing or differs
 
-    inputs: Inputs
-    settings: Settings
-    report: Report
-    known: KnownFindings | None = None
-    baseline: str | None = None
-    _: KW_ONLY
-    recording: bool = False
-    diff: bool = False
-    jobs: int = 0
-    scheduler: str | None = None
-    _differs: bool = field(default=False, init=False)
-    _documents: int = field(default=0, init=False)
-    _recorded: Baseline | None = field(default=None, init=False)
 
-    def go(self) -> bool:
-        """Lint all files; returns whether there is a reason to fail."""
-        self._recorded = _baseline(self.baseline, recording=self.recording)
-        alone = self.settings.fixing is not Fixing.NONE  # a deck that is fixed may be one that others continue
-        jobs = 1 if alone else self.jobs
-        with closing(lint_all(self.inputs, self.settings.of, self.known, jobs, self.scheduler)) as results:
-            for file, data, result in results:
-                self._take(file, data, result)
-        if self._documents:
-            notify(f"{counted(self._documents, 'deck')} in JSON or YAML not fixed: only keyword text is")
-        self.report.finish()
-        if self._recorded is not None and self.baseline is not None:
-            _report_baseline(self._recorded, Path(self.baseline), self.report.view, recording=self.recording)
-        return self.report.failing or self._differs
+def _deliver(inputs: Inputs, file: Input, data: bytes, content: bytes, view: View, *, diff: bool) -> bool:
+    """Show, print or write what was fixed; returns whether the fixes are made."""
+    if diff:
+        if content != data:
+            from mudline.cli.changes import print_changes  # noqa: PLC0415 - most runs change nothing
 
-    def _take(self, file: Input, data: bytes, result: FileReport) -> None:
-        settings = self.settings.of(file)
-        content = data if result.changed is None else result.changed
-        if settings.fixing is not Fixing.NONE:
-            self._documents += form_of(file.name) != "keyword"
-            if result.note:
-                notify(f"{file.name}: {result.note}")
-            if not self._deliver(file, data, content):
-                unfixed = replace(settings, fixing=Fixing.NONE)
-                content, result = data, lint_one(file.name, data, unfixed, file.folder)
-        found = self._unknown(file, content, list(result.found))
-        self.report.add(file.name, content, found, len(result.fixed), settings.fail_on)
-
-    def _unknown(self, file: Input, content: bytes, found: list[Diagnostic]) -> list[Diagnostic]:
-        """The findings that the baseline does not hold."""
-        if self._recorded is None:
-            return found
-        path = file.path or file.name
-        if self.recording:
-            self._recorded.record(found, content, path)
-        return self._recorded.unknown(found, content, path)
-
-    def _deliver(self, file: Input, data: bytes, content: bytes) -> bool:
-        """Show, print or write what was fixed; returns whether the fixes are made."""
-        if self.diff:
-            if content != data:
-                self._differs = True
-                from mudline.cli.changes import print_changes  # noqa: PLC0415 - most runs change nothing
-
-                print_changes(data, content, file.name, self.report.view)
-        elif file.path is None:
-            emit_deck(content)
-        elif content != data:
-            return self.inputs.replaced(file, content)
-        return True
+            print_changes(data, content, file.name, view)
+    elif file.path is None:
+        emit_deck(content)
+    elif content != data:
+        return inputs.replaced(file, content)
+    return True
 
 
 # ----------------------------------------------------------------------------------------------------------- many files
 
 SettingsOf = Callable[[Input], LintSettings]
 """The settings of a file."""
-Linted = tuple[Input, bytes, FileReport]
-
-
-class Task(NamedTuple):
-    """A file to lint; `known` is its report if that is remembered, `key` what it is remembered under, if at all."""
-
-    file: Input
-    data: bytes
-    settings: LintSettings
-    key: str = ""
-    known: FileReport | None = None
 
 
 class Order(NamedTuple):
-    """A file as it is sent: without its rules, whose functions may not be picklable, but with their codes.
+    """A file as it is sent: its settings without rules, whose functions may not be picklable, but with their codes.
 
     `here` is the working folder, below which files are looked for that the deck names.
     """
 
-    task: Task
+    file: Input
+    data: bytes
+    settings: LintSettings
     codes: tuple[str, ...]
     here: str
 
 
-def lint_all(
-    inputs: Inputs,
-    settings_of: SettingsOf,
-    known: KnownFindings | None = None,
-    jobs: int = 0,
-    scheduler: str | None = None,
-) -> Generator[Linted, None, None]:
+class _Read(NamedTuple):
+    """A file; `key` is what its report is remembered under, if at all, and `known` the report if that is remembered."""
+
+    file: Input
+    data: bytes
+    key: str = ""
+    known: FileReport | None = None
+
+
+def _lint_all(
+    inputs: Inputs, settings_of: SettingsOf, known: KnownFindings | None, jobs: int, scheduler: str | None
+) -> Generator[tuple[Input, bytes, FileReport], None, None]:
     """Each file that can be read with its content and its report, in the order of the files.
 
     Files without a finding that are known as such are not read again: their content is given as empty.
     """
     plugins = plugin_files() if known is not None else ()
-    orders = _orders(_tasks(inputs, settings_of, known))
+    orders = _orders(inputs, settings_of, known)
     with executor(jobs, scheduler) as pool, closing(in_order(pool, lint_order, orders, len(inputs.files))) as reports:
         for one, made in reports:
             report = made or one.known or FileReport(one.file.name, ())
@@ -227,42 +211,38 @@ def lint_all(
         known.memory.save()
 
 
-def _tasks(inputs: Inputs, settings_of: SettingsOf, known: KnownFindings | None) -> Iterator[Task]:
-    """The files with their reports as far as they are remembered; standard input is not."""
+def _orders(
+    inputs: Inputs, settings_of: SettingsOf, known: KnownFindings | None
+) -> Iterator[tuple[_Read, Order | None]]:
+    """Each file, and what is sent of it unless its report is remembered; that of standard input is not.
+
+    Settings that many files share are one object, which is sent once.
+    """
+    sendable: dict[int, tuple[LintSettings, LintSettings, tuple[str, ...]]] = {}
+    here = os.getcwd()  # noqa: PTH109 - sent as text
     for number, file in enumerate(inputs.files):
         settings = settings_of(file)
         if known is not None and known.clean[number]:
-            yield Task(file, b"", settings, known=FileReport(file.name, ()))
-        elif (data := inputs.content(file)) is None:
+            yield _Read(file, b"", known=FileReport(file.name, ())), None
             continue
-        elif known is None or file.path is None:
-            yield Task(file, data, settings)
-        else:
-            key = known.key(file, data)
-            found = known.get(key, file)
-            yield Task(file, data, settings, key, None if found is None else FileReport(file.name, found))
-
-
-def _orders(tasks: Iterator[Task]) -> Iterator[tuple[Task, Order | None]]:
-    """Each file with what is sent of it; settings that many files share are one object, which is sent once."""
-    sendable: dict[int, tuple[LintSettings, LintSettings, tuple[str, ...]]] = {}
-    here = os.getcwd()  # noqa: PTH109 - sent as text
-    for one in tasks:
-        if one.known is not None:
-            yield one, None
+        data = inputs.content(file)
+        if data is None:
             continue
-        if id(one.settings) not in sendable:
-            codes = tuple(rule.code.code for rule in one.settings.rules)
-            sendable[id(one.settings)] = (one.settings, replace(one.settings, rules=()), codes)
-        _, without_rules, codes = sendable[id(one.settings)]
-        yield one, Order(one._replace(settings=without_rules), codes, here)
+        key = "" if known is None or file.path is None else known.key(file, data)
+        if known is not None and key and (found := known.get(key, file)) is not None:
+            yield _Read(file, data, key, FileReport(file.name, found)), None
+            continue
+        if id(settings) not in sendable:
+            codes = tuple(rule.code.code for rule in settings.rules)
+            sendable[id(settings)] = (settings, replace(settings, rules=()), codes)
+        _, without_rules, codes = sendable[id(settings)]
+        yield _Read(file, data, key), Order(file, data, without_rules, codes, here)
 
 
 def lint_order(order: Order) -> FileReport:
     """Lint a file, in any process."""
-    task = order.task
-    settings = replace(task.settings, rules=_named(order.codes))
-    return lint_one(task.file.name, task.data, settings, task.file.seen_from(order.here).folder)
+    settings = replace(order.settings, rules=_named(order.codes))
+    return lint_one(order.file.name, order.data, settings, order.file.seen_from(order.here).folder)
 
 
 @cache

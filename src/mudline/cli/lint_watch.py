@@ -3,28 +3,23 @@
 from __future__ import annotations
 
 import os
-import stat
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
+from stat import S_ISREG
 from typing import NoReturn
 
 import click
 
-from mudline.cli.inputs import GITIGNORE, STDIN, is_deck
+from mudline.cli.inputs import STDIN, is_deck
 from mudline.cli.streams import notify
 from mudline.cli.view import View
-from mudline.linting.configuration import base_paths
 from mudline.linting.output import TEXT
 
 WAIT = 0.3
-"""Seconds between two checks; more where a check takes long, so that waiting costs little."""
+"""Seconds between two looks."""
 
-_FACTOR = 10
-"""Seconds of waiting per second of checking, at least."""
 _CONFIGURATIONS = ("mudline.toml", "pyproject.toml")
-_RULES = (*_CONFIGURATIONS, GITIGNORE)
 _PRINTED = (TEXT, "concise")
 
 State = dict[str, tuple[int, int]]
@@ -45,38 +40,10 @@ def refuse(writing: Mapping[str, bool], paths: Sequence[str], form: str) -> None
         )
 
 
-@dataclass(frozen=True)
-class Watched:
-    """The files and folders given, other decks beside them, and configurations that may apply, with what they extend.
-
-    `others` are a configuration and a baseline that were named.
-    """
-
-    paths: tuple[str, ...]
-    others: tuple[str, ...] = ()
-
-    def state(self) -> State:
-        """The state of all files now. Those that are missing or unreadable are left out."""
-        folders = {os.path.abspath(path if _is_folder(path) else os.path.dirname(path)) for path in self.paths}  # noqa: PTH100, PTH120 - links stay what they are called
-        found: State = {}
-        for path in (*self.paths, *self.others):
-            _look(path, found)
-        for folder in folders:
-            for place in Path(folder, "-").parents:
-                for name in _RULES:
-                    _look(str(place / name), found)
-        for file in (file for path in self.paths for file in _files(path)):
-            _look(file, found)
-        for path in [path for path in found if os.path.basename(path) in _CONFIGURATIONS or path in self.others]:  # noqa: PTH119 - as above
-            for base in base_paths(Path(path)):
-                _look(str(base), found)
-        return found
-
-
-def watched(once: Callable[[], int], files: Watched, view: View) -> NoReturn:
+def watched(once: Callable[[], int], paths: Sequence[str], view: View) -> NoReturn:
     """Lint, and again after each change; ends by KeyboardInterrupt only. An error that ends a run is reported."""
     while True:
-        before = files.state()
+        before = state(paths)
         click.clear()
         try:
             once()
@@ -84,49 +51,39 @@ def watched(once: Callable[[], int], files: Watched, view: View) -> NoReturn:
             notify(error.format_message())
         if not view.quiet:
             notify(f"{time.strftime('%H:%M:%S')}: waiting for changes; Ctrl-C ends")
-        wait_for_change(files, before)
+        wait_for_change(paths, before)
 
 
-def wait_for_change(files: Watched, before: State) -> None:
-    """Return as soon as the files differ from `before`, and no longer change."""
-    now = before
-    while now == before:
-        start = time.perf_counter()
-        now = files.state()
-        if now == before:
-            time.sleep(max(WAIT, _FACTOR * (time.perf_counter() - start)))
-    while (later := _after(files)) != now:
-        now = later
+def wait_for_change(paths: Sequence[str], before: State) -> None:
+    """Return as soon as the files differ from `before`, and no longer change: editors write in several steps."""
+    last, now = before, state(paths)
+    while now == before or now != last:
+        time.sleep(WAIT)
+        last, now = now, state(paths)
 
 
-def _after(files: Watched) -> State:
-    """The state a moment later: editors write in several steps."""
-    time.sleep(WAIT / 6)
-    return files.state()
+def state(paths: Sequence[str]) -> State:
+    """The state of the files given, of the decks below folders and beside files, and of the configurations for them.
+
+    Those that are missing or unreadable are left out.
+    """
+    found: State = {}
+    for file in (*paths, *(file for path in paths for file in _near(path))):
+        try:
+            now = os.stat(file)  # noqa: PTH116 - asked for many files
+        except (OSError, ValueError):
+            continue
+        if S_ISREG(now.st_mode):
+            found[file] = (now.st_mtime_ns, now.st_size)
+    return found
 
 
-def _files(given: str) -> Iterator[str]:
-    """The files in a folder and below; for a file, the decks beside it, which it may continue."""
-    if _is_folder(given):
-        for folder, _, names in os.walk(given):
-            yield from (os.path.join(folder, name) for name in names if is_deck(name) or name in _RULES)  # noqa: PTH118 - many files
-        return
-    folder = os.path.dirname(given) or "."  # noqa: PTH120 - as above
-    try:
-        names = os.listdir(folder)  # noqa: PTH208 - as above
-    except OSError:
-        return
-    yield from (os.path.join(folder, name) for name in names if is_deck(name))  # noqa: PTH118 - as above
-
-
-def _is_folder(path: str) -> bool:
-    return os.path.isdir(path)  # noqa: PTH112 - Path raises for a name that is too long
-
-
-def _look(path: str, found: State) -> None:
-    try:
-        state = os.stat(path)  # noqa: PTH116 - as above
-    except (OSError, ValueError):
-        return
-    if not stat.S_ISDIR(state.st_mode):
-        found[path] = (state.st_mtime_ns, state.st_size)
+def _near(given: str) -> Iterator[str]:
+    """The decks and configurations in a folder and below, or beside a file; and the configurations above."""
+    folder = given if os.path.isdir(given) else os.path.dirname(given) or "."  # noqa: PTH112, PTH120 - Path raises for a long name
+    for place, folders, names in os.walk(folder):
+        yield from (os.path.join(place, name) for name in names if is_deck(name) or name in _CONFIGURATIONS)  # noqa: PTH118 - many files
+        if folder != given:
+            folders.clear()
+    for parent in Path(os.path.abspath(folder)).parents:  # noqa: PTH100 - links stay what they are called
+        yield from (str(parent / name) for name in _CONFIGURATIONS)

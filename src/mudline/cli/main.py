@@ -14,7 +14,7 @@ import click
 from click.shell_completion import shell_complete
 
 from mudline import __version__
-from mudline.cli import CLOSED_PIPE, FOUND, WRONG_USAGE, streams
+from mudline.cli import CLOSED_PIPE, DONE, FOUND, WRONG_USAGE, options, streams
 from mudline.cli.streams import notify, reason
 from mudline.diagnostics import PluginError
 from mudline.spelling import nearest
@@ -53,6 +53,8 @@ class _Commands(click.Group):
         return list(COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002 - click's signature
+        if cmd_name == "help":
+            return cast("click.Command", _help)
         module = import_module(f"mudline.cli.{cmd_name}_command") if cmd_name in COMMANDS else None
         return cast("click.Command | None", module and module.command)
 
@@ -81,6 +83,22 @@ class _Commands(click.Group):
 @click.version_option(__version__, prog_name="mudline", message="%(prog)s %(version)s")
 def mudline() -> None:
     """Read, check and convert the keyword decks of riser and pipeline analysis, and evaluate their seabed contact."""
+
+
+def _complete(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:
+    return [name for name in COMMANDS if name.startswith(incomplete)]
+
+
+@options.command("help")
+@click.argument("name", metavar="[COMMAND]", required=False, shell_complete=_complete)
+@options.common
+@click.pass_context
+def _help(context: click.Context, /, *, name: str | None) -> int:
+    """Show the help of COMMAND, as `mudline COMMAND --help` does, or the list of all commands."""
+    root = context.find_root()
+    found = mudline.resolve_command(root, [name])[1] if name else None
+    click.echo(root.get_help() if found is None else found.get_help(click.Context(found, root, name)))
+    return DONE
 
 
 def run(arguments: Sequence[str]) -> int:

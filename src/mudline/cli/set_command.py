@@ -5,8 +5,7 @@ from __future__ import annotations
 import os
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, field
-from hashlib import blake2b
+from dataclasses import field
 
 import click
 
@@ -20,6 +19,7 @@ from mudline.cli.streams import emit, emit_deck, notify, notify_diagnostics
 from mudline.cli.view import View
 from mudline.deck.forms import KEYWORD, form_of
 from mudline.deck.loading import load_bytes
+from mudline.lean import dataclass
 from mudline.short_repr import counted
 from mudline.syntax.edits import TextEdit, edited_bytes
 from mudline.syntax.source import Source
@@ -81,15 +81,6 @@ def command(
     return max(run.inputs.code, FOUND if run.counts[_REFUSED] or nowhere or found else DONE)
 
 
-@dataclass(frozen=True, slots=True)
-class _Planned:
-    """A file that is to change, a digest of what it held, and the edits."""
-
-    file: Input
-    digest: bytes
-    edits: tuple[TextEdit, ...]
-
-
 @dataclass(slots=True)
 class _Run:
     """A run: first each deck is looked at, then, if none was refused, the files are written."""
@@ -100,7 +91,8 @@ class _Run:
     units: str | None
     view: View
     inputs: Inputs
-    planned: list[_Planned] = field(default_factory=list)
+    planned: list[tuple[Input, int, tuple[TextEdit, ...]]] = field(default_factory=list)
+    """The files that are to change, a hash of what each held, and the edits."""
     printed: list[bytes] = field(default_factory=list)
     counts: Counter[str] = field(default_factory=Counter)
 
@@ -118,7 +110,7 @@ class _Run:
             if diff:
                 print_changes(data, _edited(file, data, found.edits), file.name, self.view)
             if file.path is not None:
-                self.planned.append(_Planned(file, _digest(data), found.edits))
+                self.planned.append((file, hash(data), found.edits))
 
     def _outcome(self, file: Input, data: bytes) -> tuple[str, Assigned | None]:
         try:
@@ -148,37 +140,27 @@ class _Run:
 
     def write(self) -> None:
         """Write the files, each in one step, unless a deck was refused or a file cannot be written."""
-        locked = [one.file for one in self.planned if not os.access(one.file.path or "", os.W_OK)]
+        locked = [file for file, _, _ in self.planned if not os.access(file.path or "", os.W_OK)]
         for file in locked:
             self.inputs.fail(f"{file.name}: cannot be written: permission denied")
         if self.counts[_REFUSED] or locked or self.inputs.code:
-            self._write_none()
+            if self.counts[_CHANGED]:
+                notify(f"nothing was written: {counted(self.counts.pop(_CHANGED), 'deck')} would have changed")
             return
         for content in self.printed:
             emit_deck(content)
-        for one in self.planned:
-            data = self.inputs.content(one.file)  # read again: the contents of many would fill the memory
-            if data is None:
-                continue
-            if _digest(data) != one.digest:
-                self.inputs.fail(f"{one.file.name}: it has changed during the run: left unchanged, run it again")
-            else:
-                self.inputs.replaced(one.file, _edited(one.file, data, one.edits))
-
-    def _write_none(self) -> None:
-        if self.counts[_CHANGED]:
-            notify(f"nothing was written: {counted(self.counts[_CHANGED], 'deck')} would have changed")
-        self.counts.pop(_CHANGED, None)
+        for file, held, edits in self.planned:
+            data = self.inputs.content(file)  # read again: the contents of many would fill the memory
+            if data is not None and hash(data) != held:
+                self.inputs.fail(f"{file.name}: it has changed during the run: left unchanged, run it again")
+            elif data is not None:
+                self.inputs.replaced(file, _edited(file, data, edits))
 
     def notify_counts(self, would: str) -> None:
         """Print how many decks were changed, and how many were not, by the reason."""
         words = {_CHANGED: f"{would}changed", _SAME: _SAME, _WITHOUT: _WITHOUT, _UNMET: _UNMET, _REFUSED: _REFUSED}
         if texts := [f"{self.counts[one]} {word}" for one, word in words.items() if self.counts[one]]:
             click.echo(f"{counted(self.counts.total(), 'deck')}: {', '.join(texts)}", err=True)
-
-
-def _digest(data: bytes) -> bytes:
-    return blake2b(data, digest_size=16).digest()
 
 
 def _edited(file: Input, data: bytes, edits: Sequence[TextEdit]) -> bytes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from importlib import import_module
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Literal, NoReturn
@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from mudline.contact.arrays import BoolArray, FloatArray, IdArray, StateArray
 from mudline.contact.input import ContactInput, ElementError, PositionError
 from mudline.contact.tables import Tables
+from mudline.lean import dataclass
 from mudline.short_repr import outline, short_repr
 
 if TYPE_CHECKING:  # each is imported when it is asked for

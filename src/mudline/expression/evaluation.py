@@ -14,7 +14,6 @@ import math
 import operator as python
 import sys
 from collections.abc import Callable, Generator, Mapping, Sequence
-from dataclasses import dataclass
 from decimal import ROUND_HALF_UP, Context, Decimal
 from types import MappingProxyType
 from typing import Final, NamedTuple, assert_never, cast
@@ -38,9 +37,9 @@ from mudline.expression.nodes import (
     Text,
     UndefinedName,
     UnknownFunction,
-    children,
     shorten,
 )
+from mudline.lean import dataclass
 from mudline.limits import LONGEST_TEXT
 
 CONSTANTS: Final[Mapping[str, float]] = MappingProxyType({"pi": math.pi})
@@ -330,7 +329,7 @@ def _parameter(node: Name, lookup: Lookup) -> Value:
 def _operation(node: Prefix | Power | Comparison) -> Steps:
     if isinstance(node, Prefix):
         return _prefixed(node.operator, Operand((yield node.operand), node.operand.span))
-    first, second = children(node)
+    first, second = (node.base, node.exponent) if isinstance(node, Power) else (node.left, node.right)
     left = Operand((yield first), first.span)
     right = Operand((yield second), second.span)
     return power(left, right) if isinstance(node, Power) else compare(node.operator, left, right)

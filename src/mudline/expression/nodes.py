@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import field
 from typing import NamedTuple
 
 from mudline.diagnostics import Span
+from mudline.lean import dataclass
 
 
 class ExpressionError(ValueError):
@@ -143,32 +144,6 @@ Node = Number | Text | Name | Group | Prefix | Power | Comparison | Chain | Logi
 
 LEAVES = (Number, Text, Name)
 """The parts without parts."""
-
-NESTING = (Group, Prefix, Power, Call)
-"""The parts that count as a level of nesting."""
-
-
-def children(node: Node) -> tuple[Node, ...]:
-    """The parts directly inside a part, in the order of the text."""
-    if isinstance(node, LEAVES):  # most parts: asked first, as matching a class takes longer
-        return ()
-    match node:
-        case Group(inner=only) | Prefix(operand=only):
-            return (only,)
-        case Power(base=first, exponent=second) | Comparison(left=first, right=second):
-            return (first, second)
-        case Chain(operands=several) | Logical(operands=several) | Call(arguments=several):
-            return several
-
-
-def walk(root: Node) -> Iterator[tuple[Node, int]]:
-    """Every part in the order of the text, a whole before what is in it, with the number of levels it is nested."""
-    waiting = [(root, 0)]
-    while waiting:
-        node, outside = waiting.pop()
-        depth = outside + isinstance(node, NESTING)
-        yield node, depth
-        waiting.extend((child, depth) for child in reversed(children(node)))
 
 
 class NameSpan(NamedTuple):

@@ -1,8 +1,7 @@
 """Reading an equation: the grammar, the limits, and what is said of a text that does not fit.
 
-The grammar defines what an equation is. Two quick readers give its trees in a fraction of its time: one regular
-expression reads plain equations, recursive descent most others. A text that does not fit there, or is nested too deep,
-is left to the grammar, which has the words for what is wrong with it.
+The grammar defines what an equation is and what its terminals are. One regular expression reads plain equations,
+recursive descent the others. What does not fit is given to the parser of the grammar, which has the words for it.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ from collections.abc import Set as AbstractSet
 from functools import cache
 from typing import Any, cast
 
-from lark import Lark, Token, Transformer, Tree, UnexpectedCharacters, UnexpectedInput, UnexpectedToken
+from lark import Lark, Token, UnexpectedCharacters, UnexpectedInput, UnexpectedToken
 
 from mudline.diagnostics import Span
 from mudline.expression.nodes import (
@@ -33,22 +32,18 @@ from mudline.expression.nodes import (
     Prefix,
     Text,
     shorten,
-    walk,
 )
 from mudline.limits import DEEPEST, LONGEST_EQUATION
 from mudline.resources import grammar_file
 from mudline.syntax.scanning import kept_parser, scanner
 
-# -------------------------------------------------------------------------------------------------------- quick readers
+# -------------------------------------------------------------------------------------------------------- the readers
 
 SAME_OPERATOR = {"==": "=", "!=": "<>"}
 """The one spelling of operators that have two."""
 
 FORTRAN_EXPONENT = str.maketrans("dD", "ee")
 """The letters of an exponent as `float` reads them."""
-
-LEVELS = 20
-"""How many brackets, calls, signs, `not` and powers may stand inside one another; a level takes ten calls."""
 
 _END = "$END"
 _LEAVES = frozenset({"NAME", "NUMBER", "TEXT"})
@@ -82,36 +77,47 @@ def read_plain(text: str, pattern: re.Pattern[str], read: Callable[[str], Node])
 
 
 class _UnfitError(Exception):
-    """The text is not an equation, or is nested too deep."""
+    """The text is not an equation, or is nested too deep from the place (code points) on."""
+
+    def __init__(self, place: int = 0) -> None:
+        super().__init__()
+        self.place = place
 
 
-def descend(text: str, tokens: re.Pattern[str]) -> Expression | None:
-    """Return an equation; None where the text is not one, or is nested more than `LEVELS` deep.
+def descend(text: str, tokens: re.Pattern[str]) -> Expression:
+    """Return an equation; raises ExpressionError where the text is not one, or is nested too deep.
 
     Args:
         text: what stands between `=[` and `]`.
         tokens: the terminals of the grammar, as `mudline.syntax.scanning.scanner` gives them.
     """
+    try:
+        return _descend(text, tokens)
+    except _UnfitError as unfit:
+        refuse(text)
+        raise ExpressionError(
+            f"the equation is nested more than {DEEPEST} levels deep", unfit.place, len(text)
+        ) from None
+
+
+def _descend(text: str, tokens: re.Pattern[str]) -> Expression:
     kinds: list[str] = []
     spans: list[Span] = []
     at = 0
     for match in tokens.finditer(text):
         span = Span(*match.span())
         if span.start != at:
-            return None
+            raise _UnfitError
         at = span.end
         if (kind := match.lastgroup) and kind != "BLANKS":
             kinds.append(kind)
             spans.append(span)
     if at != len(text):
-        return None
+        raise _UnfitError
     reader = _Reader(text, [*kinds, _END], spans)
-    try:
-        root = reader.disjunction()
-    except _UnfitError:
-        return None
+    root = reader.disjunction()
     if reader.kinds[reader.at] != _END:
-        return None
+        raise _UnfitError
     return Expression(text, tuple(reader.names), tuple(dict.fromkeys(reader.functions)), root)
 
 
@@ -122,7 +128,7 @@ class _Reader:
         self.text = text
         self.kinds = kinds
         self.spans = spans
-        self.levels = LEVELS
+        self.levels = DEEPEST
         self.at = 0
         self.names: list[NameSpan] = []
         self.functions: list[str] = []
@@ -229,7 +235,7 @@ class _Reader:
     def _nested(self, rule: Callable[[], Node]) -> Node:
         """Read a part one level further inside."""
         if self.levels == 0:
-            raise _UnfitError
+            raise _UnfitError(self.spans[self.at - 1].start)
         self.levels -= 1
         node = rule()
         self.levels += 1
@@ -252,53 +258,10 @@ class _Reader:
 # ---------------------------------------------------------------------------------------------------------- the grammar
 
 
-Match = Node | Token
-
-
-class Builder(Transformer[Token, Node]):
-    """Makes the parts of an equation of what the rules of the grammar matched, innermost rules first."""
-
-    def __default__(self, data: str, children: list[Match], meta: object) -> Node | Tree[Match]:  # noqa: C901, PLR0911
-        """Return the part that a rule stands for."""
-        if data.startswith("_"):  # a repetition, which the rule around it takes apart
-            return Tree(data, [*children])
-        span = _span(children)
-        tokens = [str(part) for part in children if isinstance(part, Token)]
-        nodes = tuple(part for part in children if not isinstance(part, Token))
-        match data:
-            case "number":
-                return Number(span, float(tokens[0].translate(FORTRAN_EXPONENT)))
-            case "text":
-                return Text(span, tokens[0][1:-1])
-            case "name":
-                return Name(span, tokens[0])
-            case "group":
-                return Group(span, nodes[0])
-            case "call":
-                return Call(span, tokens[0], _span(children[:1]), nodes)
-            case "signed" | "negation":
-                return Prefix(span, tokens[0].lower(), nodes[0])
-            case "power":
-                return Power(span, *nodes)
-            case "comparison":
-                return Comparison(span, SAME_OPERATOR.get(tokens[0], tokens[0]), *nodes)
-            case "sum" | "product":
-                return Chain(span, tuple(tokens), nodes)
-            case _:
-                return Logical(span, tokens[0].lower(), nodes)
-
-
-def _span(parts: list[Match]) -> Span:
-    first, last = parts[0], parts[-1]
-    start = first.start_pos if isinstance(first, Token) else first.span.start
-    end = last.end_pos if isinstance(last, Token) else last.span.end
-    return Span(cast("int", start), cast("int", end))  # tokens that were read from a text have a place
-
-
 @cache
 def _grammar() -> Lark:
     text = grammar_file("expression.lark").read_text(encoding="utf-8")
-    return kept_parser("expression", text, lexer="basic", transformer=Builder())
+    return kept_parser("expression", text, lexer="basic")
 
 
 @cache
@@ -317,7 +280,7 @@ def parse(text: str) -> Expression:
     """Read an equation: `text` is what stands between `=[` and `]`.
 
     Raises:
-        ExpressionError: the text is not an equation, longer than 10 000 code points, or nested more than 100 deep.
+        ExpressionError: the text is not an equation, too long, or nested too deep (`docs/limits.md`).
     """
     if len(text) > LONGEST_EQUATION:
         raise ExpressionError(f"the equation is longer than {LONGEST_EQUATION} characters", LONGEST_EQUATION, len(text))
@@ -325,26 +288,18 @@ def parse(text: str) -> Expression:
         return expression
     if not text.strip():
         raise ExpressionError("the equation is empty", 0, len(text))
-    return _read(text)
+    return descend(text, tokens())
 
 
 def tree(text: str) -> Node:
     """Return the parts of an equation; raises ExpressionError where it is not one."""
-    return _read(text).root
+    return descend(text, tokens()).root
 
 
-def _read(text: str) -> Expression:
-    return descend(text, tokens()) or by_grammar(text)
-
-
-def by_grammar(text: str) -> Expression:
-    """Return the equation as the grammar gives it; raises ExpressionError where it is not one."""
-    return _expression(text, _root(text))
-
-
-def _root(text: str) -> Node:
+def refuse(text: str) -> None:
+    """Raise ExpressionError with the words for what is wrong with a text; nothing if it is an equation."""
     try:
-        return cast("Node", _grammar().parse(text))
+        _grammar().parse(text)
     except UnexpectedToken as error:
         raise _unexpected_token(text, error.token, _accepted(error)) from None
     except UnexpectedCharacters as error:
@@ -370,19 +325,6 @@ def _unexpected_character(text: str, place: int, accepted: AbstractSet[str]) -> 
     if text[place] == '"':
         return ExpressionError("text opens with a quotation mark and does not close", place, len(text))
     return ExpressionError(f"found {text[place]!r}, expected {_expected(accepted)}", place, place + 1)
-
-
-def _expression(text: str, root: Node) -> Expression:
-    names: list[NameSpan] = []
-    functions: dict[str, None] = {}
-    for node, depth in walk(root):
-        if depth > DEEPEST:
-            raise ExpressionError(f"the equation is nested more than {DEEPEST} levels deep", *node.span)
-        if isinstance(node, Name):
-            names.append(NameSpan(node.name, *node.span))
-        elif isinstance(node, Call):
-            functions[node.name] = None
-    return Expression(text, tuple(names), tuple(functions), root)
 
 
 def _found(token: Token) -> str:

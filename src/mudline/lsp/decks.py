@@ -6,7 +6,7 @@ import os
 import time
 from collections.abc import Iterator
 from contextlib import AbstractContextManager
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property, partial
 from pathlib import Path
 
@@ -21,6 +21,7 @@ from mudline.diagnostics import DeckError, Diagnostic, Where
 from mudline.files import Unsaved, recording_looks, with_unsaved
 from mudline.keywords.text import shown
 from mudline.keywords.values import Equation
+from mudline.lean import dataclass
 from mudline.linting.configuration import Configuration, ConfigurationError, Given, Search
 from mudline.linting.engine import LintSettings, lint_context, read_deck
 from mudline.linting.fixing import with_severities

@@ -7,7 +7,7 @@ import os
 import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from itertools import chain
 from pathlib import Path, PurePath
 from typing import NamedTuple, cast
@@ -22,6 +22,7 @@ from mudline.keywords.model import Block, names_given
 from mudline.keywords.reader import all_keys
 from mudline.keywords.text import shown
 from mudline.keywords.values import Names
+from mudline.lean import dataclass
 from mudline.scene.deck_values import file_name, find_file
 from mudline.short_repr import short_repr
 from mudline.syntax.edits import TextEdit, edited_bytes
@@ -33,10 +34,7 @@ from mudline.variations.names import filled
 
 _FORBIDDEN = re.compile(r'[\x00-\x1f\x7f<>:"|?*]')
 _DRIVE = re.compile(r"[A-Za-z]:")
-_DEVICES = frozenset(
-    ["CON", "PRN", "AUX", "NUL", "CONIN$", "CONOUT$"]
-    + [device + number for device in ("COM", "LPT") for number in "123456789\u00b9\u00b2\u00b3"]
-)
+_DEVICES = frozenset(["CON", "PRN", "AUX", "NUL", *(f"{name}{n}" for name in ("COM", "LPT") for n in range(1, 10))])
 PART_BYTES = 240
 """Bytes of a folder's or a file's name; the systems in use end at 255."""
 PATH_BYTES = 1000

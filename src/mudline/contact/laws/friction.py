@@ -19,7 +19,6 @@ are. Where they turn with the line and K_1 differs from K_2, turning them at an 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import IntEnum
 from typing import NamedTuple
 
@@ -27,6 +26,7 @@ import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, StateArray
 from mudline.contact.laws import Law, Parameter, Value, where
+from mudline.lean import dataclass
 from mudline.short_repr import short_repr
 
 _SMALLEST = float(np.nextafter(0.0, 1.0))

@@ -18,7 +18,6 @@ of the episode, v_max: an element that slows down does not break out for that.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import IntEnum
 from typing import NamedTuple, Self
 
@@ -26,6 +25,7 @@ import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, StateArray
 from mudline.contact.laws import Law, Parameter, Value, where
+from mudline.lean import dataclass
 from mudline.short_repr import short_repr
 
 FORCE_EXPONENT = 0.18
