@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.contact import ContactModel
-from tests.builders.contact import CLAY, CURVE, LINEAR, at_depths, chain, mixed
+from tests.builders.contact import CLAY, CURVE, at_depths, chain, mixed
 
 
 @given(st.integers(1, 60), st.integers(0, 2**32 - 1))
@@ -27,13 +25,6 @@ def test_reactions_balance_the_forces_on_the_elements(count: int, seed: int) -> 
     assert np.array_equal(result.normal, np.broadcast_to([1.0, 0.0, 0.0], (3, count + 1, 3)))
 
 
-def test_many_elements_may_meet_at_a_node() -> None:
-    inputs = chain([LINEAR] * 5)
-    star = replace(inputs, element_nodes=np.column_stack((np.zeros(5, np.intp), np.arange(1, 6, dtype=np.intp))))
-    result = ContactModel(star).evaluate(at_depths(np.full(6, 0.02)))
-    assert result.normal_force == pytest.approx([5000.0, *[1000.0] * 5])
-
-
 def test_at_its_static_embedment_a_pipe_is_in_equilibrium() -> None:
     weight, diameter, count = 3100.0, 0.27305, 40
     (ratio,) = CLAY.ratios_at_force(weight)
@@ -42,16 +33,3 @@ def test_at_its_static_embedment_a_pipe_is_in_equilibrium() -> None:
     )
     carried = np.array([weight, *[2.0 * weight] * (count - 1), weight])
     assert result.normal_force == pytest.approx(carried, rel=1e-12)
-
-
-@pytest.mark.parametrize("count", [1, 7])
-def test_stiffness_is_the_derivative_of_the_force(count: int) -> None:
-    model = ContactModel(mixed(count, seed=count))
-    depths = np.random.default_rng(3).uniform(0.01, 0.05, count + 1)
-    step = 1e-7
-    below, above = (model.evaluate(at_depths(depths + shift)) for shift in (-step, step))
-    middle = model.evaluate(at_depths(depths))
-    smooth = below.slope == above.slope
-    assert smooth.any()
-    derivative = (above.force - below.force) / (2.0 * step)
-    assert derivative[smooth] == pytest.approx(middle.stiffness[smooth], rel=1e-6)

@@ -196,15 +196,6 @@ def lines(*ends: tuple[int, int], nodes: int = 0, length: float = 2.0) -> Lines:
     return lines_of(pairs, np.full(len(pairs), length), count)
 
 
-def test_a_chain() -> None:
-    found = lines((0, 1), (1, 2), (2, 3))
-    assert found.of_element.tolist() == [0, 0, 0]
-    assert found.of_node.tolist() == [0, 0, 0, 0]
-    assert found.element_arc.tolist() == [1.0, 3.0, 5.0]
-    assert found.node_arc.tolist() == [0.0, 2.0, 4.0, 6.0]
-    assert [each.tolist() for each in found.nodes] == [[0, 1, 2, 3]]
-
-
 def test_elements_in_any_order_and_direction_follow_the_first() -> None:
     found = lines((2, 1), (3, 2), (0, 1))
     assert found.elements[0].tolist() == [1, 0, 2]

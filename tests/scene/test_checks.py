@@ -118,10 +118,6 @@ def test_an_equation_without_a_value_is_told_once() -> None:
     assert reported(text) == [("E", "REF013", 5, 12)]
 
 
-def test_other_sections_are_not_looked_at() -> None:
-    assert reported("$PREPROCESSOR\n*PARAMETERS\n k, -5\n$ANALYSIS\n*UNITS\n UNITS=METRIC\n") == []
-
-
 def test_the_floor_of_cyclic_loading_is_a_share() -> None:
     deck = "$MODEL\n*SEABED SUCTION\n SET=ALL\n CYCLIC={}\n COHESION=5000\n*ELASTIC SURFACE\n 5000\n"
     assert reported(deck.format("0.9, 1.0")) == reported(deck.format("1.5, 0.0")) == []
@@ -129,16 +125,4 @@ def test_the_floor_of_cyclic_loading_is_a_share() -> None:
     assert reported(deck.format("-0.9, -0.01")) == [("E", "SBD010", 4, 9), ("E", "SBD010", 4, 15)]
     assert messages(deck.format("0.9, 2")) == [
         "share of the first largest force below which the cycles do not lower it is 2.0: it must not be more than 1"
-    ]
-
-
-def test_values_of_a_table() -> None:
-    deck = (
-        "$PREPROCESSOR\n*PARAMETERS\n p, -7\n$MODEL\n*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n PEAK=TABLE\n{}"
-        "*ELASTIC SURFACE\n 5000\n"
-    )
-    assert reported(deck.format(" 0, 0\n 1, 5\n")) == []
-    assert reported(deck.format(" 0, -1\n 1, 5\n 2, =[p]\n")) == [("E", "SBD010", 9, 5), ("E", "SBD010", 11, 5)]
-    assert messages(deck.format(" 0, 0\n 1, =[p]\n")) == [
-        "lateral resistance per unit length there is -7.0: it must not be less than 0"
     ]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.builders.decks import CLAY, PIPE, STEEL
+from tests.builders.decks import PIPE
 from tests.builders.scenes import all_reported, messages, reported, scene_of
 
 RESTART = "$LOAD CASE\n*RESTART\n LAST=static\n"
@@ -57,12 +57,6 @@ def test_a_deck_that_continues_another_needs_no_model() -> None:
     assert [code for _, code, _, _ in found] == ["REF005", "REF008", "SBD005", "REF001"]
 
 
-def test_all_is_open_where_elements_are_not_shown() -> None:
-    assert scene_of(RESTART + PIPE).set_table.everything.open
-    assert scene_of(PIPE + "*LINES\n LINE=a\n").set_table.everything.open
-    assert not scene_of(PIPE).set_table.everything.open
-
-
 # --------------------------------------------------------------------------------------------------------- follow-ups
 
 
@@ -83,18 +77,6 @@ def test_a_law_that_could_not_be_read_is_unknown(line: str, expected: list[str])
     assert grant.unknown
 
 
-def test_a_law_beside_a_bad_friction_is_known() -> None:
-    text = PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=5\n FRICTION=O.3\n"
-    assert not scene_of(text).laws.set_laws[0].unknown
-
-
-def test_a_lost_line_of_one_set_leaves_the_others_known() -> None:
-    text = PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFNESS=5\n SET=ALL\n LATERAL=0\n"
-    assert [grant.unknown for grant in scene_of(text).laws.set_laws] == [True, False]
-    last = PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n LATERAL=0\n SET=ALL\n STIFNESS=5\n$MODES\n"
-    assert [grant.unknown for grant in scene_of(last).laws.set_laws] == [False, True]
-
-
 @pytest.mark.parametrize("type_", ["ELASTC", "", "RIGID, ELASTIC"])
 def test_a_type_that_could_not_be_read_is_told_once(type_: str) -> None:
     text = PIPE + f"*SEABED PROPERTIES\n TYPE={type_}\n SET=ALL\n FRICTION=0.3\n*EMBEDMENT\n SET=ALL\n 0, 0\n 1, 1\n"
@@ -106,13 +88,6 @@ def test_a_type_that_could_not_be_read_is_told_once(type_: str) -> None:
 def test_a_bad_type_does_not_take_over_the_one_before() -> None:
     text = PIPE + "*SEABED PROPERTIES\n TYPE=RIGID\n*SEABED PROPERTIES\n TYPE=ELASTC\n SET=ALL\n LATERAL=5\n"
     assert [code for _, code, _, _ in all_reported(text)] == ["SYN005"]
-
-
-def test_a_curve_that_could_not_be_made_makes_its_law_unknown() -> None:
-    text = PIPE + STEEL + CLAY.replace(" 0.5, 4000.0\n", "") + "*SEABED PROPERTIES\n TYPE=ELASTIC\n"
-    scene = scene_of(text + " SET=ALL\n STIFFNESS=clay\n")
-    assert [problem.code.code for problem in scene.problems] == ["CRV001"]
-    assert scene.laws.set_laws[0].unknown
 
 
 def test_a_set_that_could_not_be_read_gives_its_law_to_nothing() -> None:

@@ -46,13 +46,6 @@ def test_a_name_defined_twice_holds_the_elements_of_both() -> None:
     assert reported(SETS + lines) == []
 
 
-def test_indices_ascend_whatever_the_order_of_the_elements() -> None:
-    deck = "$MODEL\n*NODE\n 1, 0, 0\n*ELEMENT\n 9, 1, 1\n 4, 1, 1\n 7, 1, 1\n*ELEMENT SETS\n SET=a\n GEN=4, 9\n 7\n"
-    scene = scene_of(deck)
-    assert scene.set_table.named["a"].elements.tolist() == [0, 1, 2]
-    assert members(scene)["a"] == [9, 4, 7]
-
-
 @pytest.mark.parametrize(
     ("line", "expected"),
     [
@@ -136,12 +129,6 @@ def test_a_chain_that_ends_in_nothing() -> None:
     assert reported(SETS + lines) == [("E", "REF008", FIRST + 3, 9)]
 
 
-@pytest.mark.parametrize("line", ["SUBSET=", "GEN=1, x", "GEN=1, =[nothing]", "1, 2-"])
-def test_a_set_of_which_a_line_could_not_be_read_is_open(line: str) -> None:
-    assert scene_of(SETS + f" SET=a\n 1\n {line}\n").set_table.named["a"].open
-    assert not scene_of(SETS + " SET=a\n 1\n").set_table.named["a"].open
-
-
 def test_a_set_without_a_readable_name_may_be_the_one_that_is_missing() -> None:
     text = SETS + " SET=\n 1\n SET=b\n SUBSET=a\n"
     assert reported(text) == [("W", "REF008", FIRST + 3, 9)]
@@ -158,8 +145,3 @@ def test_quotes_around_a_name_do_not_count(defined: str, used: str) -> None:
     deck = PIPE + STEEL + sets + f"*SEABED PROPERTIES\n TYPE=ELASTIC\n SET={used}\n STIFFNESS=1e5\n"
     assert reported(deck) == []
     assert scene_of(deck).law_names == ["linear"] * 2 + ["none"] * 8
-
-
-def test_a_set_is_open_if_any_of_its_lines_or_subsets_is() -> None:
-    named = scene_of(SETS + " SET=a\n 1, 99\n 3\n SET=b\n SUBSET=a\n 4\n SET=c\n 5\n").set_table.named
-    assert [named[name].open for name in "abc"] == [True, True, False]

@@ -35,15 +35,6 @@ def test_capped_force_never_falls_below_zero(exponent: float) -> None:
     assert (slope >= -1e-12).all()
 
 
-def test_cyclic_factor_scales_the_force_and_nothing_else() -> None:
-    law = bridge_law()
-    half = law._replace(cyclic=floats(0.5))
-    whole, cut = pull(law, 0.01, 0.1), pull(half, 0.01, 0.1)
-    assert cut.depth == whole.depth
-    for name in ("force", "by_uplift", "by_velocity"):
-        assert getattr(cut, name) == pytest.approx(0.5 * getattr(whole, name), rel=1e-14)
-
-
 def test_millimetres_would_be_wrong_without_conversion() -> None:
     naive = bridge_law(cohesion=0.005, diameter=300.0, regularisation=1.0)
     assert largest(naive, floats(100.0))[0].item() == pytest.approx(1.3785656595, rel=1e-10)

@@ -88,35 +88,6 @@ def nearest(
     return found
 
 
-def bent() -> tuple[FloatArray, IndexArray]:
-    """A line of six nodes along Y that turns into Z in its middle."""
-    places = [(0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 2.0, 0.0), (0.0, 3.0, 0.0), (0.0, 3.0, 1.0), (0.0, 3.0, 2.0)]
-    return np.array(places), np.array([[k, k + 1] for k in range(5)])
-
-
-def test_laid_centreline() -> None:
-    laid, ends = bent()
-    np.testing.assert_array_equal(nearest(laid, ends, laid), laid)
-    moved = laid + np.array([0.0, 0.0, 0.2])
-    expected = laid.copy()
-    expected[3:, 2] = [0.2, 1.2, 2.0]
-    np.testing.assert_allclose(nearest(laid, ends, moved), expected, atol=1e-15)
-
-
-def test_a_node_finds_its_place_far_along_the_line() -> None:
-    laid, ends = bent()
-    points = np.broadcast_to(np.array([0.0, 2.6, 0.1]), laid.shape).copy()
-    np.testing.assert_allclose(nearest(laid, ends, points)[:4], [[0.0, 2.6, 0.0]] * 4, atol=1e-15)
-
-
-def test_a_node_without_elements_is_its_own_centreline() -> None:
-    laid = np.array([[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [5.0, 5.0, 5.0]])
-    points = laid + 1.0
-    found = nearest(laid, np.array([[0, 1]]), points)
-    assert found[2].tolist() == points[2].tolist()
-    assert found[0].tolist() == [0.0, 1.0, 0.0]
-
-
 @given(st.integers(2, 40), st.integers(0, 10_000))
 def test_nearest_point_of_a_gentle_line(count: int, seed: int) -> None:
     """As the search over all elements finds it."""
