@@ -1,4 +1,4 @@
-"""The largest and the smallest numbers: right or a named error, and never a warning of numpy; and decks with such numbers."""
+"""The largest and the smallest numbers, in scenes and decks: right or a named error, and never a warning of numpy."""
 
 from __future__ import annotations
 
