@@ -10,7 +10,7 @@ from mudline.limits import LISTED, SHOWN_LETTERS
 
 LETTERS = 200
 """Characters of a representation."""
-_LONGEST_TUPLE = 4
+_SHORT_TUPLE = 4
 
 
 class UnknownNameError(KeyError):
@@ -56,7 +56,7 @@ def brief(value: object) -> str:
         text = repr(cut(value, SHOWN_LETTERS - 2))
     elif isinstance(shape, tuple):
         text = f"<{getattr(value, 'dtype', type(value).__name__)} {shape}>"
-    elif type(value) is tuple and len(value) <= _LONGEST_TUPLE:
+    elif type(value) is tuple and len(value) <= _SHORT_TUPLE:
         text = f"({', '.join(map(brief, value))}{',' if len(value) == 1 else ''})"
     elif isinstance(value, Collection) and type(value).__module__ == "builtins":
         text = counted(len(value), "item") if value else repr(value)

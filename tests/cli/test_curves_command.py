@@ -10,7 +10,7 @@ from xml.parsers import expat
 
 import pytest
 
-from tests.builders.decks import BAD_NUMBER, CLEAN, LINEAR, UNSORTED, UNUSED
+from tests.builders.decks import CLEAN, LINEAR, UNSORTED, UNUSED
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, assert_fits, run
 
@@ -236,20 +236,6 @@ def test_stiffness_that_overflows_is_null(place: Place) -> None:
     assert_fits(found, "curves")
     assert found[0]["static"][0]["stiffness"][0]["stiffness"] is None
     assert "inf" in run("curves", place(deck)).out
-
-
-@pytest.mark.parametrize("form", ["text", "json", "csv"])
-def test_deck_that_cannot_be_read(place: Place, form: str) -> None:
-    outcome = run("curves", place(BAD_NUMBER), "--output-format", form)
-    assert (outcome.code, outcome.out) == (1, "")
-    assert "SYN002" in outcome.err
-
-
-@pytest.mark.parametrize("name", sorted(path.name for path in SAMPLES.glob("*.key*") if path.stem != "broken"))
-def test_samples_keep_to_the_schema(name: str) -> None:
-    outcome = run("curves", SAMPLES / name, "--at", "0.1", "--weight", "300", "--output-format", "json")
-    assert outcome.code == 0
-    assert_fits(outcome.json(), "curves")
 
 
 # ----------------------------------------------------------------------- mudline curves --plot: a picture of the curves

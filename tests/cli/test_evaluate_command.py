@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mudline.quantities import LINES
-from tests.builders.decks import BAD_NUMBER, CLEAN, CLEAN_WARNING, LINEAR, PULLING
+from tests.builders.decks import CLEAN, CLEAN_WARNING, LINEAR, PULLING
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Json, assert_fits, run
 
@@ -262,13 +262,6 @@ def test_rigid_bed_is_told(place: Place) -> None:
     outcome = run("evaluate", place(RIGID))
     assert outcome.code == 0
     assert "2 elements on a rigid seabed: a constraint, whose reaction is not evaluated" in outcome.err
-
-
-@pytest.mark.parametrize("form", ["text", "json", "csv"])
-def test_deck_that_cannot_be_read(place: Place, form: str) -> None:
-    outcome = run("evaluate", place(BAD_NUMBER), "--output-format", form)
-    assert (outcome.code, outcome.out) == (1, "")
-    assert "6:11: error: SYN002" in outcome.err
 
 
 def test_deck_without_elements(place: Place) -> None:

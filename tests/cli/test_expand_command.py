@@ -83,14 +83,6 @@ def test_the_list_is_printed_as_it_is_written(place: Place, folder: Path) -> Non
     assert_fits(dry.json(), "expand")
 
 
-def test_the_same_deck_gives_the_same_files(place: Place, folder: Path) -> None:
-    name = place(STUDY)
-    run("expand", name, "-o", "a")
-    run("expand", name, "-o", "b")
-    for file in files(folder / "a"):
-        assert (folder / "a" / file).read_bytes() == (folder / "b" / file).read_bytes()
-
-
 def test_more_is_told_of_each_deck(place: Place) -> None:
     outcome = run("expand", place(STUDY), "-o", "out", "-v")
     assert outcome.err.splitlines()[1:] == [

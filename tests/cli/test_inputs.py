@@ -67,12 +67,6 @@ def test_every_file_counts_once(place: Place) -> None:
     assert names("decks/a.keyxm", "decks", "decks/a.keyxm", "-", "-") == ["decks/a.keyxm", "<stdin>"]
 
 
-def test_files_keep_their_order_and_directories_are_sorted(place: Place) -> None:
-    for name in ("z.keyxm", "d/b.keyxm", "d/a.keyxm"):
-        place(CLEAN, name)
-    assert names("z.keyxm", "d") == ["z.keyxm", "d/a.keyxm", "d/b.keyxm"]
-
-
 @pytest.mark.parametrize("command", ["lint", "validate"])
 def test_directory_without_a_deck(command: str, folder: Path) -> None:
     (folder / "empty").mkdir()
@@ -137,10 +131,6 @@ def test_directory_that_may_not_be_read(place: Place, folder: Path, monkeypatch:
     found = collect(["decks"])
     assert [file.name for file in found.files] == ["decks/a.keyxm"]
     assert found.code == 2
-
-
-def test_standard_input() -> None:
-    assert run("lint", "-", *CONCISE, stdin=BAD_NUMBER.encode()).out.startswith("<stdin>:6:11:")
 
 
 @pytest.mark.parametrize("command", ["lint", "validate", "show", "curves", "evaluate"])
@@ -254,11 +244,6 @@ def test_the_folder_of_git_is_not_searched(decks: Path) -> None:
 def test_names_in_any_bytes(decks: Path) -> None:
     (decks / ".gitignore").write_bytes(b"\xff\xfe*.keyxm\n/old\n")
     assert "decks/old/b.keyxm" not in names("decks")
-
-
-def test_a_folder_of_that_name_hides_nothing(decks: Path) -> None:
-    (decks / ".gitignore").mkdir()
-    assert len(names("decks")) == 5
 
 
 def test_a_file_that_cannot_be_read_is_told(decks: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,14 +3,25 @@
 from __future__ import annotations
 
 import json
+import multiprocessing
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
+from mudline import cache_folder
+from mudline.diagnostics import Diagnostic
+from mudline.linting.engine import lint_bytes
+from mudline.linting.registry import rules
+from mudline.running import executors
 from tests.builders.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED
 from tests.builders.decks import UNUSED as SOFT
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Outcome, assert_fits, run
+from tests.linting.test_causes import changed
+from tests.processes import TIMEOUT
 
 UNUSED = SOFT.replace(" 0.1, 1.0\n", " 0.1, 100.0\n")
 """A REF003 (warning), and nothing else."""
@@ -32,11 +43,6 @@ def lint(deck: str, *options: str) -> Outcome:
 def test_nothing_found(place: Place) -> None:
     outcome = run("lint", place())
     assert (outcome.code, outcome.out, outcome.err) == (0, "No findings in 1 file.\n", "")
-
-
-def test_nothing_found_prints_an_empty_array(place: Place) -> None:
-    outcome = run("lint", place(), "--output-format", "json")
-    assert (outcome.code, outcome.out, outcome.err) == (0, "[]\n", "")
 
 
 def test_finding_with_its_source_line(place: Place) -> None:
@@ -83,11 +89,6 @@ def test_all_samples_keep_to_the_schema() -> None:
     assert len({each["code"] for each in found}) >= 15
     keys = [(each["file"], each["line"], each["column"], each["code"]) for each in found]
     assert keys == sorted(keys)
-
-
-def test_json_lines_are_the_array_in_lines() -> None:
-    lines = run("lint", SAMPLES, "--output-format", "jsonl").out.splitlines()
-    assert [json.loads(line) for line in lines] == run("lint", SAMPLES, "--output-format", "json").json()
 
 
 def test_json_is_sorted_whatever_the_order_of_the_files(place: Place) -> None:
@@ -204,12 +205,6 @@ def test_document_is_linted_as_the_deck_that_it_holds(place: Place, form: str) -
     assert found["line"] > 1
 
 
-def test_document_that_is_none_gives_a_finding(place: Place) -> None:
-    outcome = run("lint", place('{"format": ', "deck.json"), "--output-format", "json")
-    assert outcome.code == 1
-    assert codes(outcome) == ["DOC001"]
-
-
 # ---------------------------------------------------------------------------------------------------------------------
 
 
@@ -254,3 +249,105 @@ def test_a_directory_search_includes_and_excludes(tmp_path: Path) -> None:
     (tmp_path / "mudline.toml").write_text('include = ["*.txt"]\nexclude = ["/old"]\n', encoding="utf-8")
     found = json.loads(run("lint", str(tmp_path), "--output-format", "json", "--exit-zero").out)
     assert {Path(one["file"]).name for one in found} == {"a.keyxm", "b.txt"}
+
+
+# ------------------------------------------- the same from any number of processes, from the cache, and with a baseline
+
+
+ROWS = changed((" 0.0, 0.0\n 0.5, 20000.0\n", " 1, 0.0, 0.0\n 2, 0.1, 8000.0\n 3, 0.3, 15000.0\n 4, 0.5, 20000.0\n"))
+STARLESS = changed(("*ELEMENT\n", "ELEMENT\n"))
+
+
+def test_jobs_cache_and_baseline_agree(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(executors, "PAYS", dict.fromkeys(executors.PAYS, 0.0))
+    monkeypatch.setenv(cache_folder.PLACE, str(folder / "cache"))
+    for name, text in (("a", ROWS), ("b", STARLESS)):
+        (folder / f"{name}.keyxm").write_text(text, encoding="utf-8")
+    asked = ("lint", "a.keyxm", "b.keyxm", "-v")
+    plain = run(*asked, "--no-cache")
+    assert "and 3 more rows of this block" in plain.out
+    assert plain.out.count("follows: ") == sum(map(len, map(_following, ("a", "b")))) > 0
+    assert run(*asked, "--no-cache", "--jobs", "2").out == plain.out
+    assert run(*asked).out == plain.out  # fills the cache
+    assert run(*asked).out == plain.out
+    run(*asked, "--baseline", "known.json", "--write-baseline")
+    recorded = json.loads((folder / "known.json").read_text(encoding="utf-8"))
+    assert recorded
+    for more in ((), ("--jobs", "2"), ("--no-cache",)):
+        assert run(*asked, "--baseline", "known.json", "--output-format", "json", *more).out == "[]\n"
+
+
+def _following(name: str) -> list[Diagnostic]:
+    data = Path(f"{name}.keyxm").read_bytes()
+    return [each for one in lint_bytes(data, f"{name}.keyxm", rules()) for each in one.following]
+
+
+# ------------------------------------------------------------------------- the same output from any number of processes
+
+
+@pytest.fixture
+def decks(place: Place, monkeypatch: pytest.MonkeyPatch) -> str:
+    """Processes are used behind the first file, whatever there is to do."""
+    monkeypatch.setattr(executors, "PAYS", dict.fromkeys(executors.PAYS, 0.0))
+    monkeypatch.setattr(executors, "TRIED", 0.0)
+    for i in range(60):
+        place((CLEAN, BAD_NUMBER, UNSORTED)[i % 3], f"decks/{i:02}.keyxm")
+    return "decks"
+
+
+def test_output_is_the_same_whatever_the_number_of_processes(
+    decks: str, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    words = (decks, "missing.keyxm", "--jobs")
+    assert run("validate", *words, "2") == run("validate", *words, "1")
+    alone = run("lint", *words, "1", "--no-cache")
+    assert run("lint", *words, "2", "--no-cache") == alone
+    assert multiprocessing.active_children() == []
+    assert alone.out.startswith("decks/01.keyxm:6:11")
+    monkeypatch.setenv("MUDLINE_CACHE_DIR", str(folder / "cache"))
+    assert [run("lint", *words, "2") for _ in range(2)] == [alone] * 2
+    assert len(list((folder / "cache").iterdir())) == 1
+
+
+COPIES = """
+import sys
+from mudline.__main__ import main
+
+sys.argv[0] = "mudline"
+from mudline.running import executors
+
+executors.PAYS, executors.TRIED = dict.fromkeys(executors.PAYS, 0.0), 0.0
+start_method, used = executors.start_method, []
+executors.start_method = lambda: used.append(start_method()) or used[-1]
+code = main(sys.argv[1:])
+print(*set(used), code, file=sys.stderr)
+"""
+
+
+def test_copies_of_a_process_without_threads_say_the_same(decks: str) -> None:
+    alone = run("lint", decks, "--jobs", "1", "--no-cache")
+    words = [sys.executable, "-c", COPIES, "lint", decks, "--jobs", "2", "--no-cache"]
+    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
+    done = subprocess.run(words, env=environment, capture_output=True, text=True, timeout=TIMEOUT, check=True)
+    assert done.stdout == alone.out
+    assert done.stderr in ("fork 1\n", "forkserver 1\n", "spawn 1\n")
+    assert done.stderr.startswith("fork ") or not sys.platform.startswith("linux")
+
+
+def test_run_that_ends_early_ends_its_processes(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupt(*_: object) -> None:
+        if multiprocessing.active_children():
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr("mudline.cli.lint_report.Report.add", interrupt)
+    assert run("lint", decks, "--jobs", "2", "--no-cache").code == 130
+    assert multiprocessing.active_children() == []
+
+
+def test_fixing_stays_in_one_process(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(executors, "_processes", None)
+    assert "20 fixed" in run("lint", decks, "--fix", "--jobs", "2").out
+
+
+def test_number_that_is_none(place: Place) -> None:
+    assert run("lint", place(), "--jobs", "-1").code == 2

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import os
+import re
 import sys
 from pathlib import Path
 from unittest.mock import patch
@@ -13,11 +14,9 @@ import pytest
 from mudline.__main__ import main
 from mudline.cli import view
 from mudline.cli.inputs import Input
-from mudline.cli.view import View
 from tests.builders.decks import CLEAN, ILLEGAL
 from tests.cli.conftest import Place
 from tests.cli.runner import Outcome, Stream, assert_fits, run
-from tests.cli.screens import screen
 
 TOTAL = "3 of 7 decks legal: 2 illegal, 2 empty, 2 errors, 2 warnings, 1 file unreadable"
 
@@ -127,17 +126,6 @@ def test_decks_are_told_when_they_are_judged(place: Place, monkeypatch: pytest.M
     assert "REF001" in there[1]
 
 
-def test_document_that_cannot_be_opened_is_told(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    def closed(file: Path | Input, mode: str = "rb") -> None:
-        assert mode == "rb"
-        raise PermissionError(13, "Permission denied", str(file))
-
-    monkeypatch.setattr(Path, "open", closed)
-    monkeypatch.setattr(Input, "read", closed)
-    outcome = run("validate", decks, "-q")
-    assert "mudline: decks/package.json: permission denied\n" in outcome.err
-
-
 # ---------------------------------------------------------------------------------------------------------------- bar
 
 
@@ -176,14 +164,6 @@ def test_bar_is_gone_when_the_run_is_stopped(decks: str, monkeypatch: pytest.Mon
 
 
 @pytest.mark.usefixtures("_bar")
-def test_bar_keeps_to_one_narrow_line(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("COLUMNS", "12")
-    written, left = on_one_screen("validate", decks, "-v")
-    assert "\x1b[1A" not in written.replace("\r\x1b[1A\x1b[2K", "")
-    assert not any("/8" in line for line in left)
-
-
-@pytest.mark.usefixtures("_bar")
 @pytest.mark.parametrize(("name", "value"), [("CI", "true"), ("TERM", "dumb")])
 def test_no_bar_where_nobody_looks(decks: str, name: str, value: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(name, value)
@@ -203,11 +183,6 @@ def test_no_bar_in_a_short_run(decks: str, monkeypatch: pytest.MonkeyPatch) -> N
     assert on_error_only("validate", decks).err == "mudline: decks/gone.keyxm: no such file or directory\n"
 
 
-def test_nobody_looks_at_a_file() -> None:
-    with patch.object(sys, "stderr", Stream("utf-8", terminal=False)):
-        assert not view.wants_bar(View())
-
-
 # -------------------------------------------------------------------------------------------------------------- table
 
 
@@ -215,3 +190,29 @@ def test_colours_are_those_of_the_verdicts(place: Place) -> None:
     out = run("validate", place(), place(ILLEGAL, "bad.keyxm"), "-q", "--color", "always").out
     assert "\x1b[32mlegal\x1b[0m" in out
     assert "\x1b[1;31millegal\x1b[0m" in out
+
+
+_PIECE = re.compile(r"\x1b\[(\?)?([\d;]*)([A-Za-z])|(\r)|(\n)|([^\x1b\r\n]+)")
+
+
+def screen(written: str) -> list[str]:
+    """The lines on a terminal after all that was written: knows line ends, erased lines, steps up; no colours."""
+    lines, row, column = [""], 0, 0
+    for match in _PIECE.finditer(written):
+        _, number, letter, back, end, text = match.groups()
+        if back:
+            column = 0
+        elif end:
+            row, column = row + 1, 0
+            lines += [""] * (row + 1 - len(lines))
+        elif text:
+            lines[row] = lines[row][:column].ljust(column) + text + lines[row][column + len(text) :]
+            column += len(text)
+        elif letter == "A":
+            row -= int(number or 1)
+        elif letter == "K":
+            assert number == "2"
+            lines[row] = ""
+        else:
+            assert letter in "mhl", match[0]
+    return lines

@@ -8,7 +8,7 @@ import pytest
 
 from tests.builders.decks import CLEAN, ILLEGAL, LINEAR
 from tests.cli.conftest import Place
-from tests.cli.runner import SAMPLES, assert_fits, run
+from tests.cli.runner import assert_fits, run
 
 TEXT = """\
 deck.keyxm: metric units, 3 nodes, 2 elements, 20.008 m long, elastic seabed
@@ -133,11 +133,6 @@ def test_deck_with_errors_is_shown_as_far_as_it_goes(place: Place) -> None:
     assert outcome.code == 1
     assert "3 nodes, 2 elements" in outcome.out
     assert outcome.err == "mudline: deck.keyxm has 1 error: see mudline lint\n"
-
-
-@pytest.mark.parametrize("name", sorted(path.name for path in SAMPLES.glob("*.key*")))
-def test_samples_keep_to_the_schema(name: str) -> None:
-    assert_fits(run("show", SAMPLES / name, "--output-format", "json").json(), "show")
 
 
 def test_empty_deck(place: Place) -> None:

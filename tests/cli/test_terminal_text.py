@@ -199,11 +199,6 @@ def test_fault_longer_than_the_screen() -> None:
     assert under.index("^") == source.index("x")
 
 
-def test_wide_characters_are_cut_by_columns() -> None:
-    source, _ = marked(bad_line(f" 2, -0.1, {chr(0x6F22) * 500}"))
-    assert cell_len(source) <= 120
-
-
 @pytest.mark.parametrize("width", [40, 80, 100, 200])
 def test_lines_fit_the_terminal(place: Place, monkeypatch: pytest.MonkeyPatch, width: int) -> None:
     monkeypatch.setenv("COLUMNS", str(width))
@@ -256,10 +251,6 @@ def found(line: int = 2, column: int = 2, end_line: int = 2, end_column: int = 8
 
 def lines(diagnostic: Diagnostic, source: Source = TEXT) -> list[str]:
     return [text.plain for text in excerpt(diagnostic, source, WIDTH)]
-
-
-def test_excerpt() -> None:
-    assert lines(found()) == [" 2 |  second, x", "   |  ^^^^^^"]
 
 
 @pytest.mark.parametrize(

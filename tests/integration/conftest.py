@@ -8,7 +8,7 @@ import subprocess
 from tests.integration.recipes import BASH
 from tests.processes import TIMEOUT
 
-collect_ignore = ["test_action_steps.py", "test_ci_page.py", "test_completion_in_bash.py"]
+collect_ignore = ["test_ci_page.py", "test_completion_in_bash.py"]
 if os.name == "posix":
     asked = [BASH, "-c", "(( BASH_VERSINFO[0] * 10 + BASH_VERSINFO[1] >= 44 ))"]
     completes = subprocess.run(asked, timeout=TIMEOUT, check=False).returncode == 0

@@ -3,11 +3,7 @@
 from __future__ import annotations
 
 import json
-import os
 import re
-import shutil
-import subprocess
-import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from xml.etree import ElementTree as ET
@@ -17,10 +13,6 @@ import pytest
 from mudline.linting.output import form_names
 from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.runner import run
-from tests.processes import TIMEOUT
-
-BASH = shutil.which("bash")
-FAULTS = 700
 
 COUNTED: dict[str, Callable[[str], int]] = {
     "concise": lambda text: lines(text, r"bad\.keyxm:6:11: SYN002 .+"),
@@ -86,24 +78,3 @@ def test_statistics_are_the_result_when_asked_for(form: str) -> None:
 def test_nothing_found_is_a_whole_result(form: str) -> None:
     outcome = run("lint", "clean.keyxm", "--output-format", form)
     assert (outcome.code, outcome.err, COUNTED[form](outcome.out)) == (0, "", 0)
-
-
-@pytest.mark.skipif(BASH is None or os.name != "posix", reason="no bash and no head here")
-@pytest.mark.parametrize("form", ["text", "json"])
-def test_a_reader_that_takes_one_line_ends_it_quietly(tmp_path: Path, form: str) -> None:
-    """More than a pipe holds, so that the rest of it meets the pipe closed."""
-    rows = "".join(f" {number}, x, 0.0\n {number}0000, 0.0, 0.0\n" for number in range(1, FAULTS))
-    (tmp_path / "long.keyxm").write_text(f"$MODEL\n*NODE\n{rows}", encoding="utf-8")
-    command = f'"$PYTHON" -m mudline lint long.keyxm --output-format {form} | head -n 1; echo "${{PIPESTATUS[0]}}"'
-    done = subprocess.run(
-        [str(BASH), "-c", command],
-        cwd=tmp_path,
-        env={**os.environ, "PYTHON": sys.executable},
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=TIMEOUT,
-    )
-    assert done.stderr == ""
-    first, code = done.stdout.splitlines()
-    assert (bool(first), code) == (True, "141")

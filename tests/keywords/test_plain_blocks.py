@@ -158,6 +158,10 @@ def test_plain_records_are_read_as_such(head: str, entry: str) -> None:
     assert compare(f"${head}\n{entry}{entry.replace('=A', '=Z')}")
 
 
+def test_a_long_block_of_records() -> None:
+    assert compare(f"$MODEL\n*ELEMENT SETS\n{''.join(PLAIN_SETS * 20)}")
+
+
 @pytest.mark.parametrize(("head", "entry"), [(head, entry) for head, (_, odd) in BLOCKS.items() for entry in odd])
 def test_a_block_with_an_odd_record_is_left_to_the_reader(head: str, entry: str) -> None:
     plain = BLOCKS[head][0][0]

@@ -49,7 +49,7 @@ def items(count: int, taken: list[int]) -> Iterator[tuple[int, int | None]]:
 
 @pytest.mark.usefixtures("eager")
 def test_results_are_in_order_and_few_are_taken_ahead(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(executors, "_LARGEST", 5)
+    monkeypatch.setattr(executors, "_TOGETHER", 5)
     taken: list[int] = []
     used = set()
     with executor(2) as pool:
@@ -92,7 +92,7 @@ def sleep(seconds: float) -> None:
 
 @pytest.mark.usefixtures("eager")
 def test_processes_end_at_once_with_the_block(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(executors, "_LARGEST", 1)
+    monkeypatch.setattr(executors, "_TOGETHER", 1)
     with pytest.raises(KeyboardInterrupt), executor(2) as pool:  # noqa: PT012 - what is under way is ended
         results = in_order(pool, sleep, ((number, 1000.0 * (number > 1)) for number in range(9)), 9)
         for number, _ in results:

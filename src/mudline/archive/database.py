@@ -49,10 +49,6 @@ class QueryError(Exception):
     """A question that cannot be answered: the message says why, and where in the SQL."""
 
 
-class MissingFileError(QueryError):
-    """A file of the archive is no longer there: another run has replaced it."""
-
-
 @dataclass
 class Database:
     """An open archive that answers questions."""
@@ -231,7 +227,7 @@ def _explained(error: BaseException, sql: str) -> QueryError:
     if kind == "Out of Memory" or isinstance(error, duckdb.OutOfMemoryException):
         return QueryError(_TOO_MUCH)
     if kind == "IO" and "No files found" in message:
-        return MissingFileError(f"{message}: ask again")
+        return QueryError(f"{message}: another run has replaced it: ask again")
     if (file := _DATA_FILE.search(message)) and "Cannot open" not in message:
         return QueryError(f"{file[0]} is damaged: {AGAIN}")
     if _DISABLED in message:

@@ -25,7 +25,7 @@ from mudline.scene.model import Scene, resolve
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
 
-_MOST_DIAMETERS = 3
+_SHOWN_DIAMETERS = 3
 _AT = ("ratio", "force", "slope", "segment", "extrapolated")
 _OF_DIAMETER = ("diameter", "depth", "stiffness")
 _GOES_ON = "Below its first and above its last point a curve goes on with the slope of its end segment."
@@ -210,7 +210,7 @@ def _print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
     ends = ("from\nratio", "to\nratio", *(headed(f"{end}\nforce", names.line_force) for end in ("from", "to")))
     for (index, entry, _), row in zip(_used_curves(scene), rows, strict=True):
         sizes = _diameters(scene, index)
-        drawn = sizes if view.verbose or len(sizes) <= _MOST_DIAMETERS else [sizes[0], sizes[-1]]
+        drawn = sizes if view.verbose or len(sizes) <= _SHOWN_DIAMETERS else [sizes[0], sizes[-1]]
         stiffnesses = (headed(f"stiffness\nD={shown(size)}", names.stiffness) for size in drawn)
         note = "" if drawn == sizes else f"{len(sizes)} diameters follow this curve: -v shows all"
         shown_here = bool(followers(scene, index).any())

@@ -354,7 +354,7 @@ def _value_text(value: Value) -> str:
 
 # ------------------------------------------------------------------------------------------------------------- Markdown
 
-LONGEST = 60_000
+COMMENT_LETTERS = 60_000
 """Characters of all: a comment on GitHub holds 65,536. What is beyond is left out, unless all is asked for."""
 
 
@@ -365,7 +365,7 @@ def markdown(before: str, after: str, summary: str, lines: Iterable[Line], view:
     """
     head = f"### Differences of decks\n\n{code(before)} → {code(after)}: **{summary}**\n"
     texts = [(line if isinstance(line, str) else line[0]).removeprefix("  ") for line in lines]
-    left = LONGEST - len(head)
+    left = COMMENT_LETTERS - len(head)
     kept = 0
     for text in texts:
         left -= len(text) + 1

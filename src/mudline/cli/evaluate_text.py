@@ -182,7 +182,7 @@ def _print_peaks(printer: Printer, digest: StepSummary) -> None:
     printer.table("Over all steps", columns, rows, left=("largest", "unit"))
 
 
-_MOST_POINTS = 3
+_SHOWN_POINTS = 3
 """Touchdown points that a cell shows."""
 _SLACK = 1e-9
 """Part of a line by which the sums of its lengths may differ."""
@@ -230,8 +230,8 @@ def _touchdown(row: LineSummary) -> str:
         return "none"
     if not row.touchdown:
         return "all on the seabed" if row.contact_length > (1.0 - _SLACK) * row.length else ""
-    found = ", ".join(shown(point.arc_length) for point in row.touchdown[:_MOST_POINTS])
-    more = len(row.touchdown) - _MOST_POINTS
+    found = ", ".join(shown(point.arc_length) for point in row.touchdown[:_SHOWN_POINTS])
+    more = len(row.touchdown) - _SHOWN_POINTS
     return f"{found}, {more} more" if more > 0 else found
 
 

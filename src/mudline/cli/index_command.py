@@ -24,8 +24,6 @@ from mudline.running.executors import executor, in_order
 if TYPE_CHECKING:
     from mudline.archive.updating import Order, Update
 
-_DECKS = 10
-"""Decks that are read together."""
 LIBRARIES = ("duckdb", "pyarrow")
 EXTRA = "archive"
 

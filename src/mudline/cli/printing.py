@@ -9,7 +9,7 @@ from itertools import zip_longest
 from types import MappingProxyType
 from typing import ClassVar, NamedTuple
 
-from rich.cells import cell_len, set_cell_size
+from rich.cells import cell_len
 from rich.console import Console
 from rich.text import Text
 
@@ -84,18 +84,6 @@ class Printer:
                 self._console.print(line, soft_wrap=False)
         else:
             self._console.file.writelines(f"{line.plain}\n" for line in lines)
-
-    def elided(self, text: str, width: int) -> str:
-        """Text of a deck in so many columns at most, without its middle where it is longer."""
-        shown = self.visible(text)
-        if cell_len(shown) <= width:
-            return shown
-        mark = "\u2026" if self.encoding.startswith("utf") else "..."
-        kept = width - len(mark)
-        end = shown[-(kept - kept // 3) :]
-        while cell_len(end) > kept - kept // 3:
-            end = end[1:]
-        return f"{set_cell_size(shown, kept // 3).rstrip()}{mark}{end}"
 
     def findings(self, found: list[Diagnostic], source: Source, *, following: bool = False) -> None:
         """Print the findings of one file, each with its source line, and with those that follow from it if wanted."""

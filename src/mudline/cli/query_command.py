@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import datetime as dt
-import decimal
 import json
 import math
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import AbstractContextManager, nullcontext
-from functools import partial
+from decimal import Decimal
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, TypeAlias
 
@@ -29,7 +27,6 @@ if TYPE_CHECKING:
 Arrow: TypeAlias = Any
 """A reader, batch or type of pyarrow, which has no types; or a value that one holds."""
 _FORMATS = ("text", "csv", "json", "parquet")
-_SAFE = 2**53
 
 
 @options.command("query")
@@ -62,46 +59,23 @@ def command(
     if lacks_libraries("query"):
         return WRONG_USAGE
     form = _form(output, output_format)
-    from mudline.archive.database import QueryError  # noqa: PLC0415 - an extra
-    from mudline.archive.store import ArchiveError  # noqa: PLC0415 - an extra
+    from mudline.archive.database import QueryError, opened  # noqa: PLC0415 - an extra
+    from mudline.archive.store import Archive, ArchiveError  # noqa: PLC0415 - an extra
 
     target = None if output is None else Path(output).absolute()
-    limits = (memory_limit, jobs)
     try:
-        _answer(Path(archive), sql, limits, partial(_deliver, form=form, target=target, view=view))
+        found = Archive.opened(Path(archive))
+        if damage := found.damage(thorough=False):
+            raise click.ClickException(damage)
+        with opened(found, memory_limit, jobs) as database:
+            _deliver(database, database.ask(sql), form, target, view)
+    except MemoryError as error:
+        raise click.ClickException("the answer needs more memory than it may use: raise --memory-limit") from error
     except (ArchiveError, QueryError) as error:
         raise click.ClickException(str(error)) from error
     if target is not None and not view.quiet:
         notify(f"answer -> {output}")
     return DONE
-
-
-Deliver = Callable[["Database", Arrow], None]
-"""What is done with an answer while the archive is open."""
-
-
-def _answer(folder: Path, sql: str, limits: tuple[str, int], deliver: Deliver, tries: int = 3) -> None:
-    """Ask and deliver the answer; raises ArchiveError, QueryError, click.ClickException.
-
-    Where another run has just replaced the files, it is asked again.
-    """
-    from mudline.archive.database import MissingFileError, opened  # noqa: PLC0415 - an extra
-    from mudline.archive.store import Archive  # noqa: PLC0415 - an extra
-
-    archive = Archive.opened(folder)
-    if damage := archive.damage(thorough=False):
-        raise click.ClickException(damage)
-    reader = None
-    try:
-        with opened(archive, *limits) as database:
-            reader = database.ask(sql)
-            deliver(database, reader)
-    except MemoryError as error:
-        raise click.ClickException("the answer needs more memory than it may use: raise --memory-limit") from error
-    except MissingFileError:
-        if tries <= 1 or reader is not None:
-            raise
-        _answer(folder, sql, limits, deliver, tries - 1)
 
 
 def _deliver(database: Database, reader: Arrow, form: str, target: Path | None, view: View) -> None:
@@ -179,24 +153,16 @@ def _cell(value: Arrow) -> str | int | float | None:
 
 
 def _plain(value: Arrow) -> Arrow:
-    """A value as JSON has it; None for NaN and infinite numbers."""
+    """A value as JSON has it: None for NaN and infinite numbers, text for what is neither a number nor a list."""
     if isinstance(value, float):
         return value if math.isfinite(value) else None
+    if isinstance(value, Decimal):
+        return int(value) if value == value.to_integral_value() else float(value)
     if isinstance(value, Mapping):
         return {str(name): _plain(item) for name, item in value.items()}
     if isinstance(value, list | tuple):
         return [_plain(item) for item in value]
-    return value if value is None or isinstance(value, str | int) else _spelled(value)
-
-
-def _spelled(value: Arrow) -> str | int | float:
-    """A value of a type that JSON lacks."""
-    if isinstance(value, decimal.Decimal):
-        whole = value == value.to_integral_value()
-        return int(value) if whole and abs(value) < _SAFE else float(value)
-    if isinstance(value, dt.date | dt.time):
-        return value.isoformat()
-    return value.hex() if isinstance(value, bytes) else str(value)
+    return value if value is None or isinstance(value, str | int) else str(value)
 
 
 def _pieces(database: Database, reader: Arrow, form: str) -> Iterator[str]:

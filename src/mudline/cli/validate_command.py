@@ -151,14 +151,10 @@ class Order(NamedTuple):
 
 
 def judge_order(order: Order) -> tuple[Verdict, list[Diagnostic]]:
-    """The verdict on a deck and its findings as they are to be shown."""
-    return judge(order.data, order.file.seen_from(order.here), order.units, verbose=order.verbose)
-
-
-def judge(data: bytes, file: Input, units: str | None, *, verbose: bool) -> tuple[Verdict, list[Diagnostic]]:
-    """The verdict on the content of a file and its errors; `verbose` adds the warnings."""
+    """The verdict on a deck and its errors; `verbose` adds the warnings."""
+    file = order.file.seen_from(order.here)
     try:
-        deck = load_bytes(data, file.name, units=units, folder=file.folder)
+        deck = load_bytes(order.data, file.name, units=order.units, folder=file.folder)
     except DeckError as error:
         return Verdict(file.name, 0, 0, 0, 0, len(error.diagnostics), 0, "illegal"), list(error.diagnostics)
     context = LintContext(deck)
@@ -170,7 +166,7 @@ def judge(data: bytes, file: Input, units: str | None, *, verbose: bool) -> tupl
     behind = f", {counted(len(warnings), 'warning')}" if warnings else ""
     verdict = "illegal" if errors else f"legal{behind}" if deck.sections else "empty"
     counts = (len(deck.sections), keywords, curves, elements, len(errors), len(warnings))
-    found = sorted([*errors, *warnings], key=lambda one: one.sort_key) if verbose else errors
+    found = sorted([*errors, *warnings], key=lambda one: one.sort_key) if order.verbose else errors
     return Verdict(deck.file, *counts, verdict), found
 
 

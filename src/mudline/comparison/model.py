@@ -87,7 +87,7 @@ Spans = NDArray[np.int64]
 """First and last numbers (k, 2) in ascending order, with a gap between one span and the next."""
 
 NO_SPANS: Spans = np.zeros((0, 2), dtype=np.int64)
-_FEWEST = 5
+_WORTH_A_RANGE = 5
 """Single numbers with one step between them from which on they are written as a range with that step."""
 _AT_ONCE = 100_000
 
@@ -140,7 +140,7 @@ def _pieces(spans: Spans) -> Iterator[str]:
     written = 0
     for begin, end in _stepped(spans):
         first = max(begin, written)
-        if end - first + 1 >= _FEWEST:
+        if end - first + 1 >= _WORTH_A_RANGE:
             yield from _listed(spans[written:first])
             start, following = int(spans[first, 0]), int(spans[first + 1, 0])
             yield f"{start}-{int(spans[end, 0])} step {following - start}"
@@ -156,7 +156,7 @@ def _stepped(spans: Spans) -> Iterator[tuple[int, int]]:
         steps = _steps(spans[max(start - 1, 0) : start + _AT_ONCE + 1])
         begins.append(np.flatnonzero(steps[1:] != steps[:-1]) + max(start, 1))
     bounds = np.append(np.concatenate(begins), count)
-    for at in np.flatnonzero(np.diff(bounds) >= _FEWEST - 2).tolist():
+    for at in np.flatnonzero(np.diff(bounds) >= _WORTH_A_RANGE - 2).tolist():
         begin, end = int(bounds[at]), int(bounds[at + 1])
         if _steps(spans[begin : begin + 2])[0]:
             yield begin, end

@@ -13,7 +13,7 @@ import numpy as np
 
 from mudline.contact.arrays import FloatArray, IndexArray, SmallIndexArray
 
-_MOST_RUNS = 16
+_FEW_RUNS = 16
 """Runs up to which the parts of arrays are copied one by one."""
 
 
@@ -149,7 +149,7 @@ def _runs(first: IndexArray, second: IndexArray) -> list[_Run] | None:
     """Runs of elements whose two nodes go up by one; None where there are many."""
     count = len(first)
     breaks = np.flatnonzero((np.diff(first) != 1) | (np.diff(second) != 1)) + 1
-    if len(breaks) >= _MOST_RUNS:
+    if len(breaks) >= _FEW_RUNS:
         return None
     starts, stops = [0, *breaks.tolist()], [*breaks.tolist(), count]
     return [

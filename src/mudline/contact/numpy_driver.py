@@ -27,7 +27,7 @@ BLOCK = 32768
 """Elements or nodes, times steps, at a time."""
 _WIDTH = 4096
 """Elements or nodes in a range of a long line, at least: over a few steps what belongs to them stays in caches."""
-_MOST = 2**20
+_BATCH = 2**20
 """Nodes times steps of a batch, at most."""
 
 
@@ -40,7 +40,7 @@ class NumpyDriver:
         elements, nodes = len(tables.half), len(tables.given.node_ids)
         longest = max(elements, nodes, 1)
         narrow = min(_WIDTH if tables.history else BLOCK, longest)
-        self.steps = max(1, min(BLOCK // narrow, _MOST // longest))
+        self.steps = max(1, min(BLOCK // narrow, _BATCH // longest))
         """How many steps at a time are fastest."""
         width = BLOCK // self.steps
         flat = isinstance(seabed, FlatSeabed)

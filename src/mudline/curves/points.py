@@ -49,7 +49,7 @@ class CurveError(ValueError):
         return type(self), (self.code, self.index, str(self))
 
 
-_SMALLEST_NORMAL = np.finfo(np.float64).tiny
+_NORMAL = np.finfo(np.float64).tiny
 
 
 class CurvePoints(NamedTuple):
@@ -124,10 +124,10 @@ def _slopes(ratios: FloatArray, forces: FloatArray, order: IndexArray) -> FloatA
         widths = ratios[1:] - ratios[:-1]
         plain = (forces[1:] - forces[:-1]) / widths
     steepness = np.abs(plain)
-    if np.minimum.reduce(steepness) >= _SMALLEST_NORMAL and np.maximum.reduce(steepness) < np.inf:
+    if np.minimum.reduce(steepness) >= _NORMAL and np.maximum.reduce(steepness) < np.inf:
         return plain  # as those of most curves
     slopes = difference_quotient(forces[1:], forces[:-1], widths)
-    subnormal = (forces[1:] != forces[:-1]) & (np.abs(slopes) < _SMALLEST_NORMAL)
+    subnormal = (forces[1:] != forces[:-1]) & (np.abs(slopes) < _NORMAL)
     sound = np.isfinite(widths) & np.isfinite(slopes) & ~subnormal
     if np.count_nonzero(sound) < len(sound):
         segment = int(sound.argmin())

@@ -317,7 +317,7 @@ def record_schema(part: type[Part]) -> RecordSchema:
     """The declared fields of a class, found once."""
     found = RecordSchema()
     for order, (name, info) in enumerate(part.model_fields.items()):
-        meta = next((item for item in _metadata(info) if isinstance(item, FieldInfo)), None)
+        meta = next((item for item in metadata_of(info) if isinstance(item, FieldInfo)), None)
         records = _records(info.annotation)
         if meta is None and not records:
             continue
@@ -407,12 +407,13 @@ def _parts(annotation: Any) -> list[Any]:
     return [] if annotation is NoneType else [annotation]
 
 
-def _metadata(info: pydantic_fields.FieldInfo) -> list[Any]:
+def metadata_of(info: pydantic_fields.FieldInfo) -> list[Any]:
+    """What a field is annotated with, and its types taken apart."""
     return [*info.metadata, *_parts(info.annotation)]
 
 
 def _kind(info: pydantic_fields.FieldInfo) -> Kind | None:
-    return next((item for item in _metadata(info) if isinstance(item, Kind)), None)
+    return next((item for item in metadata_of(info) if isinstance(item, Kind)), None)
 
 
 def _choices(annotation: Any) -> tuple[str, ...]:

@@ -11,12 +11,11 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import field
 from functools import lru_cache, partial
-from typing import Any
-
-from pydantic import ValidationError
+from typing import Any, cast
 
 from mudline.diagnostics import Problem, Span
 from mudline.keywords.grammar import ROW, SMALL, Tree, fitting, records_of, terminal_of
+from mudline.keywords.making import can_be_made, make
 from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Record, columns_of, record_schema
 from mudline.keywords.table import LARGEST_WHOLE, Column, from_numbers, from_rows
 from mudline.keywords.text import UnreadableError, Value, read_value
@@ -42,7 +41,7 @@ _NUMBERS = re.compile(rf"(?:[ \t]*+{_NUMBER}[ \t]*+(?:,[ \t]*+{_NUMBER}[ \t]*+)*
 """Rows of numbers that are separated by commas: those of most tables."""
 _SHORT_TABLE = 1600
 """Characters of such rows: longer ones are read sooner with arrays."""
-_FEWEST_MIXED = 4
+_MIXED_FIELDS = 4
 """Fields of a row in which two commas can be decimal ones and another one is not."""
 
 Values = dict[str, Any]
@@ -56,9 +55,13 @@ class _OddError(Exception):
 
 @dataclass(slots=True)
 class _Form:
-    """How a record of one form is read: what each of its own lines gives, by their indices, and the records in it."""
+    """How a record of one form is read: what each of its own lines gives, by their indices, and the records in it.
+
+    `part` is what is made of it; None where pydantic makes it with the block.
+    """
 
     sticky: str
+    part: type[Record] | None
     lines: list[tuple[int, _Reading]] = field(default_factory=list)
     children: list[tuple[str, _Form]] = field(default_factory=list)
 
@@ -72,8 +75,12 @@ class _Form:
             values = form.values(lines, stuck.get(name))
             if form.sticky:
                 stuck[name] = values.get(form.sticky) or stuck.get(name)
-            found.setdefault(name, []).append(values)
+            found.setdefault(name, []).append(form.made(values))
         return found
+
+    def made(self, values: Values) -> Values | Part:
+        """The record of its values, or these."""
+        return make(self.part, values) if self.part else values
 
 
 def read_plain(
@@ -86,8 +93,9 @@ def read_plain(
     if declared.tabular and leaves and leaves[-1].span.end - leaves[0].span.start > LONGEST_TABLE:
         return None
     try:
-        return declared.model_validate({"keyword": name, **_contents(text, leaves, declared, keys)})
-    except (_OddError, ValidationError):
+        values = {"keyword": name, **_contents(text, leaves, declared, keys)}
+        return cast("Block", make(declared, values)) if can_be_made(declared) else declared.model_validate(values)
+    except (_OddError, ValueError):
         return None
 
 
@@ -98,8 +106,9 @@ def _contents(text: str, leaves: Sequence[Leaf], declared: type[Block], keys: fr
     slots = record_schema(declared).slots
     if records and len(slots) == 1:
         entries = _entries(slots[0].record[records.rule], lines, records.opening, tabular=declared.tabular)
-        # those of a long block are read as they are checked: all at once would take several times the memory
-        return {slots[0].json: list(entries) if len(leaves) <= SMALL else entries}
+        # values of a long block are read as pydantic checks them: all at once would take several times the memory
+        at_once = len(leaves) <= SMALL or can_be_made(declared)
+        return {slots[0].json: list(entries) if at_once else entries}
     if len(leaves) > SMALL:
         raise _OddError
     terminals: list[str] = []
@@ -147,8 +156,8 @@ def _terminal(written: str, keys: frozenset[str]) -> str:
 
 def _entries(
     record: type[Record], lines: Iterable[tuple[str, str]], opening: str, *, tabular: bool
-) -> Iterator[Values]:
-    """The values of each record, while its lines are read."""
+) -> Iterator[Values | Part]:
+    """Each record or its values, while its lines are read."""
     if record.sticky:
         raise _OddError
     terminals: list[str] = []
@@ -156,14 +165,16 @@ def _entries(
     for terminal, fields in lines:
         if terminal == opening:
             if terminals:
-                yield _known_form(record, tuple(terminals), tabular).values(written)
+                form = _known_form(record, tuple(terminals), tabular)
+                yield form.made(form.values(written))
             terminals, written = [], []
         elif not terminals:
             raise _OddError
         terminals.append(terminal)
         written.append(fields)
     if terminals:
-        yield _known_form(record, tuple(terminals), tabular).values(written)
+        form = _known_form(record, tuple(terminals), tabular)
+        yield form.made(form.values(written))
 
 
 def _known_form(record: type[Record], terminals: tuple[str, ...], tabular: bool) -> _Form:  # noqa: FBT001 - for the cache
@@ -186,7 +197,7 @@ def _form_of(record: type[Record], terminals: tuple[str, ...], tabular: bool) ->
 def _form(record: type[Record], tree: Tree, *, tabular: bool) -> _Form:
     """How a record is read that has this tree."""
     found = record_schema(record)
-    form = _Form(record.sticky)
+    form = _Form(record.sticky, record if can_be_made(record) else None)
     given: list[str] = []
     for child in tree.children:
         if isinstance(child, Tree):
@@ -273,7 +284,7 @@ def _counted(row: type[Part], fields: str) -> Iterator[tuple[str, FieldSpec]]:
     words = _words(fields)
     if not schema.fewest <= len(words) <= len(schema.columns):
         raise _OddError
-    if len(words) >= _FEWEST_MIXED and (" " in fields or "\t" in fields) and _TIGHT_COMMA.search(fields):
+    if len(words) >= _MIXED_FIELDS and (" " in fields or "\t" in fields) and _TIGHT_COMMA.search(fields):
         raise _OddError  # some of the commas may be decimal ones
     return zip(words, schema.columns, strict=False)
 

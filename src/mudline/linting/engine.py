@@ -132,7 +132,7 @@ def unsuppressed(context: LintContext, problems: list[Problem], chosen: Sequence
     return problems if found is None else found.split(problems, chosen)[0]
 
 
-_LONGEST_BLOCK = 4096
+_SHORT_BLOCK = 4096
 """Characters of a block that is remembered: decks of a project share their short blocks."""
 
 
@@ -154,7 +154,7 @@ def _read_once(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -
     """What `read_block` gives for a block; those of the same text share their model."""
     start = raw.head.span.start
     end = (raw.leaves[-1] if raw.leaves else raw.head).span.end
-    if end - start > _LONGEST_BLOCK:
+    if end - start > _SHORT_BLOCK:
         return read_block(text, raw, declared, last=last)
     piece = _Piece(text[start:end])
     piece.raw, piece.start = raw, start

@@ -268,7 +268,7 @@ def _names() -> Iterator[str]:
 
 FORMAT = "mudline-baseline/1"
 _KEYS = {"path", "code", "content", "count"}
-_LONGEST = 500
+_RECORDED = 500
 """Characters of a line that are recorded."""
 
 
@@ -323,7 +323,7 @@ class Baseline:
         relative = self._relative(path)
         lines = len(source.line_starts)
         for one in found:
-            content = source.line(one.line).strip()[:_LONGEST] if one.line <= lines else ""
+            content = source.line(one.line).strip()[:_RECORDED] if one.line <= lines else ""
             yield Entry(relative, one.code, content)
 
     def _relative(self, path: str) -> str:

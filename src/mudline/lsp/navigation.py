@@ -28,7 +28,7 @@ from mudline.lsp.things import is_label
 from mudline.scene.deck_values import find_file
 from mudline.scene.references import given_names
 from mudline.scene.restart import decks_before, find_deck
-from mudline.scene.sets import ALL
+from mudline.scene.sets import ALL, LONGEST_NAME
 from mudline.syntax.edits import TextEdit, apply_edits
 
 # ----------------------------------------------------------------------------------------------------- decks of a chain
@@ -76,7 +76,6 @@ def _continues(deck: Deck, path: Path) -> bool:
 
 # -------------------------------------------------------------------------------------------------------------- answers
 
-_LONGEST_NAME = 256
 _NOT_IN_NAMES = ',="{}[]%/\r\n'
 
 
@@ -205,8 +204,8 @@ class Navigator:
         word = WORDS[old.kind]
         if not name or name != name.strip() or any(letter in name for letter in _NOT_IN_NAMES):
             raise failed(f"{shown(name)} cannot be the name of a {word}: leave out commas, =, quotes and brackets")
-        if len(name) > _LONGEST_NAME:
-            raise failed(f"a name has at most {_LONGEST_NAME} characters, found {len(name)}")
+        if len(name) > LONGEST_NAME:
+            raise failed(f"a name has at most {LONGEST_NAME} characters, found {len(name)}")
         if old.kind is Names.PARAMETER and not _is_parameter(name):
             raise failed(f"{shown(name)} cannot be used in an equation: use letters, digits and _")
         scene = self.analysis.scene

@@ -54,7 +54,7 @@ class DeckProtocol(LanguageServerProtocol):
 
 DELAY = 0.1
 """Seconds without a change after which a deck is checked."""
-_LONGEST_DELAY = 3.0
+_DELAY_AT_MOST = 3.0
 _PAUSE = 2.0
 """How many times as long as its last check a pause in typing has to be."""
 
@@ -180,7 +180,7 @@ class DeckServer(LanguageServer):
 
     def _delay(self, document: Document) -> float:
         last = self.decks.last(document.uri)
-        return min(max(DELAY, _PAUSE * last.seconds), _LONGEST_DELAY) if last else DELAY
+        return min(max(DELAY, _PAUSE * last.seconds), _DELAY_AT_MOST) if last else DELAY
 
     def _schedule(self, uri: str, delay: float) -> None:
         """Check a document when nothing has changed for some time; an older plan is dropped."""

@@ -172,7 +172,7 @@ def extension_summary(scene: Scene) -> list[dict[str, Any]]:
 
 # ------------------------------------------------------------------------------------------------ static embedment
 
-_MOST = 100
+_TABLE_ROWS = 100
 """Rows: what a table can show."""
 
 
@@ -197,7 +197,7 @@ def static_embedment(scene: Scene) -> list[dict[str, Any]]:
     known = np.flatnonzero((weight > 0.0) & np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR)))
     arrays, zones = scene.law_arrays(), _Zones.of_elements(scene)
     rows = [_of_element(scene, arrays, zones, case) for case in _cases(scene, weight, zones, known)]
-    return [*rows, *_of_nodes(scene, weight)][:_MOST]
+    return [*rows, *_of_nodes(scene, weight)][:_TABLE_ROWS]
 
 
 class _Zones(NamedTuple):
@@ -228,7 +228,7 @@ def _cases(scene: Scene, weight: Floats, zones: _Zones, elements: Indices) -> li
     sizes = np.nan_to_num(scene.diameter[elements])
     width, side = zones.half_width[elements], zones.one_sided[elements]
     keys = np.column_stack([scene.laws.of_element[elements], weight[elements], sizes, width, side])
-    firsts = np.sort(np.unique(keys, axis=0, return_index=True)[1])[:_MOST]
+    firsts = np.sort(np.unique(keys, axis=0, return_index=True)[1])[:_TABLE_ROWS]
     found = elements[firsts].tolist()
     return [_Case(scene.law_sets[at], scene.law_names[at], float(weight[at]), at) for at in found]
 

@@ -35,7 +35,7 @@ _MORE_WEIGHT = ("COATINGS", "INTERNAL FLUID", "DRILLING MUD", "MASS", "POINT BUO
 """Keywords that are not read, and make the weight another one than that of the sections."""
 _TOUCHING = 1e-3
 """Clearance over diameter of a line that touches the seabed: its datum is right."""
-_LONGEST_CAPTION = 90
+_CAPTION = 90
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +109,7 @@ def caption(warnings: Sequence[ContactWarning]) -> str:
     """The line of a plot that says what is doubtful, "" where nothing is."""
     if not warnings:
         return ""
-    return cut(f"{counted(len(warnings), 'warning')}: {'; '.join(one.brief for one in warnings)}", _LONGEST_CAPTION)
+    return cut(f"{counted(len(warnings), 'warning')}: {'; '.join(one.brief for one in warnings)}", _CAPTION)
 
 
 class _Clearance(NamedTuple):

@@ -44,7 +44,7 @@ _AHEAD = 3
 _SECONDS = {False: 0.2, True: 1.0}
 """Seconds that the items should take that are sent together: to a process, and to a worker on another machine."""
 _FIRST = 4
-_LARGEST = 500
+_TOGETHER = 500
 """Items that are sent together: before their pace is known, and at most."""
 _COUNTED = 5.0
 """Seconds after which the workers of a scheduler are counted again: they come and go."""
@@ -171,7 +171,7 @@ def in_order(
     while True:
         wanted = _SECONDS[pool.scheduler is not None] * done / spent if spent else _FIRST
         share = (count - number) / (2 * pool.size)
-        part = list(islice(rest, max(1, min(int(wanted), int(share), _LARGEST))))
+        part = list(islice(rest, max(1, min(int(wanted), int(share), _TOGETHER))))
         number += len(part)
         orders = [given for _, given in part if given is not None]
         if part:

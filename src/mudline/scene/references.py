@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from mudline.keywords.library.line_section_groups import LineSectionGroups
     from mudline.keywords.library.p_y import LateralSoil
 
-_MOST_FREEDOMS = 6
+_FREEDOMS = 6
 _MARKS = re.compile(r"[0-9]+|\b\w{1,2}\b")
 """Numbers and words of one or two letters: they distinguish things of a kind."""
 
@@ -162,7 +162,7 @@ def _freedom_and_step(values: FixedValues) -> tuple[int, object]:
 def _is_no_freedom(freedom: object) -> bool:
     """Whether a value is not a degree of freedom; one that could not be read may be one. Equations give 6.0 for 6."""
     known = isinstance(freedom, int | float) and not math.isnan(freedom)
-    return known and freedom not in range(1, _MOST_FREEDOMS + 1)
+    return known and freedom not in range(1, _FREEDOMS + 1)
 
 
 def check_lines(context: Context) -> None:

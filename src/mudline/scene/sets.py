@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     from mudline.scene.csv_file import ExternalElements
 
 ALL = "all"
+LONGEST_NAME = 256
+"""Characters of a name of a set that the language allows."""
 _NOTHING = np.zeros(0, dtype=np.intp)
 
 

@@ -31,10 +31,10 @@ FACTOR, FAR, TINY_LENGTH, FAST = 1e12, 1e6, 1e-12, 1e3
 STEPS = (1e-9, 1e3)
 _TOLERANCE = Decimal("1e-12")
 _DIGITS = Context(prec=50)
-_LARGEST = Decimal(float(np.finfo(np.float64).max))
+_FINITE = Decimal(float(np.finfo(np.float64).max))
 _CLIPPED = 1e290
 """Forces of a scaled curve that would be larger are this large."""
-_SMALLEST = Decimal("1e-307")
+_TINY = Decimal("1e-307")
 """Numbers below have fewer digits."""
 _DIAMETER = 0.3
 _SLOW = 1e-9
@@ -96,9 +96,9 @@ def _fault(numbers: Callable[[], Iterator[_Number]]) -> str:
             for found, right, scale in numbers():
                 exact.append(right)
                 if not math.isfinite(found):
-                    if abs(right) <= _LARGEST:
+                    if abs(right) <= _FINITE:
                         return f"gives {found}, exact is {float(right)!r}"
-                elif abs(Decimal(found) - right) > (0 if scale is None else _TOLERANCE * scale + _SMALLEST):
+                elif abs(Decimal(found) - right) > (0 if scale is None else _TOLERANCE * scale + _TINY):
                     return f"gives {found!r}, exact is {float(right)!r}"
     except OverflowError:  # no float64 can hold it: there is nothing to compare
         return ""
@@ -229,7 +229,7 @@ class _Normal:
     def _forces(self, depths: Sequence[float], length: float = 1.0) -> Iterator[_Number]:
         """Forces of elements at depths, and the reactions of their nodes."""
         exacts = [self.exact(depth) for depth in depths]
-        if max(abs(term) for exact in exacts for term in exact) * Decimal(max(length, 1.0)) > _LARGEST:
+        if max(abs(term) for exact in exacts for term in exact) * Decimal(max(length, 1.0)) > _FINITE:
             raise OverflowError
         model = _probes(self.given, self.element, {self.law: self.numbers}, len(depths), length)
         result = model.evaluate(_at(depths, length))

@@ -23,7 +23,7 @@ MOST_STEPS = 5000
 """Of a motion: smaller steps are not tried. A law with a very narrow stiff part would ask for millions."""
 _TOLERANCE = 1e-12
 """Of the largest term of the balance of forces: what is left of it when Newton's method has converged."""
-_MOST_ITERATIONS = 120
+_ITERATIONS = 120
 _COLLAPSED = 4.0 * float(np.finfo(np.float64).eps)
 """Width of a bracket over its larger end at which it holds no other number: the force jumps there."""
 
@@ -166,7 +166,7 @@ def solved(residual: Residual, start: FloatArray) -> tuple[FloatArray, IndexArra
     low, high = np.full(root.shape, -np.inf), np.full(root.shape, np.inf)
     evaluations = np.ones(root.shape, np.intp)
     value, slope, size = residual(root)
-    for iteration in range(_MOST_ITERATIONS):
+    for iteration in range(_ITERATIONS):
         low, high = np.where(value < 0.0, root, low), np.where(value > 0.0, root, high)
         width = _COLLAPSED * np.maximum(np.abs(low), np.abs(high))
         collapsed = np.isfinite(width) & (high - low <= width)

@@ -31,19 +31,19 @@ Words = NDArray[np.uint64]
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-MOST_DIGITS = 19
+DIGITS_OF_64_BITS = 19
 """The longest number whose digits always fit in 64 bits."""
 
 _LOWEST, _HIGHEST = -342, 308
 _ERROR = np.uint64(4)  # the power is cut off, so are three of the four partial products: less than one each
 _HALF, _LOWER = np.uint64(32), np.uint64(0xFFFFFFFF)
 _BIAS, _FRACTION = 1023, 52
-_LARGEST = 2046 - 64  # with a product below 2^64 no double overflows
+_SCALES = 2046 - 64  # with a product below 2^64 no double overflows
 _NORMAL = np.finfo(np.float64).tiny
 _EXACT, _MOST_EXACT = 2**53, 22
 _TENS = 10.0 ** np.arange(_MOST_EXACT + 1)
-_PLACES = 10 ** np.arange(MOST_DIGITS + 1, dtype=np.uint64)
-_UNUSED = [64 - 8 * np.clip(np.arange(MOST_DIGITS + 1) - first, 0, 8).astype(np.uint64) for first in (0, 8, 16)]
+_PLACES = 10 ** np.arange(DIGITS_OF_64_BITS + 1, dtype=np.uint64)
+_UNUSED = [64 - 8 * np.clip(np.arange(DIGITS_OF_64_BITS + 1) - first, 0, 8).astype(np.uint64) for first in (0, 8, 16)]
 _STEPS = tuple(
     (np.uint64(mask), np.uint64(factor), np.uint64(shift))
     for mask, factor, shift in (
@@ -150,7 +150,7 @@ def nearest(digits: Words, power: Whole, cut: Flags | None = None) -> tuple[Floa
     scale -= shift
     if outside:
         sure &= place == power - _LOWEST
-    if int(scale.min()) < 1 or int(scale.max()) > _LARGEST:
+    if int(scale.min()) < 1 or int(scale.max()) > _SCALES:
         with np.errstate(over="ignore"):
             values = np.ldexp(values, scale - _BIAS)
         sure &= ((values > _NORMAL) | (digits == 0)) & np.isfinite(values)  # a smaller one is rounded again
@@ -165,7 +165,7 @@ def nearest(digits: Words, power: Whole, cut: Flags | None = None) -> tuple[Floa
 
 _TAB, _LINE, _BLANK, _PLUS, _COMMA, _MINUS, _POINT, _ZERO = b"\t\n +,-.0"
 _EXPONENT, _ANY_CASE = ord("e"), 0x21  # what makes an e of E, d and D, and of nothing else
-_MOST_PLACES = 8
+_PLACES_OF_A_WORD = 8
 _FEW = 16  # fields to a mark from which on marks are looked up one by one
 _D_TO_E = bytes.maketrans(b"dD", b"EE")
 
@@ -266,21 +266,21 @@ class NumberRows:
             sign = self.letters.take(mark + 1)
             negative = sign == _MINUS
             places = end - mark - 1 - (negative | (sign == _PLUS))
-            value = whole_numbers(self.words, end, np.minimum(places, _MOST_PLACES)).view(np.intp)
+            value = whole_numbers(self.words, end, np.minimum(places, _PLACES_OF_A_WORD)).view(np.intp)
             scale[fields] += np.where(negative, -value, value)
             accounted = digits.copy()
             accounted[fields] += places
             short, empty = np.ones(len(ends), dtype=bool), np.zeros(len(ends), dtype=bool)
-            short[fields], empty[fields] = places <= _MOST_PLACES, places < 1
+            short[fields], empty[fields] = places <= _PLACES_OF_A_WORD, places < 1
             faults.append(empty)
         faulty = self._faulty(faults, accounted)
         if faulty is not None:
             whole[faulty] = fraction[faulty] = digits[faulty] = 0
         cut = None
-        if digits.max() > MOST_DIGITS:
-            cut = digits > MOST_DIGITS
-            whole = np.minimum(whole, MOST_DIGITS)
-            fraction = np.minimum(fraction, MOST_DIGITS - whole)
+        if digits.max() > DIGITS_OF_64_BITS:
+            cut = digits > DIGITS_OF_64_BITS
+            whole = np.minimum(whole, DIGITS_OF_64_BITS)
+            fraction = np.minimum(fraction, DIGITS_OF_64_BITS - whole)
             scale += digits - whole - fraction
         number = whole_numbers(self.words, begin + whole, whole)
         if point is not power:

@@ -28,7 +28,7 @@ _ONLY_EQUATIONS = re.compile(r'(?:[^"{\[]++|(?<==)\[[^\[\]"{,]*+\])*+')
 _SHORT = 800  # characters: shorter runs are read sooner without arrays
 PIECE = 256 * 1024
 """Characters that are read at once: their arrays stay in the fast memory of a processor."""
-_MOST_ODD = 0.5
+_ODD_SHARE = 0.5
 _ROOM = 1.05
 _KEPT_BACK = 1 << 22
 _REFUSED = 2
@@ -143,7 +143,7 @@ def _read_piece(lines: str, columns: int) -> Rows:
     found = rows.read()
     if found is None:
         odd = rows.odd_lines()
-        if 0 < np.count_nonzero(odd) <= _MOST_ODD * len(odd):
+        if 0 < np.count_nonzero(odd) <= _ODD_SHARE * len(odd):
             found = NumberRows("\n".join(compress(lines.split("\n"), ~odd))).read()
     if found is None or found[0].shape[1] > columns:
         return read_rows_slow(lines, Span(0, len(lines)), columns)

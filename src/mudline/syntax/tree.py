@@ -21,7 +21,7 @@ _LONG = 1 << 16
 """Characters of a run, or of a text, from which on the run is found with arrays."""
 _CHUNK = 1 << 18
 _LF, _PLUS, _SLASH, _NINE = b"\n+/9"  # a line of a run begins with a character from + to 9, but not with a slash
-_LONGEST_KNOWN = 100
+_REMEMBERED = 100
 """Characters of a line whose name is remembered: few lines are longer, and most decks have the same ones."""
 _TERMINAL = re.compile(r"^([A-Z]+)\.?(\d*): /(.*)/$", re.MULTILINE)
 
@@ -122,7 +122,7 @@ def _long_runs(text: str) -> Iterator[Span]:
 
 def canonical_name(line: str) -> str:
     """The name that a `$` or `*` line gives: upper case, single blanks, none around a comma."""
-    return _known_name(line) if len(line) <= _LONGEST_KNOWN else _known_name.__wrapped__(line)
+    return _known_name(line) if len(line) <= _REMEMBERED else _known_name.__wrapped__(line)
 
 
 @lru_cache(maxsize=1024)

@@ -29,7 +29,7 @@ from mudline.contact.laws import Law, Parameter, Value, where
 from mudline.lean import dataclass
 from mudline.short_repr import short_repr
 
-_SMALLEST = float(np.nextafter(0.0, 1.0))
+_TINY = float(np.nextafter(0.0, 1.0))
 _FAR, _DROP = 2.0**-1000, 2.0**-550
 
 
@@ -56,7 +56,7 @@ def norm(one: Value, other: Value) -> Value:
     """Return sqrt(one^2 + other^2) without squares that under- or overflow."""
     one, other = np.abs(one), np.abs(other)
     larger = np.maximum(one, other)
-    ratio = np.minimum(one, other) / np.maximum(larger, _SMALLEST)
+    ratio = np.minimum(one, other) / np.maximum(larger, _TINY)
     return larger * np.sqrt(1.0 + ratio * ratio)
 
 
@@ -86,7 +86,7 @@ def in_ellipse(trial_1: Value, trial_2: Value, limit_1: Value, limit_2: Value) -
 
 def slip_distance(slips: Value, elongation: Value, force: Value, stiffness: Value) -> Value:
     """Return how far the stick point moves: until the spring bears its force."""
-    return where(slips, elongation - force / np.maximum(stiffness, _SMALLEST), 0.0)
+    return where(slips, elongation - force / np.maximum(stiffness, _TINY), 0.0)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

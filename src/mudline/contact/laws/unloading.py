@@ -68,12 +68,12 @@ class UnloadingHistory:
 
 
 _ROUNDING = 2.0**-50
-_LARGEST = float(np.finfo(np.float64).max)
+_FINITE = float(np.finfo(np.float64).max)
 
 
 def line_stiffness(stiffness: Value, z_max: Value, force_max: Value) -> Value:
     """Return ku' of the line through the deepest point; `stiffness` is already as steep as the virgin path."""
-    secant = np.minimum(force_max / where(z_max > 0.0, z_max, 1.0), _LARGEST)
+    secant = np.minimum(force_max / where(z_max > 0.0, z_max, 1.0), _FINITE)
     return np.maximum(stiffness, secant)
 
 

@@ -29,7 +29,7 @@ TURNED = -0.985
 """Cosine between two elements of a line that runs back over itself, to 10 degrees."""
 BETTER = 3.0
 """Times as far from its neighbours that a node with two halves of a number is as with the number."""
-MOST_ROWS = 1000
+COMMA_ROWS = 1000
 """Rows of a table in which decimal commas are looked for."""
 
 _HALVES = re.compile(r"([-+]?[0-9]+),([0-9]+)")
@@ -254,7 +254,7 @@ def _split_rows(text: TextOrigin, table: Table, where: Where) -> list[tuple[Wher
     pairs = np.any(whole[:, 1:3] & whole[:, 2:4] & (values[:, 2:4] >= 0.0), axis=1) & full
     few = int(np.count_nonzero(full)) <= 0.5 * len(full)
     found: list[tuple[Where, str, str]] = []
-    for row in np.flatnonzero(pairs)[:MOST_ROWS].tolist():
+    for row in np.flatnonzero(pairs)[:COMMA_ROWS].tolist():
         fields = _fields(text, where.inside(row))
         for column, names in ((1, "x and y"), (2, "y and z")) if len(fields) == 4 else ():
             halves = ",".join(fields[column : column + 2])

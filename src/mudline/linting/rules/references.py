@@ -12,7 +12,7 @@ from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
 from mudline.keywords.text import shown
 from mudline.linting.rule import LintContext, entries_of_sets, limited, rule
 from mudline.linting.rules.style_lines import line_around
-from mudline.scene.sets import ALL
+from mudline.scene.sets import ALL, LONGEST_NAME
 from mudline.syntax.edits import TextEdit, with_line_ends
 
 if TYPE_CHECKING:
@@ -25,7 +25,6 @@ REF016 = Code("REF016", "repeated-set", Severity.WARNING)
 REF017 = Code("REF017", "repeated-parameter", Severity.WARNING)
 REF018 = Code("REF018", "missing-ocean", Severity.WARNING)
 
-LONGEST_NAME = 256
 LONGEST_LIST = 20
 
 

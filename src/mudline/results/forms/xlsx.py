@@ -18,11 +18,11 @@ from mudline.results.forms import Columns, Contents, FormError, More, Output, Wr
 from mudline.results.forms.text import blocks
 from mudline.short_repr import cut
 
-MOST_ROWS = 1_048_576
+SHEET_ROWS = 1_048_576
 """Rows of a sheet."""
 _HEADINGS = 2
 """Rows of them: names and units."""
-_LONGEST = 32_767
+_CELL_LETTERS = 32_767
 """Characters of a cell."""
 _NARROW, _WIDE = 10, 40
 """Widths of columns in characters."""
@@ -37,8 +37,8 @@ def opened(output: Output) -> Iterator[Writer]:
     """What writes one workbook. Raises FormError where a sheet has no place for all rows of a table."""
     contents = output.contents
     for table, rows in contents.rows.items():
-        if contents.steps * rows > MOST_ROWS - _HEADINGS:
-            most = f"a sheet of a workbook holds {MOST_ROWS - _HEADINGS}; write .parquet instead"
+        if contents.steps * rows > SHEET_ROWS - _HEADINGS:
+            most = f"a sheet of a workbook holds {SHEET_ROWS - _HEADINGS}; write .parquet instead"
             raise FormError(f"{contents.steps * rows} rows of {table}: {most}")
     with TemporaryDirectory(prefix=".mudline-", dir=output.folder, ignore_cleanup_errors=True) as temporary:
         plain = {"strings_to_formulas": False, "strings_to_urls": False, "strings_to_numbers": False}
@@ -119,4 +119,4 @@ def _cells(column: Column, first: int, last: int, block: slice) -> Sequence[obje
 
 def _text(name: str) -> str:
     """A name as a cell can hold it; half a surrogate pair is escaped."""
-    return cut(name.encode("utf-8", "backslashreplace").decode(), _LONGEST)
+    return cut(name.encode("utf-8", "backslashreplace").decode(), _CELL_LETTERS)

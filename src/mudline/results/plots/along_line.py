@@ -28,7 +28,7 @@ from mudline.results.plots.style import (
 )
 from mudline.scene.numbering import Floats, Indices
 
-_MOST_SLIPPING = 80
+_MARKED = 80
 """Slipping nodes of a line that are marked."""
 
 
@@ -97,7 +97,7 @@ def friction(axes: Axes, data: PlotData, stretch: Stretch) -> None:
             nodes, arcs = stretch.nodes(number)
             _plot(axes, (nodes, arcs), values, style, None if place else name)
             at = np.flatnonzero(result.friction_state_of(side)[nodes] == SLIDING.index("slip"))
-            at = at[:: max(1, len(at) // _MOST_SLIPPING)]
+            at = at[:: max(1, len(at) // _MARKED)]
             slips = slips or bool(at.size)
             axes.plot(arcs[at], values[nodes[at]], "x", markersize=4, color=style.color)
     if slips:

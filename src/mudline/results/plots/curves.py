@@ -108,7 +108,7 @@ def _legend(figure: Figure, handles: list[Line2D], rows: list[dict[str, Any]]) -
 
 # ------------------------------------------------------------------------------------------- with evaluated points
 
-_MOST_CURVES = 6
+_NAMED = 6
 _PALEST = 0.65
 """How much of the colour of a point is white at the first step; none is at the last."""
 
@@ -148,10 +148,10 @@ def on_curves(axes: Axes, data: PlotData, spelled: Spelled) -> None:
         )
         name = data.curves[index].name
         text = cut(spelled(str(name)), 24)
-        label = (f" {text}" if text.startswith("_") else text) if place < _MOST_CURVES else None  # _ hides from legends
+        label = (f" {text}" if text.startswith("_") else text) if place < _NAMED else None  # _ hides from legends
         axes.plot([], [], color=style.color, linestyle=line, marker=style.marker, markersize=4, label=label)
-    if len(used) > _MOST_CURVES:
-        axes.plot([], [], " ", label=f"and {len(used) - _MOST_CURVES} more curves")
+    if len(used) > _NAMED:
+        axes.plot([], [], " ", label=f"and {len(used) - _NAMED} more curves")
     axes.set_xlabel(labelled(ELEMENTS["ratio"].label, "-"))
     axes.set_ylabel(ELEMENTS["force"].axis(data.given.units))
     above(axes, note="pale: first steps, dark: last" if data.steps > 1 else "", columns=2)
