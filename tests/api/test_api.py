@@ -104,11 +104,6 @@ def test_what_cannot_be_read(path: Path) -> None:
     assert isinstance(caught.value, ValueError)
 
 
-def test_warnings_and_errors_of_the_scene_do_not_keep_a_deck_from_being_read(path: Path) -> None:
-    assert mudline.read(changed(path, ILLEGAL)).sections
-    assert mudline.read(changed(path, UNUSED)).sections
-
-
 def test_file_that_is_missing(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError):
         mudline.read(tmp_path / "nowhere.keyxm")
@@ -285,8 +280,3 @@ def test_scene_of_a_deck_with_errors(path: Path) -> None:
     with pytest.raises(mudline.DeckError, match="REF001") as caught:
         deck.scene()
     assert caught.value.diagnostics[0].line == 20
-
-
-def test_scene_of_a_document() -> None:
-    deck = mudline.from_json(mudline.from_json(EMPTY).to_json())
-    assert deck.scene().curves == {}
