@@ -87,12 +87,10 @@ MOST_MEMORIES = 40
 LARGEST_OPEN = 64_000_000
 """Characters of an open deck from which on the language server says nothing of it."""
 LARGEST_AT_ONCE = 1_000_000
-"""Characters of an open deck from which on it is checked only when typing pauses, and answers leave out its tables."""
+"""Characters of an open deck from which on help waits for its check, and its outline has no names."""
 MOST_OFFERED = 500
 """Names that completion offers; the editor asks again when more is typed."""
 MOST_OUTLINED = 1000
 """Records of a block in the outline: editors become slow with more."""
 MOST_HINTS = 2000
 """Hints of a range of lines: more than fit on a screen."""
-LONGEST_COLOURED = 20_000
-"""Characters of a run of numeric lines whose fields are coloured."""

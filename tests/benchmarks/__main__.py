@@ -49,6 +49,8 @@ def main() -> None:
     )
     parser.add_argument("--no-peers", action="store_true", help="install and run no other program")
     parser.add_argument("--page", action="store_true", help="measure nothing, write the page again")
+    parser.add_argument("--check", action="store_true", help="compare a few ratios with those stored (see `check`)")
+    parser.add_argument("--store", action="store_true", help="with --check: store the ratios as they are now")
     parser.add_argument("--output", type=Path, help="folder of the page (default docs; with --quick .bench/quick)")
     given = parser.parse_args()
     kept = FOLDER / ("quick/results.json" if given.quick else "results.json")
@@ -64,6 +66,10 @@ def main() -> None:
         subprocess.run(words, check=False, cwd=ROOT, env=environment(Job(words)))
         with tempfile.TemporaryDirectory() as name:
             bench = Bench(Path(name), given.quick, places, results, given.rounds)
+            if given.check:
+                from tests.benchmarks import check  # noqa: PLC0415 - it imports mudline, and the runner stays small
+
+                raise SystemExit(check.run(bench, store=given.store))
             for subject in given.only:
                 begun, load = time.perf_counter(), os.getloadavg()[0]
                 SUBJECTS[subject](bench)

@@ -129,7 +129,7 @@ def folder_of(bench: Bench, count: int, write: Writer = apart, suffix: str = "ke
     return folder
 
 
-def _linters(bench: Bench, write: Writer) -> dict[str, Maker]:
+def linters(bench: Bench, write: Writer) -> dict[str, Maker]:
     """Mudline with as many processes as it likes and without its cache, and the peers that are there."""
     makers: dict[str, Maker] = {
         "mudline": lambda count: bench.mudline("lint", "--no-cache", folder_of(bench, count, write)),
@@ -151,7 +151,7 @@ def run(bench: Bench) -> None:
     """Measure all of it."""
     count, rows = bench.size(DECKS), []
     for key, write, what in (("apart", apart, "share nothing"), ("alike", alike, "share blocks")):
-        found = bench.costs({name: maker(count) for name, maker in _linters(bench, write).items()}, 5)
+        found = bench.costs({name: maker(count) for name, maker in linters(bench, write).items()}, 5)
         if "yamllint" in found:
             bench.results.figures[key] = ratio(elapsed(found["yamllint"]), elapsed(found["mudline"]))
         rows += [
@@ -164,7 +164,7 @@ def run(bench: Bench) -> None:
     _cached(bench)
     if not bench.quick:
         again = {"mudline, from its cache": lambda size: _filled(bench, size)}
-        bench.grow("decks", SIZES, _linters(bench, apart) | again, clock=True)
+        bench.grow("decks", SIZES, linters(bench, apart) | again, clock=True)
 
 
 def _filled(bench: Bench, count: int) -> Job:

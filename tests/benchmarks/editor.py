@@ -1,42 +1,31 @@
-"""Typing in an open deck: from a changed line to the message with its findings."""
+"""Typing in an open deck: from a change that an editor sends to the findings that the server publishes for it.
+
+`python -m tests.benchmarks.editor DECK CHANGES` prints the median of so many changes of a number, in seconds by the
+clock, with the server's pause after a key in it.
+"""
 
 from __future__ import annotations
 
+import re
+import statistics
 import sys
+import time
 from pathlib import Path
 
 from tests.benchmarks.bench import Bench, Table
 from tests.benchmarks.decks import ALIKE
-from tests.benchmarks.runner import Job, cpu, figure
+from tests.benchmarks.runner import ROOT, Job, cpu, figure
 
-LINES = (200, 20_000)
+LINES = (240, 20_000)
 LONG = 10**6
-
-_PROGRAM = """
-import json, sys, time
-from lsprotocol import types
-from pygls.protocol import default_converter
-from mudline.lsp import findings
-from mudline.lsp.decks import Decks
-uri = "file://" + sys.argv[1]
-text = open(sys.argv[1], encoding="utf-8").read()
-decks, converter = Decks(), default_converter()
-document = decks.open(uri, text, 1, "mudline")
-at = text.index("STIFFNESS=Clay") + len("STIFFNESS=")
-def type_one(version):
-    place, end = document.position(at), document.position(at + 4)
-    document.change(types.Range(place, end), f"Cl{version % 90 + 10}" if version % 2 else "Clay")
-    shown = findings.shown(decks.analysis(uri))
-    params = types.PublishDiagnosticsParams(uri, shown, version)
-    json.dumps(converter.unstructure(types.PublishDiagnosticsNotification(params)))
-for version in range(5):
-    type_one(version)
-count = int(sys.argv[2])
-start = time.process_time()
-for version in range(count):
-    type_one(version)
-print((time.process_time() - start) / count)
-"""
+SLIPS = {
+    " 9, -0.05, 40.0\n": " 9, -0.05, 4O.0\n",
+    " 20, 20, 21\n": " 20, 20, 9021\n",
+    "*GEOMETRIC SETS": "*GEOMETRC SETS",
+    "*SEABED STIFFNESS": "SEABED STIFFNESS",
+    "STIFFNESS=Clay": "STIFFNESS=Caly",
+}
+"""Five faults of `deck`: a letter in a number, a node that is not there, two misspelt names, a missing star."""
 
 
 def deck(lines: int) -> str:
@@ -47,18 +36,56 @@ def deck(lines: int) -> str:
     return f"$MODEL\n*OCEAN\n 500.0, 1025.0, 9.81\n*NODE\n{nodes}*ELEMENT\n{elements}{ALIKE}"
 
 
+def faulty(lines: int) -> str:
+    """The same with five faults."""
+    text = deck(lines)
+    for right, wrong in SLIPS.items():
+        text = text.replace(right, wrong, 1)
+    return text
+
+
 def run(bench: Bench) -> None:
-    """Measure a keystroke in decks of two lengths, and in a long one; every second one makes a finding."""
-    for lines in LINES:
-        bench.results.figures[f"typing {lines}"] = figure(_costs(bench, lines, 20, 5), 1000)
-    long = figure(_costs(bench, bench.size(LONG), 3, 3))
+    """Measure a change in decks of two lengths, in one with faults, and in a long one."""
+    broken = (ROOT / "samples" / "broken.keyxm").read_text(encoding="utf-8")
+    short = {f"typing {lines}": deck(lines) for lines in LINES}
+    for name, text in {**short, "typing faults": faulty(LINES[0]), "typing broken": broken}.items():
+        bench.results.figures[name] = figure(_seconds(bench, text, 20, 5), 1000)
+    long = figure(_seconds(bench, deck(bench.size(LONG)), 3, 3))
     rows = [[f"a deck of {bench.size(LONG):,} lines", f"{long.median:.2f}"]]
-    bench.results.tables["From a changed line to its findings"] = Table(["what", "s"], rows)
+    bench.results.tables["From a change to its findings, through the server"] = Table(["what", "s"], rows)
 
 
-def _costs(bench: Bench, lines: int, changes: int, rounds: int) -> list[float]:
-    """Processor seconds of a change, in each round."""
-    path: Path = bench.folder / f"typed-{lines}.keyxm"
-    path.write_text(deck(lines), encoding="utf-8")
-    job = Job([sys.executable, "-c", _PROGRAM, path, str(changes)], own_clock=True)
-    return cpu(bench.costs({"typing": job}, rounds)["typing"])
+def _seconds(bench: Bench, text: str, changes: int, rounds: int) -> list[float]:
+    """Seconds of a change by the clock, in each round."""
+    path: Path = bench.folder / "typed.keyxm"
+    path.write_text(text, encoding="utf-8")
+    words: list[str | Path] = [sys.executable, "-m", "tests.benchmarks.editor", path, str(changes)]
+    return cpu(bench.costs({"typing": Job(words, own_clock=True)}, rounds)["typing"])
+
+
+def waits(path: Path, changes: int) -> list[float]:
+    """Seconds from each change to its findings: digits are written behind the first number with a fraction."""
+    from tests.lsp.raw import raw_client  # noqa: PLC0415 - what compares figures needs no library of the server
+
+    text, uri = path.read_text(encoding="utf-8"), path.absolute().as_uri()
+    found = re.search(r"^ .*?\d\.\d", text, re.MULTILINE)
+    assert found
+    place = {"line": text.count("\n", 0, found.end()), "character": found.end() - found.start()}
+    taken: list[float] = []
+    with raw_client() as client:
+        client.begin()
+        client.open(uri, text)
+        client.findings(uri)
+        for version in range(2, changes + 4):
+            end = {**place, "character": place["character"] + (3 if version > 2 else 0)}
+            change = {"range": {"start": place, "end": end}, "text": f"{version:03}"}
+            identifier = {"uri": uri, "version": version}
+            begun = time.perf_counter()
+            client.notify("textDocument/didChange", {"textDocument": identifier, "contentChanges": [change]})
+            client.findings(uri)
+            taken.append(time.perf_counter() - begun)
+    return taken[2:]
+
+
+if __name__ == "__main__":
+    print(statistics.median(waits(Path(sys.argv[1]), int(sys.argv[2]))))

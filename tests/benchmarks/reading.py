@@ -17,6 +17,7 @@ SIZES = tuple(10**power for power in range(2, 8))
 
 _NUMPY_ALONE = "sys.modules['pyarrow'] = None\nimport mudline"
 _OURS = Work(_NUMPY_ALONE, "return mudline.read(path)")
+LINT = Work(_NUMPY_ALONE, "return mudline.lint(path)")
 _ARRAYS = f"{_NUMPY_ALONE}\nfrom mudline.diagnostics import Span\nfrom mudline.syntax.rows import read_rows"
 
 
@@ -30,12 +31,12 @@ def run(bench: Bench) -> None:
 def growth(bench: Bench) -> None:
     """Measure files of growing sizes, for the picture."""
     sizes = SIZES[:2] if bench.quick else SIZES
-    for panel, kinds in (("rows of a curve", _CURVE), ("nodes", _NODES)):
-        bench.grow(panel, sizes, _readers(bench, kinds))
+    for panel, kinds in (("rows of a curve", CURVE), ("nodes", NODES)):
+        bench.grow(panel, sizes, readers(bench, kinds))
 
 
-_CURVE = {"mudline": "curve", "np.loadtxt": "curve", "opm": "opm-curve"}
-_NODES = {
+CURVE = {"mudline": "curve", "np.loadtxt": "curve", "opm": "opm-curve"}
+NODES = {
     "mudline": "nodes",
     "np.loadtxt": "nodes",
     "opm": "opm-nodes",
@@ -49,7 +50,7 @@ _PROGRAMS = {
 }
 
 
-def _readers(bench: Bench, kinds: dict[str, str]) -> dict[str, Maker]:
+def readers(bench: Bench, kinds: dict[str, str]) -> dict[str, Maker]:
     """What makes the job of a size, for each program that is there and for mudline with pyarrow."""
 
     def maker(name: str, work: Work, peer: str = "") -> Maker:
@@ -70,8 +71,8 @@ def _files(bench: Bench) -> None:
     """Whole files, and what memory they take."""
     count, figures = bench.size(ROWS), bench.results.figures
     cells: dict[str, list[str]] = {}
-    for columns, kinds in ((2, _CURVE), (4, _NODES)):
-        jobs = {name: maker(count) for name, maker in _readers(bench, kinds).items()}
+    for columns, kinds in ((2, CURVE), (4, NODES)):
+        jobs = {name: maker(count) for name, maker in readers(bench, kinds).items()}
         found = bench.costs(jobs, 5)
         ours = cpu(found["mudline"])
         figures[f"memory {columns}"] = figure([cost.memory for cost in found["mudline"]])
@@ -80,7 +81,7 @@ def _files(bench: Bench) -> None:
         if "opm" in found:
             figures[f"opm {columns}"] = ratio(cpu(found["opm"]), ours)
             figures[f"opm pyarrow {columns}"] = ratio(cpu(found["opm"]), cpu(found["mudline, pyarrow"]))
-        for name in _readers(bench, _NODES):
+        for name in readers(bench, NODES):
             path = bench.table(kinds[name.partition(",")[0]], count) if name in found else None
             cells.setdefault(name, []).extend(_cells(found[name], path) if path else ["", "", ""])
     head = ["program", *(f"{what}, {n} columns" for n in (2, 4) for what in ("s", "MB/s", "peak MB"))]

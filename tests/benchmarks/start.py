@@ -12,32 +12,38 @@ from tests.benchmarks.bench import Bench, Table
 from tests.benchmarks.decks import alike
 from tests.benchmarks.runner import ROOT, Job, cpu, ratio
 
+IMPORTS = Job([sys.executable, "-c", "import numpy, pydantic, lark"])
 _SAMPLE = ROOT / "samples" / "scr-touchdown.keyxm"
+
+
+def _cold(bench: Bench, *words: str | Path) -> Job:
+    """A command whose cache is emptied before each run."""
+    cache = bench.folder / "cold"
+    return replace(bench.mudline(*words, cache="cold"), before=lambda: shutil.rmtree(cache, ignore_errors=True))
+
+
+def lints(bench: Bench) -> dict[str, Job]:
+    """The bare imports, and the first and the second check of a deck."""
+    deck = bench.folder / "one.keyxm"
+    deck.write_text(alike(1), encoding="utf-8")
+    return {
+        "`import numpy, pydantic, lark`": IMPORTS,
+        "cold `mudline lint`": _cold(bench, "lint", deck),
+        "second `mudline lint`": bench.mudline("lint", deck, cache="again"),
+    }
 
 
 def run(bench: Bench) -> None:
     """Measure all of it."""
-    deck = bench.folder / "one.keyxm"
-    deck.write_text(alike(1), encoding="utf-8")
-
-    def empty() -> None:
-        shutil.rmtree(bench.folder / "cold", ignore_errors=True)
-
-    def cold(*words: str | Path) -> Job:
-        return replace(bench.mudline(*words, cache="cold"), before=empty)
-
-    again = bench.mudline("lint", deck, cache="again")
     jobs = {
         "`python -c pass`": Job([sys.executable, "-c", "pass"]),
         "`mudline --version`": bench.mudline("--version"),
-        "`import numpy, pydantic, lark`": Job([sys.executable, "-c", "import numpy, pydantic, lark"]),
-        "cold `mudline lint`": cold("lint", deck),
-        "second `mudline lint`": again,
-        "cold `mudline lint`, SCR sample": cold("lint", _SAMPLE),
-        "cold `mudline evaluate`, SCR sample": cold("evaluate", _SAMPLE),
+        **lints(bench),
+        "cold `mudline lint`, SCR sample": _cold(bench, "lint", _SAMPLE),
+        "cold `mudline evaluate`, SCR sample": _cold(bench, "evaluate", _SAMPLE),
     }
     if bench.quick:
-        bench.costs({"": again}, 1)  # a full run has a round that does not count
+        bench.costs({"": jobs["second `mudline lint`"]}, 1)  # a full run has a round that does not count
     found = bench.costs(jobs, 11)
     nothing, version, imports, first, second, lint, evaluate = (cpu(found[name]) for name in jobs)
     bench.results.figures |= {

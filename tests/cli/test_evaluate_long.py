@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterator
 from pathlib import Path
 from unittest.mock import patch
 
 import numpy as np
 import pytest
 
-from mudline.contact import ContactModel
-from mudline.contact.result import Part
 from mudline.results.forms import parquet
 from tests.builders.decks import CLEAN, CLEAN_WARNING
 from tests.cli.conftest import Place
@@ -75,24 +72,6 @@ def test_without_pyarrow(place: Place, folder: Path) -> None:
     assert (outcome.code, outcome.out) == (1, "")
     assert outcome.err == "mudline: .parquet needs pyarrow: pip install 'mudline[parquet]'\n"
     assert [path.name for path in folder.iterdir()] == ["deck.keyxm"]
-
-
-@pytest.mark.parametrize("name", ["out.csv", "out.npz"])
-def test_interruption_leaves_no_file(
-    place: Place, long: str, folder: Path, monkeypatch: pytest.MonkeyPatch, name: str
-) -> None:
-    stream = ContactModel.stream
-
-    def interrupted(model: ContactModel, positions: np.ndarray, **options: object) -> Iterator[Part]:
-        for part in stream(model, positions, **options):  # type: ignore[arg-type] # handed on as they are
-            yield part
-            raise KeyboardInterrupt
-
-    deck = place()
-    before = sorted(folder.iterdir())
-    monkeypatch.setattr(ContactModel, "stream", interrupted)
-    assert run("evaluate", deck, "--positions", long, "-o", name).code == 130
-    assert sorted(folder.iterdir()) == before
 
 
 @pytest.mark.parametrize("name", OUTPUTS)

@@ -1,4 +1,4 @@
-"""Outline, folding, layout, colours and hints, over the protocol."""
+"""Outline, folding, layout and hints, over the protocol."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from lsprotocol import types
 from pygls.exceptions import JsonRpcException
 
 from mudline.formatting.document import formatted
-from mudline.lsp.structure import TYPES
 from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.lsp.editor import Editor, applied, document
 
@@ -70,44 +69,7 @@ async def test_a_deck_in_json_is_formatted(editor: Editor) -> None:
     assert applied(text, list(edits or ())).encode() == formatted(text.encode(), "deck.json")
 
 
-def words(text: str, found: types.SemanticTokens | None) -> list[tuple[str, str]]:
-    assert found is not None
-    lines = text.split("\n")
-    line = column = 0
-    read: list[tuple[str, str]] = []
-    for at in range(0, len(found.data), 5):
-        down, right, length, kind, _ = found.data[at : at + 5]
-        line, column = line + down, right if down else column + right
-        read.append((lines[line][column : column + length], TYPES[kind]))
-    return read
-
-
-async def test_words_have_colours(editor: Editor) -> None:
-    text = (
-        PARAMETERS
-        + "C a comment\n"
-        + CURVE.replace("SET=Pipe\n S", 'SET="Pipe"\n S').replace("LATERAL==", "LATERAL = =")
-    )
-    uri = await editor.open(text)
-    found = words(
-        text, await editor.client.text_document_semantic_tokens_full_async(types.SemanticTokensParams(document(uri)))
-    )
-    expected = [
-        ("$PREPROCESSOR", "namespace"),
-        ("*PARAMETERS", "keyword"),
-        ("100.0", "number"),
-        ("C a comment", "comment"),
-        ("TYPE", "property"),
-        ("ELASTIC", "enumMember"),
-        ("=[", "operator"),
-        ("wide", "variable"),
-        ("Clay", "string"),
-        ("-0.1", "number"),
-    ]
-    assert [one for one in expected if one not in found] == []
-
-
-async def test_equations_and_sets_have_hints(editor: Editor) -> None:
+async def test_equations_have_hints(editor: Editor) -> None:
     text = PARAMETERS + CURVE
     uri = await editor.open(text)
     hints = await editor.client.text_document_inlay_hint_async(types.InlayHintParams(document(uri), WHOLE))
@@ -115,7 +77,5 @@ async def test_equations_and_sets_have_hints(editor: Editor) -> None:
     lines = text.split("\n")
     assert found == [
         (lines.index(" wide, =[depth/2]"), "= 50"),
-        (text[: text.index(" SET=Pipe\n 207")].count("\n"), "2 elements, D = 0.5 m"),
-        (text[: text.index(" SET=Pipe\n STIFF")].count("\n"), "2 elements, D = 0.5 m"),
         (lines.index(" LATERAL==[wide*2]"), "= 100"),
     ]

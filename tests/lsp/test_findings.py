@@ -51,17 +51,6 @@ async def test_typing_changes_findings(editor: Editor) -> None:
     assert await editor.change(uri, 3, (at, end, "")) == []
 
 
-async def test_only_the_last_of_quick_changes_is_shown(editor: Editor) -> None:
-    uri = await editor.open(CLEAN)
-
-    def type_fast() -> None:
-        for version in range(2, 30):
-            editor.send_change(uri, version, f"$MODLE{version}\n")
-
-    shown = await editor.shown(uri, type_fast)
-    assert "MODLE29" in shown[0].message
-
-
 async def test_a_change_older_than_the_text_is_dropped(editor: Editor) -> None:
     uri = await editor.open(CLEAN, version=5)
     editor.send_change(uri, 4, "$MODLE\n")

@@ -26,16 +26,12 @@ REQUESTS: dict[str, dict[str, Any]] = {
     "textDocument/rename": {**AT, "newName": "x"},
     "textDocument/documentSymbol": AT,
     "textDocument/foldingRange": AT,
-    "textDocument/semanticTokens/full": AT,
     "textDocument/formatting": {**AT, "options": OPTIONS},
     "textDocument/codeAction": {**RANGE, "context": {"diagnostics": []}},
     "textDocument/inlayHint": RANGE,
 }
 INTERNAL = -32603
-LIMITS = (
-    "long has 1 million characters: it is checked when typing pauses, and rows of long tables get no colours and no "
-    "hints"
-)
+LIMITS = "long has 1 million characters: help waits for its check, and its outline has no names"
 
 
 @pytest.fixture(scope="module")
@@ -131,10 +127,9 @@ def test_a_long_table_stays_usable_and_its_limits_are_said_once(client: RawClien
     client.send(id="waits", method="textDocument/hover", params={**at, "position": {"line": 30_000, "character": 2}})
     assert "node **29999**" in client.answer("waits")["contents"]["value"]
     shown = [each for each in client.notifications if each["method"] == "textDocument/publishDiagnostics"]
-    assert shown[-1]["params"]["version"] == 11
-    assert len(shown) < 5
-    tokens = client.ask("textDocument/semanticTokens/full", at)
-    assert len(tokens["data"]) < 1000
+    versions = [each["params"]["version"] for each in shown]
+    assert versions == sorted(set(versions))
+    assert versions[-1] == 11
     client.notify("textDocument/didClose", at)
 
 

@@ -15,7 +15,6 @@ from mudline.cli.streams import emit, emit_json, notify, notify_missing, writing
 from mudline.cli.view import View
 from mudline.curves import ForceCurve
 from mudline.deck.parameters import folded
-from mudline.files import suffix_of
 from mudline.linting.output import visible
 from mudline.quantities import UnitNames, csv_lines, finite, headed, shown, unit_names
 from mudline.results.summary import CURVE_SIDES, followers
@@ -67,9 +66,7 @@ def command(
         raise click.UsageError(f"--weight {weight:g}: a line that lies on the seabed has a submerged weight above 0")
     if output_format == "csv" and ratios and weight is not None:
         raise click.UsageError("CSV holds one table: give --at or --weight, not both")
-    form = "" if picture is None else suffix_of(picture)
-    if picture and form not in {"png", "svg"}:
-        raise click.UsageError(f"{picture}: unknown file format: give a name ending in .png or .svg")
+    form = options.form_of_file(picture, ("png", "svg")) if picture else ""
     scene = resolve(deck.load()).require()
     try:
         rows = _curve_rows(scene, ratios, weight)

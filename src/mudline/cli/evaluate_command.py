@@ -14,11 +14,11 @@ from mudline.cli.evaluate_inputs import EvaluateInputs, read_file, takes_inputs
 from mudline.cli.evaluate_text import print_comparison, print_evaluation, print_plan, print_series
 from mudline.cli.inputs import GivenDeck, refuses_bad_decks
 from mudline.cli.pictures import Picture
-from mudline.cli.result_files import behind, beside, form_of_file, has_library, line_watch, result_files, write_tables
+from mudline.cli.result_files import behind, beside, has_library, line_watch, result_files, write_tables
 from mudline.cli.streams import counted, emit, emit_json, notify
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.contact import LawKind
-from mudline.files import is_url
+from mudline.files import is_url, suffix_of
 from mudline.limits import SHOWN_ROWS
 from mudline.quantities import csv_lines
 from mudline.results.against import Comparison, read_reference
@@ -91,7 +91,7 @@ def command(
         if inputs.positions is None:
             raise click.UsageError("--summary-only is for time steps: give a series with --positions")
     wanted = Picture.asked_for(picture, plot_elements)
-    form = form_of_file(output)
+    form = options.form_of_file(output, FORMS) if output else ""
     if (form and not has_library(form)) or not wanted.has_library():
         return FOUND
     deck = GivenDeck(decks[0], stdin_name, units).load()
@@ -146,7 +146,7 @@ def _evaluate_one(
     shown = "" if output else output_format
     most = None if view.verbose else SHOWN_ROWS
     digest = StepSummary(evaluation, most, table == "nodes") if shown == "text" else None
-    lines = line_watch(evaluation, shown or form_of_file(output), most)
+    lines = line_watch(evaluation, shown or suffix_of(output or ""), most)
     slow, watch = SlowSuction(), ContactWatch.of(evaluation)
     given = (comparison, drawing, digest, lines, slow, watch)
     consumers: list[ResultConsumer] = [one for one in given if one is not None]

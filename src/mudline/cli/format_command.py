@@ -20,10 +20,8 @@ _CHANGED, _SAME, _FAILED = "reformatted", "left unchanged", "not formatted"
 
 @options.command("format")
 @options.paths
-@options.option(
-    "--check", is_flag=True, help="Write nothing; name the files that would change, and exit with 1 if any."
-)
-@options.option("--diff", is_flag=True, help="Write nothing; print what would change, and exit with 1 if anything.")
+@options.check
+@options.diff
 @options.every_file
 @options.stdin_name
 @options.common

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from functools import partial, wraps
 from typing import Any
 
@@ -11,6 +11,7 @@ import click
 from click.core import ParameterSource
 
 from mudline.cli.view import View
+from mudline.files import suffix_of
 from mudline.running.executors import RunError, check_address
 
 Command = Callable[..., int]
@@ -177,3 +178,17 @@ def output_format(*formats: str) -> Callable[[Command], Command]:
         show_default=True,
         help="Print in this format.",
     )
+
+
+check = option("--check", is_flag=True, help="Write nothing; name the files that would change, and exit with 1 if any.")
+
+diff = option("--diff", is_flag=True, help="Write nothing; print what would change, and exit with 1 if anything.")
+
+
+def form_of_file(path: str, forms: Collection[str]) -> str:
+    """The form of a file to write, by its suffix; raises click.UsageError for one that is not among the forms."""
+    form = suffix_of(path)
+    if form not in forms:
+        *others, last = (f".{name}" for name in forms)
+        raise click.UsageError(f"{path}: unknown file format: give a name ending in {', '.join(others)} or {last}")
+    return form

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from mudline.cli.options import OUTPUT, Command, option
+from mudline.cli.options import OUTPUT, Command, form_of_file, option
 from mudline.cli.streams import notify, notify_missing, writing
 from mudline.cli.view import View
 from mudline.files import suffix_of
@@ -50,11 +50,8 @@ class Picture:
     @classmethod
     def asked_for(cls, picture: str | None, elements: str | None) -> Picture:
         """Return what options ask for; raises click.UsageError."""
-        if picture is not None and suffix_of(picture) not in PICTURES:
-            *others, last = (f".{form}" for form in PICTURES)
-            raise click.UsageError(
-                f"{picture}: unknown file format: give a name ending in {', '.join(others)} or {last}"
-            )
+        if picture is not None:
+            form_of_file(picture, PICTURES)
         if elements is not None and picture is None:
             raise click.UsageError("--plot-elements is for a plot: give --plot")
         return cls(None if picture is None else Path(picture), _numbers(elements))

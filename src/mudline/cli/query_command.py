@@ -17,7 +17,6 @@ from mudline.cli import DONE, WRONG_USAGE, options
 from mudline.cli.index_command import lacks_libraries
 from mudline.cli.streams import counted, emit, encoded, notify, writing
 from mudline.cli.view import View
-from mudline.files import suffix_of
 from mudline.limits import SHOWN_ROWS
 from mudline.quantities import csv_lines
 
@@ -97,10 +96,7 @@ def _form(output: str | None, output_format: str) -> str:
         if output_format == "parquet":
             raise click.UsageError("Parquet is a binary format: give -o OUT.parquet")
         return output_format
-    found = suffix_of(output)
-    if found not in _FORMATS[1:]:
-        raise click.UsageError(f"{output}: unknown file format: give a name ending in .csv, .json or .parquet")
-    return found
+    return options.form_of_file(output, _FORMATS[1:])
 
 
 # ----------------------------------------------------------------------------------------------------------- answers

@@ -32,17 +32,6 @@ from mudline.results.totals import LineWatch
 from mudline.results.warnings import ContactWarning
 
 
-def form_of_file(path: str | None) -> str:
-    """The form of a file of results by its suffix, "" without a file; raises click.UsageError."""
-    if path is None:
-        return ""
-    form = suffix_of(path)
-    if form not in FORMS:
-        *others, last = (f".{name}" for name in FORMS)
-        raise click.UsageError(f"{path}: unknown file format: give a name ending in {', '.join(others)} or {last}")
-    return form
-
-
 def is_installed(form: str) -> bool:
     """Whether the library for a form of files is installed."""
     try:

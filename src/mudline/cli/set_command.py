@@ -36,10 +36,8 @@ _CHANGED, _SAME, _WITHOUT, _UNMET, _REFUSED = "changed", "the same already", "wi
     metavar="CONDITION",
     help="Change only decks for which this holds, such as 'OCEAN.depth > 100 and UNITS.units == METRIC'.",
 )
-@options.option(
-    "--check", is_flag=True, help="Write nothing; name the files that would change, and exit with 1 if any."
-)
-@options.option("--diff", is_flag=True, help="Write nothing; print what would change, and exit with 1 if anything.")
+@options.check
+@options.diff
 @options.every_file
 @options.stdin_name
 @options.units

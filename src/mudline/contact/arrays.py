@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,7 @@ IndexArray = NDArray[np.intp]
 SmallIndexArray = NDArray[np.int32]
 StateArray = NDArray[np.int8]
 Picked = IndexArray | slice
+Item = TypeVar("Item", bound=np.generic)
 
 
 class StepReader(ABC):
@@ -36,9 +38,14 @@ class StepReader(ABC):
         """Some steps (steps, nodes, 3)."""
 
 
-def taken(values: FloatArray, at: Picked) -> FloatArray:
+def taken(values: NDArray[Item], at: Picked) -> NDArray[Item]:
     """Return columns of values (steps, k); a view where they follow each other."""
     return values[:, at] if isinstance(at, slice) else values.take(at, axis=1)
+
+
+def add_at(values: FloatArray, at: Picked, more: FloatArray) -> None:
+    """Add to columns of values (steps, k), in place; sooner than `values[:, at] += more`."""
+    values[:, at] = taken(values, at) + more
 
 
 def as_range(indices: IndexArray) -> Picked:

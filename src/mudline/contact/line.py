@@ -130,6 +130,8 @@ class Line:
 
     def _add_at_junctions(self, total: FloatArray, values: FloatArray, begin: int) -> None:
         """Add up again where three elements or more meet, in the order that is promised."""
+        if not self._junctions.size:
+            return
         low, high = np.searchsorted(self._junctions, [begin, begin + total.shape[1]])
         for node in self._junctions[low:high].tolist():
             sums = np.zeros(len(total))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -244,7 +243,7 @@ class ContactModel:
             _blank_absent(part)
         if not self.plan.history:
             return state
-        return replace(after, positions=points[-1], laid=laid)
+        return ContactState(points[-1], laid, after.unloading, after.suction, after.friction, after.touchdown)
 
     def _speed(
         self,

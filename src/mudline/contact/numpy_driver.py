@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mudline.contact import vectors
-from mudline.contact.arrays import BoolArray, FloatArray, as_range, taken
+from mudline.contact.arrays import FloatArray, add_at, as_range, taken
 from mudline.contact.numpy_elements import Elements, Work
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed import FlatSeabed, Seabed
@@ -63,22 +63,16 @@ class NumpyDriver:
         steps, elements = len(batch.points), len(self._tables.half)
         lateral = self._components if self._tables.lateral is not None else 0
         work = Work(
-            [np.ascontiguousarray(batch.points[..., axis]) for axis in range(3 if self._components else 0)],
-            _padded(steps, elements),
-            [_padded(steps, elements) for _ in range(self._components)],
-            [_padded(steps, elements) for _ in range(lateral)],
+            np.ascontiguousarray(batch.points.transpose(2, 0, 1)) if self._components else np.empty((0, 0, 0)),
+            np.zeros((steps, elements + 2)),
+            np.zeros((self._components, steps, elements + 2)),
+            np.zeros((lateral, steps, elements + 2)),
         )
         for some in self._elements:
             some.run(batch, part, state, work)
         laid = None if self._tables.trench is None else self._tables.laid_line(batch.laid)
         for some_nodes in self._nodes:
             some_nodes.run(part, state, work, laid)
-
-
-def _padded(steps: int, columns: int) -> FloatArray:
-    found = np.empty((steps, columns + 2))
-    found[:, 0] = found[:, -1] = 0.0
-    return found
 
 
 def _keep_freed_memory() -> None:
@@ -101,15 +95,15 @@ class Nodes:
         self._nodal = []
         for rows in tables.nodal:
             cut = rows_within(rows.rows, begin, end)
-            columns = tuple(column[cut] for column in rows.columns)
+            columns = tuple(column[None, cut] for column in rows.columns)
             if cut.start < cut.stop:
                 self._nodal.append((rows.reaction, as_range(rows.rows[cut] - begin), columns, rows.law.onset(*columns)))
         friction = tables.friction
         if friction is not None:
             self._active, self._elliptic = friction.active[here], friction.elliptic[here]
             self._curved = bool(self._elliptic.any())
-            self._coefficients = friction.coefficients[:, here]
-            self._constant, self._rising = friction.constant[:, here], friction.rising[:, here]
+            self._coefficients = friction.coefficients[:, None, here]
+            self._constant, self._rising = friction.constant[:, None, here], friction.rising[:, None, here]
             self._idle = self._active.astype(np.int8) - np.int8(1)
             turned = rows_within(friction.turned, begin, end)
             self._turned = friction.turned[turned] - begin
@@ -127,25 +121,30 @@ class Nodes:
         total = line.sums(work.load, self.begin, self.end)
         for reaction, at, columns, onset in self._nodal:
             z = 0.0 - taken(part.gap[:, here], at)
-            total[:, at] += np.where(z > onset, reaction(z, 0.0, *columns)[0], 0.0)
+            add_at(total, at, np.where(z > onset, reaction(z, 0.0, *columns)[0], 0.0))
         part.normal_force[:, here] = total
         if part.normal.strides[1] == 0:  # one for all nodes
             normal = tuple(part.normal[:1, :1, axis] for axis in range(3))
         else:
             normal = tuple(np.ascontiguousarray(part.normal[:, here, axis]) for axis in range(3))
         reaction_here = part.reaction[:, here]
-        if not work.tangent:
+        if not len(work.tangent):
             if self._flat:
                 reaction_here[..., 1:] = 0.0
             for axis in range(1 if self._flat else 3):
                 # a negative force times a zero component is -0, which is no reaction of its own
                 np.add(total * normal[axis], 0.0, out=reaction_here[..., axis])
             return
-        wanted = tuple(line.sums(axis, self.begin, self.end, directed=True) for axis in work.tangent)
+        wanted = self._sums(work.tangent, directed=True)
         along = self._turned_axes(in_plane(wanted, normal), normal)
         sideward = self._tangential_reaction(part, state, work, (along, self._plane.across(along, normal)), laid)
         for axis, component in enumerate(self._plane.reaction(total, normal, sideward)):
             reaction_here[..., axis] = component
+
+    def _sums(self, values: FloatArray, *, directed: bool) -> Components:
+        """Sums (steps, k) of each component (c, steps, m + 2) of vectors of the elements."""
+        found = self._tables.line.sums(values.reshape(-1, values.shape[2]), self.begin, self.end, directed=directed)
+        return tuple(found.reshape(len(values), -1, self.end - self.begin))
 
     def _turned_axes(self, along: Components, normal: Components) -> Components:
         """Put in u1 of the nodes that have it at an angle to +Y."""
@@ -166,13 +165,13 @@ class Nodes:
     ) -> Components:
         """Components of the tangential reaction: friction and lateral springs."""
         along, across = axes
-        found = tuple(np.zeros(along[0].shape) for _ in along)
+        found: Components = tuple(np.zeros(along[0].shape) for _ in along)
         one = other = np.zeros(along[0].shape)
         if state.friction is not None:
             one, other = self._friction_forces(part, state.friction, work, axes, laid)
             found = self._plane.blend(along, across, one, other)
-        if work.lateral:
-            push = tuple(self._tables.line.sums(axis, self.begin, self.end) for axis in work.lateral)
+        if len(work.lateral):
+            push = self._sums(work.lateral, directed=False)
             found = self._plane.added(found, push)
             one, other = one + self._plane.dot(along, push), other + self._plane.dot(across, push)
         if part.friction is not None:
@@ -192,24 +191,22 @@ class Nodes:
 
         along, across = axes
         plane, here, first = self._plane, self._here, 3 - len(along)
-        places = [coordinate[:, here] for coordinate in work.planes]
+        places = work.planes[..., here]
         pressing = np.where(self._active, np.fmax(part.normal_force[:, here], 0.0), 0.0)
         closed = pressing > 0.0
-        springs = [self._constant[side] + self._rising[side] * pressing for side in range(2)]
-        limits = [self._coefficients[side] * pressing for side in range(2)]
-        limited = not self._curved or _all_above_0(limits, closed)
+        springs, limits = self._constant + self._rising * pressing, self._coefficients * pressing
+        limited = self._curved and bool(((limits > 0.0) | ~closed).all())
+        if limited:  # those of open nodes become 1, to divide by
+            limits = np.where(closed, limits, 1.0)
         walls = None if laid is None or not self._ranks else self._trench_limits(places, across, pressing, laid)
-        stick = [history.stick_points[here, axis].copy() for axis in range(3)]
+        stick = history.stick_points[here].T.copy()
         held = history.states[here, 0] > 0
         forces = np.empty(closed.shape), np.empty(closed.shape)
         slips = np.empty(closed.shape, np.bool_), np.empty(closed.shape, np.bool_)
         for step, close in enumerate(closed):
             on, held = held & close, close
             u, v = tuple(axis[step] for axis in along), tuple(axis[step] for axis in across)
-            away = tuple(
-                np.where(on, place[step] - point, 0.0)
-                for place, point in zip(places[first:], stick[first:], strict=True)
-            )
+            away = np.where(on, places[first:, step] - stick[first:], 0.0)
             elongation = plane.dot(u, away), plane.dot(v, away)
             k1, k2, limit_1, limit_2 = springs[0][step], springs[1][step], limits[0][step], limits[1][step]
             t1, t2 = k1 * elongation[0], k2 * elongation[1]
@@ -229,15 +226,13 @@ class Nodes:
             moved = plane.blend(
                 u, v, law.slip_distance(slip_1, elongation[0], f1, k1), law.slip_distance(slip_2, elongation[1], f2, k2)
             )
-            for axis in range(3):
-                stick[axis] = np.where(on, stick[axis], places[axis][step])
+            stick = np.where(on, stick, places[:, step])
             for point, way in zip(stick[first:], moved, strict=True):
                 np.add(point, way, out=point)
             np.subtract(0.0, f1, out=forces[0][step])
             np.subtract(0.0, f2, out=forces[1][step])
             slips[0][step], slips[1][step] = slip_1, slip_2
-        for axis in range(3):
-            history.stick_points[here, axis] = np.where(held, stick[axis], np.nan)
+        history.stick_points[here] = np.where(held, stick, np.nan).T
         for side in range(2):
             states = (slips[side].view(np.int8) + np.int8(1)) * closed.view(np.int8)
             states += self._idle
@@ -247,13 +242,14 @@ class Nodes:
         return forces
 
     def _trench_limits(
-        self, places: list[FloatArray], across: Components, pressing: FloatArray, laid: LaidCentreline
+        self, places: FloatArray, across: Components, pressing: FloatArray, laid: LaidCentreline
     ) -> tuple[FloatArray, FloatArray]:
         """What trenches add to the lateral limits (steps, k) against motion along +u2, and along -u2."""
         from mudline.contact.trenches import resistance  # noqa: PLC0415 - most friction has no trench
 
         at = self._in_trench
-        away = laid.away(laid.beside(self.begin, self._trench), [taken(place, at) for place in places]).vector
+        there = taken(places.reshape(-1, self.end - self.begin), at).reshape(3, len(pressing), -1)
+        away = laid.away(laid.beside(self.begin, self._trench), there).vector
         lateral = tuple(taken(axis, at) for axis in across)
         offset = self._plane.dot(lateral, away[3 - len(lateral) :])
         added = resistance(self._trench, offset, taken(pressing, at))
@@ -261,15 +257,5 @@ class Nodes:
         for whole, outward in zip(found, (offset > 0.0, offset < 0.0), strict=True):
             share = np.where(outward, added, 0.0)
             for rows, nodes in self._ranks:
-                whole[:, nodes] += share[:, rows]
+                add_at(whole, nodes, share.take(rows, axis=1))
         return found
-
-
-def _all_above_0(limits: list[FloatArray], closed: BoolArray) -> bool:
-    """Whether all nodes with a normal force have limits above 0; those of the others become 1, to divide by."""
-    open_ = ~closed
-    if not all(((limit > 0.0) | open_).all() for limit in limits):
-        return False
-    for limit in limits:
-        np.copyto(limit, 1.0, where=open_)
-    return True

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from mudline.contact import vectors
-from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, Picked, StateArray, as_range, taken
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, Picked, StateArray, add_at, as_range, taken
 from mudline.contact.result import ContactResult
 from mudline.contact.tables import ContactState, ElementRows, NormalRows, Tables, rows_within
 from mudline.contact.vectors import in_plane, units
 
 if TYPE_CHECKING:
-    from mudline.contact.laws.suction import SuctionHistory, SuctionLaw
+    from mudline.contact.laws.suction import SuctionHistory
     from mudline.contact.laws.unloading import UnloadingHistory
     from mudline.contact.tables import Batch
 
@@ -28,20 +29,21 @@ class Work(NamedTuple):
     """What elements leave for nodes: values (steps, m + 2), between two columns of zeros.
 
     Attributes:
-        planes: three (steps, n) coordinates; none where nothing moves sideways.
+        planes: (3, steps, n) coordinates; none where nothing moves sideways.
         load: half of the force of each element.
-        tangent: components of the unit direction of each element, those in the plane of a horizontal seabed alone.
+        tangent: (c, steps, m + 2) components of the unit direction of each element, those in the plane of a horizontal
+            seabed alone.
         lateral: the same of the lateral force on each of its nodes.
     """
 
-    planes: list[FloatArray]
+    planes: FloatArray
     load: FloatArray
-    tangent: list[FloatArray]
-    lateral: list[FloatArray]
+    tangent: FloatArray
+    lateral: FloatArray
 
 
 class _Group(NamedTuple):
-    """Elements of a range with one normal law: their columns there, parameters and diameters."""
+    """Elements of a range with one normal law: their columns there, parameters and diameters, each (1, k)."""
 
     rows: NormalRows
     at: IndexArray
@@ -50,11 +52,12 @@ class _Group(NamedTuple):
 
 
 class _Subset(NamedTuple):
-    """Elements of a range with another law: rows in the law's own arrays, columns in the range, parameters."""
+    """Elements of a range with another law: rows in the law's own arrays, columns in the range, parameters (1, k)."""
 
     rows: slice
     at: Picked
     columns: tuple[FloatArray, ...]
+    diameter: FloatArray
     onset: FloatArray | float
 
 
@@ -72,9 +75,10 @@ class Elements:
         self._tables, self.begin, self.end, self._flat = tables, begin, end, flat
         here = slice(begin, end)
         self._here, self._inner = here, slice(begin + 1, end + 1)
-        self._diameter, self._half = tables.diameter[here], tables.half[here]
+        # one row, which arrays of one step meet sooner than a flat array
+        self._diameter, self._half = tables.diameter[None, here], tables.half[None, here]
         self._unsized = np.flatnonzero(np.isnan(self._diameter))
-        self._onset: FloatArray | float = 0.0 if tables.onset is None else tables.onset[here]
+        self._onset: FloatArray | float = 0.0 if tables.onset is None else tables.onset[None, here]
         self._groups = [group for rows in tables.normal if (group := self._group(rows)) is not None]
         held = [np.empty(0, np.intp), *(group.at for group in self._groups)]
         bare = np.setdiff1d(np.arange(end - begin), np.concatenate(held))
@@ -84,6 +88,11 @@ class Elements:
         self._steeper = [] if self._unloading is None else self._may_steepen(self._unloading)
         self._springs, self._suction = self._subset(tables.springs), self._subset(tables.suction)
         self._lateral = self._subset(tables.lateral)
+        if self._suction is not None:
+            from mudline.contact.laws.suction import SuctionLaw  # noqa: PLC0415 - only now is it needed
+
+            self._law = SuctionLaw(*(column[0] for column in self._suction.columns))
+            self._least, self._counts = self._law.least_depth, bool(self._law.counts_cycles.any())
         self._in_trench: tuple[IndexArray, IndexArray] | None = None
         if self._suction is not None and self._unloading is not None:
             pulls, unloads = (np.arange(end - begin)[some.at] for some in (self._suction, self._unloading))
@@ -93,8 +102,8 @@ class Elements:
     def _group(self, rows: NormalRows) -> _Group | None:
         cut = rows_within(rows.rows, self.begin, self.end)
         at = rows.rows[cut]
-        columns = tuple(column[cut] for column in rows.columns)
-        return _Group(rows, at - self.begin, columns, self._tables.diameter[at]) if len(at) else None
+        columns = tuple(column[None, cut] for column in rows.columns)
+        return _Group(rows, at - self.begin, columns, self._tables.diameter[None, at]) if len(at) else None
 
     def _subset(self, given: ElementRows | None) -> _Subset | None:
         if given is None:
@@ -103,8 +112,8 @@ class Elements:
         if rows.start == rows.stop:
             return None
         at = as_range(given.rows[rows] - self.begin)
-        onset = self._onset[at] if isinstance(self._onset, np.ndarray) else self._onset
-        return _Subset(rows, at, tuple(column[rows] for column in given.columns), onset)
+        onset = self._onset[:, at] if isinstance(self._onset, np.ndarray) else self._onset
+        return _Subset(rows, at, tuple(column[None, rows] for column in given.columns), self._diameter[:, at], onset)
 
     def run(self, batch: Batch, part: ContactResult, state: ContactState, work: Work) -> None:
         """Write the elements of a batch, and what they leave for nodes."""
@@ -122,11 +131,9 @@ class Elements:
         if self._suction is not None and batch.speed is not None and state.suction is not None:
             self._apply_suction(self._suction, batch.speed, (depth, contact, trench), values, part, state.suction)
         np.multiply(values[0], self._half, out=work.load[:, self._inner])
-        if not work.tangent:
+        if not len(work.tangent):
             return
         along = self._write_directions(work)
-        for axis in work.lateral:
-            axis[:, self._inner] = 0.0
         if self._lateral is not None and state.touchdown is not None:
             self._apply_lateral(self._lateral, along, contact, part, state.touchdown, work)
 
@@ -165,7 +172,7 @@ class Elements:
             if self._back is None:
                 target[...] = source
             else:
-                np.take(source, self._back, axis=1, out=target, mode="clip")
+                source.take(self._back, axis=1, out=target, mode="clip")
 
     def _apply_normal_law(
         self,
@@ -206,7 +213,12 @@ class Elements:
         from mudline.contact.laws.unloading import line_stiffness, on_line, trench_bottom  # noqa: PLC0415 - only now
 
         z = np.fmax(taken(depth, some.at), 0.0)
-        so_far = np.maximum.accumulate(np.concatenate([history.z_max[None, some.rows], z]), axis=0)
+        so_far = np.concatenate([history.z_max[None, some.rows], z])
+        if len(z) > z.shape[1]:
+            np.maximum.accumulate(so_far, axis=0, out=so_far)
+        else:  # along the steps of each element in turn is slow
+            for before, now in itertools.pairwise(so_far):
+                np.maximum(before, now, out=now)
         fresh, deepest = so_far[1:] > so_far[:-1], so_far[1:]
         reached = depth.copy()
         reached[:, some.at] = deepest
@@ -227,7 +239,7 @@ class Elements:
         if part.cut.flags.writeable:
             part.cut[:, self._here][:, some.at] &= fresh
         values[0][:, some.at] = np.where(fresh, force, back)
-        values[1][:, some.at] = np.where(fresh, slope, rise * self._diameter[some.at])
+        values[1][:, some.at] = np.where(fresh, slope, rise * some.diameter)
         values[2][:, some.at] = np.where(fresh, stiffness, rise)
         for kept, moved in zip(history.numbers, (deepest, force_max, line, bottom), strict=True):
             kept[some.rows] = moved[-1]
@@ -240,19 +252,19 @@ class Elements:
         for group in self._groups:
             _, mine, theirs = np.intersect1d(at, group.at, assume_unique=True, return_indices=True)
             steepest = self._slope(group, np.full((1, len(theirs)), np.inf), theirs)
-            (steeper,) = (steepest[0] > some.columns[0][mine]).nonzero()
+            (steeper,) = (steepest[0] > some.columns[0][0, mine]).nonzero()
             if steeper.size:
                 found.append((group, mine[steeper], theirs[steeper]))
         return found
 
     def _slope(self, group: _Group, z: FloatArray, rows: IndexArray) -> FloatArray:
         """The steepest slope of a normal law between the mudline and penetrations (steps, k) of some elements."""
-        diameter = group.diameter[rows]
+        diameter = group.diameter[:, rows]
         if group.rows.curve >= 0:
             from mudline.contact.laws.curve import steepest_slope  # noqa: PLC0415 - only now is it needed
 
             return steepest_slope(self._tables.given.curves[group.rows.curve], z / diameter) / diameter
-        columns = [column[rows] for column in group.columns]
+        columns = [column[:, rows] for column in group.columns]
         return np.broadcast_to(group.rows.steepest(z, diameter, *columns), z.shape)
 
     def _apply_springs(self, some: _Subset, depth: FloatArray, values: Values) -> None:
@@ -260,9 +272,9 @@ class Elements:
         from mudline.contact.laws.linear import spring_suction  # noqa: PLC0415 - only now is it needed
 
         force, stiffness = spring_suction(some.onset - taken(depth, some.at), *some.columns)
-        values[0][:, some.at] += force
-        values[1][:, some.at] += stiffness * self._diameter[some.at]
-        values[2][:, some.at] += stiffness
+        add_at(values[0], some.at, force)
+        add_at(values[1], some.at, stiffness * some.diameter)
+        add_at(values[2], some.at, stiffness)
 
     def _apply_suction(
         self,
@@ -274,37 +286,36 @@ class Elements:
         history: SuctionHistory,
     ) -> None:
         """Add suction with a history."""
-        from mudline.contact.laws import suction as law  # noqa: PLC0415 - only now is it needed
+        from mudline.contact.laws.suction import suction_force  # noqa: PLC0415 - only now is it needed
 
-        columns = law.SuctionLaw(*some.columns)
+        law = self._law
         depth, contact, trench = where
-        uplift, pressed = some.onset - taken(depth, some.at), contact[:, some.at]
+        uplift, pressed = some.onset - taken(depth, some.at), taken(contact, some.at)
         if trench is not None and self._in_trench is not None:
             here, there = self._in_trench
             pressed = pressed.copy()
-            uplift[:, here], pressed[:, here] = trench.uplift[:, there], trench.below[:, there]
+            uplift[:, here], pressed[:, here] = taken(trench.uplift, there), taken(trench.below, there)
         first, second = self._tables.line.at(speed, self.begin, self.end)
         v = 0.5 * taken(first, some.at) + 0.5 * taken(second, some.at)
-        states, pulls = self._suction_states(some.rows, columns, (uplift, v, pressed), history)
+        states, pulls = self._suction_states(some.rows, (uplift, v, pressed), history)
         if part.state is not None:
             part.state[:, self._here][:, some.at] = states
         if pulls is None:
             return
         steps, held, reach, factor = pulls
         uplift, v = uplift[steps, held], v[steps, held]
-        rows = columns.rows(held)
-        shape = (rows.force_factor * factor, rows.force_exponent, rows.regularisation)
-        force, stiffness = law.suction_force(uplift, v, reach, (*shape, rows.first_corner, rows.second_corner))
+        exponent, slow = law.force_exponent[held], law.regularisation[held]
+        shape = law.force_factor[held] * factor, exponent, slow, law.first_corner[held], law.second_corner[held]
+        force, stiffness = suction_force(uplift, v, reach, shape)
         at = held + some.at.start if isinstance(some.at, slice) else some.at[held]
         values[0][steps, at] += force
-        values[1][steps, at] += stiffness * self._diameter[at]
+        values[1][steps, at] += stiffness * some.diameter[0, held]
         values[2][steps, at] += stiffness
         if part.regularised is not None:
-            part.regularised[steps, self.begin + at] = (v < rows.regularisation) & (rows.force_exponent < 2.0)
+            part.regularised[steps, self.begin + at] = (v < slow) & (exponent < 2.0)
 
-    @staticmethod
     def _suction_states(
-        rows: slice, law: SuctionLaw, motion: tuple[FloatArray, FloatArray, BoolArray], history: SuctionHistory
+        self, rows: slice, motion: tuple[FloatArray, FloatArray, BoolArray], history: SuctionHistory
     ) -> tuple[StateArray, _Pulled | None]:
         """States (steps, k) by uplift, velocity and compression, step by step; and where there is suction.
 
@@ -312,13 +323,13 @@ class Elements:
         """
         from mudline.contact.laws.suction import BROKEN, SUCTION, after_cycle, breakout_uplift, next_state  # noqa: PLC0415
 
+        law, least, counts = self._law, self._least, self._counts
         uplift, v, pressed = motion
         armed, v_max, depth = history.armed[rows], history.v_max[rows], history.depth[rows]
         states, factor = history.state[rows], history.factor[rows]
-        counts = bool(law.counts_cycles.any())
         off = uplift > -np.inf  # False for NaN
         off &= ~pressed
-        every, least = pressed.view(np.int8).copy(), law.least_depth
+        every = pressed.view(np.int8).copy()
         pulled: list[_Pulled] = []
         for step, down in enumerate(pressed):
             (loose,) = ((armed | (states == BROKEN)) & off[step]).nonzero()
@@ -329,9 +340,9 @@ class Elements:
                 largest = np.where(was, np.maximum(known, rates), known)
                 (grown,) = (largest > known).nonzero()
                 if grown.size:
-                    some = law.rows(loose[grown])
+                    at = loose[grown]
                     reach[grown] = breakout_uplift(
-                        largest[grown], some.depth_factor, some.depth_exponent, some.regularisation
+                        largest[grown], law.depth_factor[at], law.depth_exponent[at], law.regularisation[at]
                     )
                 now, largest, after = next_state(was, largest, before[loose], reach, uplift[step][loose], rates)
                 if counts:
@@ -354,21 +365,21 @@ class Elements:
         steps, columns, reaches, factors = (np.concatenate(parts) for parts in zip(*pulled, strict=True))
         return every, (steps, columns, reaches, factors)
 
-    def _write_directions(self, work: Work) -> list[FloatArray]:
+    def _ends(self, work: Work) -> tuple[FloatArray, FloatArray]:
+        """Coordinates (3 steps, k) of both ends of the elements."""
+        return self._tables.line.at(work.planes.reshape(-1, work.planes.shape[2]), self.begin, self.end)
+
+    def _write_directions(self, work: Work) -> FloatArray:
         """Write the unit directions of the elements; return those components that `work` has."""
-        spans = []
-        for plane in work.planes:
-            first, second = self._tables.line.at(plane, self.begin, self.end)
-            spans.append(second - first)
-        found = units(spans)[3 - len(work.tangent) :]
-        for target, unit in zip(work.tangent, found, strict=True):
-            target[:, self._inner] = unit
+        first, second = self._ends(work)
+        found = units((second - first).reshape(3, -1, self.end - self.begin))[3 - len(work.tangent) :]
+        work.tangent[..., self._inner] = found
         return found
 
     def _apply_lateral(
         self,
         some: _Subset,
-        along: list[FloatArray],
+        along: FloatArray,
         contact: BoolArray,
         part: ContactResult,
         touchdown: FloatArray,
@@ -380,24 +391,18 @@ class Elements:
         plane = vectors.PLANES[len(along)]
         normal = self._mean_normal(some, part)
         across = plane.across(in_plane(tuple(taken(axis, some.at) for axis in along), normal), normal)
-        touches = contact[:, some.at]
-        middle = []
-        for coordinate in work.planes:
-            one, other = self._tables.line.at(coordinate, self.begin, self.end)
-            middle.append(0.5 * taken(one, some.at) + 0.5 * taken(other, some.at))
-        held = [np.empty(touches.shape) for _ in range(3)]
-        kept = [touchdown[some.rows, axis].copy() for axis in range(3)]
+        touches = taken(contact, some.at)
+        one, other = self._ends(work)
+        middle = (0.5 * taken(one, some.at) + 0.5 * taken(other, some.at)).reshape(3, *touches.shape)
+        held, kept = np.empty(middle.shape), touchdown[some.rows].T
         down = ~np.isnan(kept[0])
         for step, touch in enumerate(touches):
             new, down = touch & ~down, touch
-            for axis in range(3):
-                np.copyto(kept[axis], middle[axis][step], where=new)
-                held[axis][step] = kept[axis]
-        for axis in range(3):
-            touchdown[some.rows, axis] = np.where(down, kept[axis], np.nan)
+            held[:, step] = kept = np.where(new, middle[:, step], kept)
+        touchdown[some.rows] = np.where(down, kept, np.nan).T
         first = 3 - len(along)
-        arm = tuple(place - point for place, point in zip(middle[first:], held[first:], strict=True))
-        force = np.where(touches, lateral_force(some.columns[0], plane.dot(across, arm)), 0.0)
+        force = lateral_force(some.columns[0], plane.dot(across, middle[first:] - held[first:]))
+        force = np.where(touches, force, 0.0)
         for target, axis in zip(work.lateral, across, strict=True):
             target[:, self._inner][:, some.at] = axis * force
 

@@ -7,6 +7,7 @@ import os
 from collections.abc import Callable, Sequence
 from dataclasses import fields
 from importlib import import_module
+from operator import attrgetter
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Literal, NoReturn
 
@@ -204,9 +205,8 @@ class ContactResult:
         return self._each(lambda values: values[key])
 
     def _each(self, cut: Callable[[NDArray[Any]], NDArray[Any]]) -> ContactResult:
-        arrays = ((name, getattr(self, name)) for name in _BY_STEP)
-        of_steps: dict[str, Any] = {name: None if values is None else cut(values) for name, values in arrays}
-        return ContactResult(**of_steps, **{name: getattr(self, name) for name in _OF_ALL_STEPS})
+        arrays: list[Any] = [None if values is None else cut(values) for values in _get_by_step(self)]
+        return ContactResult(**dict(zip((*_BY_STEP, *_OF_ALL_STEPS), (*arrays, *_get_rest(self)), strict=True)))
 
 
 def _module(name: str) -> ModuleType:
@@ -236,6 +236,7 @@ class Part:
 
 _OF_ALL_STEPS = ("evaluated", "present", "rigid", "given")
 _BY_STEP = tuple(each.name for each in fields(ContactResult) if each.name not in _OF_ALL_STEPS)
+_get_by_step, _get_rest = attrgetter(*_BY_STEP), attrgetter(*_OF_ALL_STEPS)
 
 
 def blank_result(

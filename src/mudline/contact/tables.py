@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import fields, replace
+from dataclasses import fields
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
@@ -56,12 +56,13 @@ class ContactState:
 
     def copied(self) -> ContactState:
         """Return a state whose arrays may be written; positions stay as they are."""
-        return replace(
-            self,
-            unloading=self.unloading and _copied(self.unloading),
-            suction=self.suction and _copied(self.suction),
-            friction=self.friction and _copied(self.friction),
-            touchdown=None if self.touchdown is None else self.touchdown.copy(order="K"),
+        return ContactState(
+            self.positions,
+            self.laid,
+            self.unloading and _copied(self.unloading),
+            self.suction and _copied(self.suction),
+            self.friction and _copied(self.friction),
+            None if self.touchdown is None else self.touchdown.copy(order="K"),
         )
 
 

@@ -336,7 +336,7 @@ def directions_of(tables: Tables, points: FloatArray, normals: FloatArray) -> Di
     """Return the directions of nodes at `points` (n, 3) with unit normals (n, 3)."""
     line, nodes = tables.line, len(points)
     with np.errstate(all="ignore"):
-        spans = [points[line.second, axis] - points[line.first, axis] for axis in range(3)]
+        spans = (points[line.second] - points[line.first]).T
         unit = units(spans)
         total = np.stack([line.sums(_padded(axis), 0, nodes, directed=True)[0] for axis in unit], axis=1)
         flat = total - (total * normals).sum(axis=1)[:, None] * normals

@@ -161,13 +161,13 @@ def _lengths(given: ContactInput) -> FloatArray:
 
 
 class _Pieces(NamedTuple):
-    """Straight pieces of a centreline: start and span, three (k,) each, 1 / length^2, and the shares of their ends.
+    """Straight pieces of a centreline: start and span (3, 1, k), 1 / length^2 (k,), and the shares of their ends.
 
     A straight centreline is a piece with a span of length 1 in the plan that does not end.
     """
 
-    start: list[FloatArray]
-    span: list[FloatArray]
+    start: FloatArray
+    span: FloatArray
     inverse: FloatArray
     first: FloatArray | float = 0.0
     last: FloatArray | float = 1.0
@@ -190,11 +190,11 @@ class Beside(NamedTuple):
 class Away(NamedTuple):
     """Nodes (steps, k) beside a centreline.
 
-    vector: three components, from the nearest point. element: that it is on, -1 for straight centrelines and nodes
+    vector: (3, steps, k) from the nearest point. element: that it is on, -1 for straight centrelines and nodes
     without any. share: of the element.
     """
 
-    vector: tuple[FloatArray, ...]
+    vector: FloatArray
     element: IndexArray
     share: FloatArray
 
@@ -243,15 +243,15 @@ class LaidCentreline:
         return Beside((pieces[0], pieces[1]), (one, other), (far[0], far[1]), straight, alone)
 
     def _piece(self, at: IndexArray) -> _Pieces:
-        return _Pieces([axis[at] for axis in self.start], [axis[at] for axis in self.span], self.inverse[at])
+        return _Pieces(self.start.take(at, axis=1)[:, None], self.span.take(at, axis=1)[:, None], self.inverse[at])
 
-    def away(self, beside: Beside, points: list[FloatArray]) -> Away:
-        """Return where `points`, three (steps, k), are from their nearest points of the centreline."""
+    def away(self, beside: Beside, points: FloatArray) -> Away:
+        """Return where `points` (3, steps, k) are from their nearest points of the centreline."""
         share, away, square = _foot(points, beside.pieces[0])
         second, other, distance = _foot(points, beside.pieces[1])
         nearer = distance < square
         share = np.where(nearer, second, share)
-        away = [np.where(nearer, new, old) for new, old in zip(other, away, strict=True)]
+        away = np.where(nearer, other, away)
         element = np.where(nearer, beside.elements[1], beside.elements[0])
         ends = share == np.where(nearer, beside.far[1], beside.far[0])
         if ends.any():
@@ -259,14 +259,13 @@ class LaidCentreline:
         if beside.straight.any():
             away[0][:, beside.straight] = 0.0  # at the point's own elevation
         if beside.alone.any():
-            for axis in away:
-                axis[:, beside.alone] = 0.0
-        return Away(tuple(away), element, share)
+            away[..., beside.alone] = 0.0
+        return Away(away, element, share)
 
     def _walk(
         self,
-        points: list[FloatArray],
-        found: tuple[FloatArray, list[FloatArray], FloatArray, IndexArray],
+        points: FloatArray,
+        found: tuple[FloatArray, FloatArray, FloatArray, IndexArray],
         held: IndexArray,
     ) -> None:
         """Go on beyond the ends of pieces that the nearest points stand on, as long as it gets nearer."""
@@ -279,36 +278,32 @@ class LaidCentreline:
             following = np.where(one == current, other, one)
             following[(share > 0.0) & (share < 1.0)] = -1
             held, following = held[following >= 0], following[following >= 0]
-            share, vectors, square = _foot([axis.flat[held] for axis in points], self._piece(following))
-            nearer = square < squares.flat[held]
+            share, vectors, square = _foot(points.reshape(3, 1, -1)[..., held], self._piece(following))
+            nearer = square[0] < squares.flat[held]
             held = held[nearer]
-            shares.flat[held], squares.flat[held] = share[nearer], square[nearer]
+            shares.flat[held], squares.flat[held] = share[0, nearer], square[0, nearer]
             elements.flat[held] = following[nearer]
-            for axis, values in zip(away, vectors, strict=True):
-                axis.flat[held] = values[nearer]
+            away.reshape(3, -1)[:, held] = vectors[:, 0, nearer]
 
 
 def _with_lines(piece: _Pieces, lines: FloatArray, straight: BoolArray) -> _Pieces:
     """Straight centrelines in the place of the pieces of some nodes."""
-    y, z, along_y, along_z = lines.T
-    start = [np.where(straight, new, old) for new, old in zip((0.0, y, z), piece.start, strict=True)]
-    span = [np.where(straight, new, old) for new, old in zip((0.0, along_y, along_z), piece.span, strict=True)]
+    places = np.pad(lines.reshape(-1, 2, 2), ((0, 0), (0, 0), (1, 0))).T[:, :, None]
+    start = np.where(straight, places[:, 0], piece.start)
+    span = np.where(straight, places[:, 1], piece.span)
     ends = np.where(straight, -np.inf, 0.0), np.where(straight, np.inf, 1.0)
     return _Pieces(start, span, np.where(straight, 1.0, piece.inverse), *ends)
 
 
-def _foot(points: list[FloatArray], piece: _Pieces) -> tuple[FloatArray, list[FloatArray], FloatArray]:
-    """Share of each piece, vector from its nearest point and the square of that."""
-    away = [axis - start for axis, start in zip(points, piece.start, strict=True)]
-    share = share_of_piece((away[0], away[1], away[2]), (piece.span[0], piece.span[1], piece.span[2]), piece.inverse)
+def _foot(points: FloatArray, piece: _Pieces) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Share (steps, k) of each piece, vector (3, steps, k) from its nearest point and the square of that."""
+    away = points - piece.start
+    share: FloatArray = share_of_piece((away[0], away[1], away[2]), tuple(piece.span), piece.inverse)
     np.maximum(share, piece.first, out=share)
     np.minimum(share, piece.last, out=share)
-    for component, span in zip(away, piece.span, strict=True):
-        np.subtract(component, share * span, out=component)
-    square = away[0] * away[0]
-    square += away[1] * away[1]
-    square += away[2] * away[2]
-    return share, away, square
+    away -= share * piece.span
+    squares = away * away
+    return share, away, squares[0] + squares[1] + squares[2]
 
 
 def resistance(trench: TrenchRows, offset: FloatArray, normal_force: FloatArray) -> FloatArray:
@@ -381,8 +376,8 @@ def added_limit(
     for place in ranks(whole.nodes):
         rows = whole.some(place)
         at, beside = rows.nodes, line.pieces_beside(rows)
-        where = line.away(beside, [points[at, axis][None] for axis in range(3)])
-        away, lateral = np.stack([axis[0] for axis in where.vector], axis=1), axes[1][at]
+        where = line.away(beside, points[at].T[:, None])
+        away, lateral = where.vector[:, 0].T, axes[1][at]
         offset = (away * lateral).sum(axis=1)
         side = np.where((offset > 0.0) == forward[at], 1.0, 0.0) * (offset != 0.0)
         by_distance, by_normal = slopes(rows, offset)

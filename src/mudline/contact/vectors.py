@@ -184,28 +184,25 @@ def in_plane(wanted: Components, normal: Components) -> Components:
     return unit
 
 
-def rescale(spans: list[FloatArray], square: FloatArray) -> FloatArray:
+def rescale(spans: FloatArray, square: FloatArray) -> FloatArray:
     """Divide spans whose squares under- or overflow by their largest component; return the squares.
 
     Spans without length, or of absent nodes, become 0.
     """
     odd = ~((square > LEAST_SQUARE) & (square < LARGEST_SQUARE))
-    parts = [span[odd] for span in spans]
+    parts = spans[:, odd]
     scale = span_scale(*parts)
-    parts = [np.where(np.isfinite(part), part / scale, 0.0) for part in parts]
-    for span, part in zip(spans, parts, strict=True):
-        span[odd] = part
+    spans[:, odd] = parts = np.where(np.isfinite(parts), parts / scale, 0.0)
     squares = dot_3(tuple(parts), tuple(parts))
     square[odd] = np.where(squares > 0.0, squares, np.inf)
     return square
 
 
-def units(spans: list[FloatArray]) -> list[FloatArray]:
-    """Return the unit directions of spans, three components, which may be changed; 0 for one without length."""
-    square = spans[0] * spans[0]
-    for span in spans[1:]:
-        square += span * span
+def units(spans: FloatArray) -> FloatArray:
+    """Return the unit directions of spans (3, ...), which may be changed; 0 for one without length."""
+    squares = spans * spans
+    square = squares[0] + squares[1] + squares[2]
     if not (square.min(initial=1.0) > LEAST_SQUARE and square.max(initial=1.0) < LARGEST_SQUARE):
         square = rescale(spans, square)
-    share = tangent_share(square)
-    return [span * share for span in spans]
+    found: FloatArray = spans * tangent_share(square)
+    return found

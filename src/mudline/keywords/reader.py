@@ -49,9 +49,10 @@ class ReadBlock:
     @property
     def own(self) -> Places:
         """The places in the text that was read."""
-        if not isinstance(self.found, Places):
-            self.found = self.found()
-        return self.found
+        found = self.found  # read once: decks that share a block may be read in two threads
+        if not isinstance(found, Places):
+            found = self.found = found()
+        return found
 
     @property
     def places(self) -> Places:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
-import time
-from collections.abc import Iterator
-from contextlib import AbstractContextManager
+from collections.abc import Mapping
+from contextlib import AbstractContextManager, suppress
+from copy import copy
 from dataclasses import field
-from functools import cached_property, partial
+from functools import cached_property
 from pathlib import Path
+from typing import Self
 
 from pygls.exceptions import JsonRpcException
 
@@ -49,20 +50,45 @@ def value_text(value: float | str) -> str:
 
 @dataclass
 class Analysis:
-    """What is known of one text of a document.
+    """What is known of one text of a document, which another thread can find out: nothing in here changes with typing.
 
-    `deck` is None where the text is not a deck, or too large. `looked_at` are the files that the findings depend on.
+    `unsaved` are the texts of all open decks. `deck` is None until the text was read, and where it is not a deck, or
+    too large; `found` is empty until it was checked. `looked_at` are the files that the findings depend on.
     """
 
     document: Document
-    revision: int
     settings: LintSettings
+    unsaved: Mapping[str, Unsaved]
+    excluded: bool = False
     deck: Deck | None = None
     context: LintContext | None = None
     found: tuple[Diagnostic, ...] = ()
     looked_at: frozenset[str] = frozenset()
-    seconds: float = 0.0
-    excluded: bool = False
+
+    def reading(self) -> AbstractContextManager[None]:
+        """A block in which the texts of open decks hold before the files on the disk."""
+        return with_unsaved(self.unsaved)
+
+    def read(self) -> Self:
+        """Read the deck; its scene and its names are found when somebody asks."""
+        document, folder = self.document, self.document.path.parent if self.document.path else None
+        if _is_deck(document) and not document.is_too_large:
+            with self.reading():
+                self.deck = read_deck(document.as_file(), document.name, units=self.settings.units, folder=folder)
+                self.context = LintContext(self.deck, dialect=self.settings.dialect)
+        return self
+
+    def checked(self) -> Self:
+        """Read and check the deck."""
+        with self.reading(), recording_looks() as looks:
+            try:
+                self.read()
+                found = lint_context(self.context, self.settings.rules) if self.context else []
+            except DeckError as error:
+                found = list(error.diagnostics)
+        self.found = () if self.excluded else with_severities(found, self.settings)
+        self.looked_at = frozenset(looks)
+        return self
 
     @property
     def origin(self) -> TextOrigin | None:
@@ -72,7 +98,8 @@ class Analysis:
     @cached_property
     def scene(self) -> Scene | None:
         """The scene, as far as it can be resolved."""
-        return self.context.scene if self.context else None
+        with self.reading():
+            return self.context.scene if self.context else None
 
     @cached_property
     def names(self) -> list[Occurrence]:
@@ -133,23 +160,28 @@ class Decks:
         """Analyse a document again, although its own text has not changed."""
         self._analyses.pop(uri, None)
 
-    def is_current(self, uri: str) -> bool:
-        """Whether the analysis of a document is that of its text."""
-        found = self._analyses.get(uri)
-        return found is not None and found.revision == found.document.revision
+    def begun(self, document: Document) -> Analysis:
+        """An analysis of a document as it is now, of which nothing is read yet."""
+        configuration, settings = self._settings(document)
+        opened = [each for each in self.documents.values() if each.path]
+        unsaved = {str(each.path.absolute()): Unsaved(each.revision, each.text.encode) for each in opened if each.path}
+        return Analysis(copy(document), settings, unsaved, _excluded(configuration, document))
 
-    def last(self, uri: str) -> Analysis | None:
-        """The last analysis of a document, of whatever text."""
-        return self._analyses.get(uri)
+    def keep(self, made: Analysis) -> None:
+        """Keep an analysis of an open document for its text."""
+        self._analyses[made.document.uri] = made
 
     def analysis(self, uri: str) -> Analysis | None:
-        """The analysis of a document as it is now; None for one that is not open. Never fails for content."""
+        """The analysis of a document as it is now, read and perhaps not yet checked; None for one that is not open."""
         document = self.documents.get(uri)
         if document is None:
             return None
         found = self._analyses.get(uri)
-        if found is None or found.revision != document.revision:
-            found = self._analyses[uri] = self._made(document)
+        if found is None or found.document.revision != document.revision:
+            found = self.begun(document)
+            with suppress(DeckError):
+                found.read()
+            self.keep(found)
         return found
 
     def at(self, path: Path) -> Document | None:
@@ -158,42 +190,10 @@ class Decks:
         opened = (each for each in self.documents.values() if each.path is not None)
         return next((each for each in opened if os.path.abspath(str(each.path)) == name), None)  # noqa: PTH100 - as above
 
-    def reading(self) -> AbstractContextManager[None]:
-        """A block in which the texts of open decks hold before the files on the disk."""
-        return with_unsaved(
-            {
-                str(each.path.absolute()): Unsaved(each.revision, partial(Document.as_file, each))
-                for each in self.documents.values()
-                if each.path
-            }
-        )
-
-    def dependents(self, path: Path) -> Iterator[str]:
-        """The addresses of the open decks whose findings depend on a file."""
-        name = os.path.abspath(path)  # noqa: PTH100 - as `look` records them
-        for uri, found in self._analyses.items():
-            if name in found.looked_at:
-                yield uri
-
-    def _made(self, document: Document) -> Analysis:
-        configuration, settings = self._settings(document)
-        made = Analysis(document, document.revision, settings)
-        if document.is_too_large or not _is_deck(document):
-            return made
-        made.excluded = _excluded(configuration, document)
-        begun = time.process_time()
-        folder = document.path.parent if document.path else None
-        with self.reading(), recording_looks() as looks:
-            try:
-                made.deck = read_deck(document.as_file(), document.name, units=settings.units, folder=folder)
-                made.context = LintContext(made.deck, dialect=settings.dialect)
-                found = lint_context(made.context, settings.rules)
-            except DeckError as error:
-                found = list(error.diagnostics)
-        made.found = () if made.excluded else with_severities(found, settings)
-        made.looked_at = frozenset(looks)
-        made.seconds = time.process_time() - begun
-        return made
+    def depends(self, uri: str, path: Path) -> bool:
+        """Whether the findings of an open deck depend on a file."""
+        found = self._analyses.get(uri)
+        return found is not None and os.path.abspath(path) in found.looked_at  # noqa: PTH100 - as `look` records them
 
     def _settings(self, document: Document) -> tuple[Configuration, LintSettings]:
         """The configuration of a document and its settings; one with a fault is noted and left out."""

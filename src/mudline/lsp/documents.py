@@ -117,7 +117,7 @@ class Document:
 
     @property
     def is_long(self) -> bool:
-        """Whether the text is too long to be checked at every keystroke."""
+        """Whether the text is too long to be read between two keystrokes."""
         return len(self.text) > LARGEST_AT_ONCE
 
     @property

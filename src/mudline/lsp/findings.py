@@ -119,7 +119,8 @@ def fix_all(analysis: Analysis) -> types.WorkspaceEdit | None:
         return None
     folder = document.path.parent if document.path else None
     settings = replace(analysis.settings, fixing=Fixing.SAFE)
-    fixed = fix_bytes(document.as_file(), document.name, settings, folder)
+    with analysis.reading():
+        fixed = fix_bytes(document.as_file(), document.name, settings, folder)
     if fixed.changed is None:
         return None
     return types.WorkspaceEdit(changes={document.uri: document.difference(fixed.changed)})

@@ -64,7 +64,7 @@ def _dependents(decks: Decks, path: Path) -> Iterator[Linked]:
     for uri in list(decks.documents):
         other = decks.analysis(uri)
         if other is not None and other.deck is not None and other.document.path != path:
-            with decks.reading():
+            with other.reading():
                 if _continues(other.deck, path):
                     yield Linked(other.document, other.deck)
 

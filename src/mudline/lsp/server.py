@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Generator
+from collections.abc import Callable, Generator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 from lsprotocol import types
 from pygls.lsp.server import LanguageServer
@@ -17,6 +18,8 @@ from mudline.limits import LARGEST_OPEN
 from mudline.lsp import findings
 from mudline.lsp.decks import Analysis, Decks
 from mudline.lsp.documents import Document, file_of
+
+T = TypeVar("T")
 
 
 class DeckProtocol(LanguageServerProtocol):
@@ -52,11 +55,8 @@ class DeckProtocol(LanguageServerProtocol):
 
 # ----------------------------------------------------------------------------------------------------------- open decks
 
-DELAY = 0.1
+DELAY = 0.02
 """Seconds without a change after which a deck is checked."""
-_DELAY_AT_MOST = 3.0
-_PAUSE = 2.0
-"""How many times as long as its last check a pause in typing has to be."""
 
 CONFIGURATION = ".toml"
 """The suffix of configurations, and of what they extend."""
@@ -64,13 +64,13 @@ _WATCHED = tuple(f"*{suffix}" for suffix in (*SUFFIXES, ".fcsbd", ".txt", CONFIG
 
 
 class DeckServer(LanguageServer):
-    """Open decks and the checks that are due."""
+    """Open decks and their checks, the last one of each: they are made by one thread, one after the other."""
 
     def __init__(self) -> None:
         super().__init__("mudline", __version__, protocol_cls=DeckProtocol)
         self.decks = Decks()
-        self._due: dict[str, asyncio.TimerHandle] = {}
-        self._waiting: dict[str, list[asyncio.Future[None]]] = {}
+        self._checks: dict[str, asyncio.Task[None]] = {}
+        self._worker = ThreadPoolExecutor(1, "check")
 
     # ------------------------------------------------------------------------------------------------ documents
 
@@ -83,7 +83,7 @@ class DeckServer(LanguageServer):
         """Take up a document and check it at once."""
         document = self.decks.open(item.uri, item.text, item.version, str(item.language_id))
         self._show_limits(document)
-        self._schedule(item.uri, 0.0)
+        self._schedule(document, 0.0)
         self._touch(document)
 
     def changed(self, params: types.DidChangeTextDocumentParams) -> None:
@@ -100,7 +100,7 @@ class DeckServer(LanguageServer):
         document.version = params.text_document.version
         if document.is_too_large != was_large:
             self._show_limits(document)
-        self._schedule(document.uri, self._delay(document))
+        self._schedule(document)
         self._touch(document)
 
     def closed(self, uri: str) -> None:
@@ -108,9 +108,7 @@ class DeckServer(LanguageServer):
         document = self.decks.close(uri)
         if document is None:
             return
-        if (timer := self._due.pop(uri, None)) is not None:
-            timer.cancel()
-        self._wake(uri)
+        self._checks.pop(uri).cancel()
         self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, []))
         self._touch(document)
 
@@ -119,8 +117,8 @@ class DeckServer(LanguageServer):
         paths = [path for change in changes if (path := file_of(change.uri)) is not None]
         if any(path.suffix == CONFIGURATION for path in paths):
             self.decks.forget_configurations()
-            for uri in self.decks.documents:
-                self._schedule(uri, DELAY)
+            for document in self.decks.documents.values():
+                self._schedule(document)
             return
         for path in paths:
             self._recheck(path)
@@ -130,10 +128,11 @@ class DeckServer(LanguageServer):
             self._recheck(document.path, document.uri)
 
     def _recheck(self, path: Path, but: str = "") -> None:
-        """Check the decks that depend on a file."""
-        for uri in [uri for uri in self.decks.dependents(path) if uri != but]:
-            self.decks.forget(uri)
-            self._schedule(uri, DELAY)
+        """Check the decks that depend on a file, or of which this is not known yet."""
+        for uri, document in self.decks.documents.items():
+            if uri != but and (not self._checks[uri].done() or self.decks.depends(uri, path)):
+                self.decks.forget(uri)
+                self._schedule(document)
 
     def _show_limits(self, document: Document) -> None:
         """Say once, when a long deck is opened, what is not done for it."""
@@ -141,7 +140,7 @@ class DeckServer(LanguageServer):
         if document.is_too_large:
             self._show(f"{size}, and more than {LARGEST_OPEN // 10**6} million are not checked here: use mudline lint")
         elif document.is_long:
-            self._show(f"{size}: it is checked when typing pauses, and rows of long tables get no colours and no hints")
+            self._show(f"{size}: help waits for its check, and its outline has no names")
 
     def _show(self, message: str, kind: types.MessageType = types.MessageType.Info) -> None:
         self.window_show_message(types.ShowMessageParams(kind, message))
@@ -178,46 +177,41 @@ class DeckServer(LanguageServer):
 
     # --------------------------------------------------------------------------------------------------- checks
 
-    def _delay(self, document: Document) -> float:
-        last = self.decks.last(document.uri)
-        return min(max(DELAY, _PAUSE * last.seconds), _DELAY_AT_MOST) if last else DELAY
+    def _schedule(self, document: Document, delay: float = DELAY) -> None:
+        """Check a document when nothing has changed for some time; a check of an older text is dropped."""
+        if (older := self._checks.get(document.uri)) is not None:
+            older.cancel()
+        self._checks[document.uri] = check = asyncio.create_task(self._check(document, delay))
+        check.add_done_callback(_failed)
 
-    def _schedule(self, uri: str, delay: float) -> None:
-        """Check a document when nothing has changed for some time; an older plan is dropped."""
-        if (timer := self._due.get(uri)) is not None:
-            timer.cancel()
-        self._due[uri] = asyncio.get_running_loop().call_later(delay, self._check, uri)
+    async def _check(self, document: Document, delay: float) -> None:
+        await asyncio.sleep(delay)
+        begun = self.decks.begun(document)
+        for message in self.decks.faults:
+            self._show(message, types.MessageType.Warning)
+        self.decks.faults.clear()
+        found = await self.aside(begun.checked)
+        self.decks.keep(found)
+        self.text_document_publish_diagnostics(
+            types.PublishDiagnosticsParams(document.uri, findings.shown(found), found.document.version)
+        )
 
-    def _check(self, uri: str) -> None:
-        """Show the findings of a document as it is now."""
-        self._due.pop(uri, None)
-        try:
-            found = self.decks.analysis(uri)
-            if found is not None:
-                document = found.document
-                self.text_document_publish_diagnostics(
-                    types.PublishDiagnosticsParams(uri, findings.shown(found), document.version)
-                )
-        finally:
-            for message in self.decks.faults:
-                self._show(message, types.MessageType.Warning)
-            self.decks.faults.clear()
-            self._wake(uri)
+    async def aside(self, work: Callable[[], T]) -> T:
+        """What work comes to that takes long: while it is done, requests are answered."""
+        return await asyncio.get_running_loop().run_in_executor(self._worker, work)
 
-    def _wake(self, uri: str) -> None:
-        """Let the requests go on that wait for a document to be checked."""
-        for waiting in self._waiting.pop(uri, ()):
-            if not waiting.done():
-                waiting.set_result(None)
-
-    async def analysis(self, uri: str) -> Analysis | None:
-        """The analysis of a document as it is now; that of a long one when it has been checked."""
+    async def analysis(self, uri: str, *, checked: bool = False) -> Analysis | None:
+        """The analysis of a document as it is now; a `checked` one, and that of a long one, after its check."""
         document = self.decks.documents.get(uri)
-        while document is not None and document.is_long and uri in self._due:
-            waiting = asyncio.get_running_loop().create_future()
-            self._waiting.setdefault(uri, []).append(waiting)
-            await waiting
+        waits = document is not None and (checked or document.is_long)
+        while waits and uri in self._checks and not self._checks[uri].done():
+            await asyncio.wait([self._checks[uri]])
         return self.decks.analysis(uri)
+
+    def shutdown(self) -> None:
+        """End, as soon as a check that runs has ended."""
+        self._worker.shutdown(cancel_futures=True)
+        super().shutdown()  # type: ignore[no-untyped-call]
 
     def _unexpected(self, _: object, context: dict[str, Any]) -> None:
         """Report a fault of the server itself, which goes on."""
@@ -230,3 +224,9 @@ class DeckServer(LanguageServer):
         """Note what could not be handled in the editor's log; requests were answered with it already."""
         message = str(error)[:500] or type(error).__name__
         self.window_log_message(types.LogMessageParams(types.MessageType.Log, f"{source.__name__}: {message}"))
+
+
+def _failed(check: asyncio.Task[None]) -> None:
+    """Let the loop, and so `_unexpected`, have what a check has raised."""
+    if not check.cancelled():
+        check.result()

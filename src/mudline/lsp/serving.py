@@ -28,7 +28,6 @@ def register(server: DeckServer) -> None:
     _navigation(server)
     _rename(server)
     _layout(server)
-    _between_the_lines(server)
 
 
 def _watch(server: DeckServer) -> None:
@@ -50,19 +49,18 @@ def _fixes(server: DeckServer) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_CODE_ACTION, options)
     async def actions(params: types.CodeActionParams) -> list[types.CodeAction]:
-        found = await server.analysis(params.text_document.uri)
+        found = await server.analysis(params.text_document.uri, checked=True)
         if found is None:
             return []
-        with server.decks.reading():
-            return findings.actions(found, params.range, params.context.only, resolved=server.resolves_edits)
+        context, resolved = params.context, server.resolves_edits
+        return await server.aside(lambda: findings.actions(found, params.range, context.only, resolved=resolved))
 
     @server.feature(types.CODE_ACTION_RESOLVE)
     async def resolve(action: types.CodeAction) -> types.CodeAction:
         uri = action.data.get("uri") if isinstance(action.data, dict) else None
         found = await server.analysis(uri) if isinstance(uri, str) else None
         if found is not None and action.kind == findings.FIX_ALL:
-            with server.decks.reading():
-                action.edit = findings.fix_all(found)
+            action.edit = await server.aside(lambda: findings.fix_all(found))
         return action
 
 
@@ -146,13 +144,6 @@ def _layout(server: DeckServer) -> None:
         found = await server.analysis(params.text_document.uri)
         return structure.formatting(found) if found else []
 
-
-def _between_the_lines(server: DeckServer) -> None:
-    @server.feature(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, structure.LEGEND)
-    async def all_tokens(params: types.SemanticTokensParams) -> types.SemanticTokens:
-        found = await server.analysis(params.text_document.uri)
-        return structure.tokens(found) if found else types.SemanticTokens([])
-
     @server.feature(types.TEXT_DOCUMENT_INLAY_HINT)
     async def inlay_hints(params: types.InlayHintParams) -> list[types.InlayHint]:
         found = await server.analysis(params.text_document.uri)
@@ -160,6 +151,10 @@ def _between_the_lines(server: DeckServer) -> None:
 
 
 # ---------------------------------------------------------------------------------------------------------- the process
+
+
+_SWITCH = 0.001
+"""Seconds after which a check lets the thread go on that answers requests; each answer needs several such turns."""
 
 
 def quiet_logs() -> None:
@@ -179,6 +174,7 @@ def serve() -> int:
     """Serve until the editor ends it; returns 0 where that was announced before, as the protocol asks, else 1."""
     quiet_logs()
     stdin, stdout = take_streams()
+    sys.setswitchinterval(_SWITCH)
     server = DeckServer()
     register(server)
     server.start_io(stdin, stdout)

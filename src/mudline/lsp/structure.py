@@ -1,8 +1,7 @@
-"""The structure of a deck: its outline, what folds, what each word is (for colours), and its canonical layout."""
+"""The structure of a deck: its outline, what folds, and its canonical layout."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from itertools import islice
 from typing import cast
@@ -13,17 +12,13 @@ from mudline.deck.model import Opaque
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import DeckError, Span
 from mudline.formatting.document import FormatError, formatted
-from mudline.keywords.catalogue import block_class
 from mudline.keywords.model import Block, FieldSpec, Part, record_schema
-from mudline.keywords.reader import ReadBlock, all_keys
+from mudline.keywords.reader import ReadBlock
 from mudline.keywords.values import Kind as FieldKind
 from mudline.keywords.values import Names
-from mudline.limits import LONGEST_COLOURED, MOST_OUTLINED
+from mudline.limits import MOST_OUTLINED
 from mudline.lsp.decks import Analysis, failed
-from mudline.lsp.documents import units_of
-from mudline.lsp.sites import slot_of_key
-from mudline.syntax.fields import Field, first_key, read_line, trimmed
-from mudline.syntax.rows import line_spans, read_number
+from mudline.syntax.fields import trimmed
 from mudline.syntax.tree import Kind, Leaf, RawBlock, RawSection
 
 # ----------------------------------------------------------------------------------------------------------- outline
@@ -168,115 +163,3 @@ def formatting(analysis: Analysis) -> list[types.TextEdit]:
     except FormatError as error:
         raise failed(f"not formatted: {error}") from error
     return document.difference(after)
-
-
-# ---------------------------------------------------------------------------------------------------------------- words
-
-TYPES = [
-    "namespace",
-    "keyword",
-    "property",
-    "comment",
-    "number",
-    "string",
-    "variable",
-    "function",
-    "operator",
-    "enumMember",
-]
-"""Of a section, a keyword, a setting, and so on; standard names, which every editor has colours for."""
-LEGEND = types.SemanticTokensLegend(TYPES, [])
-_IN_EQUATION = re.compile(
-    r'(?P<string>"[^"]*")|(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|(?P<name>[A-Za-z_]\w*)(?P<call>\s*\()?'
-    r"|(?P<operator>[-+*/^<>=&|]+)"
-)
-
-Token = tuple[Span, str]
-
-
-def tokens(analysis: Analysis) -> types.SemanticTokens:
-    """The words of a deck; long runs of numbers are left out."""
-    origin = analysis.origin
-    if origin is None:
-        return types.SemanticTokens([])
-    document = analysis.document
-    data: list[int] = []
-    line = character = 0
-    for span, kind in _of_deck(origin):
-        place = document.position(span.start)
-        if place.line != line:
-            character = 0
-        length = units_of(document.text[slice(*span)], document.encoding)
-        data += (place.line - line, place.character - character, length, TYPES.index(kind), 0)
-        line, character = place.line, place.character
-    return types.SemanticTokens(data)
-
-
-def _of_deck(origin: TextOrigin) -> Iterator[Token]:
-    text = origin.source.unified
-    for section in (origin.tree.preamble, *origin.tree.sections):
-        leaves: list[tuple[Leaf, type[Block] | None]] = [(section.head, None)] if section.head else []
-        leaves += [(leaf, None) for leaf in section.leaves]
-        for block in section.blocks:
-            declared = block_class(section.name, block.name)
-            leaves += [(leaf, declared) for leaf in (block.head, *block.leaves)]
-        for leaf, declared in leaves:
-            yield from _of_leaf(text, leaf, declared)
-
-
-def _of_leaf(text: str, leaf: Leaf, declared: type[Block] | None) -> Iterator[Token]:
-    kind = leaf.kind
-    if kind is Kind.UNDECIDED:
-        known = declared is not None and first_key(text, leaf.span) in all_keys(declared)
-        kind = Kind.SETTING if known else Kind.COMMENT
-    if kind in _WHOLE:
-        yield trimmed(text, *leaf.span), _WHOLE[kind]
-    elif kind is Kind.RUN and leaf.span.end - leaf.span.start <= LONGEST_COLOURED:
-        for line in line_spans(text, leaf.span):
-            yield from _of_line(text, line, declared)
-    elif kind in (Kind.SETTING, Kind.TEXT):
-        yield from _of_line(text, leaf.span, declared)
-
-
-_WHOLE = {Kind.SECTION: "namespace", Kind.KEYWORD: "keyword", Kind.COMMENT: "comment"}
-
-
-def _of_line(text: str, line: Span, declared: type[Block] | None) -> Iterator[Token]:
-    for group in read_line(text, line, slashes=declared is not None and declared.slashes).groups:
-        choices: tuple[str, ...] = ()
-        if group.key:
-            equals = text.index("=", group.span.start)
-            yield trimmed(text, group.span.start, equals), "property"
-            yield Span(equals, equals + 1), "operator"
-            slot = slot_of_key(declared, group.key) if declared else None
-            choices = slot.choices if slot else ()
-        for given in group.fields:
-            yield from _of_field(given, choices)
-
-
-def _of_field(given: Field, choices: tuple[str, ...]) -> Iterator[Token]:
-    text, span = given
-    if not text:
-        return
-    if text.startswith("=["):
-        yield Span(span.start, span.start + 2), "operator"
-        yield from _of_equation(text.removesuffix("]")[2:], span.start + 2)
-        if text.endswith("]"):
-            yield Span(span.end - 1, span.end), "operator"
-    elif read_number(text) is not None:
-        yield span, "number"
-    elif text.upper() in choices:
-        yield span, "enumMember"
-    else:
-        yield span, "string"
-
-
-def _of_equation(text: str, start: int) -> Iterator[Token]:
-    for match in _IN_EQUATION.finditer(text):
-        if match["name"]:
-            yield (
-                Span(start + match.start("name"), start + match.end("name")),
-                "function" if match["call"] else "variable",
-            )
-        else:
-            yield Span(start + match.start(), start + match.end()), str(match.lastgroup)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 
 import numpy as np
 from lsprotocol import types
@@ -232,30 +233,16 @@ def _contains(found: NamedSet, index: int) -> bool:
 
 
 def hints(analysis: Analysis, range_: types.Range) -> list[types.InlayHint]:
-    """The values of equations in a range, and the elements and diameters of the sets that laws are given to."""
+    """The values of the equations in a range."""
     document = analysis.document
     if analysis.origin is None or analysis.deck is None:
         return []
     within = Span(document.offset(range_.start), document.offset(range_.end))
-    found = [*_equations(analysis, within), *_sets(analysis, within)]
-    return [_hint(analysis, at, text) for at, text in sorted(found)[:MOST_HINTS]]
+    found = (span for span in equation_spans(analysis.origin) if within.start <= span.start and span.end <= within.end)
+    return [_hint(analysis, span) for span in islice(found, MOST_HINTS)]
 
 
-def _hint(analysis: Analysis, offset: int, text: str) -> types.InlayHint:
-    return types.InlayHint(analysis.document.position(offset), text, padding_left=True)
-
-
-def _equations(analysis: Analysis, within: Span) -> Iterator[tuple[int, str]]:
-    text = analysis.document.text
-    for start, end in equation_spans(analysis.origin) if analysis.origin else ():
-        if within.start <= start and end <= within.end:
-            yield end, f"= {analysis.evaluated(Equation(text[start:end]))}"
-
-
-def _sets(analysis: Analysis, within: Span) -> Iterator[tuple[int, str]]:
-    scene = analysis.scene
-    for one in analysis.names if scene is not None else ():
-        found = scene.set_table.find(one.name) if scene and one.thing.kind is Names.SET and not one.defines else None
-        if scene is not None and found is not None and within.start <= one.span.start and one.span.end <= within.end:
-            sizes = diameters_of(scene, found)
-            yield one.span.end, ", ".join(filter(None, [counted(len(found.elements), "element"), sizes]))
+def _hint(analysis: Analysis, equation: Span) -> types.InlayHint:
+    document = analysis.document
+    value = analysis.evaluated(Equation(document.text[slice(*equation)]))
+    return types.InlayHint(document.position(equation.end), f"= {value}", padding_left=True)

@@ -43,7 +43,7 @@ _NORMAL = np.finfo(np.float64).tiny
 _EXACT, _MOST_EXACT = 2**53, 22
 _TENS = 10.0 ** np.arange(_MOST_EXACT + 1)
 _PLACES = 10 ** np.arange(DIGITS_OF_64_BITS + 1, dtype=np.uint64)
-_UNUSED = [64 - 8 * np.clip(np.arange(DIGITS_OF_64_BITS + 1) - first, 0, 8).astype(np.uint64) for first in (0, 8, 16)]
+_UNUSED = 64 - 8 * np.clip(np.arange(DIGITS_OF_64_BITS + 1), 0, 8).astype(np.uint64)
 _STEPS = tuple(
     (np.uint64(mask), np.uint64(factor), np.uint64(shift))
     for mask, factor, shift in (
@@ -64,32 +64,27 @@ def whole_numbers(words: Words, end: Whole, count: Whole) -> Words:
     """
     at = end >> 3
     right = ((end & 7) << 3).astype(np.uint64)
-    left = 64 - right
-    least, most = int(count.min()), int(count.max())
-    behind = words.take(at)
-    total = np.zeros(0, np.uint64)
-    for number in range(max(-(-most // 8), 1)):
-        before = words.take(at - number - 1)
-        word = (before >> right) | (behind << left)
-        behind = before
-        if least < number * 8 + 8:
-            unused = _UNUSED[number].take(count)
-            word >>= unused
-            word <<= unused
-        if most == number * 8 + 1:
-            word >>= _LAST
-            word &= _DIGIT
-        else:
-            for mask, factor, shift in _STEPS:  # neighbours are added in pairs, fours and eights
-                word &= mask
-                word *= factor
-                word >>= shift
-        if number:
-            word *= _PLACES[8 * number]
-            total += word
-        else:
-            total = word
-    return total
+    word = words.take(at - 1)
+    word >>= right
+    word |= words.take(at) << (64 - right)
+    most = int(count.max())
+    if int(count.min()) < 8:
+        unused = _UNUSED.take(count)
+        word >>= unused
+        word <<= unused
+    if most == 1:
+        word >>= _LAST
+        word &= _DIGIT
+    else:
+        for mask, factor, shift in _STEPS:  # neighbours are added in pairs, fours and eights
+            word &= mask
+            word *= factor
+            word >>= shift
+    if most > 8:
+        some = np.flatnonzero(count > 8)
+        long = slice(None) if 2 * len(some) > len(count) else some
+        word[long] += whole_numbers(words, end[long] - 8, np.maximum(count[long] - 8, 0)) * _PLACES[8]
+    return word
 
 
 def with_fraction(whole: Words, fraction: Words, places: Whole) -> Words:

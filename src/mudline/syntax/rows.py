@@ -28,6 +28,7 @@ _ONLY_EQUATIONS = re.compile(r'(?:[^"{\[]++|(?<==)\[[^\[\]"{,]*+\])*+')
 _SHORT = 800  # characters: shorter runs are read sooner without arrays
 PIECE = 256 * 1024
 """Characters that are read at once: their arrays stay in the fast memory of a processor."""
+_BLANK = np.isin(np.arange(256), np.frombuffer(b" \t\r\n", np.uint8))
 _ODD_SHARE = 0.5
 _ROOM = 1.05
 _KEPT_BACK = 1 << 22
@@ -247,7 +248,7 @@ def row_starts(text: str, span: Span) -> array[int]:
     for start, end in _pieces(text, span):
         letters = np.frombuffer(text[start:end].encode("latin-1", "replace"), np.uint8)
         lines = np.append(0, np.flatnonzero(letters == ord("\n")) + 1)
-        blank = np.isin(letters, np.frombuffer(b" \t\r\n", np.uint8))
+        blank = _BLANK.take(letters)
         lines = lines[: len(lines) - (lines[-1] == end - start)]
         lines = lines[~np.logical_and.reduceat(blank, lines)] + start
         found.frombytes(lines.astype(np.int64).tobytes())

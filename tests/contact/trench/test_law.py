@@ -83,8 +83,8 @@ def nearest(
     assert rows is not None
     each = rows.some(np.zeros(len(laid), np.intp))._replace(nodes=np.arange(len(laid)))
     centreline = LaidCentreline(laid, Line(ends, len(laid)))
-    away = centreline.away(centreline.pieces_beside(each), [axis[None] for axis in points.T])
-    found: FloatArray = points - np.stack([axis[0] for axis in away.vector], axis=1)
+    away = centreline.away(centreline.pieces_beside(each), points.T[:, None])
+    found: FloatArray = points - away.vector[:, 0].T
     return found
 
 

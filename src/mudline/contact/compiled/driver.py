@@ -43,7 +43,8 @@ from mudline.contact.tables import Batch, ContactState, NormalRows, Tables
 _BATCH = 2**20
 """Nodes times steps at a time, at most."""
 _RANGE = 1024
-"""Elements or nodes in a range: what they read and write over a few steps stays in the second-level cache."""
+"""Elements or nodes in a range: what they read and write over a few steps stays in the second-level cache. Of a single
+step it is twice as many."""
 _STEPS = 64
 _WORTH_THREADS = 60_000
 """Nodes times steps of a batch from which on several threads are worth their start."""
@@ -119,12 +120,13 @@ class CompiledDriver:
         self._line = tuple(
             read_only(array) for array in (line.start.astype(np.int32), line.elements, line.senses, tables.half)
         )
-        self._sequence = _tasks(tables, range(len(range(0, self._elements, _RANGE))))
-        self._groups = _groups(tables, self._threads, self._sequence)
-        self.broken = False
-        """Whether a law turned out not to compile."""
         self.steps = max(1, min(_BATCH // max(self._nodes, 1), _STEPS))
         """How many steps at a time are fastest."""
+        width = _RANGE if self.steps > 1 else 2 * _RANGE
+        self._sequence = _tasks(tables, range(len(range(0, self._elements, width))), width)
+        self._groups = _groups(tables, self._threads, self._sequence, width)
+        self.broken = False
+        """Whether a law turned out not to compile."""
 
     def run(self, batch: Batch, part: ContactResult, state: ContactState) -> ContactState | None:
         """Write a batch to `part`, but for gaps and normals, which are there; return the state behind it.
@@ -210,16 +212,17 @@ class CompiledDriver:
         return read_only(line.pieces), (read_only(line.ends), read_only(line.elements_at))
 
 
-def _tasks(tables: Tables, held: range) -> list[_Task]:
+def _tasks(tables: Tables, held: range, width: int) -> list[_Task]:
     """The ranges of elements `held`, each followed by the ranges of nodes whose elements are all written by then.
 
-    Ranges of nodes that have elements elsewhere are left out, and those without elements come first.
+    All have this width. Ranges of nodes that have elements elsewhere are left out, and those without elements come
+    first.
     """
     line, elements, nodes = tables.line, len(tables.half), len(tables.given.node_ids)
     found: dict[int, list[_Task]] = {number: [] for number in range(held.start - 1, held.stop)}
-    for begin in range(0, nodes, _RANGE):
-        end = min(begin + _RANGE, nodes)
-        there = line.elements[line.start[begin] : line.start[end]] // _RANGE
+    for begin in range(0, nodes, width):
+        end = min(begin + width, nodes)
+        there = line.elements[line.start[begin] : line.start[end]] // width
         first, last = int(there.min(initial=held.stop)), int(there.max(initial=-1))
         if not there.size and held.start == 0:
             found[held.start - 1].append((True, begin, end))
@@ -227,18 +230,22 @@ def _tasks(tables: Tables, held: range) -> list[_Task]:
             found[last].append((True, begin, end))
     tasks = list(found[held.start - 1])
     for number in held:
-        tasks.append((False, number * _RANGE, min((number + 1) * _RANGE, elements)))
+        tasks.append((False, number * width, min((number + 1) * width, elements)))
         tasks += found[number]
     return tasks
 
 
-def _groups(tables: Tables, threads: int, sequence: list[_Task]) -> tuple[list[list[_Task]], list[list[_Task]]]:
+def _groups(
+    tables: Tables, threads: int, sequence: list[_Task], width: int
+) -> tuple[list[list[_Task]], list[list[_Task]]]:
     """The tasks of each thread in their order, and the ranges of nodes between two threads, which come behind."""
-    ranges = len(range(0, len(tables.half), _RANGE))
+    ranges = len(range(0, len(tables.half), width))
     count = min(threads, ranges)
     bounds = [ranges * group // max(count, 1) for group in range(count + 1)]
     together = (
-        [_tasks(tables, range(low, high)) for low, high in itertools.pairwise(bounds)] if count > 1 else [sequence]
+        [_tasks(tables, range(low, high), width) for low, high in itertools.pairwise(bounds)]
+        if count > 1
+        else [sequence]
     )
     done = {task for tasks in together for task in tasks}
     return together, [[task] for task in sequence if task not in done]

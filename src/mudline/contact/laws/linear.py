@@ -57,15 +57,14 @@ def smoothed_reaction(
     The share s multiplies the larger of K and w first, so that no intermediate value overflows or vanishes before the
     force does.
     """
-    scale, rest = where(half_width > _WIDEST, 0.5, 1.0), where(half_width > _WIDEST, 1.0, 0.5)
-    width = scale * half_width
-    into = scale * z + where(one_sided > 0.0, 0.0, width)
+    scale = where(half_width > _WIDEST, 0.5, 1.0)
+    width, shift = scale * half_width, where(one_sided > 0.0, half_width, 0.0)
+    into = scale * z + (width - scale * shift)
     # a share too small for all of its digits is computed larger by a power of two
     lift = where(into < _SMALL_SHARE * width, _LIFT, 1.0)
     drop = 1.0 / lift
     share = lift * into / where(half_width > 0.0, 2.0 * width, 1.0)
-    in_zone = np.maximum(stiffness, into) * drop * (share * rest) * np.minimum(stiffness, into)
-    shift = where(one_sided > 0.0, half_width, 0.0)
+    in_zone = np.maximum(stiffness, into) * drop * (share * (1.5 - scale)) * np.minimum(stiffness, into)
     inside = z < half_width + shift
     return where(inside, in_zone, stiffness * (z - shift)), where(inside, stiffness * drop * share, stiffness)
 

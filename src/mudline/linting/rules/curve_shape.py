@@ -33,8 +33,9 @@ _NO_PLAIN_NUMBERS = frozenset('["{')
 
 def swapped(curve: SceneCurve) -> bool:
     """Whether all points other than (0, 0) have a first number above 10 and a second one below 2."""
-    points = curve.points[(curve.points != 0.0).any(axis=1)]
-    return bool(points.size and (points[:, 0] > _LIKE_A_FORCE).all() and (points[:, 1] < _LIKE_A_RATIO).all())
+    ratios, forces = curve.points.T
+    exchanged = (ratios > _LIKE_A_FORCE) & (forces < _LIKE_A_RATIO)
+    return bool(exchanged.any() and (exchanged | ((ratios == 0.0) & (forces == 0.0))).all())
 
 
 @rule(CRV009)

@@ -234,9 +234,12 @@ def _inside(entry: SceneCurve, ratios: Floats, slopes: Floats) -> Iterator[Probl
     """Jumps at points of a curve."""
     steep = np.flatnonzero(slopes)
     before, behind = np.abs(slopes[steep[:-1]]), np.abs(slopes[steep[1:]])
-    jumps = np.flatnonzero((before / FARTHEST > behind) | (behind / FARTHEST > before))
-    for at in jumps[:MOST_REPORTED].tolist():
-        point = int(np.flatnonzero(entry.points[:, 0] == ratios[steep[at + 1]])[0])
+    jumps = np.flatnonzero((before / FARTHEST > behind) | (behind / FARTHEST > before))[:MOST_REPORTED]
+    if not len(jumps):
+        return
+    order = entry.points[:, 0].argsort(kind="stable")
+    points = order[np.searchsorted(entry.points[:, 0], ratios[steep[jumps + 1]], sorter=order)]
+    for at, point in zip(jumps.tolist(), points.tolist(), strict=True):
         message = (
             f"the slope goes from {before[at]:.6g} to {behind[at]:.6g} here, over {FARTHEST:g} times: correct the "
             "point, or add a transition"
