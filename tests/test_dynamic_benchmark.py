@@ -13,15 +13,12 @@ from mudline.contact.laws.suction import SuctionLaw, breakout_uplift
 from tests.benchmarks.dynamics.beam import DECKS
 from tests.benchmarks.dynamics.bouncing import TIMES, fall
 from tests.benchmarks.dynamics.chains import CASES, read_chain
-from tests.benchmarks.dynamics.lifting import touchdown
 from tests.benchmarks.dynamics.limits import EXPLICIT, limits
 from tests.benchmarks.dynamics.page import TABLES
 from tests.benchmarks.dynamics.peers import (
     CHAINS,
     CORRECTED,
-    EXUDYN,
     LOWERED,
-    MOORDYN,
     PULLED,
     REST,
     for_moordyn,
@@ -184,16 +181,3 @@ def test_the_bouncing_beam_comes_out_as_it_is_in_the_table() -> None:
     first, last = path.displacements[:, 0], path.displacements[:, beam.nodes - 1]
     assert first + beam.start[0, 0] == pytest.approx(column(kept, "reference, first node [m]"), abs=1e-6)
     assert last + beam.start[-1, 0] == pytest.approx(column(kept, "last node [m]"), abs=1e-6)
-
-
-def test_rows_of_other_programs_name_the_versions_that_are_installed() -> None:
-    programs = {row["source"] for row in kept_rows("chains")} | {row["program"] for row in kept_rows("bouncing")}
-    for peer, name in ((MOORDYN, "MoorDyn"), (EXUDYN, "Exudyn")):
-        assert f"{name} {peer.requirements[0].partition('==')[2]}" in programs
-
-
-def test_touchdown_is_where_the_gap_changes_sign() -> None:
-    arcs = np.array([0.0, 2.0, 4.0])
-    assert touchdown(np.array([-0.1, -0.1, 0.3]), arcs) == pytest.approx(2.5)
-    assert touchdown(np.array([-0.1, -0.1, -0.1]), arcs) == 4.0
-    assert touchdown(np.array([0.1, 0.1, 0.1]), arcs) == 0.0

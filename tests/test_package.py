@@ -36,10 +36,6 @@ def test_version_is_that_of_the_metadata() -> None:
     assert mudline.__version__ == metadata.version("mudline")
 
 
-def test_metadata_names_the_licence_by_its_spdx_name() -> None:
-    assert metadata.metadata("mudline")["License-Expression"] == "MIT"
-
-
 def test_package_is_typed() -> None:
     assert (Path(mudline.__file__).parent / "py.typed").is_file()
 
@@ -47,10 +43,6 @@ def test_package_is_typed() -> None:
 @pytest.mark.parametrize("name", GRAMMAR)
 def test_checkout_finds_its_grammar(name: str) -> None:
     assert grammar_file(name).samefile(ROOT / "grammar" / name)
-
-
-def test_there_is_a_grammar() -> None:
-    assert "deck.lark" in GRAMMAR
 
 
 def test_wheel_holds_every_module(wheel_names: set[str]) -> None:

@@ -121,11 +121,6 @@ def test_a_sample_begins_with_what_it_shows_and_says_that_it_is_synthetic(name: 
     assert "synthetic" in header[0].lower()
 
 
-@pytest.mark.parametrize("name", sorted(path.name for path in SAMPLES.glob("*.csv")))
-def test_data_files_are_small(name: str) -> None:
-    assert (SAMPLES / name).stat().st_size < 200_000
-
-
 # --------------------------------------------------------------------------------------------------------- findings
 
 

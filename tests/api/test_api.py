@@ -94,11 +94,6 @@ def test_deck_makes_the_round_trip(path: Path, form: str) -> None:
     assert mudline.read(document, units="user").units == "user"
 
 
-def test_keyword_text_is_read_again(path: Path) -> None:
-    deck = mudline.read(path)
-    assert mudline.read(changed(path, deck.to_keyword())) == deck
-
-
 def test_what_cannot_be_read(path: Path) -> None:
     with pytest.raises(mudline.DeckError, match="'ten' is not a number") as caught:
         mudline.read(changed(path, BAD_NUMBER))
@@ -107,11 +102,6 @@ def test_what_cannot_be_read(path: Path) -> None:
     assert (found.file, found.line, found.column) == (path.as_posix(), 6, 11)
     assert (found.code, found.severity) == ("SYN002", mudline.Severity.ERROR)
     assert isinstance(caught.value, ValueError)
-
-
-def test_warnings_and_errors_of_the_scene_do_not_keep_a_deck_from_being_read(path: Path) -> None:
-    assert mudline.read(changed(path, ILLEGAL)).sections
-    assert mudline.read(changed(path, UNUSED)).sections
 
 
 def test_file_that_is_missing(tmp_path: Path) -> None:
@@ -155,12 +145,6 @@ def test_keyword_text(path: Path) -> None:
         mudline.from_keyword(CLEAN.encode("utf-16"))
 
 
-def test_documents_as_bytes(path: Path) -> None:
-    deck = mudline.read(path)
-    assert mudline.from_json(deck.to_json().encode()).sections == deck.sections
-    assert mudline.from_yaml(deck.to_yaml().encode()).sections == deck.sections
-
-
 TEXTS = {
     CLEAN: "from_keyword",
     CLEAN.encode(): "from_keyword",
@@ -190,19 +174,6 @@ def test_text_in_place_of_a_path(text: object, function: str) -> None:
 def test_what_is_no_path(given: object, found: str) -> None:
     with pytest.raises(TypeError, match=f"^expected a path as str or os.PathLike, found {found}$"):
         mudline.read(cast("str", given))
-
-
-@pytest.mark.parametrize("name", ["*.keyxm", "$MODEL.keyxm", "{deck.keyxm"])
-def test_path_that_looks_like_a_text(name: str) -> None:
-    with pytest.raises(FileNotFoundError):
-        mudline.read(name)
-
-
-def test_file_whose_name_is_a_text(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    odd = tmp_path / "$MODEL"
-    odd.write_text(CLEAN, encoding="utf-8")
-    monkeypatch.chdir(tmp_path)
-    assert mudline.read("$MODEL").sections == mudline.from_keyword(CLEAN).sections
 
 
 @pytest.mark.parametrize("read", [mudline.from_json, mudline.from_yaml])
@@ -309,15 +280,3 @@ def test_scene_of_a_deck_with_errors(path: Path) -> None:
     with pytest.raises(mudline.DeckError, match="REF001") as caught:
         deck.scene()
     assert caught.value.diagnostics[0].line == 20
-
-
-def test_curve_of_ones_own() -> None:
-    curve = mudline.ForceCurve([(0.3, 4500), (0.0, 0.0), (0.1, 2000)])
-    assert curve.ratios.tolist() == [0.0, 0.1, 0.3]
-    force, slope = curve.evaluate(0.2)
-    assert (float(force), float(slope)) == pytest.approx((3250.0, 12500.0))
-
-
-def test_scene_of_a_document() -> None:
-    deck = mudline.from_json(mudline.from_json(EMPTY).to_json())
-    assert deck.scene().curves == {}

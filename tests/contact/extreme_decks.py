@@ -231,8 +231,6 @@ def _slide(tally: Tally, deck: Deck, scene: Scene, model: ContactModel, touched:
 _TINY = ("5E-324", "1E-320", "1E-308", "1E-300", "1E-200", "1E-100")
 _HUGE = ("1E100", "1E200", "1E300", "1E305", "1E308", "1.7976931348623157E308", "1E309")
 _ENDS = ("5E-324", "1E-310", "1E-300", "1E-100", "1E-10", "1E0", "1E10", "1E100", "1E300", "1E308")
-_ROUND, _RUBS = Deck(half_width="0.005"), Deck(friction=("0.4", "4E4"))
-_MOBILISED = Deck(friction=("0.4", "0.003"), mobilised=True)
 _MIDDLING = (("0", "0"), ("0.1", "2000"), ("0.3", "4500"), ("0.5", "6000"))
 
 
@@ -282,8 +280,3 @@ FAMILIES: dict[str, tuple[Sequence[str], Callable[[str], Deck]]] = {
     "friction, stiffness below": (_ENDS, lambda value: Deck(friction=("0.4", "4E4"), stiffness=value)),
 }
 """The ladder; to add to it, add a row."""
-
-
-def judged() -> list[Judgement]:
-    """The verdicts on all cells."""
-    return [judge(name, value, deck(value)) for name, (values, deck) in FAMILIES.items() for value in values]

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import pickle
-from dataclasses import fields, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mudline.contact import ContactInput, ContactModel, ContactResult
+from mudline.contact import ContactInput, ContactModel
 from mudline.contact.arrays import FloatArray
 from mudline.contact.plan import Backend
-from mudline.contact.seabed import FlatSeabed, PlanesSeabed, Seabed, SlopingSeabed
-from mudline.contact.seabed.profile import ProfileSeabed
+from mudline.contact.seabed import PlanesSeabed, Seabed, SlopingSeabed
 from mudline.curves import ForceCurve
 from tests.builders.contact import (
     CLAY,
@@ -33,7 +31,6 @@ from tests.builders.contact import (
     trench,
 )
 from tests.contact.comparison import (
-    EVALUATED,
     Scene,
     Sizes,
     arrays_of,
@@ -41,21 +38,11 @@ from tests.contact.comparison import (
     differences,
     equal_bits,
     plain_loops,
-    same_bits,
 )
-from tests.contact.random_scenes import LARGEST, LAWS, SUBSETS, random_scene
+from tests.contact.random_scenes import LARGEST, SUBSETS, random_scene
 
 pytestmark = pytest.mark.slow
 
-SEABEDS: list[Seabed] = [
-    FlatSeabed(),
-    SlopingSeabed(2.0, 30.0),
-    PlanesSeabed([[0.0, 0.0, 0.0]], [0.5]),
-    PlanesSeabed(
-        [[0.0, 0.0, 0.0], [0.0, 6.0, 0.0]], [1.0, 2.0], bounds=[[-1e9, 1e9, -1e9, 1e9], [6.0, 9.0, -1.0, 1.0]]
-    ),
-    ProfileSeabed([0.0, 5.0, 9.0], [0.0, -0.1, 0.1], "CUBIC SPLINE"),
-]
 BACKENDS: tuple[Backend, ...] = ("numpy", "fast")
 USUAL = Sizes(16384, 4096, 16, 2)
 seeds = st.integers(0, 2**32 - 1)
@@ -75,40 +62,12 @@ def scene(inputs: ContactInput, positions: FloatArray, velocities: FloatArray | 
 # ----------------------------------------------------------------------------------------------------- what is compared
 
 
-def test_the_comparison_sees_each_bit_of_each_array() -> None:
-    inputs = everything(12, 3)
-    positions, velocities, _ = journey(12, 3, 3)
-    contact = ContactModel(replace(inputs, curves=(CLAY, PULLING), tension="cut"))
-    result = contact.evaluate(positions, velocities=velocities)
-    _, state = contact.step(positions[0], velocities[0], contact.initial_state())
-    for part in (result, state):
-        names = {name for name, array in arrays_of(part) if array is not None}
-        assert names >= (
-            {field.name for field in fields(ContactResult)} - EVALUATED if part is result else {"unloading.numbers"}
-        )
-        assert same_bits(part, part)
-    for name in (field.name for field in fields(ContactResult) if field.name not in EVALUATED):
-        array = getattr(result, name).copy()
-        last = array.flat[-1]
-        array.flat[-1] = np.nextafter(last, 9.0) if array.dtype.kind == "f" else 1 - last.astype(np.int8)
-        assert differences(result, replace(result, **{name: array}))[0].startswith(f"{name}[")
-        assert differences(result, replace(result, **{name: getattr(result, name)[..., :-1]}))
-    assert differences(result, replace(result, state=None)) == ["state is in one only"]
-    assert differences(state, replace(state, friction=None))
-
-
-def test_minus_zero_is_not_zero_and_nan_is_nan() -> None:
-    one, other = np.array([0.0, np.nan, 1.0]), np.array([-0.0, -np.nan, 1.0])
-    assert equal_bits(one, other).tolist() == [False, True, True]
-    assert equal_bits(np.array([1, 2]), np.array([1, 3])).tolist() == [True, False]
-
-
 # -------------------------------------------------------------------------------------------------------- random scenes
 
 
 @pytest.mark.untraced
 @pytest.mark.parametrize("number", range(len(SUBSETS)))
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(3))
 def test_scenes_with_some_laws(number: int, seed: int) -> None:
     names, flat = SUBSETS[number]
     assert compare(random_scene(1000 * number + seed, names, flat=flat)) == []
@@ -120,12 +79,6 @@ def test_any_scene_through_loops_that_are_not_compiled(seed: int) -> None:
     assert compare(random_scene(seed), plain=True) == []
 
 
-@settings(max_examples=12)
-@given(seeds)
-def test_any_scene_with_everything(seed: int) -> None:
-    assert compare(random_scene(seed, frozenset(LAWS), flat=seed % 2 == 0)) == []
-
-
 # ------------------------------------------------------------------------------------------------ everything, and parts
 
 
@@ -133,20 +86,6 @@ def test_any_scene_with_everything(seed: int) -> None:
 def test_everything_through_loops_that_are_not_compiled(seabed: Seabed | None) -> None:
     positions, velocities, _ = journey(20, 30, 3)
     assert compare(scene(all_laws(20, 3, seabed), positions, velocities), plain=True) == []
-
-
-sizes = st.sampled_from([0.0, 5e-324, 1e-300, 1e-160, 1e-12, 1.0, 1e3, 1e12, 1e150, 1e300, LARGEST])
-
-
-@settings(max_examples=30)
-@given(st.integers(1, 4), st.integers(0, 999), st.tuples(sizes, sizes, sizes), sizes, st.sampled_from(SEABEDS[:4]))
-def test_sizes_beyond_reason_are_refused_alike(
-    elements: int, seed: int, scale: tuple[float, float, float], speed: float, seabed: Seabed
-) -> None:
-    positions, velocities, _ = journey(elements, 4, seed)
-    with np.errstate(over="ignore"):
-        path, rates = np.clip(positions * scale, -LARGEST, LARGEST), np.clip(velocities * speed, -LARGEST, LARGEST)
-    assert compare(scene(everything(elements, seed, seabed), path, rates), plain=True) == []
 
 
 def odd_lines() -> dict[str, Scene]:
@@ -187,16 +126,6 @@ def test_odd_lines(name: str) -> None:
             ContactModel(given_scene.inputs, backend="fast").evaluate(given_scene.positions)
 
 
-@pytest.mark.untraced
-def test_the_curve_law_of_many_elements() -> None:
-    elements = 400
-    rng = np.random.default_rng(8)
-    inputs = everything(elements, 8)
-    laws = on("curve", elements, curve=rng.integers(0, 2, elements)), on("lateral", [3, 99], stiffness=900.0)
-    positions, _, _ = journey(elements, 20, 8)
-    assert compare(scene(replace(inputs, laws=laws), positions)) == []
-
-
 def test_a_force_that_overflows_only_on_the_way_is_mended() -> None:
     curve = ForceCurve([(0.0, -1.7e308), (2.5, 1.7e308)])
     inputs = chain([CURVE], on("lateral", 1, stiffness=1.0), curves=(curve,), diameter=1.0, length=1e-3)
@@ -217,19 +146,6 @@ def test_a_long_line_on_several_threads(seabed: Seabed | None) -> None:
     for threads in (1, 2, 3):
         contact = ContactModel(inputs, backend="fast", threads=threads)
         assert differences(one, contact.evaluate(positions, velocities=velocities)) == []
-
-
-@pytest.mark.parametrize("seed", range(3))
-def test_states_go_from_one_backend_to_the_other_and_through_a_pickle(seed: int) -> None:
-    inputs = all_laws(60, seed)
-    positions, velocities, _ = journey(60, 10, seed)
-    models = [ContactModel(inputs, backend=backend) for backend in BACKENDS]
-    state = models[0].initial_state()
-    for number, (place, rate) in enumerate(zip(positions, velocities, strict=True)):
-        (one, after), (other, second) = (contact.step(place, rate, state) for contact in models)
-        assert differences(one, other) == []
-        assert differences(after, second) == []
-        state = pickle.loads(pickle.dumps((after, second)[number % 2]))  # noqa: S301 - our own bytes
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
@@ -255,17 +171,3 @@ def test_tangents_are_the_same() -> None:
     )
     assert one.by_position.values.tobytes() == other.by_position.values.tobytes()
     assert one.by_velocity.values.tobytes() == other.by_velocity.values.tobytes()
-
-
-@pytest.mark.parametrize("rows", [1, 3, 24])
-def test_series_in_parts(rows: int) -> None:
-    positions, _, times = journey(60, 30, 4)
-    contact = ContactModel(all_laws(60, 4), backend="fast")
-    whole = contact.evaluate(positions, times=times)
-    driver = contact._driver(30)
-    assert driver is not None
-    driver.steps = rows
-    parts = list(contact.stream(positions, times=times))
-    assert [part.start for part in parts] == list(range(0, 30, rows))
-    for start, part in ((each.start, each.result) for each in parts):
-        assert differences(part, whole.steps(start, start + rows)) == []

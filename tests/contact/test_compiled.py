@@ -11,12 +11,11 @@ import numba
 import numpy as np
 import pytest
 
-from mudline.contact import ContactModel, ContactResult, ContactState, LawAssignment
+from mudline.contact import ContactModel, LawAssignment
 from mudline.contact import plan as choices
 from mudline.contact.compiled.driver import _loop
 from mudline.contact.plan import Backend, BackendChoice
-from mudline.contact.tables import Batch
-from tests.builders.contact import CURVE, LINEAR, at_depths, chain, everything, friction, on
+from tests.builders.contact import LINEAR, at_depths, chain, everything, friction, on
 from tests.processes import TIMEOUT
 
 pytestmark = pytest.mark.slow
@@ -75,16 +74,6 @@ def test_no_threads_at_all_are_refused(threads: int) -> None:
         ContactModel(chain([LINEAR]), threads=threads)
 
 
-def test_there_is_a_thread_for_each_processor(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert ContactModel(chain([LINEAR]), threads=7)._choice.threads == 7
-    assert ContactModel(chain([LINEAR]))._choice.threads >= 1
-    monkeypatch.delattr("os.sched_getaffinity", raising=False)
-    monkeypatch.setattr("os.cpu_count", lambda: 5)
-    assert ContactModel(chain([LINEAR]))._choice.threads == 5
-    monkeypatch.setattr("os.cpu_count", lambda: None)
-    assert ContactModel(chain([LINEAR]))._choice.threads == 1
-
-
 def test_numpy_alone_does_not_load_numba() -> None:
     program = """if True:
         import sys, numpy as np
@@ -97,16 +86,6 @@ def test_numpy_alone_does_not_load_numba() -> None:
     assert run.stdout.strip() == "False"
 
 
-def test_the_same_laws_have_the_same_loops() -> None:
-    one, other = (ContactModel(everything(50, seed), backend="fast")._driver(1) for seed in (1, 2))
-    sloping = ContactModel(chain([CURVE]), backend="fast")._driver(1)
-    assert one is not None
-    assert other is not None
-    assert sloping is not None
-    assert one._node_loop is other._node_loop
-    assert one._element_loop is not sloping._element_loop
-
-
 def test_loops_are_compiled_once_for_any_number_of_elements_and_springs() -> None:
     """The arrays of a single row have the same layout as those of several."""
     for elements in (1, 3):
@@ -116,24 +95,6 @@ def test_loops_are_compiled_once_for_any_number_of_elements_and_springs() -> Non
         assert driver is not None
         loops: Any = (driver._element_loop, driver._node_loop)
         assert [len(loop.signatures) for loop in loops] == [1, 1]
-
-
-def test_values_that_are_not_finite_are_left_to_numpy() -> None:
-    """The loops count them, whichever they are; numpy says which."""
-    contact = ContactModel(chain([LINEAR], stiffness=1e300), backend="fast")
-    called: list[Batch] = []
-    plain = contact._numpy.run
-
-    def run(batch: Batch, part: ContactResult, state: ContactState) -> None:
-        called.append(batch)
-        plain(batch, part, state)
-
-    contact._numpy.run = run  # type: ignore[method-assign]  # a spy
-    contact.evaluate(at_depths([[0.1, 0.1]]))
-    assert not called
-    with pytest.raises(ValueError, match="element 11 at step 1: its force overflows"):
-        contact.evaluate(at_depths([[0.1, 0.1], [1e10, 1e10]]))
-    assert called
 
 
 def test_series_of_no_steps_and_lines_of_no_elements() -> None:

@@ -1,4 +1,4 @@
-"""The largest and the smallest numbers: finite results or a named error, and never a warning of numpy."""
+"""The largest and the smallest numbers, in scenes and decks: right or a named error, and never a warning of numpy."""
 
 from __future__ import annotations
 
@@ -17,6 +17,8 @@ from mudline.diagnostics import DeckError
 from mudline.results.evaluation import as_deck_errors
 from tests.builders.contact import changed, everything, journey, without
 from tests.builders.scenes import scene_of
+from tests.contact.exact import BOUND
+from tests.contact.extreme_decks import FAMILIES, Verdict, judge
 
 pytestmark = pytest.mark.slow
 
@@ -197,3 +199,24 @@ def test_a_friction_spring_without_end_is_refused_at_its_node() -> None:
     with pytest.raises(DeckError, match=what) as caught:
         scene_of(PIPE + " FRICTION=1E200, 0.7, 1E-200, 1.0\n").contact()
     assert caught.value.diagnostics[0].line == 3
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_every_deck_is_right_within_its_bound_or_refused_with_a_line(family: str) -> None:
+    values, deck = FAMILIES[family]
+    found = [judge(family, value, deck(value)) for value in values]
+    assert not [one for one in found if one.verdict is Verdict.WRONG]
+    assert any(one.verdict is Verdict.RIGHT for one in found)
+    assert 0.0 < max(one.error for one in found) <= BOUND
+
+
+@pytest.mark.parametrize(
+    ("family", "value", "message"),
+    [
+        ("linear stiffness", "1E309", "line 14: SYN002"),
+        ("curve: forces", "1E309", "line 18: SYN002"),
+        ("mobilisation length", "5E-324", "line 3: RUN001"),
+    ],
+)
+def test_refusals_name_the_line_of_the_number(family: str, value: str, message: str) -> None:
+    assert judge(family, value, FAMILIES[family][1](value)).message.startswith(message)

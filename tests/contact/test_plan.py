@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from collections.abc import Sequence
 from dataclasses import replace
-from importlib.util import find_spec
 
 import numpy as np
 import pytest
@@ -31,7 +28,6 @@ from tests.builders.contact import (
     suction,
     trench,
 )
-from tests.processes import TIMEOUT
 
 STAGES = ["floor", "normal law", "smoothing", "unloading", "suction", "friction", "lateral", "trench", "assembly"]
 
@@ -171,67 +167,3 @@ def test_a_trench_without_friction_does_nothing_and_the_plan_says_so() -> None:
 
 
 # -------------------------------------------------------------------------------------------- modules that are imported
-
-PROGRAM = """
-import sys
-import numpy as np
-from mudline.contact import ContactInput, ContactModel, LawAssignment
-
-curves = ()
-if {curves}:
-    from mudline.curves import ForceCurve
-    curves = (ForceCurve([(0, 0), (1, 1)]),)
-one, zero, nodes = np.ones(1), np.zeros(1, int), np.array([[0, 1]])
-laws = tuple(LawAssignment(name, np.arange(count), values) for name, count, values in {laws})
-inputs = ContactInput(
-    nodes[0], np.zeros((2, 3)), zero, nodes, one, one, laws, curves, (np.zeros((1, 2)),)
-)
-model = ContactModel(inputs)
-model.evaluate(np.full((3, 2, 3), -1.0), times=np.arange(3.0))
-print(*sorted(name.removeprefix("mudline.contact.") for name in sys.modules if name.startswith("mudline.")))
-"""
-SLIDES = (
-    "friction",
-    2,
-    {"axial_coefficient": 1, "lateral_coefficient": 1, "axial_stiffness": 1, "lateral_stiffness": 1},
-)
-WIDE = {"bottom": 0.5, "upper": 1.0}
-PULLS = {"force_factor": 1, "force_exponent": 1, "depth_factor": 1, "depth_exponent": 1}
-ALWAYS = {"model", "plan", "tables", "line", "numpy_driver", "seabed", "laws"}
-STAGED = {
-    *(f"laws.{name}" for name in ("linear", "curve", "unloading", "suction", "friction", "trench")),
-    "trenches", "tangent", "stiffest", "compiled", "compiled.driver", "compiled.functions", "seabed.profile",
-    "seabed.scattered", "mudline.curves",
-}  # fmt: skip
-"""Modules that some scenes do without."""
-
-
-@pytest.mark.parametrize(
-    ("laws", "needed"),
-    [
-        ([], set()),
-        ([("linear", 1, {"stiffness": 1})], {"laws.linear"}),
-        ([("curve", 1, {"curve": 0})], {"laws.curve", "mudline.curves"}),
-        ([("unloading", 1, {"stiffness": 1})], {"laws.unloading"}),
-        ([("suction", 1, PULLS)], {"laws.suction"}),
-        ([("lateral", 1, {"stiffness": 1})], {"laws.linear"}),
-        ([SLIDES], {"laws.friction"}),
-        ([SLIDES, ("trench peak", 1, {"peak": 1, **WIDE})], {"laws.friction", "laws.trench", "trenches"}),
-        ([("trench peak", 1, {"peak": 1, **WIDE})], {"laws.trench"}),
-    ],
-    ids=lambda given: " and ".join(law[0] for law in given) if isinstance(given, list) else "",
-)
-def test_only_the_modules_that_are_needed_are_imported(
-    laws: list[tuple[str, int, dict[str, float]]], needed: set[str]
-) -> None:
-    program = PROGRAM.format(laws=repr(laws), curves="mudline.curves" in needed)
-    words = [sys.executable, "-W", "error", "-c", program]
-    run = subprocess.run(words, capture_output=True, text=True, timeout=TIMEOUT, check=True)
-    imported = set(run.stdout.split())
-    assert imported >= ALWAYS
-    assert imported & STAGED == needed
-
-
-def test_these_modules_are_there() -> None:
-    names = [name if name.startswith("mudline.") else f"mudline.contact.{name}" for name in ALWAYS | STAGED]
-    assert None not in map(find_spec, names)

@@ -1,4 +1,4 @@
-"""What holds for every scene and every path: with suction, friction, unloading and trenches all on."""
+"""What holds for every scene and every path, in any units: with suction, friction, unloading and trenches all on."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from mudline.contact import ContactInput, ContactModel
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.trench import wall_coefficient
 from mudline.contact.seabed import FlatSeabed, Seabed, SlopingSeabed
+from mudline.curves import ForceCurve
 from tests.builders.contact import (
     ALONG_Y,
     PULLING,
@@ -20,6 +21,7 @@ from tests.builders.contact import (
     changed,
     everything,
     journey,
+    on,
     rearranged,
     renumbered,
     without,
@@ -39,7 +41,7 @@ def without_suction(elements: int, seed: int) -> ContactInput:
     return without(everything(elements, seed), "suction", "suction spring")
 
 
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(lines, seeds)
 def test_no_force_where_there_is_no_contact(elements: int, seed: int) -> None:
     inputs = without(without_suction(elements, seed), "nodal")
@@ -59,7 +61,7 @@ def test_no_force_where_there_is_no_contact(elements: int, seed: int) -> None:
     assert not np.signbit(result.force[above]).any()
 
 
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(lines, seeds)
 def test_the_seabed_never_pulls_without_suction_where_tension_is_cut(elements: int, seed: int) -> None:
     inputs = replace(without_suction(elements, seed), curves=(PULLING, SAND), tension="cut")
@@ -93,7 +95,7 @@ def largest_added(inputs: ContactInput, pressed: FloatArray) -> FloatArray:
     return np.where(pressed > 0.0, found, 0.0)
 
 
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(lines, seeds)
 def test_friction_never_exceeds_its_limit(elements: int, seed: int) -> None:
     inputs = without(everything(elements, seed), "lateral")
@@ -130,7 +132,7 @@ def work(reaction: FloatArray, positions: FloatArray) -> float:
     return float(-(reaction[1:] * np.diff(positions, axis=0)).sum())
 
 
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(lines, seeds, st.booleans())
 def test_closed_cycles_never_give_work(elements: int, seed: int, trenches: bool) -> None:
     inputs = without(on_fixed_axes(everything(elements, seed)), "lateral", "suction spring")
@@ -207,7 +209,7 @@ def carried(inputs: ContactInput, seabed: Seabed, degrees: float, shift: FloatAr
     return replace(inputs, seabed=seabed)
 
 
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(lines, seeds, st.floats(-180.0, 180.0), st.floats(-50.0, 50.0), st.floats(-50.0, 50.0), st.booleans())
 def test_a_scene_may_be_turned_and_shifted(
     elements: int, seed: int, degrees: float, y: float, z: float, slopes: bool
@@ -228,3 +230,59 @@ def test_a_scene_may_be_turned_and_shifted(
     two = there.evaluate(spun(positions, degrees) + shift, velocities=spun(velocities, degrees))
     assert close(two.force, one.force, 1e-8)
     assert close(two.reaction, spun(one.reaction, degrees), 1e-8)
+
+
+POWERS = {"F": (1, 0), "F/L": (1, -1), "F/L2": (1, -2), "L": (0, 1), "L/T": (0, 1), "1": (0, 0), "deg": (0, 0)}
+"""Powers of force and length in the units of parameters; time stays in seconds."""
+
+
+def in_units(inputs: ContactInput, length: float, force: float) -> ContactInput:
+    """The input with its lengths divided by one unit and its forces by another, as the laws declare them."""
+    laws = []
+    for name, given_law in inputs.assigned.items():
+        scaled: dict[str, FloatArray] = {}
+        for parameter in given_law.law.parameters:
+            values = given_law[parameter.name]
+            if parameter.unit.endswith("(T/L)^n"):  # velocities are in the unit of length too
+                values = values * length ** given_law[f"{parameter.name.removesuffix('factor')}exponent"]
+            powers = POWERS[parameter.unit.removesuffix(" (T/L)^n")]
+            scaled[parameter.name] = values / (force ** powers[0] * length ** powers[1])
+        laws.append(on(name, given_law.rows, **scaled))
+    per_length = force / length
+    return replace(
+        inputs,
+        coordinates=inputs.coordinates / length,
+        length=inputs.length / length,
+        diameter=inputs.diameter / length,
+        curves=tuple(ForceCurve(np.column_stack([curve.ratios, curve.forces / per_length])) for curve in inputs.curves),
+        tables=tuple(table / [length, per_length] for table in inputs.tables),
+        laws=tuple(laws),
+    )
+
+
+@settings(max_examples=30)
+@given(
+    st.integers(1, 9),
+    st.integers(0, 2**32 - 1),
+    st.sampled_from([(0.3048, 4.4482216152605), (0.001, 1.0), (1.0, 1000.0)]),
+)
+def test_units_do_not_matter(elements: int, seed: int, units: tuple[float, float]) -> None:
+    """In feet and pounds, in millimetres and newtons, in metres and kilonewtons."""
+    length, force = units
+    inputs = everything(elements, seed)
+    positions, velocities, _ = journey(elements, 10, seed)
+    one = ContactModel(inputs).evaluate(positions, velocities=velocities)
+    two = ContactModel(in_units(inputs, length, force)).evaluate(positions / length, velocities=velocities / length)
+    assert np.array_equal(one.contact, two.contact)
+    for name in ("state", "regularised", "friction_state", "rigid"):
+        here, there = getattr(one, name), getattr(two, name)
+        assert (here is None) == (there is None)
+        assert here is None or np.array_equal(here, there)
+    for here, there, unit in (
+        (one.reaction, two.reaction, force),
+        (one.force, two.force, force / length),
+        (one.stiffness, two.stiffness, force / length**2),
+        (one.ratio, two.ratio, 1.0),
+    ):
+        # a rounded position times a stiffness is what the terms differ by
+        np.testing.assert_allclose(there * unit, here, rtol=0.0, atol=2e-12 * max(1.0, np.abs(here).max()))

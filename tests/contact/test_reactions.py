@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mudline.contact import ContactInput, ContactModel, ElementError
-from mudline.contact.arrays import as_range
-from mudline.curves import ForceCurve
-from tests.builders.contact import CLAY, CURVE, LINEAR, at_depths, chain, everything, mixed, on
+from mudline.contact import ContactModel
+from tests.builders.contact import CLAY, CURVE, at_depths, chain, mixed
 
 
 @given(st.integers(1, 60), st.integers(0, 2**32 - 1))
@@ -29,13 +25,6 @@ def test_reactions_balance_the_forces_on_the_elements(count: int, seed: int) -> 
     assert np.array_equal(result.normal, np.broadcast_to([1.0, 0.0, 0.0], (3, count + 1, 3)))
 
 
-def test_many_elements_may_meet_at_a_node() -> None:
-    inputs = chain([LINEAR] * 5)
-    star = replace(inputs, element_nodes=np.column_stack((np.zeros(5, np.intp), np.arange(1, 6, dtype=np.intp))))
-    result = ContactModel(star).evaluate(at_depths(np.full(6, 0.02)))
-    assert result.normal_force == pytest.approx([5000.0, *[1000.0] * 5])
-
-
 def test_at_its_static_embedment_a_pipe_is_in_equilibrium() -> None:
     weight, diameter, count = 3100.0, 0.27305, 40
     (ratio,) = CLAY.ratios_at_force(weight)
@@ -44,44 +33,3 @@ def test_at_its_static_embedment_a_pipe_is_in_equilibrium() -> None:
     )
     carried = np.array([weight, *[2.0 * weight] * (count - 1), weight])
     assert result.normal_force == pytest.approx(carried, rel=1e-12)
-
-
-@pytest.mark.parametrize("count", [1, 7])
-def test_stiffness_is_the_derivative_of_the_force(count: int) -> None:
-    model = ContactModel(mixed(count, seed=count))
-    depths = np.random.default_rng(3).uniform(0.01, 0.05, count + 1)
-    step = 1e-7
-    below, above = (model.evaluate(at_depths(depths + shift)) for shift in (-step, step))
-    middle = model.evaluate(at_depths(depths))
-    smooth = below.slope == above.slope
-    assert smooth.any()
-    derivative = (above.force - below.force) / (2.0 * step)
-    assert derivative[smooth] == pytest.approx(middle.stiffness[smooth], rel=1e-6)
-
-
-def plain(elements: int, *, curves: int = 1) -> ContactInput:
-    """A chain on curves, in stretches."""
-    index = np.arange(elements) * curves // elements
-    given_curves = tuple(ForceCurve([(0.0, 0.0), (0.2, 1000.0 + number)]) for number in range(curves))
-    laws = (on("curve", elements, curve=index),)
-    return replace(everything(elements, 1), laws=laws, curves=given_curves, diameter=np.full(elements, 0.3))
-
-
-def test_the_element_at_fault_is_named_where_all_touch() -> None:
-    steep = replace(plain(6), curves=(ForceCurve([(0.0, 0.0), (1.0, 1e300)]),))
-    points = steep.coordinates.copy()
-    points[:, 0] = -0.1
-    points[3:5, 0] = -1e10
-    series = np.stack([steep.coordinates, points])
-    with pytest.raises(ElementError, match="element 3 at step 1") as caught:
-        ContactModel(steep).evaluate(series)
-    assert (caught.value.element, caught.value.step) == (3, 1)
-
-
-@given(st.lists(st.integers(0, 30), max_size=12))
-def test_ranges(indices: list[int]) -> None:
-    found = as_range(np.array(indices, np.intp))
-    assert np.arange(31)[found].tolist() == indices
-    assert isinstance(found, slice) == (
-        indices == list(range(indices[0], indices[0] + len(indices))) if indices else True
-    )

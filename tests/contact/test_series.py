@@ -20,26 +20,6 @@ def series(steps: int, nodes: int) -> np.ndarray[tuple[int, ...], np.dtype[np.fl
     return positions
 
 
-@pytest.mark.parametrize("rows", [1, 7, 100, 1000])
-def test_how_many_steps_are_taken_together_does_not_change_a_bit(rows: int) -> None:
-    contact, positions = ContactModel(mixed(13, seed=1)), series(50, 14)
-    whole = contact.evaluate(positions)
-    contact._numpy.steps = rows
-    assert same_bits(contact.evaluate(positions), whole)
-    parts = list(contact.stream(positions))
-    assert [part.start for part in parts] == list(range(0, 50, rows))
-    for start, part in ((each.start, each.result) for each in parts):
-        assert same_bits(part, whole.steps(start, start + rows))
-
-
-def test_a_step_of_a_series_is_what_the_step_alone_gives() -> None:
-    contact, positions = ContactModel(mixed(700, seed=2)), series(60, 701)
-    whole = contact.evaluate(positions)
-    for step in (0, 1, 22, 23, 24, 59):
-        assert same_bits(whole.step(step), contact.evaluate(positions[step]))
-    assert same_bits(whole.steps(3, 7), contact.evaluate(positions[3:7]))
-
-
 def test_shapes() -> None:
     contact = ContactModel(chain([CURVE, LINEAR]))
     one, many, none = contact.evaluate(series(1, 3)[0]), contact.evaluate(series(5, 3)), contact.evaluate(series(0, 3))

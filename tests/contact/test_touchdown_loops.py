@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple
@@ -11,9 +10,7 @@ import numpy as np
 import pytest
 
 from mudline.contact import ContactModel, ContactResult
-from mudline.contact.lines import LineSummary
-from mudline.contact.result import Part
-from mudline.contact.touchdown import LineTable, line_summaries
+from mudline.contact.touchdown import line_summaries
 from tests.contact.random_scenes import random_scene
 
 SCENES = 50
@@ -112,22 +109,3 @@ def test_a_plain_loop_finds_the_same() -> None:
             assert (row.largest_uplift.force if row.largest_uplift else 0.0) == min(0.0, np.nanmin(pushes)), place
             points += len(found)
     assert points > 400
-
-
-def _figures(row: LineSummary) -> list[float | None]:
-    ends = [row.touchdown[0].arc_length, row.touchdown[-1].y] if row.touchdown else [None, None]
-    return [row.length, row.contact_length, *ends, row.reaction, row.submerged_weight, row.ratio]
-
-
-def test_the_table_has_the_same_bits_as_the_rows_and_is_quiet() -> None:
-    names = ("length", "contact_length", "first_touchdown", "last_touchdown_y", "reaction", "submerged_weight", "ratio")
-    for seed, result in scenes():
-        assert result.given is not None
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")
-            rows = line_summaries(result)
-            columns = LineTable(result.given, np.flatnonzero(result.evaluated)).columns(Part(0, result))
-        values = {column.name: column.cut(0, len(result.depth)) for column in columns}
-        table = np.stack([values[name].ravel() for name in names], axis=1)
-        expected = np.array([_figures(row) for row in rows], dtype=np.float64).reshape(table.shape)
-        np.testing.assert_array_equal(np.where(np.isinf(table), np.nan, table), expected, err_msg=str(seed))

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from mudline.contact import ContactModel, ContactState
 from mudline.contact.laws.curve import steepest_slope
-from mudline.contact.laws.unloading import UnloadingHistory, line_stiffness, on_line, trench_bottom
+from mudline.contact.laws.unloading import UnloadingHistory
 from mudline.curves import ForceCurve
 from tests.builders.contact import CURVE, LINEAR, NONE, at_depths, chain, on
 
@@ -158,16 +158,6 @@ def test_extremes_are_finite_and_quiet(stiffness: float, depth: float) -> None:
         assert np.isfinite(values).all()
     assert reactions[0].force == reactions[4].force == 2.0 * depth
     assert 0.0 <= history.bottom.item() <= depth
-
-
-@pytest.mark.parametrize("stiffness", [1e-300, 1.0, 1e20, 1.7e308])
-def test_the_line_from_the_least_penetration(stiffness: float) -> None:
-    depth, force = 5e-324, 1e-323
-    line = line_stiffness(max(stiffness, 2.0), depth, force)
-    bottom = trench_bottom(line, depth, force)
-    assert (line, bottom) == (max(stiffness, 2.0), 0.0)
-    assert on_line(depth, depth, force, line, bottom) == (force, line)
-    assert on_line(0.0, depth, force, line, bottom) == (0.0, 0.0)
 
 
 def test_steepest_slope_of_a_curve_between_the_mudline_and_a_depth() -> None:

@@ -8,11 +8,9 @@ from pathlib import Path
 import pytest
 
 from mudline.keywords import catalogue
-from mudline.keywords.format import format_lines
 from mudline.keywords.values import OpaqueKeyword
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules
-from tests.docs import make
 from tests.docs.blocks import Page
 from tests.docs.keyword_fields import inferences
 from tests.docs.keyword_index import keyword_index
@@ -20,10 +18,6 @@ from tests.docs.keyword_page import declarations, keyword_page, keyword_pages, p
 from tests.docs.keyword_rules import Declared, keyword_of, rules_of
 
 DECLARED = declarations()
-
-
-def of(module: str) -> set[str]:
-    return {rule.code.code for rule in rules_of(catalogue.load(module))}
 
 
 def test_every_keyword_that_a_module_declares_has_a_page() -> None:
@@ -57,32 +51,9 @@ def test_example_on_the_page_reads_without_a_finding(declared: Declared) -> None
     assert [str(found) for found in lint_bytes(text.encode(), "deck.keyxm", own)] == []
 
 
-def test_rules_are_found_for_keywords() -> None:
-    assert {"REF001", "REF002", "SBD001", "SBD002", "SBD003", "SBD010"} <= of("seabed_properties")
-    assert {"CRV001", "CRV003", "CRV004", "REF003", "REF004"} <= of("seabed_stiffness")
-    assert {"LEG001", "CRV001", "CRV003", "CRV004", "SBD005"} <= of("embedment")
-    assert {"REF006", "REF007"} <= of("element")
-    assert "REF005" not in of("node")
-    assert of("units") == set()
-
-
 def test_every_rule_concerns_a_keyword() -> None:
     own = {rule.code.code for rule in rules() if not rule.code.code.startswith(("SYN", "STY"))}
     assert own == {rule.code.code for each in DECLARED for rule in rules_of(each)}
-
-
-def test_lines_of_a_format() -> None:
-    assert format_lines(catalogue.load("element_sets")) == [
-        "*ELEMENT SETS",
-        "  SET=name ...",
-        "    elements [, ...] ...",
-        "    GEN=start, end [, increment] ...",
-        "    SUBSET=name ...",
-    ]
-    assert format_lines(catalogue.load("variation"))[2:] == [
-        "    PARA=name [, VALUE=name [, ...]] [, GEN=start, end [, increment]] ...",
-        "    ACTION=ADD|REMOVE, KEYWORD=name [, ...] [, FILE=name] [, SECTION=name] ...",
-    ]
 
 
 def test_what_is_inferred_is_said_once() -> None:
@@ -90,15 +61,3 @@ def test_what_is_inferred_is_said_once() -> None:
     assert [each for each in said if each.startswith("`longitudinal mobilisation` of `FRICTION=`, `transverse ")]
     assert [each for each in said if each.startswith("`stiffness` of `SUCTION=`: the unit")]
     assert len(said) == len(set(said))
-
-
-def test_left_over_pages_are_removed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("docs/keywords/gone.md", "docs/rules/XYZ999.md", "docs/rules/DOC001.md"):
-        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / name).write_text("old", encoding="utf-8")
-    monkeypatch.setattr(make, "ROOT", tmp_path)
-    monkeypatch.setattr(make, "write_faults", lambda: None)  # that page has no left-over, and takes seconds
-    monkeypatch.setattr(make, "pages", lambda: {"docs/rules/CRV001.md": "new"})
-    make.write()
-    assert make.made_files() == {"docs/rules/CRV001.md"}
-    assert (tmp_path / "docs/rules/DOC001.md").read_text(encoding="utf-8") == "old"

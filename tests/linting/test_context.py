@@ -82,9 +82,3 @@ def test_a_block_that_stands_elsewhere(data: bytes, lines: int) -> None:
         other = again.origin.read[place]
         assert other.places == block.places
         assert (other.problems, other.trailing, other.lost) == (block.problems, block.trailing, block.lost)
-
-
-def test_a_short_block_is_read_once() -> None:
-    deck = b"$MODEL\n*OCEAN\n 512.25, 1025.0, 9.81\n"
-    first, second = (read_deck(deck, "a.keyxm").sections[0].blocks[0] for _ in range(2))
-    assert first is second

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import re
-import sys
 
 import pytest
 from hypothesis import given, settings
@@ -169,10 +167,6 @@ def test_json_and_yaml_decks_have_places_too() -> None:
         assert "RIGID SURFACE" in "".join(lines[found[1].line - 1 : found[1].end_line])
 
 
-def test_the_unit_system_can_be_given() -> None:
-    assert lint_bytes(PLAIN.encode(), "deck.keyx", rules(), units="metric") == []
-
-
 @pytest.mark.parametrize(
     ("content", "name", "code"),
     [
@@ -210,13 +204,6 @@ NASTY = {
 @pytest.mark.parametrize("suffix", ["keyxm", "json", "yaml"])
 def test_no_content_raises(content: bytes, suffix: str) -> None:
     _check(content, f"deck.{suffix}")
-
-
-@pytest.mark.parametrize("suffix", ["json", "yaml"])
-def test_deep_nesting_is_refused(suffix: str) -> None:
-    depth = 4 * sys.getrecursionlimit()
-    found = lint_bytes(b"[" * depth + b"]" * depth, f"deck.{suffix}", ())
-    assert [one.code for one in found] == ["DOC001"]
 
 
 def _check(content: bytes, name: str) -> None:
@@ -273,46 +260,6 @@ _decks = st.builds(
 @given(_decks)
 def test_nothing_deck_like_raises(content: bytes) -> None:
     _check(content, "deck.keyxm")
-
-
-@given(st.binary(max_size=200))
-def test_no_bytes_raise(content: bytes) -> None:
-    _check(content, "deck.keyxm")
-
-
-DOCUMENTS = {
-    "deck.json": json.dumps(json.loads(to_json(load_bytes(MEANT.encode(), "deck.keyxm"))), indent=1),
-    "deck.yaml": to_yaml(load_bytes(MEANT.encode(), "deck.keyxm")),
-}
-_word = st.sampled_from(
-    [
-        "",
-        "null",
-        "true",
-        "-1",
-        "1e400",
-        "1" * 30,
-        '"x"',
-        "[]",
-        "{}",
-        "[[1, 2], 3]",
-        '{"a": 1}',
-        "=[",
-        "\\ud800",
-        "\n",
-        " ",
-        ":",
-        "- ",
-    ]
-)
-
-
-@settings(max_examples=50)
-@given(st.sampled_from(sorted(DOCUMENTS)), st.integers(0, 2000), st.integers(0, 12), _word)
-def test_no_document_raises(name: str, at: int, length: int, word: str) -> None:
-    text = DOCUMENTS[name]
-    at %= len(text)
-    _check((text[:at] + word + text[at + length :]).encode(), name)
 
 
 @pytest.mark.parametrize(

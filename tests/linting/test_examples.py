@@ -18,7 +18,7 @@ from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.engine import LintSettings, lint_bytes
 from mudline.linting.fixing import FixState, Reader
 from mudline.linting.registry import rules
-from mudline.linting.rule import LintContext, Rule, described_by, rule
+from mudline.linting.rule import LintContext, Rule, described_by
 
 ROW = re.compile(r"\| \[([A-Z]+[0-9]+)\]\(\1\.md\) \| `([a-z0-9-]+)` \| (\w+)(, off)? \| (\w*) \| .+ \|")
 PAGE = Path(__file__).parents[2] / "docs" / "rules" / "README.md"
@@ -121,24 +121,6 @@ def test_everything_that_reading_and_resolving_notice_has_a_rule() -> None:
     assert raised - {given.code.code for given in rules()} == NO_RULE
 
 
-def test_two_rules_cannot_share_a_code_or_a_slug() -> None:
-    def again(context: LintContext) -> Iterator[Problem]:
-        """A title.
-
-        A reason.
-
-        Example:
-            -$MODEL
-
-        Finds: 1:1
-        """
-        yield from context.problems_of(SYN001)
-
-    for code in (SYN001, Code("ABC001", SYN001.slug, Severity.INFO)):
-        with pytest.raises(ValueError, match="already"):
-            rule(code)(again)
-
-
 EXAMPLE = "A title.\n\nA reason.\n\nExample:\n{lines}\n\nFinds: 1:1\n"
 
 
@@ -165,39 +147,3 @@ def described(lines: str, more: str = "") -> Rule:
 )
 def test_an_example_holds_both_decks(lines: str, bad: str, good: str) -> None:
     assert (described(lines).bad, described(lines).good) == (bad, good)
-
-
-def test_the_decks_may_differ_in_their_bytes_alone() -> None:
-    made = described("     $MODEL\n     C \u00d8", "Bytes: cp1252\n")
-    assert made.bad == made.good == "$MODEL\nC \u00d8\n"
-    cut = described("     $MODEL", "Cut: yes\n")
-    assert (cut.bad, cut.good) == ("$MODEL", "$MODEL\n")
-
-
-@pytest.mark.parametrize(
-    ("docstring", "said"),
-    [
-        ("A title.\n\nA reason.\n\nExample:\n    -$MODEL\n", "of ABC001 must have Finds"),
-        ("A title.\n\nA reason.\n\nBad:\n    $\n\nGood:\n    $MODEL\n\nFinds: 1:1\n", "of ABC001 must have Example"),
-        ("A title.\n\nExample:\n    -$MODEL\n\nFinds: 1:1\n", "must have a title and a reason"),
-        ("", "must have Example and Finds"),
-        (
-            EXAMPLE.format(lines="    $MODEL"),
-            "the line '    $MODEL' of the example of ABC001 must have four spaces, then a space, - or +",
-        ),
-        (EXAMPLE.format(lines="    -$MODEL\n  +*OCEAN"), "the line '  +*OCEAN' of the example of ABC001 must have"),
-        (
-            EXAMPLE.format(lines="     $MODEL"),
-            "the decks of the example of ABC001 must differ in a line with - or +",
-        ),
-        (EXAMPLE.format(lines=""), "the decks of the example of ABC001 must differ"),
-        (EXAMPLE.format(lines="    -$").replace("1:1", "1"), "Finds: 1 of ABC001 must be line:column"),
-    ],
-)
-def test_a_docstring_in_another_form_is_refused_in_words(docstring: str, said: str) -> None:
-    def check(context: LintContext) -> Iterator[Problem]:
-        yield from context.problems_of(SYN001)
-
-    check.__doc__ = docstring
-    with pytest.raises(ValueError, match=re.escape(said)):
-        rule(Code("ABC001", "nothing", Severity.INFO))(check)

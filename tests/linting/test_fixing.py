@@ -164,9 +164,3 @@ def test_fixing_never_fails_and_twice_is_once(lines: list[str], fixing: Fixing) 
     once = fix_bytes(data, "deck.keyxm", settings)
     if once.changed is not None:
         assert fix_bytes(once.changed, "deck.keyxm", settings).changed is None
-
-
-@given(st.binary(max_size=200))
-def test_fixing_takes_any_bytes(data: bytes) -> None:
-    result = fix(data, TABS)
-    assert result.changed is None or b"\t" not in result.changed

@@ -6,17 +6,13 @@ import tracemalloc
 from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import mudline
 from mudline.deck.loading import load_bytes
-from mudline.diagnostics import Where
 from mudline.linting.engine import problems_in
 from mudline.linting.registry import rules
 from mudline.linting.rule import LintContext
-from mudline.scene import numbering
-from mudline.scene.numbering import blocks_of, constant, looked_up, one_index
 from tests.growth import TWOFOLD, call_growth
 
 COUNT = 400_000
@@ -43,42 +39,6 @@ def test_memory_of_linting() -> None:
         tracemalloc.stop()
     assert {problem.code.code for problem in found} <= {"SBD006"}
     assert peak < 150 * COUNT
-
-
-def test_constant_indices() -> None:
-    table = np.array([1.0, 2.0, np.nan])
-    for index in (0, 1, -1):
-        np.testing.assert_array_equal(looked_up(table, constant(index, 4)), np.full(4, table[index]))
-        assert one_index(constant(index, 4)) == index
-    np.testing.assert_array_equal(looked_up(table, np.array([1, 0])), [2.0, 1.0])
-    assert one_index(np.array([0, 0])) is None
-    assert one_index(constant(3, 0)) is None
-
-
-def test_blocks_cover_all_rows(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(numbering, "_AT_ONCE", 4)
-    rows = np.arange(10)
-    assert [rows[block].tolist() for block in blocks_of(10)] == [[0, 1, 2, 3], [4, 5, 6, 7], [8, 9]]
-    assert list(blocks_of(0)) == []
-
-
-def test_numbers_in_many_orders(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The same scene, whether numbers make few ascending runs or many."""
-    chosen = np.random.default_rng(1)
-    for runs in (0, 8):
-        monkeypatch.setattr(numbering, "_FEW_RUNS", runs)
-        for _ in range(20):
-            ids = chosen.permutation(40)[:20]
-            gathered = numbering.Definitions()
-            for part in np.array_split(ids, 3):
-                gathered.add(numbering.Batch(part, part[:, np.newaxis].astype(np.float64), Where()))
-            numbered = gathered.resolve(1)
-            asked = np.arange(-1, 41)
-            expected = [ids.tolist().index(number) if number in ids else -1 for number in asked.tolist()]
-            assert numbered.indices(asked).tolist() == expected
-            for step in (1, 3):
-                wanted = [i for i, number in enumerate(ids.tolist()) if number in range(5, 30, step)]
-                assert numbered.between(5, 29, step).tolist() == wanted
 
 
 # ------------------------------------------------------------------ chains of definitions, each of which needs the next

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 import re
@@ -13,9 +12,8 @@ from urllib.parse import unquote
 
 import pytest
 
-from mudline.diagnostics import Diagnostic, Severity
+from mudline.diagnostics import Diagnostic
 from mudline.linting.output import form
-from mudline.linting.registry import rules
 from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.runner import Json, Outcome, run
 from tests.linting.made_rules import finding, plugin_lint
@@ -100,11 +98,6 @@ def test_paths_are_written_as_addresses(file: str, uri: str) -> None:
     assert result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == uri
 
 
-def test_levels() -> None:
-    run = run_of(*(finding(severity=severity) for severity in Severity))
-    assert [result["level"] for result in run["results"]] == ["note", "warning", "error"]
-
-
 def log_of(outcome: Outcome) -> Json:
     log = outcome.json()
     assert [f"{error.json_path}: {error.message}" for error in VALIDATOR.iter_errors(log)] == []
@@ -115,14 +108,6 @@ def log_of(outcome: Outcome) -> Json:
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     return tmp_path
-
-
-def test_the_schema_is_the_one_that_is_named() -> None:
-    data = (DATA / "sarif-schema-2.1.0.json").read_bytes()
-    assert hashlib.sha256(data).hexdigest() in (DATA / "README.md").read_text(encoding="utf-8")
-    assert SCHEMA["title"] == "Static Analysis Results Format (SARIF) Version 2.1.0 JSON Schema"
-    assert SCHEMA["properties"]["version"]["enum"] == ["2.1.0"]
-    Draft202012Validator.check_schema(SCHEMA)
 
 
 @pytest.mark.parametrize(("name", "text", "count"), DECKS.values(), ids=DECKS)
@@ -138,32 +123,6 @@ def test_what_lint_prints_is_sarif(here: Path, name: str, text: str, count: int)
         location = result["locations"][0]["physicalLocation"]["artifactLocation"]
         assert unquote(location["uri"]) == name
         assert re.fullmatch(r"[A-Za-z0-9._~%/-]+", location["uri"])
-
-
-@pytest.fixture(scope="module")
-def examples(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Json]:
-    """The bad decks of all rules in folders named by their codes, and the run that SARIF tells of them."""
-    folder = tmp_path_factory.mktemp("examples")
-    for rule in rules():
-        (folder / rule.code.code).mkdir()
-        (folder / rule.code.code / rule.file).write_bytes(rule.bad_bytes)
-    off = ",".join(rule.code.code for rule in rules() if rule.off)
-    more = ["--extend-select", off] if off else []
-    with pytest.MonkeyPatch.context() as patch:
-        patch.chdir(folder)
-        return folder, log_of(run("lint", ".", "--output-format", "sarif", "--isolated", *more))
-
-
-def test_every_rule_is_told_with_its_help_and_level(examples: tuple[Path, Json]) -> None:
-    told = examples[1]["tool"]["driver"]["rules"]
-    assert {rule["id"] for rule in told} >= {rule.code.code for rule in rules() if rule.dialect == "mudline"}
-    for rule in told:
-        assert rule["shortDescription"]["text"].endswith((".", "?"))
-        assert rule["help"]["text"].endswith(rule["fullDescription"]["text"])
-        assert "Good:" in rule["help"]["markdown"]
-        assert rule["defaultConfiguration"]["level"] in {"error", "warning", "note"}
-        assert re.fullmatch(r"[A-Z][A-Za-z0-9]+", rule["name"])
-        assert rule["helpUri"].endswith(f"/docs/rules/{rule['id']}.md")
 
 
 def test_a_rule_of_a_plugin_has_the_address_that_its_package_tells(tmp_path: Path) -> None:

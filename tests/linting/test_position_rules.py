@@ -83,10 +83,6 @@ def test_only_elements_with_a_law_have_to_reach_the_seabed() -> None:
     assert len(found(line("700.0, 0.0", "0.0, 0.0", parts), "GEO005")) == 1
 
 
-def test_coordinates_of_equations_count() -> None:
-    assert len(found(line("=[250*2], 0.0", "=[500], 100.0"), "GEO005")) == 1
-
-
 # ------------------------------------------------------------------------------------------------------------ sections
 
 SETS = "*ELEMENT SETS\n SET=A\n GEN=1, 5\n SET=B\n GEN=6, 10\n"
@@ -124,11 +120,6 @@ def test_the_second_section_is_reported_also_in_another_block() -> None:
     ]
 
 
-def test_elements_outside_every_set_do_not_lack_a_name() -> None:
-    text = BARE.replace(" SET=B\n GEN=6, 10\n", "") + STEEL.format("A") * 2
-    assert found(text, "GEO006") == []
-
-
 # ------------------------------------------------------------------------------------------------------------ friction
 
 
@@ -155,16 +146,6 @@ def test_elements_outside_every_set_do_not_lack_a_name() -> None:
 )
 def test_one_friction_coefficient(lines: str, place: tuple[int, int] | None) -> None:
     assert found(PIPE + lines, "SBD024") == ([] if place is None else [("SBD024", *place)])
-
-
-def test_the_message_says_what_is_inferred() -> None:
-    assert "is then 0 (inferred)" in messages(PROPERTIES.replace("*", "$MODEL\n*", 1) + " FRICTION=0.6\n", "SBD024")[0]
-    assert "is then 0:" in messages("$MODEL\n*RIGID SURFACE\n 0.3\n", "SBD024")[0]
-
-
-def test_friction_that_is_replaced_needs_no_second_coefficient() -> None:
-    friction = "*SEABED FRICTION\n SET=ALL\n COEFFICIENTS=0.5, 0.5\n STIFFNESS=1E5\n"
-    assert found(PIPE + PROPERTIES + " STIFFNESS=5E4\n FRICTION=0.6\n" + friction, "SBD024") == []
 
 
 # ------------------------------------------------------------------------------------------------ values without effect
@@ -200,10 +181,6 @@ def test_a_set_without_elements() -> None:
     assert found(empty + soil("B"), "REF010") == [("REF010", 16, 2)]
     (message,) = messages(empty + soil("C"), "SBD025")
     assert "as no subset of SET='C' has any" in message
-
-
-def test_decks_without_elements_say_nothing_of_effects() -> None:
-    assert found("$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n" + soil("ALL") + soil("A") + soil("B"), "SBD025") == []
 
 
 @pytest.mark.parametrize(

@@ -16,10 +16,6 @@ def test_unused_curves_are_told_each_once() -> None:
     assert found(text, "REF003", "REF004") == [("REF003", 6, 8), ("REF004", 9, 8)]
 
 
-def test_without_any_seabed_properties_no_curve_is_used() -> None:
-    assert found(CURVES + CLAY, "REF003") == [("REF003", 3, 8)]
-
-
 @pytest.mark.parametrize(
     "text",
     [
@@ -47,11 +43,6 @@ def test_curves_that_are_used_or_may_be(text: str) -> None:
     assert found(text, "REF003") == []
 
 
-def test_other_variations_use_no_curve() -> None:
-    text = "$PREPROCESSOR\n*VARIATION\n NAME=v\n PARA=depth, VALUE=100, 200\n" + CURVES + CLAY
-    assert found(text, "REF003") == [("REF003", 7, 8)]
-
-
 def test_a_curve_whose_name_reads_as_a_number_is_not_reached() -> None:
     text = CURVES + curve("100", (0, 0), (1, 1)) + PROPERTIES + " STIFFNESS=100\n"
     assert found(text, "REF003", "SBD017") == [("SBD017", 3, 8)]
@@ -61,11 +52,6 @@ def test_a_second_curve_of_a_set_is_a_duplicate_too() -> None:
     text = "$MODEL\n*ELASTIC SURFACE\n ,\n*EMBEDMENT\n 0, 0\n 1, 1\n SET=all\n 0, 0\n 1, 1\n"
     assert found(text, "REF004") == [("REF004", 7, 6)]
     assert messages(text, "REF004")[0].startswith("set 'all' already has a curve")
-
-
-def test_a_curve_and_a_set_may_share_a_name() -> None:
-    text = PIPE + "*SEABED STIFFNESS\n" + curve("a", (0, 0), (1, 1)) + "*EMBEDMENT\n SET=a\n 0, 0\n 1, 1\n"
-    assert found(text, "REF004") == []
 
 
 def test_names_of_256_characters_are_fine() -> None:

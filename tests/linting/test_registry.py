@@ -9,10 +9,9 @@ from urllib.request import url2pathname
 
 import pytest
 
-from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting import registry
 from mudline.linting.registry import UnknownRule, page, rules, select
-from mudline.linting.rule import LintContext, Rule, rule
+from mudline.linting.rule import Rule
 
 
 def _codes(chosen: tuple[Rule, ...]) -> list[str]:
@@ -73,40 +72,6 @@ def test_a_word_that_names_no_rule_is_refused_with_a_hint(word: str, hint: str) 
 def test_a_word_is_checked_wherever_it_stands(place: str) -> None:
     with pytest.raises(UnknownRule, match="did you mean SYN001"):
         select(**{place: ["SYN0001"]})
-
-
-@pytest.fixture
-def quiet_rule(monkeypatch: pytest.MonkeyPatch) -> str:
-    """A rule that is off, beside the real ones."""
-
-    def check(context: LintContext) -> Iterator[Problem]:
-        """A title.
-
-        A reason.
-
-        Example:
-            -$MODEL
-
-        Finds: 1:1
-        """
-        yield from context.problems_of(code)
-
-    code = Code("QQQ001", "quiet-rule", Severity.INFO)
-    known = rules()
-    added: dict[str, Rule] = {}
-    monkeypatch.setattr("mudline.linting.rule.RULES", added)
-    rule(code, off=True)(check)
-    extended = (*known, *added.values())
-    monkeypatch.setattr(registry, "rules", lambda: extended)
-    return code.code
-
-
-def test_a_rule_that_is_off_runs_only_where_it_is_named(quiet_rule: str) -> None:
-    assert quiet_rule not in _codes(select())
-    assert _codes(select(["quiet-rule"])) == [quiet_rule]
-    assert _codes(select(["QQQ"])) == [quiet_rule]
-    assert _codes(select(also=[quiet_rule])) == [*_codes(select()), quiet_rule]
-    assert quiet_rule not in _codes(select(["SYN"]))
 
 
 # ----------------------------------------------------------------------------------------- where the pages of rules are

@@ -102,16 +102,6 @@ def test_a_block_before_those_that_are_not_known_may_be_the_last() -> None:
     assert restraint(text) == [(17, "10 elements (first: 1")]
 
 
-def test_a_line_lost_before_a_block_says_nothing_of_it() -> None:
-    text = PIPE + PROPERTIES + " STIFNESS=5\n SET=ALL\n FRICTION=0.3\n"
-    assert restraint(text) == [(17, "10 elements (first: 1")]
-
-
-def test_elements_of_which_a_node_is_not_known_lie_nowhere() -> None:
-    text = "$MODEL\n*NODE\n 1, -5, 0\n*ELEMENT\n 1, 1, 2\n"
-    assert restraint(text) == []
-
-
 RIGID = "*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n"
 
 
@@ -164,13 +154,6 @@ def test_a_steep_slope_is_a_warning_and_a_vertical_one_an_error() -> None:
     for slope, severity in ((45.1, "warning"), (-89.9, "warning"), (90.0, "error")):
         text = f"{PIPE}*SEABED PROFILE\n TYPE=SLOPING\n SLOPE={slope}\n"
         assert [one.severity for one in lint_bytes(text.encode(), "deck.keyxm", select(["SBD012"]))] == [severity]
-
-
-def test_extension_keywords_are_faults_of_decks_for_flexcom_only() -> None:
-    text = f"{PIPE}{PROPERTIES}*SEABED UNLOADING\n SET=ALL\n STIFFNESS=5\n"
-    chosen = select(["SBD018"])
-    assert lint_bytes(text.encode(), "deck.keyxm", chosen) == []
-    assert [one.line for one in lint_bytes(text.encode(), "deck.keyxm", chosen, dialect="flexcom")] == [16]
 
 
 # ----------------------------------------------------------------------------------------------------- uNT001 to UNT003

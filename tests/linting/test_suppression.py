@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from collections import Counter
-
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from mudline.deck.forms.json import to_json
 from mudline.deck.forms.yaml import to_yaml
 from mudline.deck.loading import load_bytes
 from mudline.linting.engine import Fixing, LintSettings, lint_bytes
 from mudline.linting.fixing import fix_bytes
-from mudline.linting.registry import rules, select
+from mudline.linting.registry import select
 from tests.linting.findings import CURVES, found
 
 FALLING = f"{CURVES} CURVE=Clay\n 0.0, 0.0\n 0.1, 1200.0\n 0.5, 900.0\n 1.0, 2000.0\n"
@@ -130,15 +126,6 @@ def test_the_report_of_unused_comments_can_be_hidden_by_name_only() -> None:
     assert "STY010" in codes(unused.replace("$MODEL", "C mudline: ignore-file\n$MODEL"))
 
 
-@pytest.mark.parametrize("end", ["\r", "\r\n"])
-def test_line_ends_do_not_matter(end: str) -> None:
-    assert codes(before(" 0.5, 900.0", "C mudline: ignore CRV005").replace("\n", end)) == ["REF003"]
-
-
-def test_a_comment_at_the_end_holds_for_nothing() -> None:
-    assert codes(FALLING + "C mudline: ignore CRV005\n")[-1] == "STY010"
-
-
 @pytest.mark.parametrize("form", ["json", "yaml"])
 @pytest.mark.parametrize(
     ("line", "comment", "left"),
@@ -170,27 +157,3 @@ def test_opaque_blocks_and_binary_content() -> None:
     deck = load_bytes(b"$MODEL\n*CABLE\nC mudline: ignore-block CRV005\n x\n", "deck.keyxm")
     assert len(lint_bytes(to_json(deck).encode(), "deck.json", select(["CRV005", "STY010"]))) == 1
     assert lint_bytes("C mudline: ignore-file\n".encode("utf-16"), "deck.keyxm", select(["SYN012"])) != []
-
-
-LINES = [*FALLING.split("\n")[:-1], "*OCAEN", " x, 1", "$X", " 0.5, 9O0.0", "C note", "", "*EMBEDMENT"]
-COMMENTS = [
-    f"C mudline: {order}{names}"
-    for order in ("ignore", "ignore-block", "ignore-file")
-    for names in (" CRV005", " SBD, CRV", " REF003, unused-suppression", " X1 -- no")
-]
-"""None of them hides a fault of reading: what follows from one that is hidden is told."""
-
-
-@given(st.lists(st.sampled_from(LINES), max_size=15), st.data())
-def test_comments_only_take_away(lines: list[str], data: st.DataObject) -> None:
-    marked: list[str] = []
-    for line in lines:
-        marked += [*data.draw(st.lists(st.sampled_from(COMMENTS), max_size=1)), line]
-    assert not told_lines(marked) - told_lines(lines)
-
-
-def told_lines(lines: list[str]) -> Counter[tuple[str, str]]:
-    """The codes found and those of what follows from them, each with the text of its line."""
-    told = lint_bytes("\n".join(lines).encode(), "deck.keyxm", [rule for rule in rules() if rule.code.code != "STY010"])
-    everything = [each for one in told for each in (one, *one.following)]
-    return Counter((one.code, lines[one.line - 1] if lines else "") for one in everything)

@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-import json
-
 import pytest
 
-from mudline.deck.forms.json import to_json
-from mudline.deck.loading import load_bytes
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
 from tests.builders.decks import STEEL
@@ -175,10 +171,6 @@ def test_poissons_ratio_of_user_units_uses_the_density_against_water() -> None:
     text = section("60.0, 10.5, 0.25, 0.22, 1.6")
     assert len(told(text, "keyx")) == 1
     assert told(text + "*OCEAN\n 100.0, 1.025, 981.0\n", "keyx") == []
-
-
-def test_one_finding_for_a_section_whose_moduli_are_both_at_fault() -> None:
-    assert len(told(section("207.0, 20.0, 0.25, 0.22, 7850.0"))) == 1
 
 
 # ------------------------------------------------------------------------------------------------------------ lengths
@@ -419,16 +411,6 @@ def test_what_people_build_is_legal(name: str) -> None:
     option, row = LEGAL[name]
     law = PROPERTIES + " STIFFNESS=60000.0\n FRICTION=0.4, 0.7, 0.004, 0.2\n"
     assert told(section(row, option) + law + "*OCEAN\n 1500.0, 1025.0, 9.81\n") == []
-
-
-def test_values_are_found_in_json_at_their_place() -> None:
-    deck = load_bytes(section("207.0, 79.6, 323.9, 288.9, 7.85").encode(), "deck.keyxm")
-    text = to_json(deck)
-    found = lint_bytes(text.encode(), "deck.json", select(CODES))
-    assert json.loads(text)
-    assert [one.code for one in found] == ["UNT005", "UNT006", "UNT004"]
-    lines = text.splitlines()
-    assert [lines[one.line - 1][one.column - 1 :].strip(" ,") for one in found] == ["207.0", "323.9", "7.85"]
 
 
 def test_negative_and_unreadable_values_belong_to_other_rules() -> None:

@@ -18,8 +18,7 @@ from matplotlib.lines import Line2D
 import mudline
 from mudline.contact import ContactInput, ContactModel, ContactResult, LawAssignment
 from mudline.contact.touchdown import line_summaries
-from mudline.results.plot_data import Cycle, PlotData
-from mudline.results.plots.curves import draw_path
+from mudline.results.plot_data import PlotData
 from mudline.results.plots.figure import figure_of, panels_of, reaction
 from mudline.results.plots.style import Stretch, thinned, widened
 from mudline.scene.model import resolve
@@ -162,14 +161,6 @@ def test_a_loop_has_its_states_and_arrows() -> None:
     places = {tuple(point) for line in axes.get_lines() for point in np.asarray(line.get_xydata()).tolist()}
     path = set(zip(cycle().depth[:, 1].tolist(), cycle().force[:, 1].tolist(), strict=True))
     assert path <= places
-
-
-def test_a_path_without_states_goes_down_and_up() -> None:
-    axes = Figure().add_subplot()
-    draw_path(axes, Cycle(np.array([0.0, 0.1, 0.2, 0.1, np.nan]), np.array([0.0, 5.0, 9.0, 1.0, np.nan]), None))
-    assert axes.get_legend_handles_labels()[1] == ["moving down", "moving up"]
-    still = Figure().add_subplot()
-    draw_path(still, Cycle(np.full(3, np.nan), np.full(3, np.nan), None))
 
 
 def lines(count: int, elements: int = 4) -> ContactResult:

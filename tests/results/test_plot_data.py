@@ -9,7 +9,6 @@ import pytest
 
 from mudline.contact import ContactResult
 from mudline.contact.result import Part
-from mudline.contact.touchdown import line_summaries
 from mudline.results.plot_data import PlotData
 from mudline.scene.model import resolve
 from mudline.scene.positions import read_positions
@@ -49,30 +48,6 @@ def test_parts_give_what_the_whole_gives(cycle: ContactResult) -> None:
         assert one.step == other.step
     assert np.array_equal(data.reaction.most, whole.reaction.most, equal_nan=True)
     assert np.array_equal(data.loop(1).force, whole.loop(1).force)
-
-
-def test_envelopes_and_the_steps_are_those_of_the_arrays(cycle: ContactResult) -> None:
-    data = PlotData.of_result(cycle)
-    assert np.array_equal(data.force.least, cycle.force.min(axis=0))
-    assert np.array_equal(data.depth.most, cycle.depth.max(axis=0))
-    assert data.chosen is not None
-    assert data.pulled is not None
-    assert data.chosen.step == cycle.normal_force.sum(axis=1).argmax()
-    assert data.pulled.step == cycle.force.min(axis=1).argmin()
-
-
-def test_loops_have_every_step_of_the_elements(cycle: ContactResult) -> None:
-    loop = PlotData.of_result(cycle, [3]).loop(0)
-    assert np.array_equal(loop.penetration, cycle.depth[:, 2])
-    assert loop.state is not None
-    assert cycle.state is not None
-    assert np.array_equal(loop.state, cycle.state[:, 2])
-
-
-def test_touchdown_is_that_of_the_lines(heave: ContactResult) -> None:
-    data = PlotData.of_result(heave)
-    wanted = [line.touchdown[0].arc_length for line in line_summaries(heave)]
-    assert data.touchdown[0, "first"].most.tolist() == wanted
 
 
 def test_a_long_series_keeps_its_extremes_in_bins(cycle: ContactResult) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import tracemalloc
 
 import numpy as np
@@ -14,9 +13,9 @@ from mudline.results.evaluation import Evaluation, Tension, evaluate_scene, prep
 from mudline.results.forms import plan_rows, text
 from mudline.results.totals import StepTotal, Total
 from mudline.scene.positions import Positions
-from tests.builders.decks import CLEAN, ILLEGAL, PULLING
+from tests.builders.decks import CLEAN, ILLEGAL
 from tests.builders.scenes import scene_of
-from tests.results.written import arrays_of, csv_of, json_of, pieces, steps_of, totals_of
+from tests.results.written import arrays_of, json_of, pieces, steps_of, totals_of
 
 
 def series(steps: int, text: str = CLEAN, tension: Tension = "keep", *, absent: tuple[int, ...] = ()) -> Evaluation:
@@ -26,29 +25,6 @@ def series(steps: int, text: str = CLEAN, tension: Tension = "keep", *, absent: 
     present = ~np.isin(found.node_ids, absent)
     moved[:, ~present] = np.nan
     return evaluate_scene(found, Positions(moved, present, np.arange(steps, dtype=np.float64)), tension)
-
-
-def long_model(elements: int) -> Evaluation:
-    numbers = f"*NODE\n 1, -0.1, 0.0\n {elements + 1}, -0.1, 100.0\n GEN=1, {elements + 1}\n"
-    numbers += f"*ELEMENT\n 1, 1, 2\n GEN=1, {elements}\n"
-    rest = CLEAN.partition("*ELEMENT SETS\n SET=Pipe\n 1, 2\n")[2].replace("Pipe", "ALL")
-    return evaluate_scene(scene_of(f"$MODEL\n{numbers}{rest}"))
-
-
-@pytest.mark.parametrize("absent", [(), (3,), (1, 3), (1, 2, 3)])
-def test_formats_agree(absent: tuple[int, ...]) -> None:
-    evaluation = series(5, absent=absent)
-    found, arrays = json_of(evaluation), arrays_of(evaluation)
-    for table in ("elements", "nodes"):
-        rows = [row | {"time": step["time"]} for step in found["steps"] for row in step[table]]
-        lines = list(csv.DictReader(csv_of(evaluation, table).splitlines()))
-        assert [(row["time"], row.get("force", row.get("gap"))) for row in rows] == (
-            [(float(line["time"]), float(line.get("force") or line["gap"])) for line in lines]
-        )
-    forces = [[element["force"] for element in step["elements"]] for step in found["steps"]]
-    assert np.array_equal(arrays["force"], np.array(forces).reshape(arrays["force"].shape))
-    assert arrays["element"].tolist() == ([1, 2] if not absent else [1] if absent == (3,) else [])
-    assert arrays["reaction"].shape == (5, 3 - len(absent), 3)
 
 
 @pytest.mark.untraced
@@ -71,35 +47,6 @@ def test_pieces_are_small(monkeypatch: pytest.MonkeyPatch) -> None:
     tracemalloc.stop()
     assert sizes["json"] > 7e6
     assert peak < 5e6, "the results of a chunk, not of all steps"
-
-
-@pytest.mark.untraced
-def test_pieces_of_a_large_model_are_small() -> None:
-    evaluation = long_model(100_000)
-    tracemalloc.start()
-    size = sum(len(piece) for piece in pieces(evaluation, "csv"))
-    _, peak = tracemalloc.get_traced_memory()
-    tracemalloc.stop()
-    assert size > 5e6
-    assert peak < 60e6
-
-
-def test_large_model_is_whole() -> None:
-    evaluation = long_model(40_000)
-    found = json_of(evaluation)
-    assert [element["element"] for element in found["elements"]] == list(range(1, 40_001))
-    assert len(found["nodes"]) == 40_001
-    assert len(csv_of(evaluation, "nodes").splitlines()) == 40_002
-    assert {element["force"] for element in found["elements"]} == {1500.0}
-
-
-def test_cut_curve_by_step() -> None:
-    cut = series(400, PULLING, "cut")
-    laws = [element["law"] for step in json_of(cut)["steps"] for element in step["elements"]]
-    assert set(laws) == {"curve:Clay", "curve-cut"}
-    arrays = arrays_of(cut)
-    assert arrays["law"].ravel().tolist() == laws
-    assert (arrays["force"][arrays["law"] == "curve-cut"] == 0.0).all()
 
 
 def test_totals() -> None:

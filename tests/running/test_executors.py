@@ -72,32 +72,10 @@ def test_little_work_is_done_here() -> None:
 
 
 @pytest.mark.usefixtures("eager")
-def test_items_without_work_are_no_reason_for_processes(monkeypatch: pytest.MonkeyPatch) -> None:
-    estimates: list[float] = []
-    monkeypatch.setattr(Pool, "pays", lambda _, estimate: estimates.append(estimate))
-    given = [*((number, None) for number in range(50)), *((number, number) for number in range(50, 53))]
-    with executor(2) as pool:
-        assert len(list(in_order(pool, squared, given, 53))) == 53
-    assert len(estimates) == 3
-    assert max(estimates) < 1.0
-
-
-@pytest.mark.usefixtures("eager")
 def test_a_process_that_dies_is_reported() -> None:
     with pytest.raises(RunError, match="a process has ended early, perhaps out of memory"), executor(2) as pool:
         list(in_order(pool, end, ((number, number) for number in range(20)), 20))
     assert multiprocessing.active_children() == []
-
-
-def test_a_process_that_is_gone_when_more_is_sent_is_reported() -> None:
-    def send() -> None:
-        with executor(2) as pool:
-            for _ in range(1000):
-                pool.submit(end, [0])
-                time.sleep(0.01)
-
-    with pytest.raises(RunError, match="a process has ended early"):
-        send()
 
 
 @pytest.mark.usefixtures("eager")
@@ -138,11 +116,6 @@ def test_a_process_with_threads_is_not_copied(monkeypatch: pytest.MonkeyPatch, t
     monkeypatch.setattr("sys.platform", "linux")
     monkeypatch.setattr(os, "listdir", lambda _: threads)
     assert start_method() == method
-
-
-def test_number_of_processes() -> None:
-    assert executors.processors(3) == 3
-    assert 1 <= executors.processors(0) <= (os.cpu_count() or 1)
 
 
 # ---------------------------------------------------------------------------------------------------------- schedulers

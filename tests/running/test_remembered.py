@@ -11,7 +11,7 @@ import pytest
 
 from mudline import cache_folder
 from mudline.running import remembered
-from mudline.running.remembered import Memory, of_working_folder, program, state
+from mudline.running.remembered import Memory, of_working_folder, program
 
 
 @pytest.fixture(autouse=True)
@@ -83,20 +83,6 @@ def test_what_changes_while_it_is_read_is_not_kept(tmp_path: Path, monkeypatch: 
     monkeypatch.setattr(remembered, "_COARSE", 1000.0)
     key = kept(tmp_path / "memory.txt", str(tmp_path / "a.txt"))
     assert Memory(tmp_path / "memory.txt").get(key) is None
-
-
-def test_what_is_at_a_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    file = tmp_path / "a.txt"
-    assert state(str(file)) == state("a\0b") == ""
-    file.write_text("long", encoding="utf-8")
-    assert state(str(file)) != ""
-    monkeypatch.setattr(remembered, "LARGEST_NEIGHBOUR", 3)
-    first = state(str(file))
-    os.utime(file, (1.0, 1.0))
-    assert state(str(file)) not in ("", first)
-    if hasattr(os, "mkfifo"):
-        os.mkfifo(tmp_path / "pipe")
-        assert state(str(tmp_path / "pipe")) == ""
 
 
 def foreign(data: bytes) -> bytes:

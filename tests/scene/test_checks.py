@@ -14,26 +14,6 @@ def test_no_check_is_there_twice() -> None:
     assert len(all_checks()) == len({check.find for check in all_checks()})
 
 
-@pytest.mark.parametrize(
-    ("lines", "code"),
-    [
-        ("*SEABED PROPERTIES\n SET=ALL\n STIFFNESS=50000\n", "SBD003"),
-        ("*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n*SEABED PROFILE\n TYPE=3D\n FILE=a.txt\n", "SBD011"),
-        (LINEAR_BED + "*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=95.0\n", "SBD012"),
-        ("*ELASTIC SURFACE\n 50000\n 0.0, 0.0\n 0.0, 1.0\n", "SBD023"),
-        ("*ELASTIC SURFACE\n 50000\n 2.0\n*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n SLOPE=0\n", "EXT002"),
-        (LINEAR_BED + "*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n SLOPE=0\n BOUNDS=5.0, 5.0\n", "EXT007"),
-        ("*RIGID SURFACE\n 0.3\n*SEABED UNLOADING\n SET=ALL\n STIFFNESS=1\n", "EXT001"),
-        ("*NODE\n 20, -0.05, 0.0\n*ELEMENT\n 20, 1, 20\n" + LINEAR_BED, "GEO004"),
-        (LINEAR_BED.replace("ALL", "a") + "*ELEMENT SETS\n SET=a\n SUBSET=a\n", "REF008"),
-    ],
-)
-def test_what_lint_finds_is_refused_with_its_code(lines: str, code: str) -> None:
-    with pytest.raises(DeckError) as caught:
-        scene_of(PIPE + STEEL + lines).contact()
-    assert [one.code for one in caught.value.diagnostics] == [code]
-
-
 def test_cohesion_needs_a_diameter_unless_it_is_overridden() -> None:
     suction = "*SEABED SUCTION\n SET=ALL\n COHESION=5000\n"
     (found,) = scene_of(PIPE + LINEAR_BED + suction).problems
@@ -138,10 +118,6 @@ def test_an_equation_without_a_value_is_told_once() -> None:
     assert reported(text) == [("E", "REF013", 5, 12)]
 
 
-def test_other_sections_are_not_looked_at() -> None:
-    assert reported("$PREPROCESSOR\n*PARAMETERS\n k, -5\n$ANALYSIS\n*UNITS\n UNITS=METRIC\n") == []
-
-
 def test_the_floor_of_cyclic_loading_is_a_share() -> None:
     deck = "$MODEL\n*SEABED SUCTION\n SET=ALL\n CYCLIC={}\n COHESION=5000\n*ELASTIC SURFACE\n 5000\n"
     assert reported(deck.format("0.9, 1.0")) == reported(deck.format("1.5, 0.0")) == []
@@ -149,16 +125,4 @@ def test_the_floor_of_cyclic_loading_is_a_share() -> None:
     assert reported(deck.format("-0.9, -0.01")) == [("E", "SBD010", 4, 9), ("E", "SBD010", 4, 15)]
     assert messages(deck.format("0.9, 2")) == [
         "share of the first largest force below which the cycles do not lower it is 2.0: it must not be more than 1"
-    ]
-
-
-def test_values_of_a_table() -> None:
-    deck = (
-        "$PREPROCESSOR\n*PARAMETERS\n p, -7\n$MODEL\n*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n PEAK=TABLE\n{}"
-        "*ELASTIC SURFACE\n 5000\n"
-    )
-    assert reported(deck.format(" 0, 0\n 1, 5\n")) == []
-    assert reported(deck.format(" 0, -1\n 1, 5\n 2, =[p]\n")) == [("E", "SBD010", 9, 5), ("E", "SBD010", 11, 5)]
-    assert messages(deck.format(" 0, 0\n 1, =[p]\n")) == [
-        "lateral resistance per unit length there is -7.0: it must not be less than 0"
     ]

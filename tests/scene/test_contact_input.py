@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -17,11 +18,11 @@ from mudline.contact.input import AssignedLaw
 from mudline.contact.tables import Tables
 from mudline.deck.loading import load_bytes, load_path
 from mudline.diagnostics import DeckError
+from mudline.results.summary import static_embedment
 from mudline.scene.model import resolve
 from tests.builders.decks import CURVED_BED, FOOT, IMPERIAL, LINEAR_BED, METRIC, POUND, Units, full_bed, line_deck
 from tests.builders.scenes import scene_of
 
-RUBBING = LINEAR_BED + " FRICTION=0.3, 0.5\n"
 NODAL = "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=90000\n"
 WEIGHT = (7850.0 * math.pi / 4 * (0.25**2 - 0.22**2) - 1025.0 * math.pi / 4 * 0.25**2) * 9.81
 
@@ -166,29 +167,6 @@ def test_suction_of_cohesion_and_of_explicit_laws() -> None:
     assert refusal(rigid).startswith("4: EXT001 *SEABED SUCTION needs an elastic seabed")
 
 
-@pytest.mark.parametrize(
-    ("seabed", "message"),
-    [
-        (LINEAR_BED + "*SEABED SUCTION\n SET=ALL\n FORCE=70, 0.2\n", "6: EXT005 the suction law is incomplete"),
-        (
-            LINEAR_BED + "*SEABED SUCTION\n SET=ALL\n COHESION=5\n CUTOFF=0.8, 0.2\n",
-            "8: EXT004 corners 0.8, 0.2: they must be 0.01 <= first <= second <= 0.99",
-        ),
-        (LINEAR_BED + "*SEABED SUCTION\n SET=ALL\n COHESION=5\n CUTOFF=0.001, 0.2\n", "8: EXT004 corners 0.001, 0.2"),
-        (
-            LINEAR_BED + " SUCTION=5, 1\n*SEABED SUCTION\n SET=ALL\n COHESION=5\n",
-            "7: EXT006 10 elements (first: 1) have SUCTION= of the seabed too",
-        ),
-        (
-            CURVED_BED.replace("0.5, 4000", "0.5, -4000") + "*SEABED SUCTION\n SET=ALL\n COHESION=5\n",
-            "10: EXT006 10 elements (first: 1) have a curve that is negative in contact too",
-        ),
-    ],
-)
-def test_suction_that_cannot_be_evaluated(seabed: str, message: str) -> None:
-    assert refusal(seabed).startswith(message)
-
-
 def test_user_units_have_no_defaults_of_suction() -> None:
     def reported(lines: str) -> str:
         text = line_deck(METRIC, LINEAR_BED + "*SEABED SUCTION\n SET=ALL\n" + lines)
@@ -271,36 +249,6 @@ def test_a_trench_counts_its_own_elements() -> None:
     assert np.isnan([laid[name] for name in ("start_y", "start_z", "end_y", "end_z")]).all()
 
 
-@pytest.mark.parametrize(
-    ("seabed", "message"),
-    [
-        (
-            LINEAR_BED + "*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n PEAK=1\n",
-            "6: EXT003 10 elements (first: 1) have a trench and no lateral friction spring",
-        ),
-        (RUBBING + "*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 3, 2\n PEAK=1\n", "8: EXT003 invalid trench geometry"),
-        (
-            RUBBING + " LATERAL=5\n*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n PEAK=1\n",
-            "8: EXT003 10 elements (first: 1) have a trench and no lateral friction spring",
-        ),
-        (
-            RUBBING + "*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n PEAK=1\n CENTRELINE=1, 2, 1, 2\n",
-            "10: EXT003 the two points of the centreline coincide",
-        ),
-        (
-            LINEAR_BED + "*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n SLOPE=90\n",
-            "8: EXT007 slope 90.0: it must be between -90 and 90 degrees",
-        ),
-        (
-            LINEAR_BED + "*SEABED PROFILE\n TYPE=2D\n FILE=none.txt\n",
-            "5: RUN001 the seabed is not known: 'none.txt' was not found",
-        ),
-    ],
-)
-def test_what_cannot_be_evaluated_is_told_at_its_line(seabed: str, message: str) -> None:
-    assert refusal(seabed).startswith(message)
-
-
 # rigid and shaped seabeds
 
 
@@ -376,3 +324,46 @@ def test_every_feature_is_the_same_in_feet_and_pounds(moves: list[tuple[float, f
     assert metric.friction is not None
     assert imperial.friction is not None
     same(metric.friction, imperial.friction, POUND, 1000.0)
+
+
+def rows(seabed: str) -> list[dict[str, Any]]:
+    return static_embedment(scene_of(line_deck(METRIC, seabed)))
+
+
+def test_linear_laws_and_curves() -> None:
+    (row,) = rows(LINEAR_BED)
+    assert row == {
+        "set": "ALL",
+        "element": 1,
+        "weight": pytest.approx(WEIGHT),
+        "law": "linear",
+        "ratio": pytest.approx(WEIGHT / 50000.0 / 0.25),
+        "penetration": pytest.approx(WEIGHT / 50000.0),
+        "stiffness": 50000.0,
+        "extrapolated": None,
+    }
+    (row,) = rows(CURVED_BED)
+    assert row["law"] == "curve:Clay"
+    assert row["ratio"] == pytest.approx(WEIGHT / 8000.0)
+    assert row["stiffness"] == pytest.approx(8000.0 / 0.25)
+    assert rows(CURVED_BED.replace("0.5, 4000", "0.5, 40"))[0]["extrapolated"] == "above"
+    lifting = rows(CURVED_BED.replace("0.5, 4000", "0.5, -4000"))
+    assert lifting[0]["ratio"] is None
+    assert rows(LINEAR_BED.replace("50000", "0"))[0]["penetration"] is None
+
+
+def test_nodal_laws_have_the_ends_and_the_inside_of_a_line() -> None:
+    end, inside = rows(LINEAR_BED + "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=90000\n")
+    assert end["penetration"] == pytest.approx(WEIGHT * 10.0 / (2 * 90000.0))
+    assert inside["penetration"] == pytest.approx(WEIGHT * 10.0 / 90000.0)
+    assert (end["law"], end["stiffness"], end["set"]) == ("nodal", 90000.0, "ALL")
+
+
+def test_without_a_weight_there_are_no_rows() -> None:
+    nodal = "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=90000\n"
+    assert rows(nodal.replace("ALL", "Left"))
+    light = line_deck(METRIC, LINEAR_BED + nodal).replace("7850.0", "10.0")
+    assert static_embedment(scene_of(light)) == []
+    assert static_embedment(scene_of("$MODEL\n*OCEAN\n 5, 1025\n")) == []
+    lost = line_deck(METRIC, nodal).replace(" 11, -0.05, 100.0\n", "")
+    assert static_embedment(scene_of(lost)) == []

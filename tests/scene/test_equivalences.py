@@ -46,15 +46,6 @@ def test_generated_elements_are_the_written_ones(master: int, count: int, step: 
 _PIPE = "$MODEL\n*NODE\n 1, 0, 0\n 41, 0, 400\n GEN=1, 41\n*ELEMENT\n 1, 1, 2\n GEN=1, 40\n"
 
 
-@given(st.integers(1, 40), st.integers(0, 39), st.integers(1, 9))
-def test_a_generated_set_is_the_written_one(start: int, span: int, step: int) -> None:
-    end = min(start + span, 40)
-    listed = ", ".join(str(number) for number in range(start, end + 1, step))
-    text = _PIPE + f"*ELEMENT SETS\n SET=generated\n GEN={start}, {end}, {step}\n SET=written\n {listed}\n"
-    found = members(scene_of(text))
-    assert found["generated"] == found["written"]
-
-
 _SETS = st.lists(
     st.lists(
         st.one_of(

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import ast
 import math
 import re
 from collections.abc import Iterator
-from pathlib import Path
 from typing import cast
 
 import pytest
 
-import mudline
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.keywords.library.boundary import Boundary
@@ -25,10 +22,6 @@ from mudline.scene.model import Scene, resolve
 from tests.builders.scenes import scene_of
 from tests.linting.legality import NAME
 from tests.linting.legality import deck as random_deck
-
-ROOT = Path(mudline.__file__).parent
-WITHOUT = ("contact", "scene", "results", "comparison", "linting", "study")
-"""Packages that work with evaluated decks."""
 
 LAST = "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n"
 GIVEN = "$PREPROCESSOR\n*PARAMETERS\n dof, 6\n soil, 50.0\n"
@@ -68,17 +61,6 @@ def test_no_equation_is_left_in_random_decks() -> None:
         assert in_deck(scene) == []
         met += len(in_deck(scene, written=True))
     assert met > 500
-
-
-@pytest.mark.parametrize("package", WITHOUT)
-def test_no_module_that_works_with_scenes_asks_for_equations(package: str) -> None:
-    names = {
-        f"{module.relative_to(ROOT)}: {name.id}"
-        for module in (ROOT / package).rglob("*.py")
-        for name in ast.walk(ast.parse(module.read_text(encoding="utf-8")))
-        if isinstance(name, ast.Name) and name.id == "Equation"
-    }
-    assert names == set()
 
 
 def test_sections_behind_the_model_are_evaluated() -> None:

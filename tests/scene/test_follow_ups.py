@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.builders.decks import CLAY, PIPE, STEEL
+from tests.builders.decks import PIPE
 from tests.builders.scenes import all_reported, messages, reported, scene_of
 
 RESTART = "$LOAD CASE\n*RESTART\n LAST=static\n"
@@ -57,12 +57,6 @@ def test_a_deck_that_continues_another_needs_no_model() -> None:
     assert [code for _, code, _, _ in found] == ["REF005", "REF008", "SBD005", "REF001"]
 
 
-def test_all_is_open_where_elements_are_not_shown() -> None:
-    assert scene_of(RESTART + PIPE).set_table.everything.open
-    assert scene_of(PIPE + "*LINES\n LINE=a\n").set_table.everything.open
-    assert not scene_of(PIPE).set_table.everything.open
-
-
 # --------------------------------------------------------------------------------------------------------- follow-ups
 
 
@@ -83,18 +77,6 @@ def test_a_law_that_could_not_be_read_is_unknown(line: str, expected: list[str])
     assert grant.unknown
 
 
-def test_a_law_beside_a_bad_friction_is_known() -> None:
-    text = PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=5\n FRICTION=O.3\n"
-    assert not scene_of(text).laws.set_laws[0].unknown
-
-
-def test_a_lost_line_of_one_set_leaves_the_others_known() -> None:
-    text = PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFNESS=5\n SET=ALL\n LATERAL=0\n"
-    assert [grant.unknown for grant in scene_of(text).laws.set_laws] == [True, False]
-    last = PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n LATERAL=0\n SET=ALL\n STIFNESS=5\n$MODES\n"
-    assert [grant.unknown for grant in scene_of(last).laws.set_laws] == [False, True]
-
-
 @pytest.mark.parametrize("type_", ["ELASTC", "", "RIGID, ELASTIC"])
 def test_a_type_that_could_not_be_read_is_told_once(type_: str) -> None:
     text = PIPE + f"*SEABED PROPERTIES\n TYPE={type_}\n SET=ALL\n FRICTION=0.3\n*EMBEDMENT\n SET=ALL\n 0, 0\n 1, 1\n"
@@ -108,13 +90,6 @@ def test_a_bad_type_does_not_take_over_the_one_before() -> None:
     assert [code for _, code, _, _ in all_reported(text)] == ["SYN005"]
 
 
-def test_a_curve_that_could_not_be_made_makes_its_law_unknown() -> None:
-    text = PIPE + STEEL + CLAY.replace(" 0.5, 4000.0\n", "") + "*SEABED PROPERTIES\n TYPE=ELASTIC\n"
-    scene = scene_of(text + " SET=ALL\n STIFFNESS=clay\n")
-    assert [problem.code.code for problem in scene.problems] == ["CRV001"]
-    assert scene.laws.set_laws[0].unknown
-
-
 def test_a_set_that_could_not_be_read_gives_its_law_to_nothing() -> None:
     text = PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=\n STIFFNESS=5\n"
     scene = scene_of(text)
@@ -124,24 +99,6 @@ def test_a_set_that_could_not_be_read_gives_its_law_to_nothing() -> None:
 
 
 # ------------------------------------------------------------------------------------------------------- suggestions
-
-
-def test_suggestions_ignore_case_and_end_with_the_patience() -> None:
-    names = "".join(f" SET=Flowline {i:03d}\n 1\n" for i in range(400))
-    uses = "".join(f" SET=FLOWLINE  {i:03d}\n STIFFNESS=1\n" for i in range(600))
-    found = messages(PIPE + "*ELEMENT SETS\n" + names + "*SEABED PROPERTIES\n TYPE=ELASTIC\n" + uses)
-    assert "did you mean Flowline" in found[0]
-    suggested = ["did you mean" in message for message in found]
-    assert 20 < sum(suggested) < 600
-    assert suggested == sorted(suggested, reverse=True)
-    assert len(found) == 600
-
-
-def test_a_very_long_name_gets_no_suggestion() -> None:
-    name = "x" * 300
-    text = PIPE + f"*ELEMENT SETS\n SET={name}\n 1\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET={name}y\n STIFFNESS=1\n"
-    assert "did you mean" not in messages(text)[0]
-    assert len(messages(text)[0]) < 150
 
 
 def test_elements_out_of_sight_are_told_once_for_a_list() -> None:

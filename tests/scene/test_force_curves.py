@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
 
-from mudline.scene.force_curves import clashes_and_repeats
 from tests.builders.scenes import all_reported, messages, reported, scene_of
 
 STIFFNESS = "$MODEL\n*SEABED STIFFNESS\n"
@@ -93,11 +91,3 @@ def test_points_of_embedment_under_a_set_that_could_not_be_read_hold_for_nothing
     assert scene.curves == {}
     assert not scene.laws.curves[0].named
     assert scene.problems == []
-
-
-def test_clashes_and_repeats() -> None:
-    points = np.array([[1.0, 5], [0, 0], [1, 6], [1, 5], [0, 0], [-0.0, 1], [1, 6]])
-    clashing, repeated = clashes_and_repeats(points)
-    assert clashing.tolist() == [2, 5, 6]
-    assert repeated.tolist() == [3, 4]
-    assert [part.tolist() for part in clashes_and_repeats(points[:1])] == [[], []]

@@ -146,10 +146,6 @@ def test_of_two_surfaces_the_later_holds() -> None:
     assert stiffnesses(scene_of(BASE + "*ELASTIC SURFACE\n 500\n*ELASTIC SURFACE\n 600\n")) == [600] * 10
 
 
-def test_a_rigid_surface_holds_for_all() -> None:
-    assert laws(BASE + "*RIGID SURFACE\n 0.3, 0.4\n") == "r" * 10
-
-
 # ------------------------------------------------------------------------------------------------------------- both
 
 
@@ -203,10 +199,6 @@ def test_two_types_are_told_at_the_first_line_that_contradicts(lines: str, line:
 def test_two_types_in_two_model_sections_are_a_warning_because_that_is_inferred() -> None:
     text = "$MODEL\n*RIGID SURFACE\n 0.3\n$LOAD CASE\n*TIME\n$MODEL\n*ELASTIC SURFACE\n 1\n"
     assert reported(text) == [("W", "SBD002", 7, 1)]
-
-
-def test_one_type_twice_is_fine() -> None:
-    assert reported(BASE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n*SEABED PROPERTIES\n TYPE=ELASTIC\n") == []
 
 
 def test_an_elastic_surface_without_stiffness_needs_embedment() -> None:
@@ -320,15 +312,6 @@ def test_a_later_block_wins_and_is_taken_whole() -> None:
 def test_the_new_family_comes_before_the_surface() -> None:
     deck = PIPE + SETS + "*ELASTIC SURFACE\n 1e4, 0.3\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=A\n FRICTION=0.8\n"
     assert same(scene_of(deck).resistance.column("friction")[:, 0], [0.8] * 4 + [0.3] * 6)
-
-
-def test_without_a_seabed_there_is_nothing() -> None:
-    assert same(scene_of(PIPE).resistance.column("suction"), [NOTHING] * 10)
-
-
-def test_a_value_that_could_not_be_read_is_none() -> None:
-    scene = scene_of(PIPE + "*ELASTIC SURFACE\n 1e4, x, =[nothing]\n")
-    assert same(scene.resistance.column("friction"), [(NOTHING, NOTHING)] * 10)
 
 
 @pytest.mark.parametrize(

@@ -5,13 +5,10 @@ from __future__ import annotations
 import json
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from mudline.deck.loading import load_bytes
 from mudline.scene.model import resolve
-from tests.builders.scenes import all_reported, messages, reported, scene_of
-from tests.builders.spellings import names, texts
+from tests.builders.scenes import all_reported, messages, reported
 
 LINES = "*LINES\n LINE=SCR\n"
 LOCATIONS = "*LINE LOCATIONS\n LINE=SCR\n Seabed End, 0.0\n {Hang-off}, 1200.0\n"
@@ -115,21 +112,3 @@ def test_sections_that_could_not_be_read() -> None:
 
 
 # ------------------------------------------------------------------------------------------------------------ any lines
-
-_LAID = ("LINE PATH SECTIONS", "LINE SECTION GROUPS")
-_KEPT = ("LINES", "LINE PATHS", "LINE LOCATIONS", "CABLE", "NODE,CURVILINEAR")
-_KEYS = ["LINE", "NAME", "SECTION", "ADDITIONAL", "REPEAT", "SET", "SUBSET", "STIFFNESS"]
-_line = st.one_of(
-    texts,
-    st.builds(lambda key, text: f" {key}={text}", st.sampled_from(_KEYS), names | texts),
-    st.builds(lambda one, other: f" 1, {{{one}}}, {other}", names, names),
-    st.sampled_from([*_KEPT, *_LAID, *_LAID, "ELEMENT", "ELEMENT SETS", "SEABED PROPERTIES"]).map("*{}".format),
-)
-
-
-@given(st.lists(_line, max_size=14))
-@settings(max_examples=40)
-def test_no_block_of_lines_raises(lines: list[str]) -> None:
-    scene = scene_of("".join(f"{line}\n" for line in ("$MODEL", *lines)))
-    found = scene.deck.diagnose(scene.problems)
-    assert all(diagnostic.line <= len(lines) + 2 for diagnostic in found)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from mudline.diagnostics import Where
 from mudline.limits import MOST_GENERATED
-from mudline.scene.numbering import Batch, Definitions, whole_numbers
+from mudline.scene.numbering import Batch, Definitions
 from tests.builders.scenes import all_reported, messages, nodes_of, reported, scene_of
 
 NODE = "$MODEL\n*NODE\n"
@@ -214,10 +214,3 @@ def test_large_and_small_batches_are_found_alike() -> None:
     found.add(Batch(np.arange(40_000)[::-1], np.arange(40_000.0)[:, np.newaxis], Where()))
     assert found.find(7) == [39_992.0]
     assert found.find(39_999) == [0.0]
-
-
-def test_whole_numbers_of_a_column() -> None:
-    column = np.array([1.0, 1.5, np.nan, -3.0, 2.0**53, 2.0**53 + 2, 1e300, np.inf])
-    numbers, known = whole_numbers(column)
-    assert known.tolist() == [True, False, False, True, True, False, False, False]
-    assert numbers.tolist() == [1, 0, 0, -3, 2**53, 0, 0, 0]

@@ -147,15 +147,6 @@ def test_sparse_series_does_not_fill_the_memory(file: Path) -> None:
     assert peak < 20e6
 
 
-@given(values=st.lists(st.tuples(*[st.floats(allow_nan=False, allow_infinity=False)] * 3), min_size=3, max_size=3))
-def test_numbers_come_back_to_the_last_bit(
-    tmp_path_factory: pytest.TempPathFactory, values: list[tuple[float, float, float]]
-) -> None:
-    rows = "".join(f"{n},{x!r},{y!r},{z!r}\n" for n, (x, y, z) in zip((10, 20, 30), values, strict=True))
-    file = write(tmp_path_factory.getbasetemp() / "bits.csv", f"node,x,y,z\n{rows}")
-    assert read_positions(file, NODES).whole.tobytes() == np.array([values]).tobytes()
-
-
 ALPHABET = st.sampled_from([*"0123456789.,-+eE \n\r\t\"';xyz", "\x00", "\ufeff", "\u00e4", "node,x,y,z\n", "10,"])
 
 

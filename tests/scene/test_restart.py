@@ -332,13 +332,3 @@ def test_whatever_the_decks_hold_findings_lie_in_the_deck_itself(base: list[str]
 
 
 # ------------------------------------------------------------------------------------------------------ read once
-
-
-def test_a_deck_before_is_read_once_until_it_changes(folder: Path) -> None:
-    with patch.object(restart, "load_path", wraps=load_path) as reading:
-        for number in range(20):
-            assert len(scene(folder, name=f"dynamic{number}.keyxm").element_ids) == 10
-        assert reading.call_count == 1
-        (folder / "static.keyxm").write_text(STATIC.replace("GEN=1, 10", "GEN=1, 8"))
-        assert len(scene(folder).element_ids) == 8
-        assert reading.call_count == 2

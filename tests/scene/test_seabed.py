@@ -6,12 +6,10 @@ import math
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from mudline.deck.loading import load_path
 from mudline.scene.model import Scene, resolve
-from mudline.scene.seabed import SeabedKind, SeabedShape, parse_profile, read_profile
+from mudline.scene.seabed import SeabedKind, SeabedShape, read_profile
 from tests.builders.decks import PIPE
 from tests.builders.scenes import scene_of
 
@@ -141,13 +139,6 @@ def test_a_file_of_enormous_size_is_refused(tmp_path: Path, monkeypatch: pytest.
     (tmp_path / "bed.txt").write_text("0, 0\n1, 1\n", encoding="utf-8")
     with pytest.raises(ValueError, match="is it a profile"):
         read_profile(tmp_path / "bed.txt", 2)
-
-
-@given(st.lists(st.tuples(*[st.floats(allow_nan=False, allow_infinity=False)] * 2), min_size=2, max_size=20))
-def test_points_survive_to_the_last_bit(points: list[tuple[float, float]]) -> None:
-    text = "".join(f"{y!r}, {x!r}\n" for y, x in points)
-    found = parse_profile(text.encode(), "bed.txt", 2)
-    assert [tuple(map(repr, row)) for row in found.tolist()] == [tuple(map(repr, row)) for row in points]
 
 
 def test_the_same_bed() -> None:

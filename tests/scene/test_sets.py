@@ -46,13 +46,6 @@ def test_a_name_defined_twice_holds_the_elements_of_both() -> None:
     assert reported(SETS + lines) == []
 
 
-def test_indices_ascend_whatever_the_order_of_the_elements() -> None:
-    deck = "$MODEL\n*NODE\n 1, 0, 0\n*ELEMENT\n 9, 1, 1\n 4, 1, 1\n 7, 1, 1\n*ELEMENT SETS\n SET=a\n GEN=4, 9\n 7\n"
-    scene = scene_of(deck)
-    assert scene.set_table.named["a"].elements.tolist() == [0, 1, 2]
-    assert members(scene)["a"] == [9, 4, 7]
-
-
 @pytest.mark.parametrize(
     ("line", "expected"),
     [
@@ -131,36 +124,9 @@ def test_a_diamond_is_no_circle() -> None:
     assert sets_of(lines)["a"] == [4]
 
 
-@pytest.mark.untraced
-@pytest.mark.slow
-@pytest.mark.parametrize("forward", [True, False])
-def test_a_long_chain(forward: bool) -> None:
-    """Neither the depth of the chain nor the size of what it holds is paid for at every step."""
-    count = 10_000
-    chain = [f" SET=s{i}\n SUBSET=s{i + 1}\n" for i in range(count)]
-    base = [f" SET=s{count}\n GEN=1, 10\n"]
-    scene = scene_of(SETS + "".join(chain + base if forward else base + chain[::-1]))
-    assert scene.problems == []
-    arrays = {id(entry.elements) for name, entry in scene.set_table.named.items() if name != "all"}
-    assert len(arrays) == 1
-    assert members(scene)["s0"] == list(range(1, 11))
-
-
 def test_a_chain_that_ends_in_nothing() -> None:
     lines = " SET=a\n SUBSET=b\n SET=b\n SUBSET=nothing\n"
     assert reported(SETS + lines) == [("E", "REF008", FIRST + 3, 9)]
-
-
-def test_a_set_that_has_the_elements_of_its_subset_shares_them() -> None:
-    named = scene_of(SETS + " SET=a\n GEN=1, 8\n SET=b\n SUBSET=a\n 3, 4\n SET=c\n SUBSET=b\n 9\n").set_table.named
-    assert named["a"].elements is named["b"].elements
-    assert named["c"].elements.tolist() == [0, 1, 2, 3, 4, 5, 6, 7, 8]
-
-
-@pytest.mark.parametrize("line", ["SUBSET=", "GEN=1, x", "GEN=1, =[nothing]", "1, 2-"])
-def test_a_set_of_which_a_line_could_not_be_read_is_open(line: str) -> None:
-    assert scene_of(SETS + f" SET=a\n 1\n {line}\n").set_table.named["a"].open
-    assert not scene_of(SETS + " SET=a\n 1\n").set_table.named["a"].open
 
 
 def test_a_set_without_a_readable_name_may_be_the_one_that_is_missing() -> None:
@@ -173,22 +139,9 @@ def test_sets_of_other_sections_are_no_sets_of_the_model() -> None:
     assert members(scene_of(text)) == {"ALL": list(range(1, 11))}
 
 
-def test_only_the_first_thousand_are_listed() -> None:
-    lines = "".join(f" {number}\n" for number in range(100, 1600))
-    assert len(reported(SETS + " SET=a\n" + lines)) == 1001
-    assert messages(SETS + " SET=a\n" + lines)[-1].endswith("the first 1000 are listed")
-    circles = "".join(f" SET=s{number}\n SUBSET=s{number}\n" for number in range(1500))
-    assert len(reported(SETS + circles)) == 1001
-
-
 @pytest.mark.parametrize(("defined", "used"), [('"Flow Line"', "flow line"), ("Flow Line", '"FLOW LINE"')])
 def test_quotes_around_a_name_do_not_count(defined: str, used: str) -> None:
     sets = f"*ELEMENT SETS\n SET={defined}\n 1, 2\n SET=Both\n SUBSET={used}\n 3\n"
     deck = PIPE + STEEL + sets + f"*SEABED PROPERTIES\n TYPE=ELASTIC\n SET={used}\n STIFFNESS=1e5\n"
     assert reported(deck) == []
     assert scene_of(deck).law_names == ["linear"] * 2 + ["none"] * 8
-
-
-def test_a_set_is_open_if_any_of_its_lines_or_subsets_is() -> None:
-    named = scene_of(SETS + " SET=a\n 1, 99\n 3\n SET=b\n SUBSET=a\n 4\n SET=c\n 5\n").set_table.named
-    assert [named[name].open for name in "abc"] == [True, True, False]

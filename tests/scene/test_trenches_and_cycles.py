@@ -7,7 +7,6 @@ import pytest
 from numpy.typing import NDArray
 
 from mudline.contact import ContactResult
-from mudline.diagnostics import DeckError
 from tests.builders.decks import FOOT, IMPERIAL, METRIC, POUND, Units, line_deck
 from tests.builders.scenes import scene_of
 
@@ -115,36 +114,6 @@ def test_a_factor_with_a_floor_is_applied_once_for_each_cycle(units: Units, leng
     np.testing.assert_allclose(cycles(units, "0.5", 4), [0.5 * pull] * 4, rtol=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("trench", "line", "code", "message"),
-    [
-        (" GEOMETRY=1, 2, 3\n", 1, "EXT003", "MODEL=PEAK needs a resistance: give PEAK="),
-        (" GEOMETRY=1, 2, 3\n PEAK=TABLE\n 0, 1\n", 3, "EXT003", "PEAK=TABLE needs two rows or more"),
-        (" GEOMETRY=1, 2, 3\n PEAK=TABLE\n -1, 1\n 1, 1\n", 4, "EXT003", "the offset from the centreline is negative"),
-        (
-            " GEOMETRY=1, 2, 3\n PEAK=TABLE\n 0, 1\n 0, 1\n",
-            5,
-            "EXT003",
-            "the offset is not larger than that of the row",
-        ),
-        (" GEOMETRY=1, 2, 3\n PEAK=TABLE\n 0, 1\n 1, -1\n", 5, "SBD010", "lateral resistance per unit length there is"),
-        (" GEOMETRY=1, 2, 3\n MODEL=WALL\n", 2, "EXT003", "mu2 tan(theta) must be below 1"),
-    ],
-)
-def test_what_no_trench_can_be_is_refused_at_its_line(trench: str, line: int, code: str, message: str) -> None:
-    text = line_deck(METRIC, bed(METRIC, trench))
-    with pytest.raises(DeckError) as caught:
-        scene_of(text).contact()
-    (reported,) = caught.value.diagnostics
-    assert (reported.code, reported.line) == (code, text.count("\n") - trench.count("\n") - 1 + line)
-    assert reported.message.startswith(message)
-
-
 def test_a_wall_is_free_to_lock_where_nothing_rubs() -> None:
     trench = " GEOMETRY=9, 2, 3\n MODEL=WALL\n PEAK=TABLE\n"
     assert moved(METRIC, bed(METRIC, trench, mu2=0.0), [1.2]).friction is not None
-
-
-def test_a_floor_that_is_no_share_is_refused() -> None:
-    with pytest.raises(DeckError, match="must not be more than 1"):
-        cycles(METRIC, "0.5, 1.5", 1)

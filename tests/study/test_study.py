@@ -104,16 +104,14 @@ def test_a_jump_at_the_mudline_is_named_with_its_line_and_the_step_without_it() 
     assert f"{found.milliseconds(row.without_jump.step)} ms" in found.advice.text
 
 
-def test_contacts_that_differ_in_name_only_share_a_row() -> None:
+def test_contacts_that_differ_in_name_only_share_a_row(whole: Study) -> None:
     split = LINEAR.replace("SET=ALL", "SET=Clay") + LINEAR.partition("TYPE=ELASTIC\n")[2].replace("ALL", "Sand")
     found = studied(deck(split), "stability")
     assert found.stability is not None
     lines = {(one.row.contact, one.row.elements) for one in found.stability}
     assert lines == {("linear on Clay", 7), ("linear on Sand", 3)}  # from two lines: two rows
-    nested = deck(EVERYTHING).replace(" SET=Sand\n GEN=8, 10\n", " SET=Sand\n GEN=8, 10\n")
-    rows = studied(nested, "stability").stability
-    assert rows is not None
-    assert len({one.row[1:9] for one in rows}) == len(rows)
+    assert whole.stability is not None
+    assert len({one.row[1:9] for one in whole.stability}) == len(whole.stability)
 
 
 # ------------------------------------------------------------------------------------------------------------ precision
@@ -248,8 +246,9 @@ def test_advice_on_stability_alone_is_that_of_landings() -> None:
 
 
 def test_a_deck_whose_step_is_short_enough_is_told_so() -> None:
-    assert "50 ms" not in studied(deck().replace("0.05,", "0.0005,")).advice.text
-    assert "0.5 ms (line" in (found := studied(deck().replace("0.05,", "0.0005,")).advice.text)
+    found = studied(deck().replace("0.05,", "0.0005,"), "precision").advice.text
+    assert "50 ms" not in found
+    assert "0.5 ms (line" in found
     assert found.endswith("is short enough.")
 
 

@@ -71,26 +71,6 @@ def test_parts_and_shapes_give_the_same_as_the_whole(seabed: Seabed) -> None:
 
 
 @every_seabed
-def test_outputs_and_points_may_be_strided(seabed: Seabed) -> None:
-    points = cloud(50)
-    gap, normal = located(seabed, points)
-    spread, spread_normal = np.zeros((2, 50)), np.zeros((50, 6))
-    seabed.locate(np.asfortranarray(points), spread.T[:, 1], spread_normal[:, ::2])
-    assert np.array_equal(spread[1], gap, equal_nan=True)
-    assert np.array_equal(spread_normal[:, ::2], normal)
-
-
-@every_seabed
-def test_on_a_facet_a_step_along_the_normal_changes_the_gap_by_the_step(seabed: Seabed) -> None:
-    points, step = cloud(), 1e-3
-    gap, normal = located(seabed, points)
-    moved, new_normal = located(seabed, points - step * normal)
-    same = (normal == new_normal).all(axis=1) & np.isfinite(gap) & np.isfinite(moved)
-    assert not seabed.faceted or same.sum() > 200
-    assert np.allclose(moved[same], gap[same] - step, rtol=0.0, atol=1e-11)
-
-
-@every_seabed
 def test_the_shared_normal_is_that_of_all_points(seabed: Seabed) -> None:
     _, normal = located(seabed, cloud())
     shared = seabed.same_normal
@@ -109,13 +89,6 @@ def test_far_points_have_a_gap_or_no_seabed_as_near_the_edge(seabed: Seabed, far
     assert np.array_equal(np.isnan(gap), np.isnan(located(seabed, near)[0]))
     assert np.array_equal(normal, located(seabed, near)[1])
     assert np.isfinite(normal).all()
-
-
-@every_seabed
-def test_minus_zero_never_comes_out(seabed: Seabed) -> None:
-    gap, normal = located(seabed, [[-0.0, -0.0, -0.0], [0.0, -0.0, 0.0], [0.0, -200.0, 200.0]])
-    for values in (gap, normal, level(seabed, [-0.0, 0.0, -200.0], [-0.0, 0.0, 200.0])):
-        assert not (np.signbit(values) & (values == 0.0)).any()
 
 
 @every_seabed

@@ -7,9 +7,9 @@ import pytest
 
 from mudline.contact import ElementError
 from mudline.contact.laws.linear import spring_suction
-from mudline.contact.laws.suction import from_cohesion, step, trapezoid
+from mudline.contact.laws.suction import from_cohesion
 from tests.builders.contact import LINEAR, bridge_law, chain, floats, suction
-from tests.contact.single import BROKEN, DEPTH, FORCE, SUCTION, breakout, largest, lifted, pull
+from tests.contact.single import DEPTH, FORCE, breakout, largest, pull
 
 # D, cu, v, alpha_f, alpha_D, F_max, Delta_B, dF/dv
 WORKED = [
@@ -26,32 +26,6 @@ WORKED = [
 FOOT, POUND = 0.3048, 4.4482216152605
 
 
-def test_worked_table_of_constants() -> None:
-    diameter, cohesion, v, alpha_f, alpha_d, force, depth, slope = np.array(WORKED).T
-    law = bridge_law(len(v), cohesion, diameter)
-    assert law.force_factor == pytest.approx(alpha_f, rel=1e-10)
-    assert law.depth_factor == pytest.approx(alpha_d, rel=1e-10)
-    assert largest(law, v)[0] == pytest.approx(force, rel=1e-10)
-    assert largest(law, v)[1] == pytest.approx(slope, rel=1e-9)
-    assert breakout(law, v) == pytest.approx(depth, rel=1e-10)
-
-
-@pytest.mark.parametrize(
-    ("v", "force", "slope"),
-    [(0.0, 0.0, 1095213.6398), (5e-4, 424.24484398, None), (1e-3, 601.76573615, 108317.83251)],
-)
-def test_cap_below_the_regularisation_velocity(v: float, force: float, slope: float | None) -> None:
-    values = largest(bridge_law(), floats(v))
-    assert values[0].item() == pytest.approx(force, rel=1e-10)
-    if slope is not None:
-        assert values[1].item() == pytest.approx(slope, rel=1e-10)
-
-
-def test_cap_is_on_the_force_only() -> None:
-    assert breakout(bridge_law(), floats(1e-9)).item() == pytest.approx(0.048791855079, rel=1e-10)
-    assert breakout(bridge_law(), floats(0.0)).item() == pytest.approx(0.048791855079, rel=1e-10)
-
-
 @pytest.mark.parametrize("exponent", [0.0, 0.18, 1.0, 1.5, 2.0, 3.0])
 def test_capped_force_never_falls_below_zero(exponent: float) -> None:
     law = bridge_law(41)._replace(force_exponent=floats(exponent, 41), force_factor=floats(1.0, 41))
@@ -59,15 +33,6 @@ def test_capped_force_never_falls_below_zero(exponent: float) -> None:
     assert (force >= 0.0).all()
     assert (np.diff(force) >= -1e-15).all()
     assert (slope >= -1e-12).all()
-
-
-def test_cyclic_factor_scales_the_force_and_nothing_else() -> None:
-    law = bridge_law()
-    half = law._replace(cyclic=floats(0.5))
-    whole, cut = pull(law, 0.01, 0.1), pull(half, 0.01, 0.1)
-    assert cut.depth == whole.depth
-    for name in ("force", "by_uplift", "by_velocity"):
-        assert getattr(cut, name) == pytest.approx(0.5 * getattr(whole, name), rel=1e-14)
 
 
 def test_millimetres_would_be_wrong_without_conversion() -> None:
@@ -117,23 +82,6 @@ def test_a_value_out_of_range_is_refused_and_the_element_named(field: str, value
     assert caught.value.element == 12
 
 
-def test_corners_exactly() -> None:
-    first, second = np.array([0.25, 0.5]), np.array([0.75, 0.5])
-    part, slope = trapezoid(first, first, second)
-    assert part.tolist() == [1.0, 1.0]
-    assert slope.tolist() == [0.0, 0.0]
-    assert trapezoid(second, first, second)[0].tolist() == [1.0, 1.0]
-    for end in (0.0, 1.0):
-        ends = trapezoid(np.full(2, end), first, second)
-        assert [values.tolist() for values in ends] == [[0.0, 0.0], [0.0, 0.0]]
-
-
-@pytest.mark.parametrize("share", [-np.inf, -1.0, 1.0 + 1e-15, 2.0, 1e300, np.inf])
-def test_nothing_outside(share: float) -> None:
-    values = trapezoid(floats(share), floats(0.01), floats(0.99))
-    assert [array.item() for array in values] == [0.0, 0.0]
-
-
 @pytest.mark.parametrize("corner", [0.2, 0.8])
 def test_on_a_corner_the_whole_force_acts_and_the_slope_is_that_of_the_plateau(corner: float) -> None:
     law = bridge_law(corners=(corner, corner))._replace(depth_exponent=floats(0.0), depth_factor=floats(1.0))
@@ -141,16 +89,6 @@ def test_on_a_corner_the_whole_force_acts_and_the_slope_is_that_of_the_plateau(c
     assert suction.force.item() == pytest.approx(-FORCE, rel=1e-10)
     assert suction.by_uplift.item() == 0.0
     assert not np.signbit(suction.by_uplift.item())
-
-
-def test_breakout_exactly_at_the_end() -> None:
-    law = bridge_law(2)._replace(depth_exponent=floats(0.0, 2), depth_factor=floats(1.0, 2))
-    uplift = np.array([np.nextafter(1.0, 0.0), 1.0])
-    suction, after = step(law, lifted(law), uplift, floats(0.1, 2), np.zeros(2, np.bool_))
-    assert after.state.tolist() == [SUCTION, BROKEN]
-    assert after.armed.tolist() == [True, False]
-    assert suction.force[0] < 0.0
-    assert suction.force[1] == 0.0
 
 
 def test_a_spring_against_uplift_has_an_extent_and_no_history() -> None:
@@ -162,9 +100,3 @@ def test_a_spring_against_uplift_has_an_extent_and_no_history() -> None:
     assert stiffness.tolist() == [0.0, 0.0, 15000.0, 15000.0, 0.0, 0.0]
     assert not np.signbit(force[[0, 1, 4, 5]]).any()
     assert np.array_equal(twice[1], force)
-
-
-def test_no_spring_against_uplift_without_a_stiffness() -> None:
-    for values in spring_suction(floats(0.01), floats(0.0), floats(0.05)):
-        assert values.item() == 0.0
-        assert not np.signbit(values.item())

@@ -13,7 +13,7 @@ from mudline.contact.laws.friction import ExtraLimit
 from mudline.contact.laws.trench import on_wall, peak_share, peak_slope, wall_coefficient
 from mudline.contact.line import Line
 from mudline.contact.tables import Tables
-from mudline.contact.trenches import LaidCentreline, tabulated
+from mudline.contact.trenches import LaidCentreline
 from tests.builders.contact import ALONG_Y, LINEAR, NONE, chain, friction, on, trench
 
 PEAK = 900.0
@@ -28,17 +28,6 @@ def limit(offset: float) -> ExtraLimit:
     return ExtraLimit(
         PEAK * np.asarray(peak_share(y, INNER, OUTER, 2.0 / (OUTER - INNER))), np.asarray(slope), np.zeros(1), side
     )
-
-
-@pytest.mark.parametrize(
-    ("offset", "share"),
-    [(0.0, 0.0), (0.25, 0.0), (0.4, 0.5), (0.55, 1.0), (0.7, 0.5), (0.85, 0.0), (3.0, 0.0)],
-)
-def test_share_of_the_peak(offset: float, share: float) -> None:
-    both = limit(offset), limit(-offset)
-    for found in both:
-        np.testing.assert_allclose(found.force, PEAK * share, atol=1e-9)
-    assert both[0].outward[0] == -both[1].outward[0]
 
 
 @given(st.floats(-1.0, 1.0).filter(lambda y: min(abs(abs(y) - kink) for kink in (0.0, 0.25, 0.55, 0.85)) > 1e-5))
@@ -59,14 +48,6 @@ def test_worked_wall() -> None:
 def test_a_wall_without_friction_is_as_steep_as_it_is() -> None:
     values = (np.array([0.1, 0.3, 1.2]), np.full(3, 0.5), np.full(3, 1.7), np.zeros(3))
     assert wall_coefficient(*values) == pytest.approx([1.0 / 6.0, 0.5, 2.0])
-
-
-def test_a_table_is_held_below_its_first_row_and_ends_at_its_last() -> None:
-    table = np.array([[0.1, 100.0], [0.3, 500.0], [0.5, 200.0]])
-    offsets = np.array([0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.5000001, 9.0])
-    assert tabulated(table, offsets) == pytest.approx([100.0, 100.0, 300.0, 500.0, 350.0, 200.0, 0.0, 0.0])
-    single = np.array([[0.2, 250.0]])
-    assert tabulated(single, np.array([0.0, 0.2, 0.21])).tolist() == [250.0, 250.0, 0.0]
 
 
 WRONG = {
@@ -105,47 +86,6 @@ def nearest(
     away = centreline.away(centreline.pieces_beside(each), points.T[:, None])
     found: FloatArray = points - away.vector[:, 0].T
     return found
-
-
-def test_straight_centreline() -> None:
-    points = np.array([[-3.0, 4.0, 3.5], [0.5, -20.0, 0.0]])
-    found = nearest(points, np.array([[0, 1]]), points, (0.0, 1.0, 10.0, 1.0))
-    assert found.tolist() == [[-3.0, 4.0, 1.0], [0.5, -20.0, 1.0]]
-
-
-def bent() -> tuple[FloatArray, IndexArray]:
-    """A line of six nodes along Y that turns into Z in its middle."""
-    places = [(0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 2.0, 0.0), (0.0, 3.0, 0.0), (0.0, 3.0, 1.0), (0.0, 3.0, 2.0)]
-    return np.array(places), np.array([[k, k + 1] for k in range(5)])
-
-
-def test_laid_centreline() -> None:
-    laid, ends = bent()
-    np.testing.assert_array_equal(nearest(laid, ends, laid), laid)
-    moved = laid + np.array([0.0, 0.0, 0.2])
-    expected = laid.copy()
-    expected[3:, 2] = [0.2, 1.2, 2.0]
-    np.testing.assert_allclose(nearest(laid, ends, moved), expected, atol=1e-15)
-
-
-def test_a_node_finds_its_place_far_along_the_line() -> None:
-    laid, ends = bent()
-    points = np.broadcast_to(np.array([0.0, 2.6, 0.1]), laid.shape).copy()
-    np.testing.assert_allclose(nearest(laid, ends, points)[:4], [[0.0, 2.6, 0.0]] * 4, atol=1e-15)
-
-
-def test_a_node_without_elements_is_its_own_centreline() -> None:
-    laid = np.array([[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [5.0, 5.0, 5.0]])
-    points = laid + 1.0
-    found = nearest(laid, np.array([[0, 1]]), points)
-    assert found[2].tolist() == points[2].tolist()
-    assert found[0].tolist() == [0.0, 1.0, 0.0]
-
-
-def test_nodes_of_a_line_without_elements_are_their_own_centrelines() -> None:
-    points = np.array([[0.0, 1.0, 2.0], [3.0, 4.0, 5.0]])
-    found = nearest(np.zeros((2, 3)), np.zeros((0, 2), np.intp), points)
-    assert found.tolist() == points.tolist()
 
 
 @given(st.integers(2, 40), st.integers(0, 10_000))
