@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain
 
@@ -18,7 +18,6 @@ from mudline.diagnostics import Blocks as Blocking
 from mudline.diagnostics import Problem, Repair, Severity, Span, Where
 from mudline.keywords import catalogue
 from mudline.keywords.values import Names
-from mudline.lean import dataclass
 from mudline.linting.rules.references import REF016
 from mudline.scene.references import given_names
 from mudline.scene.sets import set_key

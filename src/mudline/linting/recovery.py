@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from itertools import chain
 
 from mudline.codes.fields import SYN002
@@ -18,7 +18,6 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Code, Problem, Severity, Span
 from mudline.keywords.reader import BlockReader
-from mudline.lean import dataclass
 from mudline.linting.corrections import (
     Blocks,
     Correction,
