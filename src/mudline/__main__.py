@@ -15,8 +15,7 @@ _COLLECTION = (5_000_000, 10, 10)
 """Objects between two collections, and collections between two of older ones.
 
 What a deck is read into has no cycles and is freed with it: a run of many decks leaves some ten objects of each to the
-collector. By default a third of the time of a deck of many entries goes into looking for cycles. When
-Python ends it would look twice through all that was imported, as long as pydantic takes to import: it finds nothing.
+collector. By default a third of the time of a deck of many entries goes into looking for cycles.
 """
 
 _THREADS = "OPENBLAS_NUM_THREADS"
@@ -40,7 +39,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if given == ["--version"] and _printed(f"mudline {__version__}\n"):
         return 0
     gc.set_threshold(*_COLLECTION)
-    atexit.register(gc.freeze)
+    atexit.register(_leave)
     os.environ.setdefault(_THREADS, "1")
     os.environ.setdefault(_PLUGINS, "__all__")
     try:
@@ -67,6 +66,15 @@ def _take_signals() -> None:
             number = getattr(signal, name, None)
             if number is not None and signal.getsignal(number) is signal.SIG_DFL:
                 signal.signal(number, end)
+
+
+def _leave() -> None:
+    """Keep Python from looking twice, as it ends, for cycles in all that was imported.
+
+    That takes as long as to import pydantic, and finds nothing. DuckDB complains of what is not looked at.
+    """
+    if "_duckdb" not in sys.modules:
+        gc.freeze()
 
 
 def _printed(text: str) -> bool:

@@ -47,7 +47,9 @@ else:
                 found = _init(cls, frozen=frozen)
             else:
                 fields = [(field.name, field.type, field) for field in dataclasses.fields(cls)]
-                found = getattr(dataclasses.make_dataclass("_", fields, init=False, frozen=frozen), name)
+                described = {"__doc__": name}  # see above
+                made = dataclasses.make_dataclass("_", fields, init=False, frozen=frozen, namespace=described)
+                found = getattr(made, name)
             setattr(cls, name, found)
             return found(self, *given, **named)
 

@@ -66,6 +66,12 @@ def test_a_question_reads_the_archive_only(archive: Path, sql: str, why: str) ->
     assert sorted(archive.rglob("*")) == before
 
 
+def test_nothing_is_said_beside_the_answer(archive: Path) -> None:
+    with started("-m", "mudline", "query", str(archive), "SELECT 1 AS one", "--output-format", "csv") as running:
+        assert running.out.read().decode().splitlines() == ["one", "1"]
+        assert running.err.read() == b""
+
+
 def test_the_locks_hold_without_the_look_at_the_statement(archive: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(database, "_READING", ("SELECT", "EXPLAIN", "COPY", "ATTACH", "LOAD", "SET", "EXPORT"))
     for sql in (

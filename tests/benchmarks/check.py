@@ -23,23 +23,13 @@ from mudline.linting.engine import lint_bytes
 from tests.benchmarks import decks, reading, start
 from tests.benchmarks.bench import Bench
 from tests.benchmarks.contact import Work, all_laws, by_hand, one_curve, series, stepping, streaming
-from tests.benchmarks.editor import deck
+from tests.benchmarks.editor import deck, faulty, waits
 from tests.benchmarks.runner import ROOT, cpu, elapsed
-from tests.lsp.raw import raw_client
 
 STORED = Path(__file__).with_name("ratios.json")
 _WORSE = 1.25
-_SAMPLES = ROOT / "samples"
-_CLEAN = (_SAMPLES / "scr-touchdown.keyxm").read_bytes()
-_FAULTS = (
-    ("*SEABED STIFFNESS", "SEABED STIFFNESS"),
-    ("*GEOMETRIC SETS", "*GEOMETRIC SET"),
-    (" 50, -0.05,", " 50, -0.O5,"),
-    (" 60, 60, 61", " 60, 60, 999"),
-    ("TYPE=ELASTIC", "TYPE=ELASTC"),
-)
-_KEY = " 1, -0.006,   0.0"
-"""A row of the sample with faults; what is typed changes its last digit."""
+_CLEAN, _BROKEN = (ROOT / "samples" / f"{name}.keyxm" for name in ("scr-touchdown", "broken"))
+_NUMBERS = count()
 _NODES, _MANY = 1000, 100_000
 
 
@@ -56,19 +46,16 @@ def _least(ours: Work, peer: Work, rounds: int) -> float:
 
 def _linting(data: bytes) -> Work:
     """Lints a deck that has no block in common with the last one: what was read before does not help."""
-    rules, numbers = registry.select(), count()
-    return lambda: lint_bytes(re.sub(rb"(?m)^(\*.*)$", rb"\1\nC %d" % next(numbers), data), "deck.keyxm", rules)
+    rules = registry.select()
+    return lambda: lint_bytes(re.sub(rb"(?m)^(\*.*)$", rb"\1\nC %d" % next(_NUMBERS), data), "deck.keyxm", rules)
 
 
 def faults(_: Bench) -> Iterator[tuple[str, float]]:
     """Decks with faults beside clean ones, in this process."""
-    clean = faulty = deck(240)
-    for old, new in _FAULTS:
-        assert old in faulty
-        faulty = faulty.replace(old, new, 1)
-    yield "a deck of 240 lines with 5 faults / clean", _least(_linting(faulty.encode()), _linting(clean.encode()), 7)
-    broken = (_SAMPLES / "broken.keyxm").read_bytes()
-    yield "samples/broken.keyxm / the clean sample", _least(_linting(broken), _linting(_CLEAN), 7)
+    clean, slipped = (_linting(text.encode()) for text in (deck(240), faulty(240)))
+    yield "a deck of 240 lines with 5 faults / clean", _least(slipped, clean, 15)
+    sample, broken = (_linting(path.read_bytes()) for path in (_CLEAN, _BROKEN))
+    yield "samples/broken.keyxm / the clean sample", _least(broken, sample, 15)
 
 
 def commands(bench: Bench) -> Iterator[tuple[str, float]]:
@@ -80,30 +67,14 @@ def commands(bench: Bench) -> Iterator[tuple[str, float]]:
     jobs = {"mudline": bench.mudline("lint", "--no-cache", "--jobs", "1", folder)}
     if bench.has("yamllint"):
         jobs["yamllint"] = decks.linters(bench, decks.apart)["yamllint"](decks.DECKS)
-    found = bench.costs(jobs, 3, warm=False)
+    found = bench.costs(jobs, 2, warm=False)
     if "yamllint" in found:
         yield "1000 different decks / yamllint", min(cpu(found["mudline"])) / min(cpu(found["yamllint"]))
 
 
 def editor(bench: Bench) -> Iterator[tuple[str, float]]:
-    """From a typed digit to its findings, through the server, beside the start of a Python with the imports."""
-    text, taken = (_SAMPLES / "broken.keyxm").read_text(encoding="utf-8"), []
-    line, uri = text[: text.index(_KEY)].count("\n"), "file:///broken.keyxm"
-    end = {"line": line, "character": len(_KEY)}
-    where = {"start": {"line": line, "character": len(_KEY) - 1}, "end": end}
-    with raw_client() as client:
-        client.begin()
-        client.notify("initialized", {})
-        client.open(uri, text)
-        client.findings(uri)
-        for version in range(2, 9):
-            document, change = {"uri": uri, "version": version}, {"range": where, "text": str(version)}
-            begun = time.perf_counter()
-            client.notify("textDocument/didChange", {"textDocument": document, "contentChanges": [change]})
-            while client.read().get("params", {}).get("version") != version:
-                pass
-            taken.append(time.perf_counter() - begun)
-        client.end()
+    """From a change to its findings, through the server, beside the start of a Python with the imports."""
+    taken = waits(_BROKEN, 7)
     imports = bench.costs({"imports": start.IMPORTS}, 5)["imports"]
     yield "editor, by the clock: digit to findings of broken.keyxm / bare imports", min(taken) / min(elapsed(imports))
 
