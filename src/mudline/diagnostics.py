@@ -7,11 +7,10 @@ text, or a path into the values). A *diagnostic* is the public form of the same 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import NamedTuple
 
-from mudline.lean import dataclass
 from mudline.limits import MOST_REPORTED
 from mudline.short_repr import counted, outline, short_repr
 

@@ -6,9 +6,8 @@ import csv
 import io
 import math
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from typing import Literal, NamedTuple
-
-from mudline.lean import dataclass
 
 RESULT_FORMAT = "mudline-result/2"
 """Name and version of the form of result files."""

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 
-from mudline.lean import dataclass
 from mudline.limits import LONGEST_MISSPELT, SPELLING_EFFORT
 
 _SHORT = 5

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from dataclasses import field
+from dataclasses import dataclass, field
 from hashlib import blake2b
 from pathlib import Path
 from typing import Any, cast
@@ -22,7 +22,6 @@ from mudline.diagnostics import DeckError, Diagnostic, Problem, Severity, Where
 from mudline.keywords.catalogue import is_extension, is_superseded
 from mudline.keywords.table import AS_TABLES, Listing
 from mudline.keywords.values import Equation, Names
-from mudline.lean import dataclass
 from mudline.linting.engine import LintSettings, lint_context, problems_in
 from mudline.linting.fixing import with_severities
 from mudline.linting.registry import rules

@@ -13,6 +13,7 @@ import threading
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -22,7 +23,6 @@ import duckdb
 from mudline.archive.store import AGAIN, DATA, VIEWS, Archive
 from mudline.archive.tables import DECK, FILES, STORED, TABLES, Table
 from mudline.files import write_atomically
-from mudline.lean import dataclass
 
 BATCH = 100_000
 """Rows of an answer that are fetched at once."""

@@ -11,7 +11,7 @@ import re
 import time
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
-from dataclasses import field
+from dataclasses import dataclass, field
 from hashlib import blake2b
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
@@ -21,7 +21,6 @@ import pyarrow.parquet as pq
 
 from mudline.archive.tables import DECK, Table
 from mudline.files import write_atomically
-from mudline.lean import dataclass
 from mudline.short_repr import cut
 
 ArrowTable: TypeAlias = Any

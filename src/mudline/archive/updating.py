@@ -11,7 +11,7 @@ import os
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cache
 from hashlib import blake2b
 from pathlib import Path
@@ -25,7 +25,6 @@ from mudline.archive.database import write_views
 from mudline.archive.store import VIEWS, Archive, escaped, table_of
 from mudline.archive.tables import FILES, TABLES
 from mudline.files import is_url, recording_looks
-from mudline.lean import dataclass
 from mudline.linting.engine import LintSettings
 from mudline.linting.registry import plugin_files, rules
 from mudline.linting.rule import Rule

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from itertools import islice
 from typing import NamedTuple, cast
 
@@ -16,7 +17,6 @@ from mudline.formatting.document import same_meaning
 from mudline.keywords.model import Part, record_schema
 from mudline.keywords.table import Table
 from mudline.keywords.values import Equation, Kind
-from mudline.lean import dataclass
 from mudline.limits import LISTED
 from mudline.scene.deck_values import range_fault
 from mudline.scene.model import resolve

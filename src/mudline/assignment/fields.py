@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cache
 from itertools import islice
 from types import MappingProxyType
@@ -30,7 +31,6 @@ from mudline.keywords import catalogue
 from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Rows, record_schema
 from mudline.keywords.table import Table
 from mudline.keywords.values import Equation, Kind, Label
-from mudline.lean import dataclass
 from mudline.limits import LISTED
 from mudline.spelling import edits, nearest
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cache
 from typing import Any, cast
 
@@ -9,7 +10,6 @@ from lark import Lark, Token, Transformer, UnexpectedInput, v_args
 from lark.exceptions import VisitError
 from lark.tree import Meta
 
-from mudline.lean import dataclass
 from mudline.limits import LONGEST_ASSIGNMENT
 from mudline.resources import grammar_file
 from mudline.syntax.rows import read_number

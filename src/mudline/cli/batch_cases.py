@@ -6,7 +6,7 @@ import os
 from collections import Counter
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 from string import Formatter
 from tempfile import TemporaryDirectory
@@ -22,7 +22,6 @@ from mudline.cli.view import View
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Diagnostic
 from mudline.files import is_url, recording_looks, suffix_of
-from mudline.lean import dataclass
 from mudline.results.cases import CaseSummary, CaseWatch
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import FORMS, ResultConsumer

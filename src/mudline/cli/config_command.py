@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Iterator
-from dataclasses import field
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -14,7 +14,6 @@ import click
 from mudline.cli import DONE, options
 from mudline.cli.inputs import is_deck
 from mudline.cli.streams import emit, reason
-from mudline.lean import dataclass
 from mudline.linting.configuration import (
     EXTEND,
     KEYS,

@@ -8,7 +8,7 @@ import os
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, field
+from dataclasses import asdict, dataclass, field
 from enum import StrEnum
 from itertools import groupby
 from typing import NamedTuple
@@ -26,7 +26,6 @@ from mudline.comparison.superseded import Comparison, without_spelling
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError
-from mudline.lean import dataclass
 from mudline.limits import SHOWN_ROWS
 from mudline.linting.output import visible
 from mudline.scene.model import resolve

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import wraps
 from math import isfinite
 from pathlib import Path
@@ -16,7 +16,6 @@ from mudline.cli.options import INPUT, Command, option
 from mudline.cli.streams import reason
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError
-from mudline.lean import dataclass
 from mudline.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
 from mudline.scene.csv_file import read_external
 from mudline.scene.model import Scene, resolve

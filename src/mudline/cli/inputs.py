@@ -6,7 +6,7 @@ import errno
 import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import lru_cache, wraps
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, NamedTuple
@@ -19,7 +19,6 @@ from mudline.deck import MARK
 from mudline.deck.forms import SUFFIXES, form_of
 from mudline.diagnostics import DeckError
 from mudline.files import is_url, write_atomically
-from mudline.lean import dataclass
 from mudline.patterns import Pattern, read_pattern
 from mudline.running import storage
 

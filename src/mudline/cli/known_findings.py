@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from mudline.cli.config_command import Configured
 from mudline.cli.inputs import Input, Inputs
 from mudline.diagnostics import Diagnostic, Edit, Fix, Severity
-from mudline.lean import dataclass
 from mudline.linting.configuration import Given
 from mudline.running.remembered import Memory, of_working_folder
 

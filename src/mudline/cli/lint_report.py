@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import KW_ONLY, field
+from dataclasses import KW_ONLY, dataclass, field
 from pathlib import Path
 
 import click
@@ -12,7 +12,6 @@ from mudline import __version__
 from mudline.cli.streams import counted, emit, notify, write_text
 from mudline.cli.view import View
 from mudline.diagnostics import Diagnostic, Severity
-from mudline.lean import dataclass
 from mudline.linting.output import TEXT, form, form_names
 from mudline.syntax.source import Source
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Generator, Iterator
 from contextlib import closing
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -23,7 +23,6 @@ from mudline.cli.lint_report import Report
 from mudline.cli.streams import counted, emit_deck, notify, reason, write_text
 from mudline.cli.view import View
 from mudline.deck.forms import form_of
-from mudline.lean import dataclass
 from mudline.linting.configuration import Configuration, Given
 from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.fixing import FileReport, lint_one

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 
@@ -11,7 +12,6 @@ from mudline.cli.options import OUTPUT, Command, form_of_file, option
 from mudline.cli.streams import notify, notify_missing, writing
 from mudline.cli.view import View
 from mudline.files import suffix_of
-from mudline.lean import dataclass
 from mudline.linting.output import visible
 from mudline.results.evaluation import Evaluation
 from mudline.results.plot_data import PICTURES, PlotData

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 
 import click
 
@@ -19,7 +19,6 @@ from mudline.cli.streams import emit, emit_deck, notify, notify_diagnostics
 from mudline.cli.view import View
 from mudline.deck.forms import KEYWORD, form_of
 from mudline.deck.loading import load_bytes
-from mudline.lean import dataclass
 from mudline.short_repr import counted
 from mudline.syntax.edits import TextEdit, edited_bytes
 from mudline.syntax.source import Source

@@ -7,7 +7,7 @@ import os
 import sys
 from collections.abc import Generator, Iterable, Iterator
 from contextlib import closing
-from dataclasses import asdict, fields
+from dataclasses import asdict, dataclass, fields
 from functools import cache
 from textwrap import indent
 from typing import NamedTuple
@@ -19,7 +19,6 @@ from mudline.cli.view import Progress, View, wants_bar
 from mudline.codes.contact import SBD006
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Diagnostic, Problem, Severity
-from mudline.lean import dataclass
 from mudline.linting.engine import grouped_problems, unsuppressed
 from mudline.linting.output.json import as_object
 from mudline.linting.registry import rules, select

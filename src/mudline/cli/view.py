@@ -5,11 +5,10 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from time import monotonic
 from types import TracebackType
 from typing import TYPE_CHECKING, Self, TypeVar
-
-from mudline.lean import dataclass
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Bar, Printer

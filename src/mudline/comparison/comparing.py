@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, cast
 
@@ -18,7 +18,6 @@ from mudline.diagnostics import Where
 from mudline.keywords.model import Record
 from mudline.keywords.table import Table
 from mudline.keywords.values import Label
-from mudline.lean import dataclass
 from mudline.limits import MOST_GENERATED
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.laws import SetLaw

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal, TypeAlias, cast
 
@@ -17,7 +17,6 @@ from mudline.deck.model import Origin
 from mudline.deck.parameters import Parameters
 from mudline.diagnostics import Blocks, DeckError, Problem, Where
 from mudline.keywords.model import Block
-from mudline.lean import dataclass
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Ids
 

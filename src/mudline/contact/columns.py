@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
@@ -13,7 +14,6 @@ from numpy.typing import NDArray
 from mudline.contact.arrays import FloatArray, IndexArray
 from mudline.contact.input import ContactInput
 from mudline.contact.result import ContactResult, Part
-from mudline.lean import dataclass
 from mudline.quantities import ELEMENTS, NODES, Names, Quantity
 
 Values = NDArray[Any]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import TYPE_CHECKING, Literal, Protocol
 
@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from mudline.contact.arrays import BoolArray, FloatArray, IdArray, IndexArray
 from mudline.contact.laws import Law, NormalLaw, law_named
-from mudline.lean import dataclass
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:  # a scene without curves does not load them, nor does a flat seabed load other shapes

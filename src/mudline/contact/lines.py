@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 import numpy as np
 
 from mudline.contact.arrays import FloatArray, IndexArray
-from mudline.lean import dataclass
 from mudline.quantities import finite
 from mudline.short_repr import short_repr
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from dataclasses import dataclass
 from importlib import import_module
 from importlib.util import find_spec
 from typing import Literal
@@ -13,7 +14,6 @@ import numpy as np
 from mudline.contact.arrays import FloatArray
 from mudline.contact.input import ContactInput, LawKind
 from mudline.contact.tables import Tables
-from mudline.lean import dataclass
 from mudline.short_repr import UnknownNameError, counted, outline
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable, Sequence
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from importlib import import_module
 from operator import attrgetter
 from types import ModuleType
@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from mudline.contact.arrays import BoolArray, FloatArray, IdArray, StateArray
 from mudline.contact.input import ContactInput, ElementError, PositionError
 from mudline.contact.tables import Tables
-from mudline.lean import dataclass
 from mudline.short_repr import outline, short_repr
 
 if TYPE_CHECKING:  # each is imported when it is asked for

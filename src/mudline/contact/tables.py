@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
@@ -13,7 +13,6 @@ from mudline.contact.input import AssignedLaw, ContactInput
 from mudline.contact.laws import NormalLaw, Reaction, Value
 from mudline.contact.line import Line
 from mudline.contact.seabed import heading
-from mudline.lean import dataclass
 from mudline.short_repr import outline
 
 if TYPE_CHECKING:

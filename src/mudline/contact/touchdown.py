@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,7 +13,6 @@ from mudline.contact.columns import NO_ELEMENT, Column, Table, Values
 from mudline.contact.input import ContactInput, LawKind
 from mudline.contact.lines import ElementForce, LineSummary, TouchdownPoint
 from mudline.contact.result import ContactResult, Part
-from mudline.lean import dataclass
 from mudline.quantities import LINES, finite
 
 _NOWHERE = (math.nan, math.nan, math.nan)

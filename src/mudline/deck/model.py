@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, NamedTuple, Self
 
 from mudline.diagnostics import Blocks, Code, DeckError, Diagnostic, Edit, Fix, Problem, Repair, Severity, Where
 from mudline.keywords.model import Block, Comment, Part, record_schema
 from mudline.keywords.values import Text
-from mudline.lean import dataclass
 from mudline.limits import LONGEST_MESSAGE
 from mudline.short_repr import counted, cut, listed, outline, short_repr
 

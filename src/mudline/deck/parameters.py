@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cache
 from types import NoneType
 from typing import TYPE_CHECKING, Any, NamedTuple, NewType, cast
@@ -20,7 +20,6 @@ from mudline.keywords.model import FieldSpec, ListRow, Part, columns_of, record_
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown, suggestion
 from mudline.keywords.values import Equation, Kind
-from mudline.lean import dataclass
 from mudline.spelling import Effort
 from mudline.syntax.rows import read_number
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from pathlib import PurePath
 from typing import TYPE_CHECKING, cast
 
@@ -18,7 +18,6 @@ from mudline.keywords.catalogue import meant_in, meant_section, suggest_keyword,
 from mudline.keywords.model import Comment
 from mudline.keywords.reader import BlockReader, ReadBlock, read_block
 from mudline.keywords.text import hint, instead
-from mudline.lean import dataclass
 from mudline.limits import MOST_REPORTED
 from mudline.short_repr import counted, short_repr
 from mudline.syntax.fields import trimmed

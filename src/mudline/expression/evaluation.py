@@ -14,6 +14,7 @@ import math
 import operator as python
 import sys
 from collections.abc import Callable, Generator, Mapping, Sequence
+from dataclasses import dataclass
 from decimal import ROUND_HALF_UP, Context, Decimal
 from types import MappingProxyType
 from typing import Final, NamedTuple, assert_never, cast
@@ -39,7 +40,6 @@ from mudline.expression.nodes import (
     UnknownFunction,
     shorten,
 )
-from mudline.lean import dataclass
 from mudline.limits import LONGEST_TEXT
 
 CONSTANTS: Final[Mapping[str, float]] = MappingProxyType({"pi": math.pi})

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from mudline.diagnostics import Span
-from mudline.lean import dataclass
 
 
 class ExpressionError(ValueError):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import cast
 
 from mudline.deck.forms import form_of
@@ -18,7 +18,6 @@ from mudline.keywords.places import Path, Places
 from mudline.keywords.reader import ReadBlock, all_keys
 from mudline.keywords.table import Table
 from mudline.keywords.values import Kind as FieldKind
-from mudline.lean import dataclass
 from mudline.syntax.edits import TextEdit, apply_edits
 from mudline.syntax.fields import Group, first_key, read_line, split
 from mudline.syntax.rows import blank_separated, line_spans

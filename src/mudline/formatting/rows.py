@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from itertools import zip_longest
 from typing import NamedTuple, Self
 
@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from mudline.diagnostics import Span
 from mudline.keywords.model import FieldSpec
 from mudline.keywords.values import Kind
-from mudline.lean import dataclass
 from mudline.syntax.rows import GROUPED, PIECE, line_spans, row_fields
 
 WIDEST = 32

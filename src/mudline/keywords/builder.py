@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any
 
 from mudline.codes.fields import SYN003
@@ -25,7 +25,6 @@ from mudline.keywords.text import (
     read_value,
 )
 from mudline.keywords.values import Names
-from mudline.lean import dataclass
 from mudline.spelling import nearest
 from mudline.syntax.fields import Field, Group, read_line, split, trimmed
 from mudline.syntax.rows import blank_separated

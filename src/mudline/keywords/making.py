@@ -6,13 +6,13 @@ Pydantic would check them again, and takes some ms to prepare for that for each 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, PlainValidator, WrapValidator
 
 from mudline.keywords.model import ListRow, Part, metadata_of, record_schema
-from mudline.lean import dataclass
 
 _OF_DOCUMENTS = ("_few_keys", "_from_list")
 """Validators that all parts have, for values from JSON and YAML."""

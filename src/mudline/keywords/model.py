@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cache, cached_property
 from types import NoneType, UnionType
 from typing import Annotated, Any, ClassVar, Literal, Union, get_args, get_origin
@@ -34,7 +34,6 @@ from mudline.keywords.table import (
     read_table,
 )
 from mudline.keywords.values import Count, Equation, Facts, Kind, Label, Names, Text
-from mudline.lean import dataclass
 from mudline.limits import MOST_KEYS
 from mudline.short_repr import with_fields
 

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from array import array
 from bisect import bisect_right
-from dataclasses import field
+from dataclasses import dataclass, field
 from operator import itemgetter
 
 from mudline.diagnostics import Span
-from mudline.lean import dataclass
 from mudline.limits import MOST_COLUMNS
 from mudline.short_repr import short_repr
 from mudline.syntax.rows import row_fields, row_starts

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import lru_cache, partial
 from typing import Any, cast
 
@@ -20,7 +20,6 @@ from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Record, colu
 from mudline.keywords.table import LARGEST_WHOLE, Column, from_numbers, from_rows
 from mudline.keywords.text import UnreadableError, Value, read_value
 from mudline.keywords.values import Equation, Kind
-from mudline.lean import dataclass
 from mudline.limits import LONGEST_TABLE
 from mudline.syntax.fields import Field, canonical_key
 from mudline.syntax.rows import line_spans, read_number, read_rows

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cache, partial
 from operator import attrgetter, itemgetter
 from typing import NamedTuple, Protocol, cast
@@ -20,7 +20,6 @@ from mudline.keywords.model import Block, Part, RecordSchema, record_schema
 from mudline.keywords.places import Path, Places
 from mudline.keywords.plain import read_plain
 from mudline.keywords.text import hint, instead, merge_per_line, shown, suggestion
-from mudline.lean import dataclass
 from mudline.short_repr import short_repr
 from mudline.spelling import nearest
 from mudline.syntax.fields import first_key, trimmed

@@ -5,14 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from copy import copy
-from dataclasses import field
+from dataclasses import dataclass, field
 from enum import Enum
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import BeforeValidator, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
-
-from mudline.lean import dataclass
 
 _NO_LINE_END = {"not": {"pattern": "[\\r\\n]"}}
 """Said apart in JSON Schema: in some dialects of patterns $ matches also before a line end."""

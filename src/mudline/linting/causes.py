@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from mudline.codes.fields import SYN002, SYN003, SYN015
 from mudline.codes.lines import SYN001, SYN004, SYN014
@@ -18,7 +18,6 @@ from mudline.codes.references import REF007
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import MORE, Problem, Severity, Span
 from mudline.diagnostics import Blocks as Blocking
-from mudline.lean import dataclass
 from mudline.linting.corrections import Blocks, Correction, line_at, missing_sections, misspelt, value_corrections
 from mudline.linting.line_corrections import line_corrections
 from mudline.linting.rule import LintContext

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
 
@@ -13,7 +14,6 @@ from mudline.codes.references import REF007
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Problem, Severity, Span, Where
 from mudline.keywords import catalogue
-from mudline.lean import dataclass
 from mudline.syntax.edits import TextEdit
 from mudline.syntax.rows import NUMBER
 from mudline.syntax.tree import RawBlock, RawSection

@@ -8,7 +8,7 @@ from __future__ import annotations
 from bisect import bisect_left, insort
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
 from pathlib import Path
@@ -18,7 +18,6 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import read_source
 from mudline.diagnostics import Diagnostic, Problem, Repair, Severity, Span
 from mudline.files import recording_looks
-from mudline.lean import dataclass
 from mudline.limits import MOST_PASSES, MOST_TRIES
 from mudline.linting.engine import Fixing, LintSettings, lint_bytes, problems_in, unsuppressed
 from mudline.linting.rule import LintContext

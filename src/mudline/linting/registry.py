@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache
 from types import ModuleType
 from typing import TYPE_CHECKING
@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING
 from mudline.codes import all_codes
 from mudline.diagnostics import Code, PluginError, Problem, Severity, Where
 from mudline.installed import may_declare
-from mudline.lean import dataclass
 from mudline.linting.rule import RULES, Check, LintContext, Noticed, Rule, add, described_by
 from mudline.resources import modules_of, rule_file
 from mudline.scene.checks import all_checks

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, wraps
 from itertools import chain, islice, pairwise
 from operator import is_
@@ -15,7 +15,6 @@ from mudline.deck.model import Deck, Opaque
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import MORE, Blocks, Code, Problem, Where
 from mudline.keywords.catalogue import holds_in_soil, is_superseded
-from mudline.lean import dataclass
 from mudline.limits import MOST_REPORTED
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene, resolve

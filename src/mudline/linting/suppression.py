@@ -13,7 +13,7 @@ import re
 from bisect import bisect_right
 from collections import Counter
 from collections.abc import Hashable, Iterable, Iterator, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
@@ -22,7 +22,6 @@ from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.model import Opaque, comment_texts
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Code, DeckError, Diagnostic, Problem, Repair, Severity, Span, Where
-from mudline.lean import dataclass
 from mudline.linting.registry import find, rules
 from mudline.linting.rule import LintContext, Rule, first_reported
 from mudline.spelling import nearest

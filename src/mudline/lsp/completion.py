@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from typing import TypeVar
 
 from lsprotocol import types
@@ -14,7 +15,6 @@ from mudline.keywords import catalogue
 from mudline.keywords.model import Block, FieldSpec, Setting, record_schema
 from mudline.keywords.reader import all_keys
 from mudline.keywords.values import Names
-from mudline.lean import dataclass
 from mudline.limits import MOST_OFFERED
 from mudline.lsp.decks import Analysis, value_text
 from mudline.lsp.hover import field_help, keyword_help, section_help

@@ -6,7 +6,7 @@ import os
 from collections.abc import Mapping
 from contextlib import AbstractContextManager, suppress
 from copy import copy
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Self
@@ -22,7 +22,6 @@ from mudline.diagnostics import DeckError, Diagnostic, Where
 from mudline.files import Unsaved, recording_looks, with_unsaved
 from mudline.keywords.text import shown
 from mudline.keywords.values import Equation
-from mudline.lean import dataclass
 from mudline.linting.configuration import Configuration, ConfigurationError, Given, Search
 from mudline.linting.engine import LintSettings, lint_context, read_deck
 from mudline.linting.fixing import with_severities

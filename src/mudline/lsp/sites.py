@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
+from dataclasses import dataclass
 from typing import cast
 
 from mudline.deck.model import Opaque
@@ -13,7 +14,6 @@ from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Rows, record
 from mudline.keywords.places import Path
 from mudline.keywords.reader import schemas_of
 from mudline.keywords.table import Table
-from mudline.lean import dataclass
 from mudline.lsp.decks import Analysis
 from mudline.syntax.fields import canonical_key, read_line
 from mudline.syntax.tree import Kind, Leaf, RawBlock, RawSection, SyntaxTree

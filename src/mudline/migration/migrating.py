@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -20,7 +20,6 @@ from mudline.deck.model import Deck, Opaque, comment_texts
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import DeckError, Problem
 from mudline.keywords.catalogue import is_superseded, supersedes
-from mudline.lean import dataclass
 from mudline.migration.refusals import refusals, superseded_blocks
 from mudline.migration.rewriting import Rewriting, rewrite, unused_definitions
 from mudline.scene.deck_values import data_lines

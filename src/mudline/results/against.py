@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.contact.result import Part
-from mudline.lean import dataclass
 from mudline.results.evaluation import Evaluation
 from mudline.scene.csv_file import CsvTable, data_error, read_csv
 from mudline.scene.numbering import Floats, Ids, Indices

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import asdict, fields
+from dataclasses import asdict, dataclass, fields
 from typing import BinaryIO, Literal
 
 import numpy as np
 
 from mudline.contact.result import Part
 from mudline.contact.touchdown import Touchdown
-from mudline.lean import dataclass
 from mudline.quantities import finite
 from mudline.results.evaluation import Evaluation
 from mudline.results.warnings import ContactWarning

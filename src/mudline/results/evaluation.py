@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
 
@@ -15,7 +15,6 @@ from mudline.contact import ContactModel, ElementError, PositionError
 from mudline.contact.columns import ElementTable, NodeTable, Others
 from mudline.contact.result import Part
 from mudline.contact.touchdown import LineTable
-from mudline.lean import dataclass
 from mudline.scene.mesh import distances
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, Mask

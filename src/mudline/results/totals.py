@@ -5,7 +5,7 @@ Memory does not grow with the number of steps, but for the figures of the steps 
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +15,6 @@ from mudline.contact import ContactResult
 from mudline.contact.lines import LineSummary
 from mudline.contact.result import Part
 from mudline.contact.touchdown import LineSeries, Touchdown
-from mudline.lean import dataclass
 from mudline.quantities import SLIDING, STATES, Names, finite
 from mudline.results.evaluation import Evaluation
 from mudline.scene.numbering import Floats, Indices, Mask

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -19,7 +19,6 @@ from mudline.codes.lines import SYN009
 from mudline.contact import ContactResult, LawKind
 from mudline.contact.result import Part
 from mudline.diagnostics import Code, DeckError, Diagnostic, Problem, Severity, Where
-from mudline.lean import dataclass
 from mudline.quantities import shown, unit_names
 from mudline.results.evaluation import Evaluation, evaluate_scene
 from mudline.results.laws_in_use import UnknownKeyword, missing_laws, unknown_keywords, unused_curves

@@ -14,14 +14,13 @@ import time
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
-from dataclasses import field
+from dataclasses import dataclass, field
 from importlib.util import find_spec
 from ipaddress import ip_address
 from itertools import islice
 from typing import TYPE_CHECKING, TypeVar
 
 from mudline import __version__
-from mudline.lean import dataclass
 
 if TYPE_CHECKING:  # imported by runs that are large enough
     from concurrent.futures import Executor, Future

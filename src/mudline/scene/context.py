@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from bisect import bisect_left
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import isnan
 from typing import Any, cast
@@ -20,7 +20,6 @@ from mudline.keywords.catalogue import meant_in, suggest_keyword
 from mudline.keywords.model import ListRow
 from mudline.keywords.table import LARGEST_WHOLE
 from mudline.keywords.text import hint
-from mudline.lean import dataclass
 from mudline.limits import MOST_REPORTED
 from mudline.scene.deck_values import (
     definition_by,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 from typing import NamedTuple
@@ -16,7 +17,6 @@ from mudline.codes import DAT001
 from mudline.diagnostics import DeckError, Diagnostic, Span
 from mudline.keywords.table import LARGEST_WHOLE
 from mudline.keywords.text import shown
-from mudline.lean import dataclass
 from mudline.limits import LISTED
 from mudline.scene.numbering import Floats, Ids
 from mudline.syntax.rows import read_number, read_rows_fast

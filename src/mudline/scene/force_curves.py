@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import isnan
 from typing import TYPE_CHECKING, cast
 
@@ -11,7 +12,6 @@ from mudline.codes.fields import CRV001, CRV003, CRV011
 from mudline.diagnostics import Where
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
-from mudline.lean import dataclass
 from mudline.limits import MOST_REPORTED
 from mudline.scene.context import Context
 from mudline.scene.numbering import Floats, Indices, Mask, identity, side_by_side

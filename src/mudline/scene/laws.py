@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
@@ -14,7 +14,6 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Where
 from mudline.keywords import catalogue
 from mudline.keywords.model import set_slots
-from mudline.lean import dataclass
 from mudline.scene.context import Context
 from mudline.scene.deck_values import number, surfaces
 from mudline.scene.force_curves import SceneCurve, set_name

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -10,7 +11,6 @@ from mudline.codes.references import REF005, REF006, REF007, REF010
 from mudline.diagnostics import Blocks, Problem, Severity, Where
 from mudline.keywords.table import LARGEST_WHOLE, Table
 from mudline.keywords.text import shown
-from mudline.lean import dataclass
 from mudline.limits import MOST_GENERATED, MOST_REPORTED
 from mudline.scene.context import Context
 from mudline.scene.numbering import (

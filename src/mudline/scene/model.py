@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
 from mudline.deck.model import Deck
 from mudline.deck.parameters import evaluated
 from mudline.diagnostics import Blocks, DeckError, Problem, Severity
-from mudline.lean import dataclass
 from mudline.scene.checks import checked
 from mudline.scene.context import Context
 from mudline.scene.force_curves import read_curves

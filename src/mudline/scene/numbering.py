@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import TypeVar
 
@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from mudline.diagnostics import Where
 from mudline.keywords.table import LARGEST_WHOLE
-from mudline.lean import dataclass
 from mudline.short_repr import short_repr
 
 Ids = NDArray[np.int64]

@@ -9,7 +9,7 @@ import zipfile
 import zlib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import cast
 
@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 
 from mudline.contact.arrays import StepReader
 from mudline.diagnostics import DeckError
-from mudline.lean import dataclass
 from mudline.scene.csv_file import NumericTable, data_error, finite, read_numeric_csv, whole_numbers
 from mudline.scene.numbering import Floats, Ids, Indices, Mask, Numbered
 from mudline.short_repr import listed_numbers, short_repr

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, TypeVar, overload
 
@@ -14,7 +15,6 @@ from mudline.contact.input import LawKind
 from mudline.deck.parameters import EvaluatedDeck, folded
 from mudline.diagnostics import DeckError, Problem, Where
 from mudline.keywords.text import suggestion
-from mudline.lean import dataclass
 from mudline.limits import SHOWN_LETTERS
 from mudline.scene.context import Context
 from mudline.scene.force_curves import SceneCurve

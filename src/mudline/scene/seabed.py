@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
@@ -13,7 +13,6 @@ import numpy as np
 
 from mudline.diagnostics import Where
 from mudline.keywords.text import shown
-from mudline.lean import dataclass
 from mudline.limits import LARGEST_FILE
 from mudline.scene.context import Context
 from mudline.scene.deck_values import file_name, find_file, number, surfaces

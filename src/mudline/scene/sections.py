@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
 from mudline.deck.model import Deck
 from mudline.diagnostics import Where
-from mudline.lean import dataclass
 from mudline.scene.context import Context
 from mudline.scene.deck_values import DEFAULT_DENSITY, DEFAULT_GRAVITY, number
 from mudline.scene.numbering import Floats, Indices, Mask, Numbered, looked_up, picked

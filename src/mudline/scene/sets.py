@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, cast
 
@@ -13,7 +13,6 @@ from mudline.codes.references import REF001, REF005, REF008, REF009, REF010
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Problem, Severity, Where
 from mudline.keywords.text import advice_on, shown
-from mudline.lean import dataclass
 from mudline.scene.context import Context
 from mudline.scene.deck_values import bare
 from mudline.scene.numbering import Ids, Indices, Numbered, constant, identity

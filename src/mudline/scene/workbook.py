@@ -11,7 +11,7 @@ import zipfile
 import zlib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import field
+from dataclasses import dataclass, field
 from pathlib import PurePath
 from typing import Any, BinaryIO, NamedTuple
 from xml.etree.ElementTree import ParseError
@@ -24,7 +24,6 @@ from mudline.deck.model import Deck, Section
 from mudline.diagnostics import DeckError
 from mudline.keywords.library.seabed_stiffness import SeabedStiffness, StiffnessCurve
 from mudline.keywords.table import Table
-from mudline.lean import dataclass
 from mudline.quantities import UNIT_SYSTEMS, unit_names
 from mudline.scene.csv_file import data_error
 from mudline.short_repr import cut, listed

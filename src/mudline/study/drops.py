@@ -9,6 +9,7 @@ v1 at its ends; tanh where the force falls with the depth.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -16,7 +17,6 @@ import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray
 from mudline.curves import ForceCurve
-from mudline.lean import dataclass
 from mudline.study.schemes import PHASES, Forces, History, Motion, Stepper, march, started
 
 ALLOWED = 0.01

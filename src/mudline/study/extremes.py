@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from decimal import Context, Decimal, localcontext
 from functools import partial
 from itertools import pairwise
@@ -22,7 +22,6 @@ from mudline.contact import ContactInput, ContactModel, LawAssignment
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws import law_named
 from mudline.curves import ForceCurve
-from mudline.lean import dataclass
 from mudline.study.stability import Contact
 
 PROBED = 8

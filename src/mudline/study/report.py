@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from time import get_clock_info, perf_counter, thread_time
 from typing import Any, NamedTuple
 
@@ -12,7 +12,6 @@ import numpy as np
 
 from mudline.contact.input import LawKind
 from mudline.contact.stiffest import rounded_down
-from mudline.lean import dataclass
 from mudline.quantities import finite, shown, time_unit
 from mudline.scene.model import Scene
 from mudline.study.extremes import Extremes, extremes

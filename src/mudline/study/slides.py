@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
@@ -22,7 +23,6 @@ import numpy as np
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.friction import FrictionHistory, FrictionLaw, slide
 from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, SuctionState, step
-from mudline.lean import dataclass
 from mudline.study.drops import Law
 from mudline.study.schemes import PHASES, Forces, History, Motion, Stepper, march, started
 

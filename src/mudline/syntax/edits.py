@@ -5,10 +5,9 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Iterable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from mudline.diagnostics import Span
-from mudline.lean import dataclass
 from mudline.syntax.source import Source
 
 _LONE_LF = re.compile(r"(?<!\r)\n")

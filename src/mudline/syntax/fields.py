@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import re
-from dataclasses import field
+from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import NamedTuple
 
 from mudline.codes.fields import SYN003, SYN006
 from mudline.diagnostics import Problem, Span
-from mudline.lean import dataclass
 from mudline.limits import MOST_FIELDS
 
 _KEY = re.compile(r"[ \t]*([A-Za-z][\w \t-]*)=")

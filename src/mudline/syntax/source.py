@@ -5,12 +5,11 @@ from __future__ import annotations
 import re
 from array import array
 from bisect import bisect_right
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property
 
 from mudline.codes.lines import SYN012
 from mudline.diagnostics import Problem, Severity, Span
-from mudline.lean import dataclass
 from mudline.short_repr import short_repr
 
 _BOM = b"\xef\xbb\xbf"

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import field
+from dataclasses import dataclass, field
 from enum import Enum
 from functools import cache, lru_cache
 from typing import NamedTuple
 
 from mudline.diagnostics import Span
-from mudline.lean import dataclass
 from mudline.resources import grammar_file
 from mudline.short_repr import short_repr
 from mudline.syntax.source import CONTROLS, Source

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
@@ -18,7 +18,6 @@ from mudline.keywords import catalogue
 from mudline.keywords.model import Block
 from mudline.keywords.text import shown, suggestion
 from mudline.keywords.values import Equation
-from mudline.lean import dataclass
 from mudline.limits import LARGEST_FILE, MOST_DECKS
 from mudline.scene.deck_values import find_file
 from mudline.spelling import Effort

@@ -7,7 +7,7 @@ import os
 import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from itertools import chain
 from pathlib import Path, PurePath
 from typing import NamedTuple, cast
@@ -22,7 +22,6 @@ from mudline.keywords.model import Block, names_given
 from mudline.keywords.reader import all_keys
 from mudline.keywords.text import shown
 from mudline.keywords.values import Names
-from mudline.lean import dataclass
 from mudline.scene.deck_values import file_name, find_file
 from mudline.short_repr import short_repr
 from mudline.syntax.edits import TextEdit, edited_bytes

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import product
 from math import prod
 from pathlib import PurePath
@@ -15,7 +15,6 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import read_source
 from mudline.diagnostics import DeckError, Problem, Severity, Where
 from mudline.keywords.text import shown
-from mudline.lean import dataclass
 from mudline.limits import MOST_DECKS, SHOWN_ROWS
 from mudline.spelling import Effort
 from mudline.syntax.source import Source

@@ -12,14 +12,13 @@ same bits for both, as long as they use `+ - * /`, comparisons, `&`, `|`, `np.ma
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import field
+from dataclasses import dataclass, field
 from importlib import import_module
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray
-from mudline.lean import dataclass
 from mudline.short_repr import short_repr
 
 Value = Any

@@ -19,6 +19,7 @@ are. Where they turn with the line and K_1 differs from K_2, turning them at an 
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from enum import IntEnum
 from typing import NamedTuple
 
@@ -26,7 +27,6 @@ import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, StateArray
 from mudline.contact.laws import Law, Parameter, Value, where
-from mudline.lean import dataclass
 from mudline.short_repr import short_repr
 
 _TINY = float(np.nextafter(0.0, 1.0))

@@ -18,6 +18,7 @@ of the episode, v_max: an element that slows down does not break out for that.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from enum import IntEnum
 from typing import NamedTuple, Self
 
@@ -25,7 +26,6 @@ import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, StateArray
 from mudline.contact.laws import Law, Parameter, Value, where
-from mudline.lean import dataclass
 from mudline.short_repr import short_repr
 
 FORCE_EXPONENT = 0.18

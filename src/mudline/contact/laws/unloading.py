@@ -15,11 +15,12 @@ All of it is a function of z_max alone.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws import Law, Parameter, Value, where
-from mudline.lean import dataclass
 from mudline.short_repr import short_repr
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from functools import partial
 from hashlib import sha256
 from importlib import import_module
@@ -15,7 +16,6 @@ from pkgutil import iter_modules
 from types import ModuleType
 
 from mudline.diagnostics import Diagnostic
-from mudline.lean import dataclass
 from mudline.limits import LONGEST_MESSAGE
 from mudline.short_repr import cut
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from itertools import chain
 
 import numpy as np
@@ -10,7 +11,6 @@ import numpy as np
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.keywords.text import shown
-from mudline.lean import dataclass
 from mudline.limits import MOST_REPORTED
 from mudline.linting.rule import LARGEST_RATIO, LintContext, rule
 from mudline.scene.force_curves import SceneCurve, clashes_and_repeats

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
-from dataclasses import field
+from dataclasses import dataclass, field
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
@@ -20,7 +20,6 @@ from mudline.contact import Plan
 from mudline.contact.columns import Column, Table
 from mudline.contact.frames import array_name
 from mudline.contact.result import Part
-from mudline.lean import dataclass
 from mudline.quantities import RESULT_FORMAT, time_unit
 from mudline.results.evaluation import Evaluation
 from mudline.scene.numbering import Floats

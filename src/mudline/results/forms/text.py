@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass
 from functools import partial
 from itertools import islice
 from typing import BinaryIO, TypeVar
@@ -13,7 +14,6 @@ import numpy as np
 from pydantic_core import to_json
 
 from mudline.contact.columns import Column, Values
-from mudline.lean import dataclass
 from mudline.quantities import csv_lines
 from mudline.results.forms import Columns, Contents, More, Output, Tables, Write, Writer
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, BinaryIO, Literal, NamedTuple
 
@@ -18,7 +19,6 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import AutoLocator, MaxNLocator, ScalarFormatter
 from numpy.typing import NDArray
 
-from mudline.lean import dataclass
 from mudline.quantities import STATES, labelled, unit_names
 from mudline.results.plot_data import PlotData
 from mudline.scene.numbering import Floats, Indices, Mask

@@ -7,13 +7,12 @@ All modules in here are imported.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache
 from itertools import islice
 from typing import TYPE_CHECKING
 
 from mudline.diagnostics import MORE, Code, Problem
-from mudline.lean import dataclass
 from mudline.limits import MOST_REPORTED
 from mudline.resources import modules_of
 
