@@ -242,7 +242,7 @@ def _of_own_step(found: Study, step: float) -> str:
     if found.own is None:
         return ""
     times = found.own.step / step
-    judgement = f"is {times:.2g} times too long for it" if times > 1.0 else "is short enough"
+    judgement = f"is {float(f'{times:.2g}'):g} times too long for it" if times > 1.0 else "is short enough"
     own = f"{shown(found.own.step * (1e3 if found.step_unit else 1.0))} {found.step_unit}".strip()
     return f"The deck's own step, {own} (line {found.own.deck_line}), {judgement}."
 
