@@ -13,6 +13,7 @@ from mudline.linting.fixing import lint_one
 from mudline.linting.output import LintRun, form_module
 from mudline.linting.registry import rules, select
 from mudline.scene.model import resolve
+from tests.cli.runner import run
 
 DECK = """\
 $MODEL
@@ -402,3 +403,25 @@ def test_two_softening_parts_of_a_curve_are_two_findings() -> None:
 def test_names_come_from_the_findings_and_not_from_their_words() -> None:
     text = changed((" SET=Left\n STIFF", " SET=O'Brien's\n STIFF"), (" SET=Left\n 1,", " SET=\n 1,"))
     assert [(one.code, one.line) for one in found(text)][:1] == [("SYN003", 12)]
+
+
+# --------------------------------------------------------------------------------------------- what is not recovered
+
+
+@pytest.mark.parametrize("command", ["validate", "evaluate"])
+def test_other_commands_take_the_deck_as_it_is_written(command: str, tmp_path: Path) -> None:
+    deck = tmp_path / "deck.keyxm"
+    deck.write_text(changed(("*NODE\n", "*NODS\n")), encoding="utf-8")
+    done = run(command, str(deck), "-v") if command == "validate" else run(command, str(deck))
+    assert done.code != 0
+    assert ("REF006" if command == "validate" else "SYN009") in done.out + done.err
+
+
+def test_a_keyword_whose_block_does_not_read_is_not_taken_for_another_one() -> None:
+    text = changed(("*NODE\n", "*NODS\n"), (" 11, -0.05, 100.0\n", " 11, -0.05\n"))
+    assert {"SYN009", "REF006"} <= {one.code for one in found(text)}
+
+
+def test_a_value_that_cannot_be_read_stays_unknown() -> None:
+    falling = " CURVE=Clay\n 0.0, 0.0\n 0.2, 9OO.0\n 0.5, 500.0\n 0.6, 600.0\n"
+    assert [one.code for one in found(changed((CURVE, falling)))] == ["SYN002"]

@@ -159,7 +159,8 @@ def judge_order(order: Order) -> tuple[Verdict, list[Diagnostic]]:
     context = LintContext(deck)
     problems = joined_problems(context, rules(), suppress=False)
     wrong = [one for one in problems if one.weight is Severity.ERROR]
-    wrong = wrong or [one for one in context.scene.findings if one.weight is Severity.ERROR]  # of the deck as written
+    if not wrong and any(one.repair for one in deck.problems):  # a name that was meant otherwise is not what it says
+        wrong = [one for one in context.scene.blocking() if one.weight is not Severity.INFO]
     errors = deck.diagnose(wrong)
     warnings = _warnings(context, problems, legal=not errors)
     keywords = sum(len(section.blocks) for section in deck.sections)

@@ -25,10 +25,7 @@ from mudline.syntax.edits import TextEdit
 from mudline.syntax.fields import trimmed
 from mudline.syntax.tree import Kind, RawBlock, RawSection
 
-FEWEST_LETTERS = 4
-"""Letters of a name that a misspelt one is taken for: shorter ones are all alike."""
-
-_LETTERS = re.compile(r"[^A-Za-z]")
+_DIGITS = re.compile(r"[0-9]+")
 _NAMES = (SYN004, SYN005, SYN008, SYN009, SYN010)
 
 
@@ -95,10 +92,9 @@ def also_in(text: TextOrigin, others: Sequence[Problem]) -> str:
 
 
 def _is_near(text: TextOrigin, edit: TextEdit) -> bool:
-    """Whether a name of four letters or more was meant, which differs in more than its digits."""
+    """Whether a name differs in more than its digits from the one that was meant: they tell things of a kind apart."""
     written = text.source.unified[slice(*edit.span)]
-    letters = _LETTERS.sub("", edit.text)
-    return len(letters) >= FEWEST_LETTERS or letters.casefold() != _LETTERS.sub("", written).casefold()
+    return _DIGITS.sub("", edit.text).casefold() != _DIGITS.sub("", written).casefold()
 
 
 class Blocks:
