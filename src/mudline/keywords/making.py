@@ -44,12 +44,12 @@ def can_be_made(part: type[Part]) -> bool:
     """Whether pydantic would check nothing of a part but what each field holds, and what `make` checks too."""
     decorators = part.__pydantic_decorators__
     checks = [one.info.mode for name, one in decorators.model_validators.items() if name not in _OF_DOCUMENTS]
-    told = (item for info in part.model_fields.values() for item in metadata_of(info))
+    metadata = (item for info in part.model_fields.values() for item in metadata_of(info))
     inner = (each for slot in record_schema(part).slots for each in (slot.row, *slot.record.values()) if each)
     return (
         not decorators.field_validators
         and set(checks) <= {"after"}
-        and not any(isinstance(item, _VALIDATORS) for item in told)
+        and not any(isinstance(item, _VALIDATORS) for item in metadata)
         and all(map(can_be_made, inner))
     )
 

@@ -86,9 +86,9 @@ def _meant(context: LintContext, chosen: Sequence[Rule], *, suppress: bool) -> R
     if context.text is None or not may_recover(deck):
         return None
     codes = {rule.code.code for rule in chosen}
-    told = [one for one in deck.problems if one.code.code in codes]
+    reported = [one for one in deck.problems if one.code.code in codes]
     hiding = context.once(suppressions) if suppress else None
-    told = hiding.split(told, ())[0] if hiding else told
+    reported = hiding.split(reported, ())[0] if hiding else reported
     units = None if units_of(deck) == deck.units else deck.units
 
     def reread(data: bytes) -> Deck:
@@ -96,7 +96,7 @@ def _meant(context: LintContext, chosen: Sequence[Rule], *, suppress: bool) -> R
 
     from mudline.linting.recovery import recovered  # noqa: PLC0415 - most decks do without
 
-    return recovered(deck, told, codes, reread, _read_once)
+    return recovered(deck, reported, codes, reread, _read_once)
 
 
 def may_recover(deck: Deck) -> bool:
@@ -116,9 +116,9 @@ def named_causes(deck: Deck, refused: Sequence[Diagnostic], chosen: Sequence[Rul
     meant = _meant(context, chosen, suppress=False)
     causes = {one.code for one in meant.causes} if meant else set()
     codes = {one.code for one in refused}
-    told = [one for one in found if one.blocking is not Blocks.NEVER or one.code in causes]
-    told = [one for one in told if one.blocking is not Blocks.WITH_TENSION or one.code.code in codes]
-    return deck.diagnose(told) or list(refused)
+    reported = [one for one in found if one.blocking is not Blocks.NEVER or one.code in causes]
+    reported = [one for one in reported if one.blocking is not Blocks.WITH_TENSION or one.code.code in codes]
+    return deck.diagnose(reported) or list(refused)
 
 
 def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:

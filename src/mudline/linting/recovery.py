@@ -2,7 +2,7 @@
 
 A fault of reading has corrections; one is taken if the block around it then reads better, which reading the lines of
 that block tells. The deck with all of them is read, resolved and checked in the place of the one as written, once, and
-what is found in it is told at the lines that it has in the file.
+what is found in it is reported at the lines that it has in the file.
 """
 
 from __future__ import annotations
@@ -61,9 +61,8 @@ class Recovered:
         span = problem.span
         if span is None and problem.where is not None and isinstance(origin, TextOrigin):
             span = origin.span(problem.where)
-        repair = (
-            None if problem.code is LEG001 else problem.repair
-        )  # a deck is migrated as it is written, or not at all
+        # A deck is migrated as it is written, or not at all.
+        repair = None if problem.code is LEG001 else problem.repair
         for _, edits in reversed(self.steps):
             span = span and _before(span, edits)
             if repair is not None and any(_touches(place, edits) for place, _ in repair.edits):
@@ -74,19 +73,19 @@ class Recovered:
 
 
 def recovered(
-    deck: Deck, told: Sequence[Problem], codes: Collection[str], reread: Callable[[bytes], Deck], read: BlockReader
+    deck: Deck, reported: Sequence[Problem], codes: Collection[str], reread: Callable[[bytes], Deck], read: BlockReader
 ) -> Recovered | None:
     """Return the deck as it was meant; None for one that was meant as it is written.
 
-    `told` are those of the faults of reading that are reported: others are not recovered from, as nobody would learn
-    why. `codes` are those that are reported at all, `reread` reads a text, and `read` a block of it.
+    `reported` are the faults of reading that the user sees: others are not recovered from, as nobody would learn why.
+    `codes` are those of findings that are wanted at all, `reread` reads a text, and `read` a block of it.
     """
     found = Recovered(deck)
     trials = MOST_TRIALS
     while len(found.steps) < MOST_ROUNDS and isinstance(text := found.deck.origin, TextOrigin):
         blocks = Blocks(found.deck, text)
         round_ = _Round(blocks, read, codes, trials)
-        taken = round_.taken(told)
+        taken = round_.taken(reported)
         trials = round_.trials
         edits = with_line_ends(text.source, chain.from_iterable(one.edits for one in taken))
         try:
@@ -98,7 +97,7 @@ def recovered(
         found.causes += [found.as_written(_cause(one)) for one in taken]
         found.steps.append((text, edits))
         found.deck = next_deck
-        told = [one for one in next_deck.problems if one.code.code in codes]
+        reported = [one for one in next_deck.problems if one.code.code in codes]
     return found if found.steps else None
 
 
