@@ -170,6 +170,8 @@ def _reads_as(blocks: Blocks, section: str, own: str, lines: str, *, legal: bool
     else:
         key = ""
         candidates = [each for each, other in _EACH_OTHER.items() if each not in given and other in given]
+        if "." in piece:  # coordinates
+            candidates = [each for each in candidates if each != "ELEMENT"]
     lacked = {"ELEMENT SETS": bool(blocks.missing_sets), "SEABED STIFFNESS": bool(blocks.missing_curves)}
     found: list[str] = []
     for keyword in candidates:
