@@ -96,6 +96,16 @@ def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -
     return _plain(text, raw, declared, found) or _Reader(text, raw, declared, last=last).read()
 
 
+def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
+    """Whether a block reads without an error; sooner known than what is wrong in it."""
+    reader = _Reader(text, raw, declared, last=False)
+    fits = _plain(text, raw, declared, reader.nowhere) is not None
+    if not fits and grammar.tree_of(declared.rule, reader.contents()) is not None and not reader.lost:
+        found = _Reader(text, raw, declared, last=False).read()
+        fits = not found.lost and not any(one.weight is Severity.ERROR for one in found.problems)
+    return fits
+
+
 def read_piece(piece: str, start: int, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
     """Read a block as if its own lines were the whole text; `raw` is the block in the text, where it is at `start`."""
     return read_block(piece, _moved(raw, -start), declared, last=last)
@@ -135,7 +145,7 @@ class _Reader:
         self.lost = 0
 
     def read(self) -> ReadBlock:
-        contents = self._contents()
+        contents = self.contents()
         mismatches: list[Mismatch] = []
         node = grammar.tree_of(self.declared.rule, contents)
         if node is None:
@@ -170,7 +180,12 @@ class _Reader:
                     self.problems.append(Problem(SYN001, message, span))
         return cast("Block", construct(built))
 
-    def _contents(self) -> list[Content]:
+    def nowhere(self) -> Places:
+        """No places, for a block of which none is asked for."""
+        return Places(self.text, self.raw.head.span)
+
+    def contents(self) -> list[Content]:
+        """The lines as the terminals of the grammar; those that are none are reported."""
         contents: list[Content] = []
         for position, leaf in enumerate(self.raw.leaves):
             match leaf.kind:

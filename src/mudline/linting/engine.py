@@ -20,7 +20,7 @@ from mudline.linting.suppression import suppressions
 from mudline.syntax.tree import RawBlock
 
 if TYPE_CHECKING:
-    from mudline.linting.recovery import Recovered
+    from mudline.linting.recovery.engine import Recovered
 
 
 class Fixing(StrEnum):
@@ -67,11 +67,9 @@ def joined_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: b
     the deck suppress.
     """
     meant = _meant(context, chosen, suppress=suppress)
-    if meant is None:
-        found = problems_in(context, chosen)
-    else:
-        checked = problems_in(LintContext(meant.deck, dialect=context.dialect), chosen)
-        found = [*meant.causes, *map(meant.as_written, checked)]
+    found = problems_in(meant.context if meant else context, chosen)
+    if meant is not None:
+        found = [*meant.causes, *meant.as_written(found)]
     found = unsuppressed(context, found, chosen) if suppress else found
     if not found or context.text is None:
         return found
@@ -83,30 +81,35 @@ def joined_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: b
 def _meant(context: LintContext, chosen: Sequence[Rule], *, suppress: bool) -> Recovered | None:
     """The deck as it was meant; None where it is so, or was made by a program."""
     deck = context.deck
-    if context.text is None or not may_recover(deck):
+    if context.text is None or not (may_recover(deck) or context.scene.lacks):
         return None
-    codes = {rule.code.code for rule in chosen}
-    reported = [one for one in deck.problems if one.code.code in codes]
     hiding = context.once(suppressions) if suppress else None
-    reported = hiding.split(reported, ())[0] if hiding else reported
     units = None if units_of(deck) == deck.units else deck.units
 
-    def reread(data: bytes) -> Deck:
+    def again(data: bytes) -> Deck:
         return read_deck(data, deck.file, units=units, folder=deck.folder)
 
-    from mudline.linting.recovery import recovered  # noqa: PLC0415 - most decks do without
+    def told(problems: Sequence[Problem]) -> Sequence[Problem]:
+        return hiding.split([*problems], ())[0] if hiding else problems
 
-    return recovered(deck, reported, codes, reread, _read_once)
+    from mudline.linting.recovery.engine import Reading, recovered  # noqa: PLC0415 - most decks do without
+
+    return recovered(context, {rule.code.code for rule in chosen}, Reading(again, _read_once, told))
 
 
 def may_recover(deck: Deck) -> bool:
     """Whether something in a deck was not read, is passed through, or may stand there twice."""
     if deck.problems:
         return True
-    model = [block for section in deck.sections if section.name == "MODEL" for block in section.blocks]
-    names = [block.keyword for block in model]
-    opaque = any(type(block) is Opaque for block in model)
-    return opaque or "ELEMENT" not in names or any(names.count(each) > 1 for each in ("NODE", "ELEMENT"))
+    blocks = [block for section in deck.sections for block in section.blocks]
+    keywords = [block.keyword for block in blocks]
+    for block in blocks:
+        if isinstance(block, Opaque):
+            return True
+        facts = block.facts
+        if facts.defines and (keywords.count(block.keyword) > 1 or not {*facts.beside} <= {*keywords}):
+            return True
+    return False
 
 
 def named_causes(deck: Deck, refused: Sequence[Diagnostic], chosen: Sequence[Rule]) -> list[Diagnostic]:

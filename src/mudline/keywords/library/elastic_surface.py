@@ -38,7 +38,7 @@ class ElasticSurface(Surface):
     """Elastic seabed."""
 
     rule = "elastic_surface"
-    facts = Facts(superseded_by=SURFACE_SUCCESSORS, seabed_type="ELASTIC")
+    facts = Facts(superseded_by=SURFACE_SUCCESSORS, seabed_type="ELASTIC", beside=("EMBEDMENT",))
     summary = "Elastic seabed: stiffness, friction, slope or profile (superseded by *SEABED PROPERTIES)."
     example = "*ELASTIC SURFACE\n 50000.0, 0.3, 0.5\n"
 

@@ -51,7 +51,7 @@ class Elements(Block):
     """Elements."""
 
     rule = "element"
-    facts = Facts(defines="elements")
+    facts = Facts(defines="elements", beside=("NODE",))
     summary = "Elements by number and their two nodes."
     tabular = True
     example = "*ELEMENT\n 1, 1, 2\n GEN=1, 10\n"

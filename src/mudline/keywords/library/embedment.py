@@ -33,6 +33,7 @@ class Embedment(Block):
             Successor("SEABED PROPERTIES", "STIFFNESS"),
         ),
         defines="curves",
+        beside=("ELASTIC SURFACE",),
         computed_in="normal-laws",
     )
     summary = "Force-embedment curves of an elastic seabed, by element set (superseded by *SEABED STIFFNESS)."
