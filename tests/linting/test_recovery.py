@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -540,6 +541,17 @@ def test_other_commands_take_the_deck_as_it_is_written(command: str, tmp_path: P
     done = run(command, str(deck), "-v") if command == "validate" else run(command, str(deck))
     assert done.code != 0
     assert ("REF006" if command == "validate" else "SYN009") in done.out + done.err
+
+
+@pytest.mark.parametrize("command", ["study", "curves", "evaluate", "migrate"])
+def test_a_refusal_names_the_causes(command: str, tmp_path: Path) -> None:
+    deck = tmp_path / "deck.keyxm"
+    text = SURFACE.replace("*ELEMENT SETS\n", "ELEMENT SETS\n").replace(" SET=Right\n 0", " SET=Rigth\n 0")
+    deck.write_text(text, encoding="utf-8")
+    done = run(command, str(deck))
+    assert done.code != 0
+    told_ = re.findall(r":([0-9]+):[0-9]+: \w+: ([A-Z]+[0-9]+) ", done.err)
+    assert told_ == [("11", "SYN003"), ("25", "REF001")]
 
 
 def test_a_keyword_whose_block_does_not_read_is_not_taken_for_another_one() -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import lru_cache
@@ -122,6 +123,17 @@ def named_causes(deck: Deck, refused: Sequence[Diagnostic], chosen: Sequence[Rul
     reported = [one for one in found if one.blocking is not Blocks.NEVER or one.code in causes]
     reported = [one for one in reported if one.blocking is not Blocks.WITH_TENSION or one.code.code in codes]
     return deck.diagnose(reported) or list(refused)
+
+
+@contextmanager
+def naming_causes(deck: Deck) -> Iterator[None]:
+    """Refuse a deck with the causes of that for which it is refused inside: raises DeckError with these."""
+    try:
+        yield
+    except DeckError as error:
+        from mudline.linting.registry import rules  # noqa: PLC0415 - only where the deck is refused
+
+        raise DeckError(named_causes(deck, error.diagnostics, rules())) from error
 
 
 def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
