@@ -33,7 +33,7 @@ from mudline.keywords.table import (
     fewest_fields,
     read_table,
 )
-from mudline.keywords.values import Count, Equation, Facts, Kind, Label, Names, Text
+from mudline.keywords.values import Count, Equation, Facts, Kind, Label, Names, Subject, Text
 from mudline.limits import MOST_KEYS
 from mudline.short_repr import with_fields
 
@@ -226,13 +226,15 @@ class Record(Part):
 class Block(Record):
     """A keyword with its data. The class variables are its declaration.
 
-    `sections` are those where it belongs; `facts` is what else is known of it; `tabular` keeps runs of numeric lines
-    whole, as arrays; `slashes` says that /.../ is one field; `example` is a block that reads without a finding.
+    `sections` are those where it belongs; `subject` is what it is about; `facts` is what else is known of it; `tabular`
+    keeps runs of numeric lines whole, as arrays; `slashes` says that /.../ is one field; `example` is a block that
+    reads without a finding.
     `unpublished` are the codes of faults that may be a form which is not public: a block in which one is found is kept
     as it is, without a finding. Where it depends on more than the code, `other_form` says so.
     """
 
     sections: ClassVar[tuple[str, ...]] = ("MODEL",)
+    subject: ClassVar[Subject] = "model"
     facts: ClassVar[Facts] = Facts()
     summary: ClassVar[str]
     tabular: ClassVar[bool] = False

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Self, get_args
 
 from pydantic import BeforeValidator, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
@@ -125,28 +125,28 @@ class Facts:
     """Facts about a keyword.
 
     Which keyword it is: `superseded_by` newer ones, of which each `supersedes` older ones; an `extension` is mudline's
-    own; `plans_decks` says that its lines are about decks to be made, which do not have it. In the sections `passes_in`
-    a keyword of its name passes through.
+    own; `plans_decks` says that its lines are about decks to be made, which do not have it.
 
     What it does: `defines` is what its records define by number or name; `makes` are the keywords of what things
     outside the deck, which its lines are about, may define. With `later_wins` an element follows the last record whose
     SET= holds it, and that record as a whole. `carried` are the fields that a block has from the block before it, where
     it does not give them. `seabed_type` is the type of seabed that a legacy surface is. `soil_springs` hold elements in
-    the soil. What is computed from it is said under the heading `computed_in` of the page on the contact evaluator.
-    `instead_of` says what to write instead of a setting that other keywords have.
+    the soil; of elements with `zero_length` the ends may lie at one place. What is computed from it is said under the
+    heading `computed_in` of the page on the contact evaluator. `instead_of` says what to write instead of a setting
+    that other keywords have.
     """
 
     superseded_by: tuple[Successor, ...] = ()
     supersedes: bool = False
     extension: bool = False
     plans_decks: bool = False
-    passes_in: tuple[str, ...] = ()
     defines: Literal["", "nodes", "elements", "sets", "curves", "parameters"] = ""
     makes: tuple[str, ...] = ()
     later_wins: bool = False
     carried: tuple[str, ...] = ()
     seabed_type: Literal["", "RIGID", "ELASTIC"] = ""
     soil_springs: bool = False
+    zero_length: bool = False
     computed_in: str = ""
     instead_of: Mapping[str, str] = field(default_factory=dict)
 
@@ -177,6 +177,27 @@ LINE_SETS: Mapping[str, Names] = {
 """Settings of lines that make element sets: a line and each of its sections is one."""
 
 
+Subject = Literal["deck", "model", "seabed", "loads", "waves", "vessels", "analysis", "post-processing"]
+"""What a keyword is about."""
+SUBJECTS: tuple[Subject, ...] = get_args(Subject)
+
+
+class Entry(NamedTuple):
+    """A declaration in the index: which module has it, and what has to be known of it before it is imported.
+
+    The lines of a keyword that is `kept` are passed through. With `sections_inferred` it is not confirmed where it
+    belongs.
+    """
+
+    keyword: str
+    module: str
+    sections: tuple[str, ...]
+    subject: Subject
+    kept: bool = False
+    sections_inferred: bool = False
+    zero_length: bool = False
+
+
 @dataclass(frozen=True, slots=True)
 class OpaqueKeyword:
     """A keyword that is known, and whose lines are passed through unchanged.
@@ -198,3 +219,5 @@ class OpaqueKeyword:
     name_settings: Mapping[str, Names] = field(default_factory=dict)
     labels: bool = False
     makes: tuple[str, ...] = ()
+    subject: Subject = "model"
+    zero_length: bool = False

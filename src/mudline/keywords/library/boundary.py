@@ -80,6 +80,7 @@ class Boundary(Block):
 
     rule = "boundary"
     sections = ("LOAD CASE",)
+    subject = "loads"
     summary = "Nodes that are held, or moved, in single degrees of freedom."
     example = "*BOUNDARY\n TYPE=CONSTANT\n 1, 2\n 1, 3, 0.0, FIXATION=RELATIVE\n GEN=11, 20, 1, 6, 0.0\n"
 

@@ -47,6 +47,7 @@ class Combinations(Block):
 
     rule = "combinations"
     sections = ("PREPROCESSOR",)
+    subject = "deck"
     facts = Facts(plans_decks=True)
     summary = "The decks that `mudline expand` makes from variations, and the names of their files."
     example = (

@@ -27,6 +27,7 @@ class Embedment(Block):
     """Force-embedment curves by set."""
 
     rule = "embedment"
+    subject = "seabed"
     facts = Facts(
         superseded_by=(
             Successor("SEABED STIFFNESS"),

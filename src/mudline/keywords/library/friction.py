@@ -16,6 +16,7 @@ class LinearFriction(Block):
 
     rule = "friction"
     sections = ("LOAD CASE", "MODES")
+    subject = "seabed"
     summary = "Stiffnesses that represent seabed friction in the frequency domain and in modes; both 0: held fast."
     unpublished = (SYN001, SYN004, SYN014)
     example = "*FRICTION\n 500.0, 250.0\n"

@@ -31,6 +31,7 @@ class LateralSoil(Block):
     """Lateral soil springs."""
 
     rule = "p_y"
+    subject = "seabed"
     facts = Facts(soil_springs=True)
     summary = "Lateral soil springs by set and depth: points of resistance P and displacement y, resistance first."
     tabular = True

@@ -27,6 +27,7 @@ class Parameters(Block):
 
     rule = "parameters"
     sections = ("PREPROCESSOR",)
+    subject = "deck"
     facts = Facts(defines="parameters")
     summary = "Named values for equations, and for the variations of a deck."
     slashes = True

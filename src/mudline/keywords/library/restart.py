@@ -18,6 +18,7 @@ class Restart(Block):
 
     rule = "restart"
     sections = ("LOAD CASE",)
+    subject = "analysis"
     summary = "The deck that this one continues: its model holds here, too."
     unpublished = (SYN004,)
     example = "*RESTART\n LAST=static\n"

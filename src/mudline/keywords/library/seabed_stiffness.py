@@ -22,6 +22,7 @@ class SeabedStiffness(Block):
     """Force-embedment curves."""
 
     rule = "seabed_stiffness"
+    subject = "seabed"
     facts = Facts(
         supersedes=True,
         defines="curves",

@@ -26,6 +26,7 @@ class AxialSoil(Block):
     """Axial soil springs."""
 
     rule = "t_z"
+    subject = "seabed"
     facts = Facts(soil_springs=True)
     summary = "Axial soil springs by set and depth: points of resistance T and displacement z, resistance first."
     tabular = True

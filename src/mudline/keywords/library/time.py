@@ -18,6 +18,7 @@ class TimeSpan(Block):
 
     rule = "time"
     sections = ("LOAD CASE",)
+    subject = "analysis"
     summary = "Start and end of a load case in time, and its step; only the form with a fixed step is read."
     example = "*TIME\n STEP=FIXED\n 0.0, 120.0, 0.05, 24.0\n"
 

@@ -89,6 +89,7 @@ class Variation(Block):
 
     rule = "variation"
     sections = ("PREPROCESSOR",)
+    subject = "deck"
     facts = Facts(plans_decks=True)
     summary = "What varies from deck to deck: values of parameters, blocks that come and go."
     example = (

@@ -11,7 +11,7 @@ import numpy as np
 from mudline.codes.references import REF015
 from mudline.deck.model import Opaque
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
-from mudline.keywords.catalogue import ZERO_LENGTH
+from mudline.keywords.catalogue import may_have_no_length
 from mudline.keywords.model import FieldSpec, ListRow, Part, Rows, record_schema
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
@@ -181,7 +181,7 @@ def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
     same = known[(scene.coordinates[first] == scene.coordinates[second]).all(axis=1)]
     if not same.size:
         return
-    joints = scene.deck.keywords().intersection(ZERO_LENGTH)
+    joints = [keyword for keyword in scene.deck.keywords() if may_have_no_length(keyword)]
     hint = f", or keep it if *{min(joints)} makes it one without length" if joints else ""
     reported: set[Where] = set()
     for index in same[: MOST_REPORTED + 1].tolist():
