@@ -43,7 +43,7 @@ class FieldInfo:
     """What a field means. Units in F (force), L, M, T, deg; "-" is dimensionless. `inferred` names our deduction.
 
     `names` says what the field is the name or number of, `defines` of what it gives a new thing its own. `also`
-    is another name by which `mudline set` finds it.
+    is another name by which `mudline set` finds it, `heading` that of its column in a table of the manual.
     """
 
     meaning: str
@@ -56,6 +56,7 @@ class FieldInfo:
     names: Names | None = None
     also: str = ""
     defines: Names | None = None
+    heading: str = ""
 
 
 @dataclass(frozen=True, slots=True)
