@@ -42,14 +42,8 @@ def number(part: object, name: str, default: float = math.nan) -> float:
 
 def range_fault(value: float, slot: FieldSpec) -> str:
     """What is wrong with a number, or nothing; NaN stands for one that could not be read."""
-    low, above, most = slot.about.at_least, slot.about.above, slot.about.at_most
-    if low is not None and value < low:
-        return f"{_in_words(slot)} is {value!r}: it must not be less than {low:g}"
-    if above is not None and value <= above:
-        return f"{_in_words(slot)} is {value!r}: it must be greater than {above:g}"
-    if most is not None and value > most:
-        return f"{_in_words(slot)} is {value!r}: it must not be more than {most:g}"
-    return ""
+    fault = slot.about.fault(value)
+    return f"{_in_words(slot)} is {value!r}: {fault}" if fault else ""
 
 
 def _in_words(slot: FieldSpec) -> str:
