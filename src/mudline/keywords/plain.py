@@ -93,7 +93,9 @@ def read_plain(
         return None
     try:
         values = {"keyword": name, **_contents(text, leaves, declared, keys)}
-        return cast("Block", make(declared, values)) if can_be_made(declared) else declared.model_validate(values, context=AS_TEXT)
+        if can_be_made(declared):
+            return cast("Block", make(declared, values))
+        return declared.model_validate(values, context=AS_TEXT)
     except (_OddError, ValueError):
         return None
 
