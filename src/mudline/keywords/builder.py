@@ -153,6 +153,8 @@ class Builder:
         found = record_schema(built.part)
         for group in groups:
             slot = found.keys.get(group.key)
+            if slot and slot.json in built.values:  # a key that may stand twice has a field for each
+                slot = next((s for s in found.slots if s.key == group.key and s.json not in built.values), slot)
             if slot is None:
                 expected = ", ".join(f"{key}=" for key in found.keys)
                 near = nearest(group.key, found.keys)

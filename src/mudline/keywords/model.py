@@ -128,9 +128,9 @@ def setting(key: str, meaning: str, **details: Any) -> Setting:
     return Setting(meaning, key=key, **details)
 
 
-def rows(row: type[Row], meaning: str, *, unordered: bool = False) -> Rows:
+def rows(row: type[Row], meaning: str, *, unordered: bool = False, inferred: str = "") -> Rows:
     """A table field."""
-    return Rows(meaning, row=row, unordered=unordered)
+    return Rows(meaning, row=row, unordered=unordered, inferred=inferred)
 
 
 class Comment(BaseModel):
@@ -226,15 +226,16 @@ class Record(Part):
 class Block(Record):
     """A keyword with its data. The class variables are its declaration.
 
-    `sections` are those where it belongs; `subject` is what it is about; `facts` is what else is known of it; `tabular`
-    keeps runs of numeric lines whole, as arrays; `slashes` says that /.../ is one field; `example` is a block that
-    reads without a finding.
+    `sections` are those where it belongs; `subject` is what it is about; `page` is the page of the manual with its
+    format; `facts` is what else is known of it; `tabular` keeps runs of numeric lines whole, as arrays; `slashes` says
+    that /.../ is one field; `example` is a block that reads without a finding.
     `unpublished` are the codes of faults that may be a form which is not public: a block in which one is found is kept
     as it is, without a finding. Where it depends on more than the code, `other_form` says so.
     """
 
     sections: ClassVar[tuple[str, ...]] = ("MODEL",)
     subject: ClassVar[Subject] = "model"
+    page: ClassVar[str] = ""
     facts: ClassVar[Facts] = Facts()
     summary: ClassVar[str]
     tabular: ClassVar[bool] = False
@@ -338,7 +339,7 @@ def record_schema(part: type[Part]) -> RecordSchema:
         if isinstance(meta, Rows):
             found.table = slot
         elif isinstance(meta, Setting):
-            found.keys[meta.key] = slot
+            found.keys.setdefault(meta.key, slot)
         elif records:
             found.children |= dict.fromkeys(slot.record, slot)
         else:

@@ -62,6 +62,8 @@ def _items(record: Record) -> Iterator[Item]:
         if slot in own_row[1:]:
             continue
         value = getattr(record, slot.name)
+        if value is None and slot not in own_row:
+            continue
         setting = slot.about if isinstance(slot.about, Setting) else None
         joins = bool(pending) and setting is not None and _joins(setting, pending)
         if pending and not joins:
@@ -69,8 +71,6 @@ def _items(record: Record) -> Iterator[Item]:
             pending = ""
         if slot in own_row:
             pending = " " + _row(record, own_row)
-        elif value is None:
-            continue
         elif setting:
             text = f"{setting.key}={_value(value)}"
             pending = f"{pending}, {text}" if joins else f" {text}"

@@ -33,7 +33,7 @@ _GEOMETRY = "geometry"
 
 @check(SBD010)
 def negative_property(scene: ResolvedDeck) -> Iterator[Problem]:
-    """A stiffness, a friction coefficient, a length or a diameter is negative, or zero where it divides.
+    """A value is out of its range: a stiffness, a length or a diameter is negative, or zero where it divides.
 
     Such a value has no physical meaning: a sign was typed by mistake, or the value is in the wrong field. The same
     holds for a share above 1, as the floor of CYCLIC= in *SEABED SUCTION. Correct it. Values of equations and of tables
@@ -52,8 +52,6 @@ def negative_property(scene: ResolvedDeck) -> Iterator[Problem]:
     Finds: 6:11
     """
     for i, section in enumerate(scene.deck.sections):
-        if section.name != "MODEL":
-            continue
         for j, block in enumerate(section.blocks):
             if type(block) is not Opaque and _checked_slots(type(block)):
                 for path, message in _faults(block):
