@@ -97,6 +97,7 @@ BY_KIND: dict[Kind, st.SearchStrategy[object]] = {
     Kind.IDENT: st.one_of(wholes, wholes, labels),
     Kind.REAL_OR_NAME: st.one_of(reals, equations, names.filter(_no_number)),
     Kind.NAME: names,
+    Kind.OTHER: names.filter(_no_number),
 }
 
 
@@ -104,9 +105,10 @@ BY_KIND: dict[Kind, st.SearchStrategy[object]] = {
 
 
 def cell(slot: FieldSpec) -> st.SearchStrategy[Any]:
-    """One value of a field: a choice, a value of its kind, or a row."""
-    options: list[st.SearchStrategy[Any]] = [st.sampled_from(slot.choices)] if slot.choices else []
-    options += [BY_KIND[slot.kind]] if slot.kind else []
+    """One value of a field: a choice, a value of its kind, or a row; none behind which lines are kept."""
+    choices = [choice for choice in slot.choices if choice not in (slot.about.opaque or ())]
+    options: list[st.SearchStrategy[Any]] = [st.sampled_from(choices)] if choices else []
+    options += [BY_KIND[slot.kind]] if slot.kind and slot.about.opaque is None else []
     options += [row(slot.row)] if slot.row else []
     value = st.one_of(options)
     return st.lists(value, min_size=1, max_size=4) if slot.many else value

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from types import NoneType, UnionType
@@ -21,7 +21,6 @@ from pydantic import (
 from pydantic import fields as pydantic_fields
 from pydantic_core import CoreSchema, core_schema
 
-from mudline.diagnostics import Code
 from mudline.keywords.table import (
     AS_TABLES,
     LARGEST_WHOLE,
@@ -43,7 +42,9 @@ class FieldInfo:
     """What a field means. Units in F (force), L, M, T, deg; "-" is dimensionless. `inferred` names our deduction.
 
     `names` says what the field is the name or number of, `defines` of what it gives a new thing its own. `also`
-    is another name by which `mudline set` finds it.
+    is another name by which `mudline set` finds it, `heading` that of its column in a table of the manual. Behind a
+    setting with one of the values `opaque`, or with a value that is not known, lines stand whose form is not public:
+    they are kept in a record that can keep lines. None: what stands behind it has one form.
     """
 
     meaning: str
@@ -56,6 +57,8 @@ class FieldInfo:
     names: Names | None = None
     also: str = ""
     defines: Names | None = None
+    heading: str = ""
+    opaque: tuple[str, ...] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -228,9 +231,8 @@ class Block(Record):
 
     `sections` are those where it belongs; `subject` is what it is about; `page` is the page of the manual with its
     format; `facts` is what else is known of it; `tabular` keeps runs of numeric lines whole, as arrays; `slashes` says
-    that /.../ is one field; `example` is a block that reads without a finding.
-    `unpublished` are the codes of faults that may be a form which is not public: a block in which one is found is kept
-    as it is, without a finding. Where it depends on more than the code, `other_form` says so.
+    that /.../ is one field; `example` is a block that reads without a finding. With `open_lines` a line of a form that
+    the declaration does not know is kept as it is.
     """
 
     sections: ClassVar[tuple[str, ...]] = ("MODEL",)
@@ -240,13 +242,9 @@ class Block(Record):
     summary: ClassVar[str]
     tabular: ClassVar[bool] = False
     slashes: ClassVar[bool] = False
-    unpublished: ClassVar[tuple[Code, ...]] = ()
+    open_lines: ClassVar[bool] = False
     example: ClassVar[str]
     keyword: str
-
-    def other_form(self, faults: Collection[Code]) -> bool:
-        """Whether the lines, of which this could be read, may have an unpublished form; `faults` were reported."""
-        return not set(self.unpublished).isdisjoint(faults)
 
 
 @dataclass(slots=True)

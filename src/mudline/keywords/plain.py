@@ -342,4 +342,6 @@ def _value(word: str, slot: FieldSpec) -> Value:
         raise _OddError from fault
     if problems or (kind is Kind.IDENT and isinstance(value, Equation)):
         raise _OddError
+    if (kind is Kind.OTHER and value not in slot.choices) or value in (slot.about.opaque or ()):
+        raise _OddError
     return value

@@ -72,6 +72,7 @@ class Kind(Enum):
     IDENT = "a number or a {label}"
     REAL_OR_NAME = "a number, an equation =[...] or a name"
     NAME = "a name"
+    OTHER = "another value"
 
 
 def _whole(given: object) -> object:
@@ -107,6 +108,8 @@ Whole = Annotated[int | Equation, _Either(Integer | Equation), Kind.WHOLE]
 Ident = Annotated[int | Label, _Either(Integer | Label), Kind.IDENT]
 RealOrName = Annotated[float | Equation | str, _Either(Finite | Equation | Text), Kind.REAL_OR_NAME]
 Name = Annotated[Text, Kind.NAME]
+Other = Annotated[Text, Kind.OTHER]
+"""Beside the known values of a choice: there are others, which are kept as they are written."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
-from typing import Annotated, Literal, cast
+from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field
 
-from mudline.codes.lines import SYN005
-from mudline.diagnostics import Code
+from mudline.keywords.keeping import OpenRecord
 from mudline.keywords.model import Block, ListRow, Record, about, setting
 from mudline.keywords.table import LARGEST_WHOLE
-from mudline.keywords.values import Count, Equation, Finite, Ident, Kind, Names, Real, Whole
+from mudline.keywords.values import Count, Equation, Finite, Ident, Kind, Names, Other, Real, Whole
 
 _DOF = "degree of freedom: 1 vertical, 2 and 3 horizontal, 4 to 6 rotations"
 _VALUE = "displacement that is imposed: a length, of a rotation degrees"
-_OTHERS = "other types exist and are not public: a block with one is passed through unchanged"
+_OTHERS = "the lines of other types are not public: they are passed through unchanged"
 _FOUR = "of four values the last two may be increment and degree of freedom, or degree of freedom and displacement"
 
 Fixation = Annotated[
@@ -65,12 +63,15 @@ class FixedRange(Record):
     fixation: Fixation = None
 
 
-class BoundaryType(Record):
+class BoundaryType(OpenRecord):
     """Conditions of one type."""
 
     rule = "boundary_type"
     type_: Annotated[
-        Literal["CONSTANT"], setting("TYPE", "what the conditions are: here constant ones", inferred=_OTHERS)
+        Literal["CONSTANT", "VESSEL"] | Other,
+        setting(
+            "TYPE", "what the conditions are; the lines of constant ones are read", inferred=_OTHERS, opaque=("VESSEL",)
+        ),
     ] = Field(alias="type")
     entries: list[FixedNode | FixedRange] = []
 
@@ -86,10 +87,6 @@ class Boundary(Block):
 
     keyword: Literal["BOUNDARY"] = "BOUNDARY"
     types: list[BoundaryType] = []
-
-    def other_form(self, faults: Collection[Code]) -> bool:
-        """Lines of another type have other values; of TYPE=CONSTANT all is known."""
-        return SYN005 in faults and any(cast("str | None", held.type_) is None for held in self.types)
 
 
 BLOCK = Boundary
