@@ -127,7 +127,7 @@ class Builder:
         inner = (*path, slot.json, len(before))
         last = before[-1].sticky if before else None
         child = self.build(slot.record[node.rule], node, inner, last)
-        child.sticky = child.values.get(child.part.sticky) or last
+        child.sticky = child.part.carries(child.values, last)
         if child.last is None:
             self.damaged = True
             return

@@ -217,6 +217,11 @@ class Record(Part):
     comments: list[Comment] = Field(default_factory=_no_comments)
 
     @classmethod
+    def carries(cls, given: dict[str, object], last: object) -> object:
+        """What `row_slot` is told as `last` in the next record, of what was read of this one."""
+        return given.get(cls.sticky) or last
+
+    @classmethod
     def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
         """Which field the row `number` of this record fills; `fields` is how many values stand on it.
 

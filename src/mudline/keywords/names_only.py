@@ -10,10 +10,8 @@ _POST = ("DATABASE POSTPROCESSING", "POSTPROCESSING")
 NAMES: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(
         (
-            "HYDRODYNAMIC SETS",
             "PROPERTIES",
             "TENSIONER",
-            "VESSEL,INTEGRATED",
         ),
         ("MODEL",),
     ),
@@ -22,14 +20,12 @@ NAMES: dict[str, tuple[str, ...]] = {
             "DIRECTORY",
             "DRIFT-OFF LIMITS",
             "DRILLING MUD",
-            "LOAD",
             "TIME,DISCONNECT",
             "TOP TENSION",
             "WAVE",
         ),
         ("LOAD CASE",),
     ),
-    "ANALYSIS TYPE": ("LOAD CASE", "ANALYSIS"),
     "ELEMENT SETS": _POST,
     **dict.fromkeys(
         (
@@ -39,7 +35,6 @@ NAMES: dict[str, tuple[str, ...]] = {
             "SPECTRUM",
             "STANDARD OUTPUT",
             "STATISTICS",
-            "TIMETRACE",
         ),
         _POST,
     ),
@@ -63,7 +58,6 @@ NAMES: dict[str, tuple[str, ...]] = {
             "TITLE",
             "TOLERANCE",
             "WAVE-DEAN",
-            "WAVE-JONSWAP",
             "WAVE-PIERSON MOSKOWITZ",
             "WAVE-USER DEFINED",
             "WINCH",

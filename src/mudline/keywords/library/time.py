@@ -57,7 +57,10 @@ class TimeSpan(Block):
     example = "*TIME\n STEP=FIXED\n 0.0, 120.0, 0.05, 24.0\n"
 
     keyword: Literal["TIME"] = "TIME"
-    step: Annotated[Literal["FIXED", "VARIABLE"], setting("STEP", "one length of the steps, or limits")]
+    step: Annotated[
+        Literal["FIXED", "VARIABLE"] | None,
+        setting("STEP", "one length of the steps, or limits", default="FIXED", inferred="the default"),
+    ] = None
     fixed: Annotated[FixedSpan | None, about("span under STEP=FIXED")] = None
     variable: Annotated[VariableSpan | None, about("span under STEP=VARIABLE")] = None
     limits: list[StepLimits] = []
@@ -70,11 +73,12 @@ class TimeSpan(Block):
     @model_validator(mode="after")
     def _fits(self) -> TimeSpan:
         """Each form has its own lines."""
-        if getattr(self, self.step.lower()) is None or (self.fixed and self.variable):
-            raise ValueError(f"STEP={self.step} needs the span {self.step.lower()!r}, and no other")
-        if self.step == "VARIABLE" and not self.limits:
+        step = self.step or "FIXED"
+        if getattr(self, step.lower()) is None or (self.fixed and self.variable):
+            raise ValueError(f"STEP={step} needs the span {step.lower()!r}, and no other")
+        if step == "VARIABLE" and not self.limits:
             raise ValueError("STEP=VARIABLE needs a line of suggested, least and largest step below its first line")
-        if self.step == "FIXED" and self.limits:
+        if step == "FIXED" and self.limits:
             raise ValueError("STEP=FIXED takes one line: start, end, step and ramp")
         if any(one.since is None for one in self.limits[1:]):
             raise ValueError("of several lines of step limits each but the first needs the time from which it holds")
