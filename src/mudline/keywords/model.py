@@ -42,9 +42,9 @@ class FieldInfo:
     """What a field means. Units in F (force), L, M, T, deg; "-" is dimensionless. `inferred` names our deduction.
 
     `names` says what the field is the name or number of, `defines` of what it gives a new thing its own. `also`
-    is another name by which `mudline set` finds it. Behind a setting with one of the values `opaque`, or with a value
-    that is not known, lines stand whose form is not public: they are kept in a record that can keep lines. None: what
-    stands behind it has one form.
+    is another name by which `mudline set` finds it, `heading` that of its column in a table of the manual. Behind a
+    setting with one of the values `opaque`, or with a value that is not known, lines stand whose form is not public:
+    they are kept in a record that can keep lines. None: what stands behind it has one form.
     """
 
     meaning: str
@@ -57,6 +57,7 @@ class FieldInfo:
     names: Names | None = None
     also: str = ""
     defines: Names | None = None
+    heading: str = ""
     opaque: tuple[str, ...] | None = None
 
 
