@@ -127,7 +127,7 @@ class Builder:
         inner = (*path, slot.json, len(before))
         last = before[-1].sticky if before else None
         child = self.build(slot.record[node.rule], node, inner, last)
-        child.sticky = child.values.get(child.part.sticky) or last
+        child.sticky = child.part.carries(child.values, last)
         if child.last is None:
             self.damaged = True
             return
@@ -156,6 +156,8 @@ class Builder:
             return
         for group in groups:
             slot = found.keys.get(group.key)
+            if slot and slot.json in built.values:  # a key that may stand twice has a field for each
+                slot = next((s for s in found.slots if s.key == group.key and s.json not in built.values), slot)
             if slot is None:
                 expected = ", ".join(f"{key}=" for key in found.keys)
                 near = nearest(group.key, found.keys)

@@ -6,6 +6,7 @@ also the lines behind a setting whose value says that their form is not public.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cache
@@ -16,6 +17,9 @@ from mudline.keywords import grammar
 from mudline.keywords.model import Block, FieldSpec, Part, Record, record_schema
 from mudline.keywords.values import Count, Kind, Text
 from mudline.short_repr import with_fields
+from mudline.syntax.fields import canonical_key
+
+_INLINE = re.compile(r",[ \t]*([A-Za-z][\w \t-]*)=([^,\r\n]*)")
 
 
 class KeptLine(BaseModel):
@@ -130,9 +134,14 @@ def _first_keys(record: type[Record]) -> Iterable[str]:
 
 
 def opened(block: type[Block], key: str, fields: str) -> frozenset[str]:
-    """The keys that end the lines to be kept behind a setting; none where they are read."""
-    opener = openers(block).get(key)
-    if opener is None:
+    """The keys that end the lines to be kept behind a line of settings; none where they are read."""
+    known = openers(block)
+    if not known:
         return frozenset()
-    value = " ".join(fields.partition(",")[0].upper().split())
-    return frozenset() if not value or value in opener.known else frozenset(opener.ends)
+    given = [(key, fields.partition(",")[0]), *_INLINE.findall(fields)]
+    ends: set[str] = set()
+    for name, text in given:
+        opener, value = known.get(canonical_key(name)), " ".join(text.upper().split())
+        if opener and value and value not in opener.known:
+            ends |= opener.ends
+    return frozenset(ends)

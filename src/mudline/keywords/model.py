@@ -196,9 +196,9 @@ def setting(key: str, meaning: str, **details: Any) -> Setting:
     return Setting(meaning, key=key, **details)
 
 
-def rows(row: type[Row], meaning: str, *, unordered: bool = False) -> Rows:
+def rows(row: type[Row], meaning: str, *, unordered: bool = False, inferred: str = "") -> Rows:
     """A table field."""
-    return Rows(meaning, row=row, unordered=unordered)
+    return Rows(meaning, row=row, unordered=unordered, inferred=inferred)
 
 
 class Comment(BaseModel):
@@ -282,6 +282,11 @@ class Record(Part):
     comments: list[Comment] = Field(default_factory=_no_comments)
 
     @classmethod
+    def carries(cls, given: dict[str, object], last: object) -> object:
+        """What `row_slot` is told as `last` in the next record, of what was read of this one."""
+        return given.get(cls.sticky) or last
+
+    @classmethod
     def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
         """Which field the row `number` of this record fills; `fields` is how many values stand on it.
 
@@ -294,13 +299,15 @@ class Record(Part):
 class Block(Record):
     """A keyword with its data. The class variables are its declaration.
 
-    `sections` are those where it belongs; `subject` is what it is about; `facts` is what else is known of it; `tabular`
-    keeps runs of numeric lines whole, as arrays; `slashes` says that /.../ is one field; `example` is a block that
-    reads without a finding. With `open_lines` a line of a form that the declaration does not know is kept as it is.
+    `sections` are those where it belongs; `subject` is what it is about; `page` is the page of the manual with its
+    format; `facts` is what else is known of it; `tabular` keeps runs of numeric lines whole, as arrays; `slashes` says
+    that /.../ is one field; `example` is a block that reads without a finding. With `open_lines` a line of a form that
+    the declaration does not know is kept as it is.
     """
 
     sections: ClassVar[tuple[str, ...]] = ("MODEL",)
     subject: ClassVar[Subject] = "model"
+    page: ClassVar[str] = ""
     facts: ClassVar[Facts] = Facts()
     summary: ClassVar[str]
     tabular: ClassVar[bool] = False
@@ -400,7 +407,7 @@ def record_schema(part: type[Part]) -> RecordSchema:
         if isinstance(meta, Rows):
             found.table = slot
         elif isinstance(meta, Setting):
-            found.keys[meta.key] = slot
+            found.keys.setdefault(meta.key, slot)
         elif records:
             found.children |= dict.fromkeys(slot.record, slot)
         else:

@@ -59,7 +59,7 @@ class _Form:
     `part` is what is made of it; None where pydantic makes it with the block.
     """
 
-    sticky: str
+    carries: Callable[[Values, object], object] | None
     part: type[Record] | None
     lines: list[tuple[int, _Reading]] = field(default_factory=list)
     children: list[tuple[str, _Form]] = field(default_factory=list)
@@ -72,8 +72,8 @@ class _Form:
         stuck: dict[str, object] = {}
         for name, form in self.children:
             values = form.values(lines, stuck.get(name))
-            if form.sticky:
-                stuck[name] = values.get(form.sticky) or stuck.get(name)
+            if form.carries:
+                stuck[name] = form.carries(values, stuck.get(name))
             found.setdefault(name, []).append(form.made(values))
         return found
 
@@ -198,7 +198,7 @@ def _form_of(record: type[Record], terminals: tuple[str, ...], tabular: bool) ->
 def _form(record: type[Record], tree: Tree, *, tabular: bool) -> _Form:
     """How a record is read that has this tree."""
     found = record_schema(record)
-    form = _Form(record.sticky, record if can_be_made(record) else None)
+    form = _Form(record.carries if record.sticky else None, record if can_be_made(record) else None)
     given: list[str] = []
     for child in tree.children:
         if isinstance(child, Tree):

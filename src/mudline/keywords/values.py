@@ -155,9 +155,10 @@ class Facts:
 
 
 class Names(Enum):
-    """What a value names; the words are for a reader.
+    """What a value names, or what a field `defines`; the words are for a reader.
 
-    Sets, curves and files are checked wherever they are named; what else is missing is reported by who resolves it.
+    Each is checked wherever it is named. Sets, force-embedment curves, nodes, elements, parameters and files have checks
+    of their own, as they are more than names; all other kinds share one.
     """
 
     SET = "an element set"
@@ -169,6 +170,22 @@ class Names(Enum):
     NODE = "a node"
     ELEMENT = "an element"
     PARAMETER = "a parameter"
+    VESSEL = "a vessel"
+    BODY = "a floating body"
+    AUXILIARY = "an auxiliary body"
+    CABLE = "a cable"
+    LINE = "a line"
+    SECTION_GROUP = "a group of line sections"
+    VECTOR = "a vector"
+    GUIDE = "a guide"
+    MOMENT_CURVATURE = "a moment-curvature curve"
+    FORCE_STRAIN = "a force-strain curve"
+    TORQUE_TWIST = "a torque-twist curve"
+    STRESS_STRAIN = "a stress-strain curve"
+    DAMPER = "a damper curve"
+    DRAG_LIFT = "a drag lift curve"
+    PIP_STIFFNESS = "a stiffness of pipe-in-pipe connections"
+    S_N_CURVE = "an S-N curve"
 
 
 LINE_SETS: Mapping[str, Names] = {

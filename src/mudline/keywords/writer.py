@@ -78,6 +78,8 @@ def _items(record: Record) -> Iterator[Item]:
         if slot in own_row[1:]:
             continue
         value = getattr(record, slot.name)
+        if value is None and slot not in own_row:
+            continue
         setting = slot.about if isinstance(slot.about, Setting) else None
         joins = bool(pending) and setting is not None and _joins(setting, pending)
         if pending and not joins:
@@ -85,8 +87,6 @@ def _items(record: Record) -> Iterator[Item]:
             pending = ""
         if slot in own_row:
             pending = " " + _row(record, own_row) if _has_row(record, own_row) else ""
-        elif value is None:
-            continue
         elif setting:
             text = f"{setting.key}={_value(value)}"
             pending = f"{pending}, {text}" if joins else f" {text}"

@@ -46,8 +46,8 @@ class FixedNode(Record):
 class FixedValues(ListRow):
     """First and last node, then the step between them if it is given, the degree of freedom, the displacement."""
 
-    start: Annotated[Whole, about("first node", names=Names.NODE)]
-    end: Annotated[Whole, about("last node", names=Names.NODE)]
+    start: Annotated[Ident, about("first node, or its label", names=Names.NODE)]
+    end: Annotated[Ident, about("last node, or its label", names=Names.NODE)]
     third: Annotated[
         Whole | None, about("of three values the degree of freedom, of five the increment", inferred=_FOUR)
     ] = None
@@ -82,6 +82,7 @@ class Boundary(Block):
     rule = "boundary"
     sections = ("LOAD CASE",)
     subject = "loads"
+    page = "kwd_loadcase_boundary"
     summary = "Nodes that are held, or moved, in single degrees of freedom."
     example = "*BOUNDARY\n TYPE=CONSTANT\n 1, 2\n 1, 3, 0.0, FIXATION=RELATIVE\n GEN=11, 20, 1, 6, 0.0\n"
 

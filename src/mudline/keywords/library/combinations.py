@@ -49,6 +49,7 @@ class Combinations(Block):
     sections = ("PREPROCESSOR",)
     subject = "deck"
     facts = Facts(plans_decks=True)
+    page = "kwd_preprocessor_combinations"
     summary = "The decks that `mudline expand` makes from variations, and the names of their files."
     example = (
         "*COMBINATIONS\n DIRECTORY=Soils\n DESCRIPTION=All soils, SUBDIRECTORY=Case %case%, FILENAME=su %su%\n"

@@ -17,6 +17,7 @@ class LinearFriction(OpenBlock):
     rule = "friction"
     sections = ("LOAD CASE", "MODES")
     subject = "seabed"
+    page = "kwd_loadcase_friction"
     summary = "Stiffnesses that represent seabed friction in the frequency domain and in modes; both 0: held fast."
     example = "*FRICTION\n 500.0, 250.0\n"
 

@@ -35,6 +35,7 @@ class LateralSoil(OpenBlock):
     rule = "p_y"
     subject = "seabed"
     facts = Facts(soil_springs=True)
+    page = "kwd_model_py"
     summary = "Lateral soil springs by set and depth: points of resistance P and displacement y, resistance first."
     tabular = True
     example = (

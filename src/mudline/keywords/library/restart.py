@@ -19,6 +19,7 @@ class Restart(OpenBlock):
     rule = "restart"
     sections = ("LOAD CASE",)
     subject = "analysis"
+    page = "kwd_loadcase_restart"
     summary = "The deck that this one continues: its model holds here, too."
     example = "*RESTART\n LAST=static\n"
 

@@ -29,6 +29,7 @@ class AxialSoil(OpenBlock):
     rule = "t_z"
     subject = "seabed"
     facts = Facts(soil_springs=True)
+    page = "kwd_model_tz"
     summary = "Axial soil springs by set and depth: points of resistance T and displacement z, resistance first."
     tabular = True
     example = "*T-Z\n SET=Conductor\n DEPTH=0.0\n 0.0, 0.0\n 1500.0, 0.005\n DEPTH=10.0\n 0.0, 0.0\n 12000.0, 0.005\n"

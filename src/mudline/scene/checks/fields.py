@@ -31,7 +31,7 @@ _GEOMETRY = "geometry"
 
 @check(SBD010)
 def negative_property(scene: ResolvedDeck) -> Iterator[Problem]:
-    """A stiffness, a friction coefficient, a length, a time step or a diameter is negative, or zero where it divides.
+    """A value is out of its range: a stiffness, a length or a diameter is negative, or zero where it divides.
 
     Such a value has no physical meaning: a sign was typed by mistake, or the value is in the wrong field. The same
     holds for a share above 1, as the floor of CYCLIC= in *SEABED SUCTION. Correct it. Values of equations and of tables
