@@ -11,8 +11,7 @@ from mudline.codes.contact import SBD006
 from mudline.codes.fields import SYN002, SYN003, SYN016
 from mudline.codes.lines import SYN001, SYN004, SYN011, SYN013
 from mudline.codes.references import REF007
-from mudline.deck.model import Opaque
-from mudline.diagnostics import Problem, Repair, Severity, Span, Where
+from mudline.diagnostics import Problem, Repair, Severity, Span
 from mudline.keywords import catalogue
 from mudline.keywords.model import Block, FieldSpec, record_schema
 from mudline.keywords.reader import all_keys, reads, schemas_of
@@ -29,7 +28,7 @@ from mudline.linting.recovery.blocks import (
     whole,
 )
 from mudline.syntax.edits import TextEdit
-from mudline.syntax.fields import first_key
+from mudline.syntax.fields import first_key, trimmed
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, RawBlock, parse
 
@@ -166,9 +165,9 @@ def elements_among_nodes(blocks: Blocks, problems: Sequence[Problem]) -> Iterato
 def reads_as(blocks: Blocks, section: str, own: str, lines: str, *, legal: bool = False) -> list[str]:
     """The keywords of a section that take some lines as they stand, in the order of the alphabet.
 
-    Those that define names which the deck lacks go before others. Numbers alone fit many keywords: they are of one that
-    stands beside others of the deck. Where the block above can have the first line (`legal`), the names that the deck
-    lacks must not need it.
+    Those that define names which the deck lacks go before others, and those that it has not yet before those it has.
+    Numbers alone fit many keywords: they are of one that stands beside others of the deck. Where the block above can
+    have the first line (`legal`), only such names or a new keyword say that it is another one's.
     """
     piece = lines if len(lines) <= LONGEST_PIECE else lines[: lines.rfind("\n", 0, LONGEST_PIECE) + 1]
     text, block = _block(section, own or "-", piece)
@@ -193,7 +192,8 @@ def reads_as(blocks: Blocks, section: str, own: str, lines: str, *, legal: bool 
     ]
     defining = {each: [what for what in blocks.missing if _defines(each, what)] for each in fitting}
     lacked = [each for each, kinds in defining.items() if any(blocks.missing[what] for what in kinds)]
-    return lacked or [each for each, kinds in defining.items() if not (legal and kinds)]
+    new = [each for each in fitting if each not in blocks.keywords and not (legal and defining[each])]
+    return lacked or new or ([] if legal else fitting)
 
 
 def _block(section: str, keyword: str, lines: str) -> tuple[str, RawBlock]:
@@ -218,30 +218,33 @@ def _of_whole_numbers(declared: type[Block]) -> bool:
 
 @recovers_from(SBD006, always=True)
 def telling_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:  # noqa: ARG001 - of text
-    """Lines that one keyword alone has, in blocks that are passed through: that keyword above them."""
+    """Lines that one keyword alone has, among those that are passed through: that keyword above the first of a block."""
+    unified = blocks.text.source.unified
+    seen: set[int] = set()
+    for section, block, line in _passed_through(blocks):
+        keyword = _all_telling().get("".join(unified[slice(*line)].split()).upper())
+        if not keyword or block.head.span.start in seen or not catalogue.block_class(section, keyword):
+            continue
+        seen.add(block.head.span.start)
+        message = f"*{block.name} has no such line: begin *{keyword} above it, else no seabed law applies"
+        place = Span(line.start, line.start)
+        repair = Repair("unsafe", f"begin *{keyword} above this line", ((place, f"*{keyword}\n"),))
+        cause = Problem(SBD006, message, trimmed(unified, *line), repair=repair)
+        yield Correction(cause, (TextEdit(place, f"*{keyword}\n"),), blocks.block_at(line.start), certain=True)
+
+
+def _passed_through(blocks: Blocks) -> Iterator[tuple[str, RawBlock, Span]]:
+    """The lines that are passed through in a section where their keyword belongs, with its name and their block."""
     text = blocks.text
-    for number, section in enumerate(blocks.deck.sections):
+    for number, section in enumerate(text.tree.sections):
         for index, block in enumerate(section.blocks):
-            if type(block) is not Opaque or section.name not in (catalogue.sections_of(block.keyword) or ()):
+            read = text.read.get((number, index))
+            if (read is not None and not read.lost) or section.name not in (catalogue.sections_of(block.name) or ()):
                 continue
-            for keyword, line in _telling(section.name, block.lines):
-                start = text.source.unified.find(line, text.heads[Where(number, index)].end)
-                message = f"*{block.keyword} has no such line: begin *{keyword} above it, else no seabed law applies"
-                place = Span(start, start)
-                edit = f"*{keyword}\n"
-                repair = Repair("unsafe", f"begin *{keyword} above this line", ((place, edit),))
-                cause = Problem(SBD006, message, Span(start, start + len(line)), repair=repair)
-                yield Correction(cause, (TextEdit(place, edit),), blocks.block_at(start), certain=True)
-
-
-def _telling(section: str, lines: list[str]) -> Iterator[tuple[str, str]]:
-    """The first of some lines that tells which keyword it is of, with that."""
-    known = _all_telling()
-    for line in lines:
-        keyword = known.get("".join(line.split()).upper()) if "=" in line else None
-        if keyword and catalogue.block_class(section, keyword):
-            yield keyword, line
-            return
+            kept = read.places.kept if read else None
+            yield from (
+                (section.name, block, line) for line in lines_of(text, block) if kept is None or line.start in kept
+            )
 
 
 @cache
