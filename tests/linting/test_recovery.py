@@ -9,7 +9,7 @@ import pytest
 
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Diagnostic, Severity
-from mudline.linting.engine import LintSettings, lint_bytes, named_causes
+from mudline.linting.engine import Fixing, LintSettings, lint_bytes, named_causes
 from mudline.linting.fixing import lint_one
 from mudline.linting.output import LintRun, form_module
 from mudline.linting.registry import rules, select
@@ -255,8 +255,6 @@ def test_line_ends_and_units_change_nothing(name: str, end: str) -> None:
 
 def test_a_fix_is_made_as_before() -> None:
     text = changed(("*NODE\n", "*NODS\n"))
-    from mudline.linting.engine import Fixing  # noqa: PLC0415
-
     result = lint_one("deck.keyxm", text.encode(), LintSettings(tuple(rules()), fixing=Fixing.UNSAFE))
     assert result.changed == DECK.encode()
     assert result.found == ()
@@ -446,6 +444,20 @@ def test_a_misspelt_name_is_read_as_the_one_near_it(
     assert one.fix.applicability == "unsafe"
 
 
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        (" SET=Flowline\n STIFF", " SET=Flwline\n STIFF"),
+        ("STIFFNESS=Dense Sand", "STIFFNESS=Dense Snad"),
+        ("*ELEMENT SETS\n", "ELEMENT SETS\n"),
+        ("*BOUNDARY\n", "BOUNDARY\n"),
+    ],
+)
+def test_the_fix_of_a_recovered_name_is_made(right: str, wrong: str) -> None:
+    settings = LintSettings(tuple(rules()), fixing=Fixing.UNSAFE)
+    assert lint_one("deck.keyxm", LONG.replace(right, wrong).encode(), settings).changed == LONG.encode()
+
+
 def test_of_two_names_equally_near_none_is_taken() -> None:
     other = " CURVE=Soft Clai\n 0.0, 0.0\n 0.5, 3000.0\n CURVE=Dense"
     text = LONG.replace(" CURVE=Dense", other).replace("STIFFNESS=Soft Clay", "STIFFNESS=Soft Claz")
@@ -517,11 +529,15 @@ def test_a_line_of_another_keyword_is_one_finding(right: str, wrong: str, code: 
 
 
 def test_a_line_that_several_keywords_can_have_names_them() -> None:
-    text = DECK.replace("*SEABED PROPERTIES\n", "*FRICTION\n 0.1, 0.1\n SET=Left\n STIFFNESS=4E5\n*SEABED PROPERTIES\n")
-    text = text.replace("*FRICTION", "*OCEAN").replace(" 0.1, 0.1", " 500.0, 1025.0")
+    law = "*SEABED UNLOADING\n SET=Left\n STIFFNESS=4E5\n"
+    text = DECK.replace("*SEABED PROPERTIES\n", f"*OCEAN\n 500.0\n SET=Left\n STIFFNESS=4E5\n{law}*SEABED PROPERTIES\n")
     (one,) = (each for each in found(text) if each.severity is Severity.ERROR)
-    assert "*SEABED UNLOADING" in one.message
-    assert "*SEABED PROPERTIES" in one.message
+    assert one.message.startswith(
+        "this line and those below it are of another keyword, *SEABED PROPERTIES or *SEABED UNL"
+    )
+    text = text.replace(law, "")
+    (one,) = (each for each in found(text) if each.severity is Severity.ERROR)
+    assert one.message.startswith("this line and those below it read as *SEABED UNLOADING")
 
 
 def test_a_row_under_another_option_is_told_once() -> None:

@@ -115,6 +115,12 @@ def may_recover(deck: Deck) -> bool:
     return False
 
 
+def repairs_of_causes(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
+    """The faults of a deck that a repair clears, as far as the deck as it was meant shows them; see `problems_in`."""
+    meant = _meant(context, [rule for rule in chosen if isinstance(rule.check, Noticed)], suppress=True)
+    return [one for one in meant.causes if one.repair is not None] if meant else []
+
+
 def named_causes(deck: Deck, refused: Sequence[Diagnostic], chosen: Sequence[Rule]) -> list[Diagnostic]:
     """The reasons for which a deck was refused, with the cause in the place of what follows from it."""
     context = LintContext(deck)

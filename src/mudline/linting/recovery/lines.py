@@ -218,7 +218,7 @@ def _of_whole_numbers(declared: type[Block]) -> bool:
 
 @recovers_from(SBD006, always=True)
 def telling_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:  # noqa: ARG001 - of text
-    """Lines that one keyword alone has, among those that are passed through: that keyword above the first of a block."""
+    """Lines that one keyword alone has, among those that are passed through: that keyword above them."""
     unified = blocks.text.source.unified
     seen: set[int] = set()
     for section, block, line in _passed_through(blocks):
