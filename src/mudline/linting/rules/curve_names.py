@@ -70,7 +70,7 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
             unused[name].append(curve)
         elif not scene.context.near(name, unknown):  # else it is misspelt where it is used, which is reported there
             unused[name] = [curve]
-    if not unused:
+    if not unused or (len(unused) == 1 and len(unknown) == 1):
         return
     places = [curve.where for curves in unused.values() for curve in curves]
     repairs = removals(context.text, places) if context.text else {}
