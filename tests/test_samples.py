@@ -52,13 +52,13 @@ FAULTS = [
     (114, "REF002"),
     (116, "SYN004"),
     (120, "SBD006"),
+    (120, "SBD008"),
     (125, "SBD002"),
     (132, "SYN003"),
     (132, "SYN015"),
     (135, "CRV003"),
     (138, "CRV004"),
     (143, "CRV002"),
-    (145, "CRV005"),
     (145, "CRV012"),
     (147, "CRV001"),
     (147, "REF003"),
@@ -70,8 +70,8 @@ FAULTS = [
     (167, "SYN014"),
 ]
 
-LEANING = {66: {(120, "SBD006")}, 114: {(147, "REF003")}, 150: {(147, "CRV001"), (152, "CRV007")}}
-"""Findings that go with another line: a set without elements lacks no stiffness; a block of which the STIFFNESS= may
+LEANING = {66: {(120, "SBD006")}, 110: {(120, "SBD008")}, 114: {(147, "REF003")}, 150: {(147, "CRV001"), (152, "CRV007")}}
+"""Findings that go with another line: a set without elements lacks no stiffness; a set that is named once has one law; a block of which the STIFFNESS= may
 have been misspelt may use any curve; and points without their CURVE= line belong to the curve before them."""
 
 
