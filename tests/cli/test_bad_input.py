@@ -154,7 +154,7 @@ def test_long_names_do_not_fill_the_screen(place: Place) -> None:
 def test_many_findings(place: Place) -> None:
     outcome = run("lint", place("$MODEL\n" + "*FOO\n" * 3000))
     assert ":1002:1: info SYN009 and more of the same: the first 1000 are listed" in outcome.out
-    assert outcome.out.endswith("Found 1001 info in 1 file.\n")
+    assert outcome.out.endswith("Found 1001 info in 1 file.\nRead 0 of 3000 keywords; not read: *FOO (3000).\n")
 
 
 @pytest.mark.parametrize("text", ["", "\n", "\r\n\r\n", "C only a comment", "C only\nC comments\n", "\ufeff", "$MODEL"])

@@ -302,3 +302,10 @@ def test_documents_are_written_as_conversion_writes_them() -> None:
     assert new != data
     assert formatted(new, "deck.json") == new
     assert load_bytes(new, "deck.json") == load_bytes(data, "deck.json")
+
+
+def test_lines_that_are_kept_stay_as_they_are() -> None:
+    text = "$LOAD CASE\n*FRICTION\n   MODES=3,4\nC x  \n1,2\n*BOUNDARY\nTYPE=vessel\n   12,   Semi\n"
+    wanted = "$LOAD CASE\n*FRICTION\n   MODES=3,4\nC x\n 1, 2\n*BOUNDARY\n TYPE=VESSEL\n   12,   Semi\n"
+    assert formatted(text.encode(), "deck.keyxm").decode() == wanted
+    assert formatted(wanted.encode(), "deck.keyxm").decode() == wanted
