@@ -13,7 +13,8 @@ from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import Severity
 from mudline.limits import MOST_REPORTED
-from tests.builders.keyword_texts import MODELLED, deck_texts, mutated
+from tests.builders.documents import KEYWORDS, Keyword
+from tests.builders.keyword_texts import deck_texts, mutated
 from tests.samples import SAMPLES
 
 BROKEN = (SAMPLES / "broken.keyxm").read_bytes()
@@ -36,7 +37,7 @@ def read(data: bytes) -> Deck:
 
 _words = st.sampled_from(
     [
-        *(f"*{keyword}\n" for keyword in MODELLED),
+        *(f"*{keyword}\n" for _, keyword in KEYWORDS),
         *(
             "$MODEL\n",
             "$PREPROCESSOR\n",
@@ -108,12 +109,13 @@ def test_fragments_of_decks(text: str) -> None:
 
 
 @given(
-    st.sampled_from(sorted(MODELLED)),
+    st.sampled_from(KEYWORDS),
     st.lists(_words.filter(lambda word: word[0] not in "$*"), max_size=25).map("".join),
 )
 @settings(max_examples=80)
-def test_fragments_in_every_keyword(keyword: str, text: str) -> None:
-    deck = read(f"${MODELLED[keyword][0]}\n*{keyword}\n{text}\n*{keyword}\n".encode())
+def test_fragments_in_every_keyword(named: Keyword, text: str) -> None:
+    section, keyword = named
+    deck = read(f"${section}\n*{keyword}\n{text}\n*{keyword}\n".encode())
     assert len(deck.sections) == 1
     assert [block.keyword for block in deck.sections[0].blocks] == [keyword, keyword]
 
