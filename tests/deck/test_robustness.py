@@ -102,12 +102,6 @@ _words = st.sampled_from(
 )
 
 
-@given(st.lists(_words, max_size=40).map("".join))
-@settings(max_examples=60)
-def test_fragments_of_decks(text: str) -> None:
-    read(text.encode())
-
-
 @given(
     st.sampled_from(KEYWORDS),
     st.lists(_words.filter(lambda word: word[0] not in "$*"), max_size=25).map("".join),
@@ -138,12 +132,6 @@ def test_decks_cut_anywhere(text: str, at: int) -> None:
     deck = read(text.encode()[: -at or None])
     written = dump(deck, "json") if all(one.weight is not Severity.ERROR for one in deck.problems) else "{}"
     assert written.startswith("{")
-
-
-def test_a_deck_cut_at_every_place() -> None:
-    data = BROKEN[1500:4500]
-    for end in range(0, len(data), 37):
-        read(b"$MODEL\n" + data[:end])
 
 
 SIZE = 1_000_000
@@ -222,9 +210,3 @@ def test_the_first_are_told_and_then_that_there_are_more(code: str, text: str) -
     assert len(told) == MOST_REPORTED + 1
     assert told[-1].message.startswith("and more")
     assert Counter(problem.code.code for problem in deck.problems)[code] == len(told)
-
-
-@pytest.mark.untraced
-def test_a_thousand_are_all_told() -> None:
-    deck = load_bytes(("$MODEL\n" + "*NOBODY KNOWS\n" * MOST_REPORTED).encode(), "deck.keyxm")
-    assert len(deck.problems) == MOST_REPORTED
