@@ -166,6 +166,33 @@ def test_only_temporary_files_are_removed(folder: Path) -> None:
     assert len(names(folder)) == len(others) + 3
 
 
+def test_a_file_that_was_taken_for_left_behind_is_made_again(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    lock = fcntl.flock
+    first: list[str] = []
+
+    def late(handle: int, how: int) -> None:
+        if not first:
+            first.extend(name for name in names(folder) if name.startswith("."))
+            (folder / first[0]).unlink()
+        lock(handle, how)
+
+    monkeypatch.setattr(fcntl, "flock", late)
+    write_atomically(folder / "new", b"x")
+    assert (folder / "new").read_bytes() == b"x"
+    assert names(folder) == ["new"]
+
+
+def test_a_file_that_cannot_be_given_away_is_written_all_the_same(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (folder / "out").write_bytes(b"old")
+    monkeypatch.setattr(os, "fstat", Mock(side_effect=lambda _: os.stat_result(range(10))))
+    monkeypatch.setattr(os, "fchown", Mock(side_effect=PermissionError))
+    with replacement(folder / "out") as stream:
+        stream.write(b"new")
+    assert (folder / "out").read_bytes() == b"new"
+
+
 def test_a_folder_whose_files_cannot_be_locked(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (folder / LEFT).touch()
     monkeypatch.setattr(fcntl, "flock", Mock(side_effect=OSError(37, "No locks available")))

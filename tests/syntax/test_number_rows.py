@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 import mudline
 from mudline.diagnostics import DeckError, Span
-from mudline.syntax.number_rows import nearest
+from mudline.syntax.number_rows import NumberRows, nearest
 from mudline.syntax.rows import line_spans, read_number, read_rows, read_rows_fast, read_rows_slow, row_starts
 from mudline.syntax.source import Source
 
@@ -96,6 +96,22 @@ def test_most_doubles_are_certain() -> None:
     _, sure = nearest(digits, RNG.integers(-300, 280, MANY))
     assert sure is not None
     assert np.count_nonzero(sure) > 0.98 * MANY
+
+
+@pytest.mark.parametrize(
+    ("lines", "odd"),
+    [
+        ("1, 2\n3\n5, 6", [False, True, False]),
+        ("1, 2\n3, 4,\n5, 6", [False, True, False]),
+        ("1, 2\n=[a*2], 4\n5, 6", [False, True, False]),
+        ("1, 2\n3, 4\n5, 6\n 7 8 9", [False, False, False, True]),
+        ("1, 2\n3, (4\n5, 6", [False, True, False]),
+    ],
+)
+def test_lines_of_another_shape_are_found(lines: str, odd: list[bool]) -> None:
+    rows = NumberRows(lines)
+    assert rows.read() is None
+    assert rows.odd_lines().tolist() == odd
 
 
 BAD = {
