@@ -13,7 +13,7 @@ CORE := $(addprefix tests/,syntax expression keywords curves contact scene compa
 ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help install demo test test-fast test-lowest lint format typecheck docs tutorials pictures studies dynamics bench extension site serve build clean
+.PHONY: help install demo test test-fast test-lowest lint format typecheck index docs tutorials pictures studies dynamics bench extension site serve build clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' Makefile
@@ -89,7 +89,10 @@ format: $(VENV)/.developer ## put the code into its canonical layout
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
-docs: $(VENV)/.developer ## regenerate what docs/ takes from the program
+index: $(VENV)/.developer ## the index of the keywords' declarations again, after one is added
+	$(BIN)/python -m tests.keywords.index
+
+docs: index ## regenerate what docs/ takes from the program
 	$(BIN)/python -m tests.docs.make
 
 tutorials: $(VENV)/.developer ## execute the notebooks of docs/tutorials again

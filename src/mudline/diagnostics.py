@@ -12,7 +12,7 @@ from enum import StrEnum
 from typing import NamedTuple
 
 from mudline.limits import MOST_REPORTED
-from mudline.short_repr import counted, outline, short_repr
+from mudline.short_repr import counted, cut, outline, short_repr
 
 MORE = f"and more of the same: the first {MOST_REPORTED} are listed"
 """The message of the finding behind them, which replaces all the others."""
@@ -202,3 +202,49 @@ class PluginError(RuntimeError):
     def __init__(self, faults: Sequence[str]) -> None:
         self.faults = tuple(faults)
         super().__init__("\n".join(faults))
+
+
+_MOST_NAMES = 20
+"""Names of keywords that were not read in one sentence."""
+
+
+@dataclass(slots=True)
+class Coverage:
+    """How many keywords of a deck, or of several, were read.
+
+    Attributes:
+        total: all of them, each as often as it occurs.
+        read: those of which each line was read, or has a finding.
+        partly: those of which a line or part was passed over, by name.
+        unread: those whose lines were passed over, by name.
+    """
+
+    total: int = 0
+    read: int = 0
+    partly: dict[str, int] = field(default_factory=dict)
+    unread: dict[str, int] = field(default_factory=dict)
+
+    @property
+    def whole(self) -> bool:
+        """Whether all of all keywords was read."""
+        return self.read == self.total
+
+    def add(self, other: Coverage) -> None:
+        """Count the keywords of another deck too."""
+        self.total += other.total
+        self.read += other.read
+        for mine, theirs in ((self.partly, other.partly), (self.unread, other.unread)):
+            for keyword, count in theirs.items():
+                mine[keyword] = mine.get(keyword, 0) + count
+
+    def __str__(self) -> str:
+        """`31 of 38 keywords, 5 in part; not read: *GUIDE (2)`."""
+        partly = sum(self.partly.values())
+        names = [f"*{cut(name, 40)}" + (f" ({count})" if count > 1 else "") for name, count in self.unread.items()]
+        names[_MOST_NAMES:] = [f"and {len(names) - _MOST_NAMES} more"] if len(names) > _MOST_NAMES else []
+        text = f"{self.read} of {counted(self.total, 'keyword')}" + (f", {partly} in part" if partly else "")
+        return text + (f"; not read: {', '.join(names)}" if names else "")
+
+    def sentence(self) -> str:
+        """The same for people who asked for findings."""
+        return f"All {counted(self.total, 'keyword')} read." if self.whole else f"Read {self}."

@@ -127,6 +127,13 @@ def test_file_of_one_long_line(place: Place, head: str, text: str) -> None:
     assert peak < 40 * LONG + IMPORTED
 
 
+def test_long_names_do_not_fill_the_screen(place: Place) -> None:
+    text = f"$MODEL\n*ELEMENT SETS\n SET={'n' * LONG}\n 1\n*{'k' * LONG}\n${'s' * LONG}\n"
+    for command in ("lint", "show"):
+        assert len(run(command, place(text)).out) < 15_000
+    assert len(run("convert", place(text + "*NODE\n 1, x, 2\n"), "--to", "json").err) < 5000
+
+
 @pytest.mark.parametrize("text", ["", "\n", "\r\n\r\n", "C only a comment", "C only\nC comments\n", "\ufeff", "$MODEL"])
 def test_nearly_nothing(place: Place, text: str) -> None:
     assert run("lint", place(text)).code == 0

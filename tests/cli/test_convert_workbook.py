@@ -1,4 +1,4 @@
-"""`mudline convert curves.xlsx`: force-embedment curves from sheets."""
+"""`mudline convert` of tables: workbooks and CSV files with the headings of the manual."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from tests.cli.runner import run
 Rows = Sequence[Sequence[object]]
 UNCALCULATED = "a formula that was never calculated: open the workbook in a spreadsheet program and save it"
 CLAY: Rows = [("ratio", "force"), (0.0, 0.0), (0.1, 1200.5), (0.5, 10000)]
-SAND: Rows = [("Force [N/m]", "Ratio", "source"), (0, 0, "lab"), (None, None, None), (5000.25, 0.3, None)]
+SAND: Rows = [("Force [N/m]", "Ratio"), (0, 0), (None, None), (5000.25, 0.3)]
 
 
 def book(sheets: Mapping[str, Rows], name: str = "curves.xlsx") -> str:
@@ -50,7 +50,8 @@ def test_each_sheet_is_a_curve(folder: Path) -> None:
     )
     assert (outcome.code, outcome.out) == (0, "")
     assert outcome.err == (
-        "mudline: sheet Notes is left out: no columns ratio and force\nmudline: curves.xlsx -> curves.keyxm\n"
+        "mudline: sheet Notes is left out: no headings of a keyword in its first row\n"
+        "mudline: curves.xlsx -> curves.keyxm\n"
     )
     assert (folder / "curves.keyxm").read_text(encoding="utf-8") == (
         "$MODEL\n*SEABED STIFFNESS\n CURVE=Clay\n 0.0, 0.0\n 0.1, 1200.5\n 0.5, 10000.0\n"
@@ -74,6 +75,63 @@ def test_a_column_names_the_curves(folder: Path) -> None:
         ("b", [[0.0, 0.0], [0.2, 9.0]]),
         ("a", [[0.0, 0.0], [1.0, 2.0]]),
     ]
+
+
+MANUAL: Rows = [
+    ("SEABED  Force (lbf/ft)", "embedment ratio", "Set Name"),
+    (0, 0, None),
+    (10, 0.5, None),
+    (0, 0, "Flowline"),
+    (3.5, 0.25, None),
+    (7, 0.125, "flowline"),
+]
+
+
+def test_the_tables_of_the_manual() -> None:
+    """A blank set continues the one above it, and in the first row means all elements."""
+    nodes = [("Node", "X", "Y", "Z"), (1, 0, 0, None), (2, 0, 10.5, 1)]
+    sections: list[Sequence[object]] = [
+        ("set", "E", "G", "Do", "Di", "density", "A", "I", "J", "Dd"),
+        ("Flowline", 2e11, 8e10, 0.3, 0.2, 7850),
+    ]
+    sections.append(("Riser", 2e11, 8e10, 0.3, 0.2, 7850, None, None, None, 0.4))
+    outcome = run("convert", book({"One": MANUAL, "Two": nodes, "Three": sections}), "-o", "out.keyxm")
+    assert (outcome.code, outcome.err) == (0, "mudline: curves.xlsx -> out.keyxm\n")
+    assert Path("out.keyxm").read_text(encoding="utf-8") == (
+        "$MODEL\n*EMBEDMENT\n SET=ALL\n 0.0, 0.0\n 0.5, 10.0\n"
+        " SET=Flowline\n 0.0, 0.0\n 0.25, 3.5\n 0.125, 7.0\n"
+        "*NODE\n 1, 0.0, 0.0\n 2, 0.0, 10.5, 1.0\n"
+        "*GEOMETRIC SETS\n OPTION=RIGID\n SET=Flowline\n 200000000000.0, 80000000000.0, 0.3, 0.2, 7850.0\n"
+        " SET=Riser\n 200000000000.0, 80000000000.0, 0.3, 0.2, 7850.0, , , , 0.4\n"
+    )
+    assert run("convert", "curves.xlsx", "--to", "json").json()["units"] == "imperial"
+
+
+@pytest.mark.parametrize("separator", [",", ";", "\t"])
+def test_csv_files(separator: str) -> None:
+    lines = [("Set Name", "Embedment Ratio", "Seabed Force [N/m]"), ("", "0", "0"), ("", "1", "2.5E3"), ("A", "0", "0")]
+    lines.append(("", "=[depth]", "7"))
+    Path("soil.csv").write_text("".join(f"{separator.join(line)}\r\n" for line in lines), encoding="utf-8-sig")
+    outcome = run("convert", "soil.csv", "--to", "keyword", "-q")
+    assert outcome.out == ("$MODEL\n*EMBEDMENT\n SET=ALL\n 0.0, 0.0\n 1.0, 2500.0\n SET=A\n 0.0, 0.0\n =[depth], 7.0\n")
+
+
+def test_faults_of_csv_files() -> None:
+    for text, message in (
+        (
+            "curve;ratio;force\nA;0;0\n;0,5;3\n",
+            "soil.csv:3:1: error: DAT001 column ratio: expected a number, found '0,5'",
+        ),
+        ("ratio,force\n0,0\n1,\n", "soil.csv:3:1: error: DAT001 column force: expected a number, found nothing\n"),
+        ("ratio,force\n0,0\n0,5\n", "soil.csv:3:1: error: DAT001 column ratio: "),
+        ("ratio,force\n", "soil.csv:1:1: error: DAT001 column ratio: "),
+        ("", "soil.csv:1:1: error: DAT001 no table of a keyword: "),
+        ("\0\x01\x02", "soil.csv:1:1: error: DAT001 "),
+    ):
+        Path("soil.csv").write_bytes(text.encode())
+        outcome = run("convert", "soil.csv", "-o", "out.keyxm")
+        assert (outcome.code, outcome.out, Path("out.keyxm").exists()) == (1, "", False)
+        assert outcome.err.startswith(message)
 
 
 def test_units_that_are_given_and_standard_input() -> None:
@@ -106,18 +164,31 @@ def test_cells_without_numbers(row: Sequence[object], message: str) -> None:
 
 def test_headings_and_curves_that_do_not_fit() -> None:
     assert fault([("ratio", "kN"), (0, 0)]) == (
-        "sheet Clay, cell A1: a column ratio and none headed force: expected both in the first row"
+        "sheet Clay, cell A1: a column ratio and none headed force: *SEABED STIFFNESS needs both, in the first row"
     )
-    assert (
-        fault([("hello",), (0, 0)]) == "no curve: expected a sheet with the headings ratio and force in its first row"
-    )
+    assert fault([("hello",), (0, 0)]) == "no table of a keyword: expected the headings of its page in the first row"
     assert fault([("ratio", "force", "force")]).startswith("sheet Clay, cell C1: a second column force: ")
     assert fault([("ratio", "force [kN/m]")]) == "sheet Clay, cell B1: expected the unit N/m or lbf/ft, found 'kN/m'"
     assert fault([*CLAY, (0.1, 7.0)]).startswith("sheet Clay, cell A5: ")
     assert fault(CLAY[:2]).startswith("sheet Clay, cell A1: ")
-    assert fault([("curve", "ratio", "force"), ("a", 0, 0), (None, 1, 1)]) == (
-        "sheet Clay, cell A3: expected the name of a curve, found nothing"
+    assert fault([("curve", "ratio", "force"), (None, 0, 0), ("a", 1, 1)]) == (
+        "sheet Clay, cell A2: expected the name of a curve, found nothing"
     )
+    assert fault([(*CLAY[0], "source"), (0, 0, "lab"), (1, 1, None)]) == (
+        "sheet Clay, cell C1: *SEABED STIFFNESS has no column 'source': it has CURVE, Embedment Ratio, Seabed Force; "
+        "leave others out"
+    )
+    assert fault([*CLAY, (1, 2, "lab")]) == (
+        "sheet Clay, cell C5: a value in a column without a heading: give it one, or remove it"
+    )
+    assert (
+        fault([("node", "x"), (1, 0)])
+        == "sheet Clay, cell A1: a column node and none headed y: *NODE needs both, in the first row"
+    )
+    assert fault([("curve", "ratio", "force"), ("a\nb", 0, 0), (None, 1, 1)]) == (
+        "sheet Clay, cell A2: a line end in a cell: a name is on one line"
+    )
+    assert fault([("curve", "ratio", "force"), ("a,b=", 0, 0), (None, 1, 1)]).startswith("sheet Clay, cell A2: ")
 
 
 def test_a_name_twice_and_two_systems() -> None:
@@ -126,7 +197,7 @@ def test_a_name_twice_and_two_systems() -> None:
     assert "sheet More, cell A2: the curve 'clay' is also on the sheet Clay: rename one" in outcome.err
     imperial = [("ratio", "force [lbf/ft]"), (0, 0), (1, 1)]
     outcome = run("convert", book({"Feet": imperial, "Sand": SAND}), "-o", "out.keyxm")
-    assert "the forces have different units: imperial on 'Feet' and metric on 'Sand'" in outcome.err
+    assert "the headings have different units: imperial on 'Feet' and metric on 'Sand'" in outcome.err
 
 
 def test_files_that_are_not_workbooks(folder: Path) -> None:

@@ -263,9 +263,10 @@ def test_deck_without_a_seabed_is_legal_with_a_warning(place: Place) -> None:
     assert outcome.code == 0
     assert_fits(outcome.json(), "validate")
     rows = [(row["verdict"], row["warnings"], row["findings"]) for row in outcome.json()["decks"]]
-    assert rows == [("legal, 1 warning", 1, []), ("legal", 0, [])]
+    read = "6 of 7 keywords; not read: *SEABED PROPERTEIS"
+    assert rows == [(f"legal as far as read, 1 warning: {read}", 1, []), ("legal", 0, [])]
     assert outcome.json()["total"]["warnings"] == 1
-    assert run("validate", *names).out.splitlines()[3].startswith("legal, 1 warning       0         1  ")
+    assert run("validate", *names).out.splitlines()[3].startswith("legal as far as read, 1 ")
 
 
 def test_what_evaluating_adds_is_counted_once(place: Place) -> None:

@@ -14,7 +14,7 @@ from mudline.cli import lint_run
 from mudline.cli.config_command import Configured
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.known_findings import known_findings
-from mudline.diagnostics import Diagnostic, Severity
+from mudline.diagnostics import Coverage, Diagnostic, Severity
 from mudline.linting.configuration import Given
 from mudline.linting.engine import LintSettings
 from mudline.linting.fixing import FileReport, lint_one
@@ -138,8 +138,8 @@ def test_decks_without_findings_are_answered_without_what_reads_decks(folder: Pa
     words = [sys.executable, "-c", LIBRARIES, place(), place(RESTART, "wave.keyxm")]
     environment = {**os.environ, cache_folder.PLACE: str(folder / "cache")}
     done = [subprocess.run(words, env=environment, capture_output=True, text=True, check=True) for _ in range(2)]
-    assert done[0].stdout == "No findings in 2 files.\n0 ['numpy', 'pydantic']\n"
-    assert done[1].stdout == "No findings in 2 files.\n0 []\n"
+    assert done[0].stdout == "No findings in 2 files.\nAll 9 keywords read.\n0 ['numpy', 'pydantic']\n"
+    assert done[1].stdout == "No findings in 2 files.\nAll 9 keywords read.\n0 []\n"
 
 
 @pytest.mark.parametrize("form", ["json", "concise", "sarif", "junit", "gitlab", "github", "jsonl"])
@@ -171,8 +171,9 @@ def test_findings_come_back_whole(linted: Linted) -> None:
     known = known_findings(Inputs(), Given(), Configured(None, True))
     assert known is not None
     key = known.key(Input("a", "a"), b"")
-    known.put(key, found, [])
-    assert known.get(key, Input("a", "a")) == found
+    coverage = Coverage(3, 1, {"NODE": 1}, {"A\x1b": 1})
+    known.put(key, found, coverage, [])
+    assert known.get(key, Input("a", "a")) == (found, coverage)
     known.memory.put(key, [["of", "another", "shape"]])
     assert known.get(key, Input("a", "a")) is None
     assert not linted

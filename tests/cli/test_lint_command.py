@@ -38,7 +38,7 @@ def lint(deck: str, *options: str) -> Outcome:
 
 def test_nothing_found(place: Place) -> None:
     outcome = run("lint", place())
-    assert (outcome.code, outcome.out, outcome.err) == (0, "No findings in 1 file.\n", "")
+    assert (outcome.code, outcome.out, outcome.err) == (0, "No findings in 1 file.\nAll 7 keywords read.\n", "")
 
 
 def test_finding_with_its_source_line(place: Place) -> None:
@@ -50,6 +50,7 @@ def test_finding_with_its_source_line(place: Place) -> None:
         " 6 |  2, -0.1, ten",
         "   |           ^^^",
         "Found 1 error in 1 file.",
+        "All 7 keywords read.",
     ]
 
 

@@ -16,6 +16,8 @@ IDLE = CLEAN.replace(" CURVE=Clay", "C mudline: ignore CRV005\n CURVE=Clay")
 GUESS = CLEAN.replace(" CURVE=Clay", "C mudline: ignore CRVV05\n CURVE=Clay")
 """A STY010 with an unsafe fix."""
 
+READ = "All 7 keywords read.\n"
+
 
 def read(name: str) -> str:
     return Path(name).read_text(encoding="utf-8")
@@ -23,16 +25,20 @@ def read(name: str) -> str:
 
 def test_fixes_are_made_in_place_and_do_not_count(place: Place) -> None:
     outcome = run("lint", place(IDLE), "--fix")
-    assert (outcome.code, outcome.out, outcome.err) == (0, "Found 1 finding (1 fixed, 0 remaining) in 1 file.\n", "")
+    assert (outcome.code, outcome.out, outcome.err) == (
+        0,
+        f"Found 1 finding (1 fixed, 0 remaining) in 1 file.\n{READ}",
+        "",
+    )
     assert read("deck.keyxm") == CLEAN
-    assert run("lint", "deck.keyxm", "--fix").out == "No findings in 1 file.\n"
+    assert run("lint", "deck.keyxm", "--fix").out == f"No findings in 1 file.\n{READ}"
 
 
 def test_what_is_not_fixed_counts(place: Place) -> None:
     outcome = run("lint", place(GUESS.replace(" CURVE", "C mudline: ignore CRV005\n CURVE")), "--fix")
     assert outcome.code == 1
     assert outcome.out.endswith(
-        "Found 2 findings (1 fixed, 1 remaining) in 1 file.\n1 fixable with --fix --unsafe-fixes.\n"
+        f"Found 2 findings (1 fixed, 1 remaining) in 1 file.\n1 fixable with --fix --unsafe-fixes.\n{READ}"
     )
 
 
@@ -44,9 +50,9 @@ def test_unsafe_fixes_have_to_be_asked_for(place: Place) -> None:
 
 
 def test_what_could_be_fixed_is_told(place: Place) -> None:
-    assert run("lint", place(IDLE)).out.endswith("in 1 file.\n1 fixable with --fix.\n")
+    assert run("lint", place(IDLE)).out.endswith(f"in 1 file.\n1 fixable with --fix.\n{READ}")
     both = IDLE.replace("CRV005", "CRV005, CRVV05")
-    assert run("lint", place(both)).out.endswith("\n1 fixable with --fix, 1 more with --unsafe-fixes.\n")
+    assert run("lint", place(both)).out.endswith(f"\n1 fixable with --fix, 1 more with --unsafe-fixes.\n{READ}")
 
 
 def test_diff_prints_and_writes_nothing(place: Place) -> None:

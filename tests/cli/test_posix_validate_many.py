@@ -78,7 +78,9 @@ def test_total_counts_all(decks: str) -> None:
     assert outcome.out.splitlines()[-1] == TOTAL
     found = run("validate", decks, "--output-format", "json").json()
     assert_fits(found, "validate")
+    keywords = {"total": 28, "read": 28, "partly": {}, "unread": {}}
     assert found["total"] == {
+        "keywords": keywords,
         "decks": 7,
         "legal": 3,
         "illegal": 2,

@@ -14,6 +14,7 @@ TEXT = """\
 deck.keyxm: metric units, 3 nodes, 2 elements, 20.008 m long, elastic seabed
   $MODEL: *OCEAN, *NODE, *ELEMENT, *ELEMENT SETS, *GEOMETRIC SETS, *SEABED PROPERTIES, *SEABED
       STIFFNESS
+  All 7 keywords read.
 
 Element sets
                 length
@@ -65,7 +66,7 @@ def test_json(place: Place) -> None:
         {
             "name": "MODEL",
             "keywords": [
-                {"keyword": keyword, "read": True}
+                {"keyword": keyword, "read": True, "partly": False}
                 for keyword in (
                     "OCEAN",
                     "NODE",
@@ -78,6 +79,7 @@ def test_json(place: Place) -> None:
             ],
         }
     ]
+    assert found["keywords"] == {"total": 7, "read": 7, "partly": {}, "unread": {}}
     assert [(entry["name"], entry["elements"], entry["open"]) for entry in found["sets"]] == [
         ("ALL", 2, False),
         ("Pipe", 2, False),

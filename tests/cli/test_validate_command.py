@@ -11,6 +11,9 @@ from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, assert_fits, run
 
 COLUMNS = ["file", "sections", "keywords", "curves", "elements", "errors", "warnings", "verdict"]
+READ = {"total": 7, "read": 7, "partly": {}, "unread": {}}
+PARTLY = CLEAN + "$LOAD CASE\n*BOUNDARY\n TYPE=VESSEL\n 1, Semi\n*GUIDE\n x\n*GUIDE\n y\n"
+AS_FAR = "7 of 10 keywords, 1 in part; not read: *GUIDE (2)"
 
 
 def test_legal_deck(place: Place) -> None:
@@ -63,9 +66,10 @@ def test_json(place: Place) -> None:
         "errors": 1,
         "warnings": 0,
         "unreadable": 0,
+        "keywords": {"total": 14, "read": 14, "partly": {}, "unread": {}},
     }
     good, bad = found["decks"]
-    assert good == dict(zip(COLUMNS, ["good.keyxm", 1, 7, 1, 2, 0, 0, "legal"], strict=True)) | {"findings": []}
+    assert good == dict(zip(COLUMNS, ["good.keyxm", 1, READ, 1, 2, 0, 0, "legal"], strict=True)) | {"findings": []}
     assert [each["code"] for each in bad["findings"]] == ["REF001"]
     assert (bad["errors"], bad["verdict"]) == (1, "illegal")
 
@@ -74,10 +78,32 @@ def test_csv(place: Place) -> None:
     names = [place(CLEAN, "good.keyxm"), place(ILLEGAL, 'b"a,d.keyxm')]
     rows = list(csv.reader(run("validate", *names, "--output-format", "csv").out.splitlines()))
     assert rows == [
-        COLUMNS,
-        ["good.keyxm", "1", "7", "1", "2", "0", "0", "legal"],
-        ['b"a,d.keyxm', "1", "7", "1", "2", "1", "0", "illegal"],
+        [*COLUMNS[:3], "read", "partly", "unread", *COLUMNS[3:]],
+        ["good.keyxm", "1", "7", "7", "0", "0", "1", "2", "0", "0", "legal"],
+        ['b"a,d.keyxm', "1", "7", "7", "0", "0", "1", "2", "1", "0", "illegal"],
     ]
+
+
+def test_a_deck_is_legal_as_far_as_it_was_read(place: Place) -> None:
+    name = place(PARTLY)
+    found = run("validate", name, "--output-format", "json").json()
+    assert_fits(found, "validate")
+    (row,) = found["decks"]
+    assert row["keywords"] == {"total": 10, "read": 7, "partly": {"BOUNDARY": 1}, "unread": {"GUIDE": 2}}
+    assert row["verdict"] == f"legal as far as read: {AS_FAR}"
+    lines = run("validate", name).out.splitlines()
+    assert lines[3].split()[:8] == ["legal", "as", "far", "as", "read", "0", "0", "2"]
+    assert " 7 of 10 " in lines[3]
+    assert lines[-1] == f"Read {AS_FAR}."
+    assert run("lint", name).out.splitlines()[-1] == f"Read {AS_FAR}."
+
+
+@pytest.mark.parametrize(
+    ("text", "codes"), [(CLEAN, (0, 0, 0)), (UNUSED, (0, 1, 0)), (PARTLY, (0, 0, 1)), (ILLEGAL, (1, 1, 1))]
+)
+def test_what_fails(place: Place, text: str, codes: tuple[int, ...]) -> None:
+    name = place(text)
+    assert tuple(run("validate", name, "--fail-on", word).code for word in ("error", "warning", "unread")) == codes
 
 
 @pytest.mark.parametrize("text", ["", "C only a comment\n"])
@@ -109,5 +135,5 @@ def test_samples() -> None:
     assert outcome.code == 1
     verdicts = {row["file"].rpartition("/")[2]: row["verdict"] for row in outcome.json()["decks"]}
     assert verdicts.pop("broken.keyxm") == "illegal"
-    assert set(verdicts.values()) == {"legal"}
+    assert {verdict.partition(":")[0] for verdict in verdicts.values()} <= {"legal", "legal as far as read"}
     assert len(verdicts) >= 6

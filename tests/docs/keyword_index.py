@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from mudline.keywords import catalogue
-from tests.docs.keyword_page import declarations, models, page_name, sections_of, title
-from tests.docs.keyword_rules import Declared, keyword_of
+from mudline.keywords.names_only import NAMES
+from tests.docs.keyword_page import models, page_name, sections_of, title
+from tests.docs.keyword_rules import Declared
 from tests.docs.marking import MADE, marked
 
 _PAGE = """{made}
@@ -67,12 +68,10 @@ def _rows(declared: Sequence[Declared]) -> str:
 
 def _passing() -> Iterator[str]:
     """The keywords that are known by name only, by section."""
-    declared = set(map(keyword_of, declarations()))
     by_section: dict[str, list[str]] = {}
-    for keyword in catalogue.keywords():
-        if keyword not in declared:
-            for section in catalogue.sections_of(keyword) or ("",):
-                by_section.setdefault(section, []).append(f"`*{keyword}`")
+    for keyword, sections in sorted(NAMES.items()):
+        for section in sections or ("",):
+            by_section.setdefault(section, []).append(f"`*{keyword}`")
     for name in (*catalogue.SECTIONS, ""):
         if name in by_section:
             yield f"| {f'`${name}`' if name else 'not confirmed'} | {', '.join(by_section[name])} |"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from mudline.keywords import catalogue
@@ -75,8 +76,11 @@ def title(declared: Declared) -> str:
 
 
 def page_name(declared: Declared) -> str:
-    """The file of a page, without its suffix: `seabed-properties`."""
-    return keyword_of(declared).lower().replace(" ", "-").replace(",", "-")
+    """The file of a page, without its suffix: `seabed-properties`; of a second declaration, with its section."""
+    keyword = keyword_of(declared)
+    first = catalogue.entries(keyword)[0].sections
+    own = keyword if declared.sections == first else f"{keyword} {declared.sections[0]}"
+    return re.sub(r"[^a-z0-9]", "-", own.lower())
 
 
 def sections_of(declared: Declared) -> str:

@@ -7,39 +7,36 @@ from collections.abc import Iterator
 from typing import Any
 
 from mudline.keywords import catalogue
-from mudline.keywords.model import Part, record_schema
+from mudline.keywords.model import Block, Part, record_schema
 
 WORDS = "src/mudline/highlighting/words.json"
 
 
 def words() -> dict[str, Any]:
     """Sections; known keywords; and of those whose lines are read the sections, and the choices of each setting."""
-    read = {keyword: block for keyword in catalogue.keywords() if (block := catalogue.declared(keyword))}
+    read = {keyword: blocks for keyword in catalogue.keywords() if (blocks := catalogue.declarations(keyword))}
     return {
         "sections": sorted(catalogue.SECTIONS),
         "keywords": list(catalogue.keywords()),
-        "read": {
-            keyword: {
-                "sections": list(block.sections),
-                "slashes": block.slashes,
-                "settings": {key: list(dict.fromkeys(choices)) for key, choices in sorted(_settings(block).items())},
-            }
-            for keyword, block in sorted(read.items())
-        },
+        "read": {keyword: _words_of(blocks) for keyword, blocks in sorted(read.items())},
+    }
+
+
+def _words_of(blocks: list[type[Block]]) -> dict[str, Any]:
+    """Of a keyword that means other things in other sections, what holds in any of them."""
+    found: dict[str, list[str]] = {}
+    for key, choices in (pair for block in blocks for pair in _each_setting(block)):
+        found.setdefault(key, []).extend(choices)
+    return {
+        "sections": [section for block in blocks for section in block.sections],
+        "slashes": any(block.slashes for block in blocks),
+        "settings": {key: list(dict.fromkeys(choices)) for key, choices in sorted(found.items())},
     }
 
 
 def words_text() -> str:
     """The whole file."""
     return json.dumps(words(), indent=1) + "\n"
-
-
-def _settings(part: type[Part]) -> dict[str, list[str]]:
-    """The choices of every setting in the lines of a keyword."""
-    found: dict[str, list[str]] = {}
-    for key, choices in _each_setting(part):
-        found.setdefault(key, []).extend(choices)
-    return found
 
 
 def _each_setting(part: type[Part]) -> Iterator[tuple[str, tuple[str, ...]]]:

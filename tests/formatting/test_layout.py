@@ -271,3 +271,10 @@ def test_the_page_shows_what_comes_out() -> None:
     page = Path(__file__).parents[2] / "docs" / "format.md"
     before, after = (block.text for block in Page.read(page).blocks if block.language == "mudline")
     assert record_schema(before) == after
+
+
+def test_lines_that_are_kept_stay_as_they_are() -> None:
+    text = "$LOAD CASE\n*FRICTION\n   MODES=3,4\nC x  \n1,2\n*BOUNDARY\nTYPE=vessel\n   12,   Semi\n"
+    wanted = "$LOAD CASE\n*FRICTION\n   MODES=3,4\nC x\n 1, 2\n*BOUNDARY\n TYPE=VESSEL\n   12,   Semi\n"
+    assert formatted(text.encode(), "deck.keyxm").decode() == wanted
+    assert formatted(wanted.encode(), "deck.keyxm").decode() == wanted

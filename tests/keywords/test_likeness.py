@@ -23,7 +23,7 @@ TABLE = "$MODEL\n*OCEAN\n 350.0, 1025.0, 9.81\n"
         ("NODE (6 NODES)", "NODE"),
         ("ELEMENT,PIPE", "ELEMENT"),
         ("ELEMENT SETS OF KP 3", "ELEMENT SETS"),
-        ("CURRENT PROFILE", ""),
+        ("CURRENT PROFILE", "CURRENT"),
         ("NODES", "NODE"),
         ("NODELIST", ""),
         ("SOMETHING ELSE", ""),

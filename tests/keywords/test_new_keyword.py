@@ -1,4 +1,4 @@
-"""A keyword needs its module, its grammar rule and its line in the catalogue: all else follows from these."""
+"""A keyword needs its module, its grammar rule and its line in the index, which is made: all else follows."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from mudline.deck.document import json_schema
 from mudline.deck.forms.json import read, to_json
 from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.loading import load_bytes
-from mudline.keywords import catalogue, grammar, library
+from mudline.keywords import catalogue, grammar, index, library
 from mudline.keywords.catalogue import suggest_keyword
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules
@@ -21,6 +21,7 @@ from mudline.scene.model import resolve
 from tests.builders.decks import CLAY, PIPE, STEEL
 from tests.docs.keyword_index import keyword_index
 from tests.docs.keyword_page import keyword_page
+from tests.keywords.index import declared_entries
 
 NAME = "SEABED ANCHOR"
 MODULE = '''
@@ -74,10 +75,10 @@ def anchor(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """The keyword, as if the library had it."""
     (tmp_path / "seabed_anchor.py").write_text(MODULE, encoding="utf-8")
     monkeypatch.setattr(library, "__path__", [*library.__path__, str(tmp_path)])
-    monkeypatch.setitem(catalogue._MODULES, NAME, "seabed_anchor")
+    caches = (catalogue._by_keyword, catalogue.keywords, catalogue.read_keywords, catalogue.sections_of, catalogue.load)
+    monkeypatch.setattr(index, "ENTRIES", tuple(declared_entries()))
     for rule, text in RULES.items():
         monkeypatch.setitem(grammar._rules(), rule, text)
-    caches = (catalogue.keywords, catalogue.read_keywords, catalogue.load)
     for cache in caches:
         cache.cache_clear()
     yield

@@ -7,13 +7,17 @@ found by keyword, one side of an `in`, or a constant KEYWORD. Anything else need
 from __future__ import annotations
 
 import ast
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import get_args
 
 import mudline
-from mudline.keywords import catalogue
+from mudline.keywords import catalogue, index
 from mudline.keywords.model import set_slots
+from mudline.keywords.names_only import NAMES
+from tests.keywords.index import INDEX, index_text
 
 ROOT = Path(mudline.__file__).parent
 
@@ -84,8 +88,28 @@ def test_the_index_of_the_catalogue_says_what_the_classes_say() -> None:
         block = catalogue.load(module)
         name = block.model_fields["keyword"].default
         assert get_args(block.model_fields["keyword"].annotation) == (name,)
-        assert catalogue.declared(name) is block
+        assert block in catalogue.declarations(name)
+        assert all(catalogue.block_class(section, name) is block for section in block.sections)
         assert set(block.sections) <= set(catalogue.SECTIONS)
+
+
+def test_the_index_is_made_of_the_declarations() -> None:
+    assert (ROOT.parents[1] / INDEX).read_text(encoding="utf-8") == index_text(), "make index"
+
+
+def test_a_keyword_is_declared_once_for_a_section() -> None:
+    declared = [(section, entry.keyword) for entry in index.ENTRIES for section in entry.sections]
+    named = [(section, keyword) for keyword, sections in NAMES.items() for section in sections]
+    assert len(declared + named) == len({*declared, *named})
+
+
+def test_a_keyword_of_which_only_the_name_is_known_imports_nothing() -> None:
+    script = (
+        "import sys; from mudline.keywords import catalogue as c; [c.sections_of(k) for k in c.keywords()]; "
+        "print([name for name in sys.modules if '.library.' in name])"
+    )
+    ran = subprocess.run([sys.executable, "-c", script], check=True, capture_output=True, text=True)
+    assert ran.stdout == "[]\n"
 
 
 def test_facts_fit_each_other() -> None:

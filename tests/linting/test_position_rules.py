@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
 from mudline.linting.rules import coordinates, seabed_position
+from tests.builders import decks
 from tests.linting.findings import PIPE, PROPERTIES, RESTART, found, messages
 
 LAW = PROPERTIES + " STIFFNESS=60000.0\n"
@@ -271,3 +272,40 @@ def test_a_look_at_the_whole_line_changes_no_finding(
         patch.object(seabed_position, "_is_level", lambda _: False),
     ):
         assert lint_bytes(deck, "deck.keyxm", chosen) == quick
+
+
+# ------------------------------------------------------------------------------------------- datum at the sea surface
+
+
+def riser(*nodes: str) -> str:
+    """A line of nodes given by their coordinates, in water 420 deep."""
+    rows = "".join(f" {number}, {place}\n" for number, place in enumerate(nodes, 1))
+    elements = "".join(f" {number}, {number}, {number + 1}\n" for number in range(1, len(nodes)))
+    return f"$MODEL\n*NODE\n{rows}*ELEMENT\n{elements}{decks.STEEL}" + LAW + OCEAN
+
+
+LAID = tuple(f"{10.0 * number}, 0.0, -420.02" for number in range(4))
+
+
+@pytest.mark.parametrize(
+    ("nodes", "expected"),
+    [
+        ((*LAID, "90.0, 0.0, -200.0", "120.0, 0.0, -5.0"), "minus the water depth"),
+        (("0.01, 0.0, -400.0", *LAID[2:], "90.0, 0.0, -200.0"), ""),  # the lowest are two
+        (("0.01, 0.0, -400.0", "0.0, 9.0, -350.0", *LAID[1:], "90.0, 0.0, -200.0"), ""),  # two lie at X = 0
+        ((*LAID, "90.0, 0.0, -420.0"), ""),  # the line does not rise along Z
+        ((*(place.replace("420.02", "500.0") for place in LAID), "90.0, 0.0, -5.0"), ""),
+        (tuple(f"-0.02, {10.0 * number}, -420.0" for number in range(4)), ""),  # a pipe on the seabed, 420 aside
+    ],
+)
+def test_heights_above_the_sea_surface(nodes: tuple[str, ...], expected: str) -> None:
+    told = messages(riser(*nodes), "GEO005")
+    assert len(told) == bool(expected)
+    assert all(expected in message for message in told)
+
+
+def test_x_above_the_sea_surface_names_the_depth() -> None:
+    (message,) = messages(line("-420.05, 0.0", "-420.05, 100.0"), "SBD022")
+    assert message.endswith("correct the datum of X, which is 0 at the mudline and not at the sea surface: add 420")
+    (message,) = messages(line("-300.0, 0.0", "-300.0, 100.0"), "SBD022")
+    assert message.endswith("correct the datum of X")

@@ -36,7 +36,7 @@ def test_labels_that_lines_make() -> None:
 def test_labels_that_are_nearly_so() -> None:
     text = "$MODEL\n" + LINES + LOCATIONS + "*ELEMENT\n 1, {Seabed Ende}, 2\n*ELEMENT SETS\n SET=a\n 1, {Hangoff}\n"
     found = {message for message in messages(text) if message.startswith("label")}
-    stands = "is not in *LINES or *LINE LOCATIONS"
+    stands = "is not in *LINE LOCATIONS or *LINES"
     assert found == {
         f"label '{{Seabed Ende}}' {stands} (did you mean {{Seabed End}}?): correct it",
         f"label '{{Hangoff}}' {stands} (did you mean {{Hang-off}}?): correct it",

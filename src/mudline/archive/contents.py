@@ -15,11 +15,13 @@ import numpy as np
 from mudline.archive.tables import TABLES
 from mudline.codes.lines import SYN001
 from mudline.contact.input import LawKind
+from mudline.deck.coverage import coverage_of, extent
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import Parameters, folded
-from mudline.diagnostics import DeckError, Diagnostic, Problem, Severity, Where
+from mudline.diagnostics import Coverage, DeckError, Diagnostic, Problem, Severity, Where
 from mudline.keywords.catalogue import is_extension, is_superseded
+from mudline.keywords.keeping import kept_lines
 from mudline.keywords.table import AS_TABLES, Listing
 from mudline.keywords.values import Equation, Names
 from mudline.linting.engine import LintSettings, lint_context, problems_in
@@ -47,7 +49,7 @@ def rows_of(data: bytes, name: str, settings: LintSettings, folder: Path | None)
     try:
         deck = load_bytes(data, name, units=settings.units, folder=folder)
     except DeckError as error:
-        counts = (len(error.diagnostics), *[0] * 8)
+        counts = (len(error.diagnostics), *[0] * 11)
         row = (settings.units or "user", "illegal", *counts, None, None, None)
         return {"decks": [row], "findings": _findings(error.diagnostics)}
     return _Deck(deck, LintContext(deck, dialect=settings.dialect), data).rows(settings)
@@ -65,6 +67,10 @@ def _findings(found: Iterable[Diagnostic]) -> list[tuple[object, ...]]:
     ]
 
 
+def _legal(coverage: Coverage) -> str:
+    return "legal" if coverage.whole else "legal as far as read"
+
+
 @dataclass
 class _Deck:
     deck: Deck
@@ -79,7 +85,8 @@ class _Deck:
     def rows(self, settings: LintSettings) -> Rows:
         found = with_severities(lint_context(self.context, settings.rules), settings)
         self.made["findings"] = _findings(found)
-        content, blocks = self._keywords()
+        content = self._keywords()
+        coverage = coverage_of(self.deck)
         sets = self._sets()
         self._curves()
         self._laws()
@@ -91,10 +98,12 @@ class _Deck:
         oceans = [block for _, block in self.scene.deck.blocks("OCEAN")]
         row = (
             self.deck.units,
-            "illegal" if illegal else "legal" if self.deck.sections else "empty",
+            "illegal" if illegal else _legal(coverage) if self.deck.sections else "empty",
             *(counts[severity] for severity in (Severity.ERROR, Severity.WARNING, Severity.INFO)),
             len(self.deck.sections),
-            blocks,
+            coverage.total,
+            coverage.read,
+            *(sum(named.values()) for named in (coverage.partly, coverage.unread)),
             len(self.scene.node_ids),
             len(self.scene.element_ids),
             sets,
@@ -109,8 +118,8 @@ class _Deck:
     def _line(self, where: Where | None) -> int | None:
         return None if where is None else self.deck.place(Problem(SYN001, "", where=where)).line
 
-    def _keywords(self) -> tuple[int, int]:
-        """Add the blocks; returns the digest of all of them, and how many there are."""
+    def _keywords(self) -> int:
+        """Add the blocks; returns the digest of all of them."""
         found = [
             (section.name, block, Where(i, j), _digest(section.name, block))
             for i, section in enumerate(self.deck.sections)
@@ -120,10 +129,10 @@ class _Deck:
         for place, (section, block, where, digest) in enumerate(found, 1):
             keyword = block.keyword
             known = type(block) is not Opaque
-            facts = (known, is_superseded(keyword), is_extension(keyword))
+            facts = (known, extent(block) == "partly", is_superseded(keyword), is_extension(keyword))
             row = (place, section, keyword, self._line(where), *facts, digest, (total - digest) % (1 << _DIGEST))
             self.made["keywords"].append(row)
-        return total % (1 << _DIGEST), len(found)
+        return total % (1 << _DIGEST)
 
     def _sets(self) -> int:
         named = {key: entry for key, entry in self.scene.set_table.named.items() if key != ALL}
@@ -147,7 +156,8 @@ class _Deck:
     def _opaque_text(self) -> str:
         """The lines that are not read: they may name sets."""
         blocks = (block for section in self.deck.sections for block in section.blocks)
-        return "\n".join(line for block in blocks if type(block) is Opaque for line in block.lines).casefold()
+        lines = (block.lines if type(block) is Opaque else kept_lines(block) for block in blocks)
+        return "\n".join(line for own in lines for line in own).casefold()
 
     def _curves(self) -> None:
         for place, entry in enumerate(self.scene.laws.curves, 1):

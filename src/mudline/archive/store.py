@@ -26,7 +26,7 @@ from mudline.short_repr import cut
 ArrowTable: TypeAlias = Any
 """A pyarrow.Table; pyarrow has no types."""
 
-FORMAT = "mudline-archive/2"
+FORMAT = "mudline-archive/3"
 MARKER = "archive.json"
 DATA = "data"
 VIEWS = "archive.duckdb"

@@ -80,10 +80,10 @@ def target_of(path: FieldPath, operand: Operand) -> Target:
 
     Of several fields of a name those are meant that may hold the operand, and of these the outermost.
     """
-    block = catalogue.declared(path.keyword)
-    if block is None:
+    blocks = catalogue.declarations(path.keyword)
+    if not blocks:
         raise PathError(_unknown_keyword(path.keyword))
-    known = declared_fields(block)
+    known = [field for block in blocks for field in declared_fields(block)]
     named = [field for field in known if _ends_with(field, path.names)]
     if not named:
         raise PathError(_unknown_field(path, known))
@@ -176,7 +176,8 @@ def blocks_of(deck: Deck, keyword: str) -> Iterator[tuple[Where, Block]]:
 
 def _all_values(deck: Deck, target: Target) -> Iterator[Value]:
     for where, block in blocks_of(deck, target.path.keyword):
-        for field in target.fields:
+        own = list(map(id, declared_fields(type(block))))
+        for field in (field for field in target.fields if id(field) in own):
             yield from _values(block, where, field, 0, _Holders([block], target.path.selectors))
 
 

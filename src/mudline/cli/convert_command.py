@@ -15,13 +15,14 @@ from mudline.cli.view import View
 from mudline.deck.forms import SUFFIXES, form_names, form_of
 from mudline.deck.loading import dump
 from mudline.deck.model import Deck
-from mudline.keywords.model import Comment
+from mudline.diagnostics import DeckError, Severity
+from mudline.keywords.model import Block, Comment
+from mudline.keywords.ranges import is_refused
 from mudline.keywords.table import Table
 
 _FORMS = click.Choice(form_names())
-WORKBOOK = "xlsx"
-_SOURCES = click.Choice([*form_names(), WORKBOOK])
-_WORKBOOKS = {".xlsx", ".xlsm"}
+_TABLES = {".xlsx": "xlsx", ".xlsm": "xlsx", ".csv": "csv"}
+_SOURCES = click.Choice([*form_names(), *dict.fromkeys(_TABLES.values())])
 _OTHER_SHEETS = {".xls", ".xlsb", ".ods"}
 
 
@@ -39,14 +40,18 @@ _OTHER_SHEETS = {".xls", ".xlsb", ".ods"}
 def command(
     *, deck: GivenDeck, output: str | None, source: str | None, target: str | None, in_order: bool, view: View
 ) -> int:
-    """Convert a deck between keyword text, JSON and YAML; curves of a workbook (.xlsx) to a deck.
+    """Convert a deck between keyword text, JSON and YAML; tables (.xlsx, .csv) to a deck.
 
-    Only blank lines and the spelling of numbers are lost.
+    Only blank lines and the spelling of numbers are lost. A deck with a value that its keyword does not allow, as a
+    curve of one point or a negative depth, is not written as JSON or YAML.
     """
     form = target or _form_of_output(output)
-    read = _curves(deck) if _is_workbook(deck, source) else deck.load(source).require()
+    table = _table_form(deck, source)
+    read = _tables(deck, table) if table else deck.load(source).require()
     if read is None:
         return FOUND
+    if form != "keyword":
+        _require_values(read)
     if in_order:
         for name in sort_curves(read):
             notify(f"curve {name} keeps its order: a ratio in it is an equation")
@@ -61,26 +66,40 @@ def command(
     return DONE
 
 
-def _is_workbook(deck: GivenDeck, source: str | None) -> bool:
-    """Whether curves of a workbook are to be read; raises click.UsageError for sheets of another form."""
+def _table_form(deck: GivenDeck, source: str | None) -> str:
+    """The form of the tables to be read, "" for a deck; raises click.UsageError for sheets of another form."""
     suffix = PurePath(deck.path).suffix.lower()
     if source is None and suffix in _OTHER_SHEETS:
         raise click.UsageError(f"{deck.path}: {suffix} cannot be read: save it as .xlsx in the spreadsheet program")
-    return source == WORKBOOK or (source is None and suffix in _WORKBOOKS)
+    return _TABLES.get(suffix, "") if source is None else source if source in _TABLES.values() else ""
 
 
-def _curves(deck: GivenDeck) -> Deck | None:
-    """The deck of a workbook's curves; None without the library, which is reported. Raises DeckError."""
-    if find_spec("openpyxl") is None:
+def _tables(deck: GivenDeck, form: str) -> Deck | None:
+    """The deck of tables; None without the library that they need, which is reported. Raises DeckError."""
+    if form == "xlsx" and find_spec("openpyxl") is None:
         notify_missing(".xlsx", "openpyxl", "excel")
         return None
-    from mudline.scene.workbook import read_curve_sheets  # noqa: PLC0415 - only workbooks need it
+    from mudline.scene.keyword_tables import read_tables  # noqa: PLC0415 - only tables need it
+    from mudline.scene.workbook import csv_sheet, workbook_sheets  # noqa: PLC0415 - as above
 
     data, name = deck.content()
-    found = read_curve_sheets(data, name, deck.units)
+    found = read_tables(workbook_sheets(data, name) if form == "xlsx" else [csv_sheet(data, name)], name, deck.units)
     for sheet in found.left_out:
-        notify(f"sheet {sheet} is left out: no columns ratio and force")
+        notify(f"sheet {sheet} is left out: no headings of a keyword in its first row")
     return found.deck
+
+
+def _require_values(deck: Deck) -> None:
+    """Raise DeckError with the errors of a deck some of whose values no document holds."""
+    blocks = (block for section in deck.sections for block in section.blocks)
+    if not any(isinstance(block, Block) and is_refused(block) for block in blocks):
+        return
+    from mudline.linting.engine import joined_problems  # noqa: PLC0415 - only a faulty deck is checked
+    from mudline.linting.registry import rules  # noqa: PLC0415 - as above
+    from mudline.linting.rule import LintContext  # noqa: PLC0415 - as above
+
+    found = joined_problems(LintContext(deck), rules(), suppress=False)
+    raise DeckError(deck.diagnose([one for one in found if one.weight is Severity.ERROR]))
 
 
 def _form_of_output(output: str | None) -> str:

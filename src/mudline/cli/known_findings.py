@@ -9,25 +9,28 @@ from typing import Any
 
 from mudline.cli.config_command import Configured
 from mudline.cli.inputs import Input, Inputs
-from mudline.diagnostics import Diagnostic, Edit, Fix, Severity
+from mudline.diagnostics import Coverage, Diagnostic, Edit, Fix, Severity
 from mudline.linting.configuration import Given
 from mudline.running.remembered import Memory, of_working_folder
 
 
 @dataclass
 class KnownFindings:
-    """The memory, and for each deck of a run whether it knows that nothing is found in it: 1 or 0 in `clean`."""
+    """The memory, and what it knows of the decks of a run in which nothing is found.
+
+    `clean` says how much of each of these was read, by its number in the run.
+    """
 
     memory: Memory
     configured: Configured
     inputs: Inputs
-    clean: bytearray
+    clean: dict[int, Coverage] = field(default_factory=dict)
     _settings: dict[Path | None, str] = field(default_factory=dict)
 
     @property
     def all_clean(self) -> bool:
         """Whether nothing is found in any deck of the run."""
-        return bool(self.clean) and all(self.clean)
+        return bool(self.clean) and len(self.clean) == len(self.inputs.files)
 
     def key(self, file: Input, data: bytes) -> str:
         """What the findings of a file are kept under; its name gives units and form, and is named in findings."""
@@ -37,17 +40,21 @@ class KnownFindings:
             self._settings[place] = repr((str(place), configuration.content))
         return self.memory.key(self._settings[place], file.name, data)
 
-    def get(self, key: str, file: Input) -> tuple[Diagnostic, ...] | None:
-        """The findings of a file; None where they are not known or a file that they depend on has changed."""
-        rows = self.memory.get(key)
+    def get(self, key: str, file: Input) -> tuple[tuple[Diagnostic, ...], Coverage] | None:
+        """The findings of a file, and how much of it was read.
+
+        None where they are not known or a file that they depend on has changed.
+        """
+        held = self.memory.get(key)
         try:
-            return None if rows is None else tuple(_finding(row, file.name) for row in rows)
+            return held and (tuple(_finding(row, file.name) for row in held[1:]), _coverage(*held[0]))
         except (TypeError, ValueError):
             return None
 
-    def put(self, key: str, found: Sequence[Diagnostic], looked_at: Sequence[str]) -> None:
-        """Keep the findings of a file, which depend on what is at some paths."""
-        self.memory.put(key, [_row(one) for one in found], looked_at)
+    def put(self, key: str, found: Sequence[Diagnostic], coverage: Coverage, looked_at: Sequence[str]) -> None:
+        """Keep the findings of a file, which depend on what is at some paths, and how much of it was read."""
+        covered = (coverage.total, coverage.read, coverage.partly, coverage.unread)
+        self.memory.put(key, [covered, *(_row(one) for one in found)], looked_at)
 
     def look(self) -> None:
         """Find the decks in which nothing is found."""
@@ -58,8 +65,9 @@ class KnownFindings:
                 data = file.read()
             except OSError:  # reported when the others are read
                 continue
-            if self.memory.get(self.key(file, data)) == []:
-                self.clean[number] = 1
+            known = self.get(self.key(file, data), file)
+            if known and not known[0]:
+                self.clean[number] = known[1]
 
 
 def known_findings(inputs: Inputs, given: Given, configured: Configured) -> KnownFindings | None:
@@ -67,7 +75,7 @@ def known_findings(inputs: Inputs, given: Given, configured: Configured) -> Know
     memory = of_working_folder("lint", repr(given))
     if memory is None:
         return None
-    found = KnownFindings(memory, configured, inputs, bytearray(len(inputs.files)))
+    found = KnownFindings(memory, configured, inputs)
     if memory:
         found.look()
     return found
@@ -79,6 +87,13 @@ def _row(one: Diagnostic) -> list[Any]:
     place = (one.line, one.column, one.end_line, one.end_column)
     following = [_row(each) for each in one.following]
     return [one.code, one.slug, one.severity.value, one.message, *place, fix, one.blocks, following]
+
+
+def _coverage(total: int, read: int, partly: object, unread: object) -> Coverage:
+    """How much of a file was read; raises TypeError for anything else."""
+    if not isinstance(partly, dict) or not isinstance(unread, dict):
+        raise TypeError
+    return Coverage(total, read, partly, unread)
 
 
 def _finding(row: Sequence[Any], file: str) -> Diagnostic:

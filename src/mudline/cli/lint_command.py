@@ -134,8 +134,9 @@ def command(
         report = Report(wanted, view, statistics=statistics, aside=aside, fixing=fix or diff)
         known = None if uncached or fix or diff else known_findings(inputs, given, configured)
         if known is not None and known.all_clean and not (baseline or recording):
-            for file in inputs.files:
+            for number, file in enumerate(inputs.files):
                 report.add(file.name, b"", [], 0, Severity.ERROR)
+                report.coverage.add(known.clean[number])
             report.finish()
             return inputs.code
         from mudline.cli import lint_run  # noqa: PLC0415 - decks that have not changed are not read

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import KW_ONLY, dataclass, field
 from pathlib import Path
@@ -11,8 +12,8 @@ import click
 from mudline import __version__
 from mudline.cli.streams import counted, emit, notify, write_text
 from mudline.cli.view import View
-from mudline.diagnostics import Diagnostic, Severity
-from mudline.linting.output import TEXT, form, form_names
+from mudline.diagnostics import Coverage, Diagnostic, Severity
+from mudline.linting.output import TEXT, form, form_names, visible
 from mudline.syntax.source import Source
 
 
@@ -65,6 +66,7 @@ class Report:
     names: list[str] = field(default_factory=list)
     fixed: int = 0
     failing: bool = False
+    coverage: Coverage = field(default_factory=Coverage)
 
     def add(self, name: str, data: bytes, found: list[Diagnostic], fixed: int, limit: Severity) -> None:
         """Add the findings that are left in one file, whose content is `data`, and the number of those fixed."""
@@ -123,6 +125,8 @@ class Report:
             click.echo(f"No findings in {counted(self.files, 'file')}.")
         if hint := fixable(found):
             click.echo(hint)
+        if self.coverage.total:
+            click.echo(visible(self.coverage.sentence(), sys.stdout.encoding or "ascii"))
 
     def _fixed_summary(self, found: list[Diagnostic]) -> str:
         total = counted(self.fixed + len(found), "finding")

@@ -141,6 +141,7 @@ def lint_files(
                     recorded.record(found, content, path)
                 found = recorded.unknown(found, content, path)
             report.add(file.name, content, found, len(result.fixed), own.fail_on)
+            report.coverage.add(result.coverage)
     if documents:
         notify(f"{counted(documents, 'deck')} in JSON or YAML not fixed: only keyword text is")
     report.finish()
@@ -204,7 +205,7 @@ def _lint_all(
         for one, made in reports:
             report = made or one.known or FileReport(one.file.name, ())
             if known is not None and one.key and one.known is None:
-                known.put(one.key, report.found, (*report.looked_at, *plugins))
+                known.put(one.key, report.found, report.coverage, (*report.looked_at, *plugins))
             yield one.file, one.data, report
     if known is not None:
         known.memory.save()
@@ -221,15 +222,15 @@ def _orders(
     here = os.getcwd()  # noqa: PTH109 - sent as text
     for number, file in enumerate(inputs.files):
         settings = settings_of(file)
-        if known is not None and known.clean[number]:
-            yield _Read(file, b"", known=FileReport(file.name, ())), None
+        if known is not None and number in known.clean:
+            yield _Read(file, b"", known=FileReport(file.name, (), coverage=known.clean[number])), None
             continue
         data = inputs.content(file)
         if data is None:
             continue
         key = "" if known is None or file.path is None else known.key(file, data)
         if known is not None and key and (found := known.get(key, file)) is not None:
-            yield _Read(file, data, key, FileReport(file.name, found)), None
+            yield _Read(file, data, key, FileReport(file.name, found[0], coverage=found[1])), None
             continue
         if id(settings) not in sendable:
             codes = tuple(rule.code.code for rule in settings.rules)

@@ -10,6 +10,7 @@ from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.streams import emit_json, notify
 from mudline.cli.view import View
+from mudline.diagnostics import Coverage
 from mudline.limits import SHOWN_ROWS
 from mudline.quantities import UnitNames, headed, shown, unit_names
 from mudline.results.summary import summarise
@@ -97,12 +98,17 @@ def _print_head(printer: Printer, summary: dict[str, Any], names: UnitNames) -> 
         _print_folded(printer, f"continues {printer.visible(name)}", "  ")
     for section in summary["sections"]:
         keywords = section["keywords"]
-        read = _listed(printer, [entry["keyword"] for entry in keywords if entry["read"]])
-        kept = _listed(printer, [entry["keyword"] for entry in keywords if not entry["read"]])
+        read, partly, kept = (
+            _listed(printer, [entry["keyword"] for entry in keywords if (entry["read"], entry["partly"]) == extent])
+            for extent in ((True, False), (True, True), (False, False))
+        )
         name = "$" + printer.visible(section["name"])
         _print_folded(printer, f"{name}: {read}" if read else name, "  ")
+        if partly:
+            _print_folded(printer, f"read in part: {partly}", "    ")
         if kept:
             _print_folded(printer, f"passed through unchanged: {kept}", "    ")
+    _print_folded(printer, printer.visible(Coverage(**summary["keywords"]).sentence()), "  ")
     printer.line()
 
 

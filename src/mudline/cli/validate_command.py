@@ -7,18 +7,21 @@ import os
 import sys
 from collections.abc import Generator, Iterable, Iterator
 from contextlib import closing
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, field, fields
 from functools import cache
 from textwrap import indent
 from typing import NamedTuple
+
+import click
 
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import Input, Inputs, collect_any_form
 from mudline.cli.streams import emit, reason
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.codes.contact import SBD006
+from mudline.deck.coverage import coverage_of
 from mudline.deck.loading import load_bytes
-from mudline.diagnostics import DeckError, Diagnostic, Problem, Severity
+from mudline.diagnostics import Coverage, DeckError, Diagnostic, Problem, Severity
 from mudline.linting.engine import joined_problems, unsuppressed
 from mudline.linting.output.json import as_object
 from mudline.linting.registry import rules, select
@@ -30,11 +33,20 @@ from mudline.short_repr import counted
 from mudline.syntax.source import Source
 
 _COUNTS = ("errors", "warnings", "sections", "keywords", "curves", "elements")
+_FAIL_ON = ("error", "warning", "unread")
 
 
 @options.command("validate")
 @options.paths
 @options.output_format("text", "json", "csv")
+@options.option(
+    "--fail-on",
+    group=options.OUTPUT,
+    type=click.Choice(_FAIL_ON),
+    default="error",
+    help="Exit with 1 for an illegal deck (default), for one with warnings too, or also for one that is not read as a "
+    "whole.",
+)
 @options.running
 @options.every_file
 @options.stdin_name
@@ -44,6 +56,7 @@ def command(
     *,
     paths: tuple[str, ...],
     output_format: str,
+    fail_on: str,
     jobs: int,
     scheduler: str | None,
     every_file: bool,
@@ -54,7 +67,8 @@ def command(
     """Validate decks: print the errors of each, then a table with a row per deck.
 
     A deck is legal when no rule of severity error finds anything, and when it has a section at all. Warnings are
-    counted in its verdict, those about a pipe without a seabed under it among them; -v prints them too.
+    counted in its verdict, those about a pipe without a seabed under it among them; -v prints them too. A deck of which
+    not all keywords could be read is legal as far as it was read, and the verdict says how far that is.
 
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that begin
     as decks do), URLs of either, or - for standard input. Of many decks -q shows the table without the errors.
@@ -67,12 +81,13 @@ def command(
         if output_format == "json":
             _print_json(judged, total)
         elif output_format == "csv":
-            emit(csv_lines([[field.name for field in fields(Verdict)]]))
+            emit(csv_lines([_columns()]))
             for one in judged:
-                emit(csv_lines([asdict(one.verdict).values()]))
+                emit(csv_lines([_cells(one.verdict)]))
         else:
             _print_text(judged, total, view)
-    return max(inputs.code, DONE if total.legal == total.decks else FOUND)
+    failing = {"error": False, "warning": total.warnings > 0, "unread": not total.keywords.whole}[fail_on]
+    return max(inputs.code, FOUND if failing or total.legal < total.decks else DONE)
 
 
 # -------------------------------------------------------------------------------------------------------- verdicts
@@ -80,11 +95,14 @@ def command(
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """Counts of a deck, and "legal", "legal, 3 warnings", "illegal" or, for a file without any section, "empty"."""
+    """Counts of a deck, and "legal", "legal, 3 warnings", "illegal" or, for a file without any section, "empty".
+
+    A deck that was not read as a whole is "legal as far as read: 31 of 38 keywords, 5 in part; not read: *GUIDE (2)".
+    """
 
     file: str
     sections: int
-    keywords: int
+    keywords: Coverage
     curves: int
     elements: int
     errors: int
@@ -93,8 +111,13 @@ class Verdict:
 
     @property
     def legal(self) -> bool:
-        """Whether the deck is legal, with warnings or without."""
+        """Whether the deck is legal, with warnings or without, as far as it was read."""
         return self.verdict.startswith("legal")
+
+    @property
+    def short(self) -> str:
+        """The verdict without what was read."""
+        return self.verdict.partition(":")[0]
 
 
 @dataclass(slots=True)
@@ -108,6 +131,7 @@ class Total:
     errors: int = 0
     warnings: int = 0
     unreadable: int = 0
+    keywords: Coverage = field(default_factory=Coverage)
 
     def add(self, verdict: Verdict) -> None:
         """Count one more deck."""
@@ -117,6 +141,7 @@ class Total:
         self.empty += verdict.verdict == "empty"
         self.errors += verdict.errors
         self.warnings += verdict.warnings
+        self.keywords.add(verdict.keywords)
 
     def __str__(self) -> str:
         """The total for a reader, without counts of zero."""
@@ -155,7 +180,8 @@ def judge_order(order: Order) -> tuple[Verdict, list[Diagnostic]]:
     try:
         deck = load_bytes(order.data, file.name, units=order.units, folder=file.folder)
     except DeckError as error:
-        return Verdict(file.name, 0, 0, 0, 0, len(error.diagnostics), 0, "illegal"), list(error.diagnostics)
+        none = Verdict(file.name, 0, Coverage(), 0, 0, len(error.diagnostics), 0, "illegal")
+        return none, list(error.diagnostics)
     context = LintContext(deck)
     problems = joined_problems(context, rules(), suppress=False)
     wrong = [one for one in problems if one.weight is Severity.ERROR]
@@ -163,13 +189,18 @@ def judge_order(order: Order) -> tuple[Verdict, list[Diagnostic]]:
         wrong = [one for one in context.scene.blocking() if one.weight is not Severity.INFO]
     errors = deck.diagnose(wrong)
     warnings = _warnings(context, problems, legal=not errors)
-    keywords = sum(len(section.blocks) for section in deck.sections)
+    keywords = coverage_of(deck)
     curves, elements = len(context.scene.laws.curves), len(context.scene.element_ids)
-    behind = f", {counted(len(warnings), 'warning')}" if warnings else ""
-    verdict = "illegal" if errors else f"legal{behind}" if deck.sections else "empty"
+    verdict = "illegal" if errors else _legal(len(warnings), keywords) if deck.sections else "empty"
     counts = (len(deck.sections), keywords, curves, elements, len(errors), len(warnings))
     found = sorted([*errors, *warnings], key=lambda one: one.sort_key) if order.verbose else errors
     return Verdict(deck.file, *counts, verdict), found
+
+
+def _legal(warnings: int, keywords: Coverage) -> str:
+    """The verdict on a deck without errors."""
+    behind = f", {counted(warnings, 'warning')}" if warnings else ""
+    return f"legal{behind}" if keywords.whole else f"legal as far as read{behind}: {keywords}"
 
 
 def _warnings(context: LintContext, problems: list[Problem], *, legal: bool) -> list[Diagnostic]:
@@ -235,7 +266,7 @@ def _print_json(judged: Iterable[Judged], total: Total) -> None:
         emit([mark, "\n", indent(json.dumps(row, indent=1, ensure_ascii=False), "  ")])
         mark = ","
     end = "\n ]" if mark == "," else f"{mark}]"
-    emit([end, ',\n "total": ', indent(json.dumps(asdict(total), indent=1), " ").lstrip(), "\n}\n"])
+    emit([end, ',\n "total": ', indent(json.dumps(asdict(total), indent=1, ensure_ascii=False), " ").lstrip(), "\n}\n"])
 
 
 def _print_text(judged: Iterable[Judged], total: Total, view: View) -> None:
@@ -248,11 +279,35 @@ def _print_text(judged: Iterable[Judged], total: Total, view: View) -> None:
     if verdicts:
         printer = view.printer()
         rows = [
-            [(each.verdict, _style(good=each.legal)), *(getattr(each, name) for name in _COUNTS), each.file]
+            [(each.short, _style(good=each.legal)), *(_shown(getattr(each, name)) for name in _COUNTS), each.file]
             for each in verdicts
         ]
         printer.table("Decks", ("verdict", *_COUNTS, "file"), rows, left=("verdict", "file"))
         printer.line((str(total), _style(good=total.legal == total.decks and not total.unreadable)))
+        if not total.keywords.whole:
+            printer.line(printer.visible(total.keywords.sentence()))
+
+
+def _shown(count: int | Coverage) -> int | str:
+    """A count; of the keywords how many were read."""
+    if isinstance(count, int):
+        return count
+    return count.total if count.whole else f"{count.read} of {count.total}"
+
+
+def _columns() -> list[str]:
+    """The headings of a table without nesting."""
+    names = [one.name for one in fields(Verdict)]
+    at = names.index("keywords") + 1
+    return [*names[:at], "read", "partly", "unread", *names[at:]]
+
+
+def _cells(verdict: Verdict) -> list[object]:
+    """The values under `_columns`; of the keywords they are numbers."""
+    words = verdict.keywords
+    counts = (words.total, words.read, sum(words.partly.values()), sum(words.unread.values()))
+    values = ((one.name, getattr(verdict, one.name)) for one in fields(Verdict))
+    return [cell for name, value in values for cell in (counts if name == "keywords" else (value,))]
 
 
 def _style(*, good: bool) -> str:

@@ -15,10 +15,12 @@ from mudline.deck.model import START, Deck, Opaque, Origin, Range, Section
 from mudline.deck.reading import Findings
 from mudline.diagnostics import Problem, Severity, Where
 from mudline.keywords import catalogue
+from mudline.keywords.keeping import is_read
 from mudline.keywords.model import Block, Comment
 from mudline.keywords.reader import read_block
 from mudline.keywords.table import AS_TABLES
 from mudline.keywords.values import Text
+from mudline.keywords.writer import block_lines
 from mudline.quantities import UNIT_SYSTEMS
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, Leaf, canonical_name, mark_of, parse
@@ -195,30 +197,36 @@ class _Reader:
         for number, block in enumerate(blocks):
             read = self._block(section.name, block, (*path, "blocks", number))
             if isinstance(read, Opaque):
-                read = self._with_model(read, section, Where(index, number))
+                read = self._with_model(read, section, Where(index, number, ("lines",)))
+            elif read is not None and not is_read(read):
+                lines = [*block_lines(read)][1:]
+                read = self._with_model(Opaque(keyword=read.keyword, lines=lines), section, Where(index, number))
             if read is not None:
                 section.blocks.append(read)
         return section
 
     def _with_model(self, block: Opaque, section: Section, where: Where) -> Block | Opaque:
-        """The model that raw lines describe, as keyword text is read, if their keyword has one."""
+        """The model that raw lines describe, as keyword text is read, if their keyword has one.
+
+        `where` is the block, or the lines in it if the document has it as these.
+        """
         declared = catalogue.block_class(section.name, block.keyword)
         if declared is None:
-            self.findings.no_model(block.keyword, section.name, where)
+            self.findings.no_model(block.keyword, section.name, where._replace(path=()))
             return block
         source = Source("", "\n".join(["$S", f"*{block.keyword}", *block.lines, ""]))
         raw = parse(source).sections[0].blocks[0]
         read = read_block(source.text, raw, declared, last=False)
-        if read.unpublished:
-            self.findings.no_model(block.keyword, section.name, where)
-        for problem in read.misspelt if read.unpublished else read.problems:
+        if read.opaque:
+            self.findings.no_model(block.keyword, section.name, where._replace(path=()))
+        for problem in read.problems:
             line = source.position(problem.span.start)[0] if problem.span else 0
-            inside = where._replace(path=("lines", max(line - 3, 0)))
+            inside = where.inside(max(line - 3, 0)) if where.path else where
             if problem.weight is Severity.ERROR:
                 self.faults.add(document_path(inside), problem.message)
             else:
                 self.deck.problems.append(replace(problem, span=None, where=inside, repair=None))
-        if read.unpublished:
+        if read.opaque:
             return block
         section.comments[:0] = [Comment(before=where.block + 1, text=text) for text in read.trailing]
         return read.model

@@ -255,12 +255,11 @@ class _Reader:
         if empty and set(declared.model_fields) - _OF_EVERY_BLOCK:
             message = f"the file ends after *{raw.name}: it seems to be cut off, add what is missing"
             self.problems.append(Problem(SYN014, message, head, Severity.WARNING))
-        if read.unpublished:
-            self.problems += read.misspelt
+        self.problems += read.problems
+        if read.opaque:
             self._opaque(section, Where(index, number), raw)
             return
         self.origin.read[index, number] = read
-        self.problems += read.problems
         section.blocks.append(read.model)
         if read.trailing:
             ends = raw is tree.sections[index].blocks[-1]

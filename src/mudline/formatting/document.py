@@ -13,6 +13,7 @@ from mudline.deck.model import Deck, Section
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Span
 from mudline.formatting.rows import RowKind, Rows, Run, Single, cut
+from mudline.keywords.keeping import KeptLine
 from mudline.keywords.model import Comment, FieldSpec, Part, Record, Row, record_schema
 from mudline.keywords.places import Path, Places
 from mudline.keywords.reader import ReadBlock, all_keys
@@ -88,7 +89,7 @@ def _preamble(deck: Deck) -> list[str]:
 def _same(one: object, other: object) -> bool:
     if type(one) is not type(other):
         return False
-    if isinstance(one, Comment) and isinstance(other, Comment):
+    if isinstance(one, Comment | KeptLine) and isinstance(other, Comment | KeptLine):
         return one.before == other.before and one.text.rstrip(" \t") == other.text.rstrip(" \t")
     if isinstance(one, Section) and isinstance(other, Section):
         same = one.name == other.name and one.lines == other.lines
@@ -299,6 +300,7 @@ class _Block:
         self.keys = all_keys(self.declared)
         self.reading = Reading(read.places.text)
         _record(read.model, (), read.places, self.reading)
+        self.kept = read.places.kept
         self.rows: Rows | None = None
 
     def lines(self, leaf: Leaf) -> Iterator[Laid]:
@@ -306,6 +308,8 @@ class _Block:
         if leaf.kind in (Kind.RUN, Kind.TEXT):
             for span in self._row_spans(leaf.span):
                 yield from self._row(span)
+        elif leaf.span.start in self.kept:
+            yield from self.flush()
         elif leaf.kind is Kind.SETTING or (
             leaf.kind is Kind.UNDECIDED and first_key(self.text, leaf.span) in self.keys
         ):

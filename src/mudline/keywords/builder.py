@@ -24,7 +24,7 @@ from mudline.keywords.text import (
     mixed_commas,
     read_value,
 )
-from mudline.keywords.values import Names
+from mudline.keywords.values import Kind, Names
 from mudline.spelling import nearest
 from mudline.syntax.fields import Field, Group, read_line, split, trimmed
 from mudline.syntax.rows import blank_separated
@@ -127,7 +127,7 @@ class Builder:
         inner = (*path, slot.json, len(before))
         last = before[-1].sticky if before else None
         child = self.build(slot.record[node.rule], node, inner, last)
-        child.sticky = child.values.get(child.part.sticky) or last
+        child.sticky = child.part.carries(child.values, last)
         if child.last is None:
             self.damaged = True
             return
@@ -151,8 +151,13 @@ class Builder:
     def _groups(self, built: ParsedRecord, groups: list[Group], path: Path) -> None:
         """Settings that stand on one line."""
         found = record_schema(built.part)
+        first = found.keys.get(groups[0].key) if groups else None
+        if first and first.json not in built.values and self._of_other_form(built, first, groups, path):
+            return
         for group in groups:
             slot = found.keys.get(group.key)
+            if slot and slot.json in built.values:  # a key that may stand twice has a field for each
+                slot = next((s for s in found.slots if s.key == group.key and s.json not in built.values), slot)
             if slot is None:
                 expected = ", ".join(f"{key}=" for key in found.keys)
                 near = nearest(group.key, found.keys)
@@ -163,6 +168,21 @@ class Builder:
                 self.damage(path, Problem(SYN001, f"{group.key}= is given twice", group.span))
             else:
                 self._setting(built, slot, group, (*path, slot.json))
+
+    def _of_other_form(self, built: ParsedRecord, slot: FieldSpec, groups: list[Group], path: Path) -> bool:
+        """Read a line that says that it has a form which is not known: all behind its key is one value."""
+        open_ = slot.kind is Kind.OTHER and slot.about.opaque is not None
+        if not open_ or not groups[0].fields[0].text or (len(groups) == 1 and len(groups[0].fields) == 1):
+            return False
+        value = read_value(groups[0].fields[0], slot, [])
+        if value in slot.choices and value not in (slot.about.opaque or ()):
+            return False
+        read_value(groups[0].fields[0], slot, self.problems)
+        start = self.text.index("=", groups[0].span.start) + 1
+        whole = trimmed(self.text, start, groups[-1].span.end)
+        self.places.spans[*path, slot.json] = whole
+        built.values[slot.json] = self.text[slice(*whole)]
+        return True
 
     def _setting(self, built: ParsedRecord, slot: FieldSpec, group: Group, path: Path) -> None:
         self.places.spans[path] = group.span

@@ -1,4 +1,8 @@
-"""Every section and keyword that is known, which module declares it, and which of them an unknown name meant."""
+"""Every section and keyword that is known, which module declares it, and which of them an unknown name meant.
+
+A keyword is declared for some sections; in others another module may declare what it means there. Which module that is
+says the index, which is made of the declarations: one that a deck does not use is not imported.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +12,11 @@ from importlib import import_module
 from itertools import takewhile
 from typing import cast
 
+from mudline.keywords import index
 from mudline.keywords.model import Block
-from mudline.keywords.values import Facts, OpaqueKeyword
+from mudline.keywords.names_only import NAMES, ZERO_LENGTH
+from mudline.keywords.values import Entry, Facts, OpaqueKeyword
 from mudline.spelling import Effort, nearest
-
-_LIBRARY = "mudline.keywords.library"
 
 SECTIONS = (
     "PREPROCESSOR",
@@ -24,12 +28,15 @@ SECTIONS = (
     "TIMETRACE POSTPROCESSING",
     "SUMMARY POSTPROCESSING",
     "SUMMARY COLLATE",
+    "SUMMARY WAVE SCATTER",
     "SPECTRAL POSTPROCESSING",
     "CODE CHECKING",
     "HISTOGRAM",
     "LIFETIME",
+    "LIFETIME FATIGUE",
     "LIFEFREQUENCY",
     "CLEAR",
+    "SHEAR7",
     "ANALYSIS",
     "POSTPROCESSING",
 )
@@ -37,153 +44,43 @@ SECTIONS = (
 CERTAIN_SECTIONS = ("PREPROCESSOR", "MODEL", "LOAD CASE")
 """Sections of which it is certain which keywords belong there."""
 
-_MODULES = {
-    "UNITS": "units",
-    "PARAMETERS": "parameters",
-    "VARIATION": "variation",
-    "COMBINATIONS": "combinations",
-    "OCEAN": "ocean",
-    "NODE": "node",
-    "ELEMENT": "element",
-    "ELEMENT SETS": "element_sets",
-    "LINE PATH SECTIONS": "line_path_sections",
-    "LINE SECTION GROUPS": "line_section_groups",
-    "GEOMETRIC SETS": "geometric_sets",
-    "SEABED PROPERTIES": "seabed_properties",
-    "SEABED STIFFNESS": "seabed_stiffness",
-    "SEABED PROFILE": "seabed_profile",
-    "SEABED PLANES": "seabed_planes",
-    "SEABED CONTACT": "seabed_contact",
-    "SEABED SUCTION": "seabed_suction",
-    "SEABED UNLOADING": "seabed_unloading",
-    "SEABED FRICTION": "seabed_friction",
-    "SEABED TRENCH": "seabed_trench",
-    "ELASTIC SURFACE": "elastic_surface",
-    "RIGID SURFACE": "rigid_surface",
-    "EMBEDMENT": "embedment",
-    "P-Y": "p_y",
-    "T-Z": "t_z",
-    "RESTART": "restart",
-    "TIME": "time",
-    "BOUNDARY": "boundary",
-    "FRICTION": "friction",
-}
-"""The module of each keyword whose lines are read; what it says of the keyword is written nowhere else."""
+_LIBRARY = "mudline.keywords.library"
 
-_KEPT = {
-    "LINES": "lines",
-    "LINE PATHS": "line_paths",
-    "LINE LOCATIONS": "line_locations",
-    "CABLE": "cable",
-    "NODE,CURVILINEAR": "node_curvilinear",
-    "NO FRICTION": "no_friction",
-}
-"""Keywords whose lines are kept, and of which a module says what they are for."""
 
-_POST = ("DATABASE POSTPROCESSING", "POSTPROCESSING")
-_ANY: tuple[str, ...] = ()
+@cache
+def _by_keyword() -> dict[str, list[Entry]]:
+    """The entries of the index by keyword: one of a keyword for each of its declarations."""
+    found: dict[str, list[Entry]] = {}
+    for entry in index.ENTRIES:
+        found.setdefault(entry.keyword, []).append(entry)
+    return found
 
-_OPAQUE: dict[str, tuple[str, ...]] = {
-    "EXCEL VARIATIONS": ("PREPROCESSOR",),
-    **dict.fromkeys(
-        (
-            "HYDRODYNAMIC SETS",
-            "PROPERTIES",
-            "PIP SECTION",
-            "PIP CONNECTION",
-            "VESSEL",
-            "VESSEL,INTEGRATED",
-            "TENSIONER",
-        ),
-        ("MODEL",),
-    ),
-    **dict.fromkeys(
-        (
-            "TIME,DISCONNECT",
-            "LOAD",
-            "CURRENT",
-            "WAVE",
-            "WAVE-REGULAR",
-            "WAVE-STOKES",
-            "OFFSET",
-            "NON LINEAR STATIC",
-            "DIRECTORY",
-            "TOP TENSION",
-            "DRILLING MUD",
-            "DRIFT-OFF LIMITS",
-        ),
-        ("LOAD CASE",),
-    ),
-    "ANALYSIS TYPE": ("LOAD CASE", "ANALYSIS"),
-    "ELEMENT SET": _POST,
-    "STANDARD OUTPUT": _POST,
-    "TIMETRACE": _POST,
-    "SNAPSHOT": _POST,
-    "STATISTICS": _POST,
-    "SPECTRUM": _POST,
-    "OUTPUT FILES": _POST,
-    "DATABASE": _POST,
-    "IDENTIFY": ("SUMMARY COLLATE",),
-    "COLLATE": ("SUMMARY COLLATE",),
-    "PLOT": ("SUMMARY COLLATE",),
-    **dict.fromkeys(
-        (
-            "RAO",
-            "GUIDE",
-            "COATINGS",
-            "COLLATE PLOT AXES",
-            "MASS",
-            "INTERNAL FLUID",
-            "WIND",
-            "DAMPING",
-            "AUXILIARY",
-            "POINT BUOY",
-            "DAMPER",
-            "SPRING ELEMENT",
-            "NODE SPRING",
-            "FLEX JOINTS",
-            "HINGE",
-            "FORCE-STRAIN",
-            "MOMENT-CURVATURE",
-            "TORQUE-TWIST",
-            "DRAG CHAIN",
-            "DRAG LIFT",
-            "WINCH",
-            "TAPER",
-            "POISSON",
-            "MOONPOOL",
-            "FLOATING BODY",
-            "PIP STIFFNESS",
-            "EQUIVALENT",
-            "PLASTIC HARDENING",
-            "WAVE-JONSWAP",
-            "WAVE-PIERSON MOSKOWITZ",
-            "WAVE-DEAN",
-            "WAVE-USER DEFINED",
-            "DRIFT",
-            "TEMPERATURE",
-            "TOLERANCE",
-            "TITLE",
-        ),
-        _ANY,
-    ),
-}
-"""Keywords that are recognised and passed through unchanged; no sections: known to exist, section not confirmed."""
 
-ZERO_LENGTH = ("FLEX JOINTS", "HINGE", "SPRING ELEMENT", "DAMPER")
-"""Keywords whose elements may have no length."""
+def entries(keyword: str) -> list[Entry]:
+    """What the index says of a keyword, an entry for each of its declarations."""
+    return _by_keyword().get(keyword, [])
+
+
+def _read(keyword: str) -> list[Entry]:
+    return [entry for entry in entries(keyword) if not entry.kept]
 
 
 def block_class(section: str, keyword: str) -> type[Block] | None:
     """The declaration of a keyword in a section, or None when it is passed through."""
-    found = declared(keyword)
-    return found if found is not None and section in found.sections else None
+    return next((load(entry.module) for entry in _read(keyword) if section in entry.sections), None)
 
 
-def declared(keyword: str) -> type[Block] | None:
-    """The declaration of a keyword, whatever section it stands in, or None when its lines are not read."""
-    module = _MODULES.get(keyword)
-    return load(module) if module else None
+def declared(keyword: str, section: str = "") -> type[Block] | None:
+    """The declaration of a keyword, or None when its lines are not read.
+
+    That for a section goes before others, as the keyword may stand in a wrong one.
+    """
+    return block_class(section, keyword) or next((load(entry.module) for entry in _read(keyword)), None)
+
+
+def declarations(keyword: str) -> list[type[Block]]:
+    """The declarations of a keyword: it may mean other things in other sections."""
+    return [load(entry.module) for entry in _read(keyword)]
 
 
 @cache
@@ -194,56 +91,64 @@ def load(module: str) -> type[Block]:
 
 def opaque_keyword(section: str, keyword: str) -> OpaqueKeyword | None:
     """What is known of a keyword that is passed through, or None when that is its name at most."""
-    module = _KEPT.get(keyword)
-    found = _load_opaque(module) if module else None
-    return found if found is not None and section in found.sections else None
+    kept = (entry for entry in entries(keyword) if entry.kept and section in entry.sections)
+    return next((load_opaque(entry.module) for entry in kept), None)
 
 
 @cache
-def _load_opaque(module: str) -> OpaqueKeyword:
+def load_opaque(module: str) -> OpaqueKeyword:
+    """What a module of the library says as OPAQUE of a keyword whose lines are kept."""
     return cast("OpaqueKeyword", import_module(f"{_LIBRARY}.{module}").OPAQUE)
 
 
 def kept_keywords(section: str) -> list[str]:
     """The keywords of a section that `opaque_keyword` knows, in the order of the catalogue."""
-    return [keyword for keyword in _KEPT if opaque_keyword(section, keyword)]
+    return [entry.keyword for entry in index.ENTRIES if entry.kept and section in entry.sections]
 
 
 def opaque_keywords() -> list[OpaqueKeyword]:
     """Every keyword that `opaque_keyword` knows, in the order of the catalogue."""
-    return [_load_opaque(module) for module in _KEPT.values()]
+    return [load_opaque(entry.module) for entry in index.ENTRIES if entry.kept]
 
 
 def modules() -> list[str]:
-    """Names of all library modules, in the order of the catalogue."""
-    return list(_MODULES.values())
+    """Names of the library modules that declare keywords whose lines are read, in the order of the catalogue."""
+    return [entry.module for entry in index.ENTRIES if not entry.kept]
 
 
 def in_order(keywords: Iterable[str]) -> list[str]:
     """Those of the keywords of which more is known than the name, in the order of the catalogue."""
     given = set(keywords)
-    return [keyword for keyword in (*_MODULES, *_KEPT) if keyword in given]
+    return [keyword for keyword in _by_keyword() if keyword in given]
 
 
+@cache
 def sections_of(keyword: str) -> tuple[str, ...] | None:
     """The sections where a keyword belongs; () when not confirmed, None for an unknown keyword."""
-    if (found := declared(keyword)) is not None:
-        return found.sections + found.facts.passes_in
-    if keyword in _KEPT:
-        held = _load_opaque(_KEPT[keyword])
-        return _ANY if held.sections_inferred else held.sections
-    return _OPAQUE.get(keyword)
+    found = entries(keyword)
+    if not found and keyword not in NAMES:
+        return None
+    if any(entry.sections_inferred for entry in found):
+        return ()
+    sections = [section for entry in found for section in entry.sections]
+    return tuple(dict.fromkeys([*sections, *NAMES.get(keyword, ())]))
 
 
-def facts_of(keyword: str) -> Facts:
+def facts_of(keyword: str, section: str = "") -> Facts:
     """What the class of a keyword says of it besides its fields; nothing of a keyword whose lines are not read."""
-    found = declared(keyword)
+    found = declared(keyword, section)
     return found.facts if found else Block.facts
 
 
 def has_certain_section(keyword: str) -> bool:
     """Whether it is certain where a keyword belongs; of postprocessing that is inferred."""
-    return keyword in _MODULES or (sections_of(keyword) or _POST)[0] in CERTAIN_SECTIONS
+    certain = (sections_of(keyword) or ("",))[0] in CERTAIN_SECTIONS
+    return certain or bool(_read(keyword)) or sections_of(keyword) == ()
+
+
+def may_have_no_length(keyword: str) -> bool:
+    """Whether the elements of a keyword may have no length."""
+    return keyword in ZERO_LENGTH or any(entry.zero_length for entry in entries(keyword))
 
 
 def is_extension(keyword: str) -> bool:
@@ -274,13 +179,13 @@ def begins_keyword(text: str) -> bool:
 @cache
 def keywords() -> tuple[str, ...]:
     """Every known keyword."""
-    return tuple(sorted({*_MODULES, *_KEPT, *_OPAQUE}))
+    return tuple(sorted({*_by_keyword(), *NAMES}))
 
 
 @cache
 def read_keywords() -> tuple[str, ...]:
     """Every keyword of which more is known than its name."""
-    return tuple(sorted({*_MODULES, *_KEPT}))
+    return tuple(sorted(_by_keyword()))
 
 
 _SAME_BEGINNING = 0.8

@@ -26,10 +26,17 @@ POINTS = "points of the curve in any order; at least two"
 class CurvePoint(Row):
     """A point of a force-embedment curve."""
 
-    ratio: Annotated[Real, about("embedment ratio: mean depth of the element's nodes over external diameter", unit="-")]
+    ratio: Annotated[
+        Real,
+        about(
+            "embedment ratio: mean depth of the element's nodes over external diameter",
+            unit="-",
+            heading="Embedment Ratio",
+        ),
+    ]
     force: Annotated[
         Real,
-        about("seabed force at that ratio", unit="F/L", inferred=_PER_LENGTH),
+        about("seabed force at that ratio", unit="F/L", inferred=_PER_LENGTH, heading="Seabed Force"),
     ]
 
 

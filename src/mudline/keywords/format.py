@@ -24,6 +24,7 @@ TAKES = {
     Kind.IDENT: "number or {label}",
     Kind.REAL_OR_NAME: "number or name",
     Kind.NAME: "name",
+    Kind.OTHER: "...",
 }
 
 
@@ -72,9 +73,10 @@ def _optional(slot: FieldSpec, text: str) -> str:
 
 
 def _setting(slot: FieldSpec) -> str:
+    kind = [TAKES[slot.kind]] if slot.kind else []
     taken = [
-        *([TAKES[slot.kind]] if slot.kind else []),
-        *slot.choices,
+        *(slot.choices if slot.kind is Kind.OTHER else kind),
+        *(kind if slot.kind is Kind.OTHER else slot.choices),
         *([record_schema(slot.row).wanted] if slot.row else []),
     ]
     value = "|".join(taken)

@@ -127,6 +127,35 @@ def records_of(rule: str) -> Records | None:
     return Records(listed[1], opened[1]) if always and once else None
 
 
+@cache
+def first_terminals(rule: str) -> frozenset[str]:
+    """Return the terminals with which the lines of a rule may begin."""
+    words = _WORD.findall(_rules()[rule].partition(":")[2])
+    return frozenset(_firsts(words[::-1])[0])
+
+
+def _firsts(words: list[str]) -> tuple[set[str], bool]:
+    """The terminals at the beginning of what stands before a closing bracket, and whether it may be left out."""
+    found: set[str] = set()
+    empty = False
+    open_ = True
+    while words and words[-1] != ")":
+        word = words.pop()
+        if word == "|":
+            empty, open_ = empty or open_, True
+            continue
+        first, optional = _firsts(words) if word == "(" else ({word}, False)
+        if word == "(":
+            words.pop()
+        elif not word.isupper():
+            first = set(first_terminals(word))
+        if words and words[-1] in {"*", "+", "?"}:
+            optional = words.pop() != "+" or optional
+        found |= first if open_ else set()
+        open_ = open_ and optional
+    return found, empty or open_
+
+
 # ----------------------------------------------------------------------------------------------- lines that fit a rule
 
 _Take = Callable[[Sequence[str], int, list[Tree | Line]], int]

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from types import NoneType, UnionType
-from typing import Annotated, Any, ClassVar, Literal, Union, get_args, get_origin
+from typing import Annotated, Any, ClassVar, Literal, Union, cast, get_args, get_origin
 
 from pydantic import (
     BaseModel,
@@ -15,13 +15,13 @@ from pydantic import (
     GetCoreSchemaHandler,
     GetJsonSchemaHandler,
     SerializationInfo,
+    ValidationInfo,
     model_serializer,
     model_validator,
 )
 from pydantic import fields as pydantic_fields
 from pydantic_core import CoreSchema, core_schema
 
-from mudline.diagnostics import Code
 from mudline.keywords.table import (
     AS_TABLES,
     LARGEST_WHOLE,
@@ -31,11 +31,12 @@ from mudline.keywords.table import (
     Table,
     checked_by_parts,
     fewest_fields,
+    misfit,
     read_table,
 )
-from mudline.keywords.values import Count, Equation, Facts, Kind, Label, Names, Text
+from mudline.keywords.values import Count, Equation, Facts, Kind, Label, Names, Subject, Text
 from mudline.limits import MOST_KEYS
-from mudline.short_repr import with_fields
+from mudline.short_repr import counted, with_fields
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +44,9 @@ class FieldInfo:
     """What a field means. Units in F (force), L, M, T, deg; "-" is dimensionless. `inferred` names our deduction.
 
     `names` says what the field is the name or number of, `defines` of what it gives a new thing its own. `also`
-    is another name by which `mudline set` finds it.
+    is another name by which `mudline set` finds it, `heading` that of its column in a table of the manual. Behind a
+    setting with one of the values `opaque`, or with a value that is not known, lines stand whose form is not public:
+    they are kept in a record that can keep lines. None: what stands behind it has one form.
     """
 
     meaning: str
@@ -56,6 +59,51 @@ class FieldInfo:
     names: Names | None = None
     also: str = ""
     defines: Names | None = None
+    heading: str = ""
+    opaque: tuple[str, ...] | None = None
+
+    def fault(self, value: float) -> str:
+        """What is wrong with a number, or nothing; NaN stands for one that could not be read."""
+        if self.at_least is not None and value < self.at_least:
+            return f"it must not be less than {self.at_least:g}"
+        if self.above is not None and value <= self.above:
+            return f"it must be greater than {self.above:g}"
+        if self.at_most is not None and value > self.at_most:
+            return f"it must not be more than {self.at_most:g}"
+        return ""
+
+    @property
+    def limits(self) -> dict[str, float]:
+        """The range as JSON Schema says it."""
+        given = {"minimum": self.at_least, "exclusiveMinimum": self.above, "maximum": self.at_most}
+        return {key: limit for key, limit in given.items() if limit is not None}
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        schema = handler(source)
+        return core_schema.with_info_after_validator_function(self._in_range, schema) if self.limits else schema
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return _with_limits(handler(schema), self.limits)
+
+    def _in_range(self, value: object, info: ValidationInfo) -> object:
+        """Refuse a number out of range; the text of a deck is read as it is, and its values are reported by checks."""
+        numeric = isinstance(value, int | float) and info.context != AS_TEXT
+        if numeric and (fault := self.fault(cast("float", value))):
+            raise ValueError(f"{value!r} is out of range: {fault}")
+        return value
+
+
+AS_TEXT = "text of a deck"
+"""The context in which the values of a text are validated."""
+
+
+def _with_limits(schema: dict[str, Any], limits: dict[str, float]) -> dict[str, Any]:
+    """A JSON Schema in which the numbers have limits."""
+    if schema.get("type") in ("number", "integer"):
+        return schema | limits
+    if limits and "anyOf" in schema:
+        return schema | {"anyOf": [_with_limits(one, limits) for one in schema["anyOf"]]}
+    return schema
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,6 +118,10 @@ class Setting(FieldInfo):
     behind: str = ""
 
 
+FEWEST_POINTS = 2
+"""Points of a curve."""
+
+
 @dataclass(frozen=True, slots=True)
 class Rows(FieldInfo):
     """A field that is a table; `row` declares its columns. The order of `unordered` rows has no meaning."""
@@ -82,10 +134,23 @@ class Rows(FieldInfo):
         return table_columns(self.row) if self.row else []
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_plain_validator_function(
-            lambda given: read_table(given, self.columns()),
+        return core_schema.with_info_plain_validator_function(
+            self._read,
             serialization=core_schema.plain_serializer_function_ser_schema(self._written, info_arg=True),
         )
+
+    def _read(self, given: object, info: ValidationInfo) -> Table:
+        """A table; refuses a value out of the range of its column, and a curve of fewer than two points."""
+        table = read_table(given, self.columns())
+        if info.context == AS_TEXT:
+            return table
+        if self.unordered and len(table) < FEWEST_POINTS:
+            raise ValueError(f"{counted(len(table), 'point')}: a curve needs at least {FEWEST_POINTS}")
+        for index, spec in enumerate(record_schema(self.row).columns if self.row else ()):
+            for number, value in enumerate(table.column(index).tolist() if spec.about.limits else ()):
+                if fault := spec.about.fault(value):
+                    raise misfit(f"{value!r} is out of range: {fault}", number, index)
+        return table
 
     def _written(self, table: Table | None, info: SerializationInfo) -> Listing | list[list[Cell]] | None:
         if table is None:  # of a block that could not be read
@@ -98,14 +163,17 @@ class Rows(FieldInfo):
         fewest = fewest_fields(column.required for column in columns)
         listed = {
             "type": "array",
-            "prefixItems": [_cell_schema(column) for column in columns],
+            "prefixItems": [
+                _with_limits(_cell_schema(column), spec.about.limits)
+                for column, spec in zip(columns, record_schema(self.row).columns if self.row else (), strict=True)
+            ],
             "items": False,
             "minItems": fewest,
         }
         return {
             "description": self.meaning,
             "anyOf": [
-                {"type": "array", "items": listed},
+                {"type": "array", "items": listed, **({"minItems": FEWEST_POINTS} if self.unordered else {})},
                 {"type": "string", "description": "the same rows as text, one a line, fields separated by commas"},
             ],
         }
@@ -128,9 +196,9 @@ def setting(key: str, meaning: str, **details: Any) -> Setting:
     return Setting(meaning, key=key, **details)
 
 
-def rows(row: type[Row], meaning: str, *, unordered: bool = False) -> Rows:
+def rows(row: type[Row], meaning: str, *, unordered: bool = False, inferred: str = "") -> Rows:
     """A table field."""
-    return Rows(meaning, row=row, unordered=unordered)
+    return Rows(meaning, row=row, unordered=unordered, inferred=inferred)
 
 
 class Comment(BaseModel):
@@ -214,6 +282,11 @@ class Record(Part):
     comments: list[Comment] = Field(default_factory=_no_comments)
 
     @classmethod
+    def carries(cls, given: dict[str, object], last: object) -> object:
+        """What `row_slot` is told as `last` in the next record, of what was read of this one."""
+        return given.get(cls.sticky) or last
+
+    @classmethod
     def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
         """Which field the row `number` of this record fills; `fields` is how many values stand on it.
 
@@ -226,24 +299,22 @@ class Record(Part):
 class Block(Record):
     """A keyword with its data. The class variables are its declaration.
 
-    `sections` are those where it belongs; `facts` is what else is known of it; `tabular` keeps runs of numeric lines
-    whole, as arrays; `slashes` says that /.../ is one field; `example` is a block that reads without a finding.
-    `unpublished` are the codes of faults that may be a form which is not public: a block in which one is found is kept
-    as it is, without a finding. Where it depends on more than the code, `other_form` says so.
+    `sections` are those where it belongs; `subject` is what it is about; `page` is the page of the manual with its
+    format; `facts` is what else is known of it; `tabular` keeps runs of numeric lines whole, as arrays; `slashes` says
+    that /.../ is one field; `example` is a block that reads without a finding. With `open_lines` a line of a form that
+    the declaration does not know is kept as it is.
     """
 
     sections: ClassVar[tuple[str, ...]] = ("MODEL",)
+    subject: ClassVar[Subject] = "model"
+    page: ClassVar[str] = ""
     facts: ClassVar[Facts] = Facts()
     summary: ClassVar[str]
     tabular: ClassVar[bool] = False
     slashes: ClassVar[bool] = False
-    unpublished: ClassVar[tuple[Code, ...]] = ()
+    open_lines: ClassVar[bool] = False
     example: ClassVar[str]
     keyword: str
-
-    def other_form(self, faults: Collection[Code]) -> bool:
-        """Whether the lines, of which this could be read, may have an unpublished form; `faults` were reported."""
-        return not set(self.unpublished).isdisjoint(faults)
 
 
 @dataclass(slots=True)
@@ -336,7 +407,7 @@ def record_schema(part: type[Part]) -> RecordSchema:
         if isinstance(meta, Rows):
             found.table = slot
         elif isinstance(meta, Setting):
-            found.keys[meta.key] = slot
+            found.keys.setdefault(meta.key, slot)
         elif records:
             found.children |= dict.fromkeys(slot.record, slot)
         else:

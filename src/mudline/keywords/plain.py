@@ -16,7 +16,7 @@ from typing import Any, cast
 from mudline.diagnostics import Problem, Span
 from mudline.keywords.grammar import ROW, SMALL, Tree, fitting, records_of, terminal_of
 from mudline.keywords.making import can_be_made, make
-from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Record, columns_of, record_schema
+from mudline.keywords.model import AS_TEXT, Block, FieldSpec, ListRow, Part, Record, columns_of, record_schema
 from mudline.keywords.table import LARGEST_WHOLE, Column, from_numbers, from_rows
 from mudline.keywords.text import UnreadableError, Value, read_value
 from mudline.keywords.values import Equation, Kind
@@ -59,7 +59,7 @@ class _Form:
     `part` is what is made of it; None where pydantic makes it with the block.
     """
 
-    sticky: str
+    carries: Callable[[Values, object], object] | None
     part: type[Record] | None
     lines: list[tuple[int, _Reading]] = field(default_factory=list)
     children: list[tuple[str, _Form]] = field(default_factory=list)
@@ -72,8 +72,8 @@ class _Form:
         stuck: dict[str, object] = {}
         for name, form in self.children:
             values = form.values(lines, stuck.get(name))
-            if form.sticky:
-                stuck[name] = values.get(form.sticky) or stuck.get(name)
+            if form.carries:
+                stuck[name] = form.carries(values, stuck.get(name))
             found.setdefault(name, []).append(form.made(values))
         return found
 
@@ -93,7 +93,9 @@ def read_plain(
         return None
     try:
         values = {"keyword": name, **_contents(text, leaves, declared, keys)}
-        return cast("Block", make(declared, values)) if can_be_made(declared) else declared.model_validate(values)
+        if can_be_made(declared):
+            return cast("Block", make(declared, values))
+        return declared.model_validate(values, context=AS_TEXT)
     except (_OddError, ValueError):
         return None
 
@@ -196,7 +198,7 @@ def _form_of(record: type[Record], terminals: tuple[str, ...], tabular: bool) ->
 def _form(record: type[Record], tree: Tree, *, tabular: bool) -> _Form:
     """How a record is read that has this tree."""
     found = record_schema(record)
-    form = _Form(record.sticky, record if can_be_made(record) else None)
+    form = _Form(record.carries if record.sticky else None, record if can_be_made(record) else None)
     given: list[str] = []
     for child in tree.children:
         if isinstance(child, Tree):
@@ -341,5 +343,7 @@ def _value(word: str, slot: FieldSpec) -> Value:
     except UnreadableError as fault:
         raise _OddError from fault
     if problems or (kind is Kind.IDENT and isinstance(value, Equation)):
+        raise _OddError
+    if (kind is Kind.OTHER and value not in slot.choices) or value in (slot.about.opaque or ()):
         raise _OddError
     return value

@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left, bisect_right
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Collection
+from dataclasses import dataclass, field
 from functools import cache, partial
-from operator import attrgetter, itemgetter
-from typing import NamedTuple, Protocol, cast
+from typing import Protocol, cast
 
 from pydantic import ValidationError
 
-from mudline.codes.lines import SYN001, SYN004, SYN005, SYN013, SYN014
-from mudline.diagnostics import Problem, Severity, Span
+from mudline.codes.lines import SYN001, SYN004, SYN013, SYN014
+from mudline.diagnostics import Problem, Span
 from mudline.keywords import grammar
+from mudline.keywords.attaching import Between, attach
 from mudline.keywords.builder import Builder, ParsedRecord, construct
 from mudline.keywords.grammar import END, ROW, Content, Mismatch
-from mudline.keywords.model import Block, Part, RecordSchema, record_schema
+from mudline.keywords.keeping import opened
+from mudline.keywords.kept_lines import doubtful, of_other_form
+from mudline.keywords.model import AS_TEXT, Block, Part, RecordSchema, record_schema
 from mudline.keywords.places import Path, Places
 from mudline.keywords.plain import read_plain
 from mudline.keywords.text import hint, instead, merge_per_line, shown, suggestion
@@ -33,7 +34,8 @@ class ReadBlock:
 
     `lost` counts lines that could not be used at all: what they would have defined is unknown. `found` are the places
     in the text that was read, or what finds them when somebody asks; a block of the second kind has no damaged value.
-    Where a piece was read, `whole` is the text that it belongs to and where it begins there.
+    Where a piece was read, `whole` is the text that it belongs to and where it begins there. A block is `opaque` where
+    what its keyword demands may stand in lines of an unknown form: all of it is then passed through unchanged.
     """
 
     model: Block
@@ -42,6 +44,7 @@ class ReadBlock:
     trailing: list[str] = field(default_factory=list)
     lost: int = 0
     whole: tuple[str, int] | None = None
+    opaque: bool = False
 
     __repr__ = short_repr
 
@@ -64,23 +67,11 @@ class ReadBlock:
     def at(self, text: str, start: int, problems: list[Problem]) -> ReadBlock:
         """The block, with its problems there, in a text in which the piece that was read begins at `start`."""
         found = self.found if isinstance(self.found, Places) else lambda: self.own
-        return ReadBlock(self.model, found, problems, self.trailing, self.lost, (text, start))
+        return ReadBlock(self.model, found, problems, self.trailing, self.lost, (text, start), self.opaque)
 
     def damaged(self, path: Path) -> bool:
         """Whether something at this place could not be read."""
         return isinstance(self.found, Places) and path in self.found.damaged
-
-    @property
-    def unpublished(self) -> bool:
-        """Whether the lines may have a form that is not public, so that they are passed through unchanged."""
-        return bool(self.problems) and self.model.other_form([problem.code for problem in self.problems])
-
-    @property
-    def misspelt(self) -> list[Problem]:
-        """The words that may be misspelt in lines which are passed through unchanged, as warnings."""
-        end = "; the block is passed through unchanged"
-        near = [problem for problem in self.problems if problem.code in (SYN004, SYN005) and problem.repair]
-        return [replace(problem, message=problem.message + end, severity=Severity.WARNING) for problem in near]
 
 
 class BlockReader(Protocol):
@@ -131,17 +122,36 @@ class _Reader:
         self.last = last
         self.keys = all_keys(declared)
         self.problems: list[Problem] = []
-        self.comments: list[_CommentLine] = []
+        self.comments: list[Between] = []
+        self.kept: list[Between] = []
         self.lost = 0
 
     def read(self) -> ReadBlock:
+        """What the lines give; of an open block without those that have another form than it knows."""
         contents = self._contents()
+        noticed, lost = self.problems, self.lost
+        while True:
+            self.problems, self.lost = [*noticed], lost
+            found = self._attempt(contents)
+            odd = self._of_other_form(contents) if self.declared.open_lines else ()
+            if not odd:
+                return found
+            noticed += doubtful(self.problems)
+            self._keep_all(odd, contents)
+
+    def _of_other_form(self, contents: list[Content]) -> set[Content]:
+        return of_other_form(self.text, self.problems, contents, tabular=self.declared.tabular)
+
+    def _attempt(self, contents: list[Content]) -> ReadBlock:
         mismatches: list[Mismatch] = []
         node = grammar.tree_of(self.declared.rule, contents)
         if node is None:
             from mudline.keywords.recovery import by_lines  # noqa: PLC0415 - lark, which most decks do without
 
-            node, mismatches = by_lines(self.declared.rule, contents)
+            node, mismatches = by_lines(self.declared.rule, contents, insert=not self.declared.open_lines)
+            if self.declared.open_lines:
+                self._keep_all({mismatch.found for mismatch in mismatches if mismatch.found}, contents)
+                mismatches = [mismatch for mismatch in mismatches if not mismatch.found]
         places = Places(self.text, trimmed(self.text, *self.raw.head.span))
         end = len(self.text.rstrip(" \t")) if self.last and not self.text.endswith("\n") else -1
         builder = Builder(self.text, places, self.problems, slashes=self.declared.slashes, end=end)
@@ -149,17 +159,22 @@ class _Reader:
         for mismatch in mismatches:
             self._report(mismatch)
         built = builder.build(self.declared, node)
-        trailing = _attach(self.comments, built) if self.comments else []
-        self.lost += builder.lost
+        trailing = attach(self.comments, self.kept, built) if self.comments or self.kept else []
+        self.lost += builder.lost + len(self.kept)
         model = self._model(built, builder)
-        return ReadBlock(model, places, merge_per_line(self.text, self.problems), trailing, self.lost)
+        places.kept = frozenset(line.span.start for line in self.kept)
+        problems = merge_per_line(self.text, self.problems)
+        may_keep = "unread" in self.declared.model_fields
+        if self.kept and may_keep and any(problem.code in (SYN001, SYN014) for problem in problems):
+            return ReadBlock(model, places, doubtful(problems), lost=self.lost, opaque=True)
+        return ReadBlock(model, places, problems, trailing, self.lost)
 
     def _model(self, built: ParsedRecord, builder: Builder) -> Block:
         """The validated model; of a block with faults, what could be read of it."""
         built.values["keyword"] = self.raw.name
         if not builder.damaged:
             try:
-                return self.declared.model_validate(built.values)
+                return self.declared.model_validate(built.values, context=AS_TEXT)
             except ValidationError as error:
                 for fault in error.errors():
                     place = tuple(fault["loc"])
@@ -172,32 +187,47 @@ class _Reader:
 
     def _contents(self) -> list[Content]:
         contents: list[Content] = []
-        for position, leaf in enumerate(self.raw.leaves):
-            match leaf.kind:
+        ends: frozenset[str] = frozenset()
+        for leaf in self.raw.leaves:
+            kind, span = leaf
+            if ends and kind not in (Kind.COMMENT, Kind.BLANK):
+                if first_key(self.text, span) not in ends:
+                    self._keep(span)
+                    continue
+                ends = frozenset()
+            match kind:
                 case Kind.COMMENT:
-                    self._comment(position, leaf)
+                    self._comment(leaf)
                 case Kind.UNDECIDED:
-                    self._undecided(position, leaf, contents)
+                    ends = self._undecided(leaf, contents)
                 case Kind.SETTING:
-                    self._setting(position, leaf.span, contents)
+                    ends = self._setting(span, contents)
                 case Kind.RUN if not self.declared.tabular:
-                    contents += [Content(ROW, line, position) for line in line_spans(self.text, leaf.span)]
+                    contents += [Content(ROW, line, line.start) for line in line_spans(self.text, span)]
                 case Kind.RUN | Kind.TEXT:
-                    contents.append(Content(ROW, leaf.span, position))
+                    contents.append(Content(ROW, span, span.start))
                 case _:
                     pass
         return contents
 
-    def _comment(self, position: int, leaf: Leaf) -> None:
-        line = self.text[slice(*leaf.span)].rstrip("\r\n")
-        self.comments.append(_CommentLine(position, line[1:], leaf.span))
+    def _keep_all(self, odd: Collection[Content], contents: list[Content]) -> None:
+        """Keep lines that were to be read."""
+        for content in odd:
+            self._keep(content.span)
+        contents[:] = [content for content in contents if content not in odd]
 
-    def _undecided(self, position: int, leaf: Leaf, contents: list[Content]) -> None:
+    def _keep(self, span: Span) -> None:
+        self.kept.append(Between(span.start, self.text[slice(*span)], span, kept=True))
+
+    def _comment(self, leaf: Leaf) -> None:
+        line = self.text[slice(*leaf.span)].rstrip("\r\n")
+        self.comments.append(Between(leaf.span.start, line[1:], leaf.span))
+
+    def _undecided(self, leaf: Leaf, contents: list[Content]) -> frozenset[str]:
         """A line with C and a letter in column 1: a known key makes it data, else it is a comment, with a warning."""
         key = first_key(self.text, leaf.span)
         if key in self.keys:
-            self._setting(position, leaf.span, contents)
-            return
+            return self._setting(leaf.span, contents)
         line = self.text[slice(*leaf.span)].rstrip("\r\n")
         meant = suggestion(key, sorted(self.keys)) if key else ""
         message = (
@@ -205,13 +235,15 @@ class _Reader:
             "put a space after the C, or indent the line if it is data"
         )
         self.problems.append(Problem(SYN013, message, trimmed(self.text, *leaf.span)))
-        self._comment(position, leaf)
+        self._comment(leaf)
+        return frozenset()
 
-    def _setting(self, position: int, span: Span, contents: list[Content]) -> None:
+    def _setting(self, span: Span, contents: list[Content]) -> frozenset[str]:
+        """A line that begins with a setting; returns the keys that end the lines to be kept behind it, if any are."""
         key = first_key(self.text, span)
         if key in self.keys:
-            contents.append(Content(grammar.terminal_of(key), span, position))
-            return
+            contents.append(Content(grammar.terminal_of(key), span, span.start))
+            return opened(self.declared, key, self.text[slice(*span)].partition("=")[2])
         known = sorted(self.keys)
         allowed = ", ".join(f"{name}=" for name in known) or "no KEY= at all"
         body = trimmed(self.text, *span)
@@ -220,8 +252,14 @@ class _Reader:
         advice = self.declared.facts.instead_of.get(key, "")
         message = f"*{self.raw.name} has no setting {key}={hint(near)}: {advice or f'it takes {allowed}'}"
         repair = instead(near, trimmed(self.text, body.start, end))
-        self.problems.append(Problem(SYN004, message, Span(body.start, end + 1), repair=repair))
-        self.lost += 1
+        problem = Problem(SYN004, message, Span(body.start, end + 1), repair=repair)
+        if self.declared.open_lines:
+            self.problems += doubtful([problem])
+            self._keep(span)
+        else:
+            self.problems.append(problem)
+            self.lost += 1
+        return frozenset()
 
     def _report(self, mismatch: Mismatch) -> None:
         wanted = " or ".join(self._describe(terminal) for terminal in mismatch.expected if terminal != END)
@@ -254,79 +292,6 @@ class _Reader:
             formats = dict.fromkeys(row_formats(schemas_of(self.declared)))
             return "a row " + " or ".join(f"`{shape}`" for shape in formats)
         return next(f"{key}=" for key in self.keys if grammar.terminal_of(key) == terminal)
-
-
-class _CommentLine(NamedTuple):
-    """A comment: its position among the block's leaves, what follows the C, its place."""
-
-    position: int
-    text: str
-    span: Span
-
-
-def _attach(comments: list[_CommentLine], block: ParsedRecord) -> list[str]:
-    """Give each comment to the innermost record whose lines stand on both sides of it, before the item it precedes.
-
-    Returns the texts of those behind the last line of the block: they belong to what follows it.
-    """
-    trailing: list[str] = []
-    whole = _CommentPlaces(block)
-    owners: dict[int, ParsedRecord] = {}
-    for comment in comments:
-        if block.last is not None and comment.position < block.last:
-            places = whole.owner(comment.position)
-            found = {"before": places.index(comment.position), "text": comment.text}
-            places.record.values.setdefault("comments", []).append(found)
-            owners[id(places.record)] = places.record
-        else:
-            trailing.append(comment.text)
-    for owner in owners.values():  # a setting may be read in another place than it is written back to
-        owner.values["comments"].sort(key=itemgetter("before"))
-    return trailing
-
-
-class _CommentPlaces:
-    """The places for comments in a record, in tables that are made once for all of its comments."""
-
-    def __init__(self, record: ParsedRecord) -> None:
-        self.record = record
-        self.within = sorted(
-            (child for children in record.children.values() for child in children if child.last is not None),
-            key=attrgetter("first"),
-        )
-        self.starts = [child.first for child in self.within]
-        self.inner: dict[int, _CommentPlaces] = {}
-        self.items = sorted(record.items, key=attrgetter("position"))
-        self.positions = [item.position for item in self.items]
-        self.count, self.before = self._counts()
-
-    def _counts(self) -> tuple[int, dict[tuple[int, int], int]]:
-        """The number of items, and how many are written before those of an order and position."""
-        before: dict[tuple[int, int], int] = {}
-        count = 0
-        for item in sorted(self.record.items, key=attrgetter("order", "position")):
-            before.setdefault((item.order, item.position), count)
-            count += item.count
-        return count, before
-
-    def owner(self, position: int) -> _CommentPlaces:
-        """Those of the innermost record that has lines on both sides of a position."""
-        at = bisect_left(self.starts, position) - 1
-        if at < 0:
-            return self
-        last = self.within[at].last
-        if last is None or last <= position:
-            return self
-        if at not in self.inner:
-            self.inner[at] = _CommentPlaces(self.within[at])
-        return self.inner[at].owner(position)
-
-    def index(self, position: int) -> int:
-        """Index, in the order in which the record is written, of the first item behind a position, or their number."""
-        at = bisect_right(self.positions, position)
-        if at == len(self.items):
-            return self.count
-        return self.before[self.items[at].order, self.items[at].position]
 
 
 def _label(part: type[Part], place: tuple[str | int, ...]) -> str:

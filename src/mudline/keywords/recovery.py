@@ -31,10 +31,11 @@ def _parser(rule: str) -> Lark:
     return kept_parser(rule, part, start=rule, lexer=_Given, keep_all_tokens=True, maybe_placeholders=False)
 
 
-def by_lines(rule: str, contents: list[Content]) -> tuple[Node, list[Mismatch]]:
+def by_lines(rule: str, contents: list[Content], *, insert: bool = True) -> tuple[Node, list[Mismatch]]:
     """Return the tree of a block line by line, whatever fits.
 
     A line that does not fit is left out, unless putting in a missing line before it makes it fit; each is reported.
+    In a block with lines of unknown form none is missing for certain: there nothing is to `insert`.
     """
     parser = _parser(rule).parse_interactive()
     mismatches: list[Mismatch] = []
@@ -43,7 +44,8 @@ def by_lines(rule: str, contents: list[Content]) -> tuple[Node, list[Mismatch]]:
         try:
             parser.feed_token(token)
         except UnexpectedToken:
-            mismatches.append(_recover(parser, token, content))
+            expected = tuple(sorted(parser.accepts()))
+            mismatches.append(_recover(parser, token, content) if insert else Mismatch(content, expected, ""))
     try:
         tree = parser.feed_eof()
     except UnexpectedToken:

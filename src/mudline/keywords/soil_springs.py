@@ -4,14 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from mudline.codes.lines import SYN001, SYN004, SYN005
-from mudline.diagnostics import Code
-from mudline.keywords.model import Record, Row, about, rows, setting
+from mudline.keywords.keeping import OpenRecord
+from mudline.keywords.model import Row, about, rows, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Ident, Name, Names, Real
-
-OTHER_SOIL_FORMS: tuple[Code, ...] = (SYN001, SYN004, SYN005)
-"""Faults that may be one of the other forms of the keywords of soil springs, which are not public."""
 
 _SOIL_POINTS = "points of the curve: resistance and displacement"
 
@@ -25,7 +21,7 @@ class SoilPoint(Row):
     displacement: Annotated[Real, about("displacement of the pipe against the soil", unit="L")]
 
 
-class DepthCurve(Record):
+class DepthCurve(OpenRecord):
     """The curve of a depth."""
 
     rule = "depth_curve"
@@ -33,7 +29,7 @@ class DepthCurve(Record):
     points: Annotated[Table, rows(SoilPoint, _SOIL_POINTS, unordered=True)]
 
 
-class NodeCurve(Record):
+class NodeCurve(OpenRecord):
     """The curve of a node."""
 
     rule = "node_curve"

@@ -44,6 +44,8 @@ def read_value(field: Field, slot: FieldSpec, problems: list[Problem]) -> Value:
     """The value of a field; raises UnreadableError. What is only doubtful is added to `problems`."""
     if slot.kind is Kind.NAME:
         return field.text
+    if slot.kind is Kind.OTHER:
+        return _open_choice(field, slot, problems)
     if slot.choices and (slot.kind is None or not _maybe_number(field.text)):
         return _choice(field, slot)
     equation = None if slot.kind is Kind.IDENT else Equation.match(field.text)
@@ -212,6 +214,18 @@ def _choice(field: Field, slot: FieldSpec) -> str:
     near = nearest(word, slot.choices)
     message = f"{shown(field.text)} is not allowed for {slot.label}: expected {listed}{hint(near)}"
     raise UnreadableError(Problem(SYN005, message, field.span, repair=instead(near, field.span)))
+
+
+def _open_choice(field: Field, slot: FieldSpec, problems: list[Problem]) -> str:
+    """A known value, or another one as it is; one that is spelt nearly as a known one is a warning."""
+    word = " ".join(field.text.upper().split())
+    if word in slot.choices:
+        return word
+    if near := nearest(word, slot.choices):
+        kept = ", and what it stands for is passed through unchanged" if slot.about.opaque is not None else ""
+        message = f"{shown(field.text)} is not known for {slot.label}{hint(near)}{kept}"
+        problems.append(Problem(SYN005, message, field.span, Severity.WARNING, repair=instead(near, field.span)))
+    return field.text
 
 
 _MARK = re.compile(r"(?<=[ \t])(?:!|(?:[#;]|//|--)[ \t])")

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Self, get_args
 
 from pydantic import BeforeValidator, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
@@ -72,6 +72,7 @@ class Kind(Enum):
     IDENT = "a number or a {label}"
     REAL_OR_NAME = "a number, an equation =[...] or a name"
     NAME = "a name"
+    OTHER = "another value"
 
 
 def _whole(given: object) -> object:
@@ -107,6 +108,8 @@ Whole = Annotated[int | Equation, _Either(Integer | Equation), Kind.WHOLE]
 Ident = Annotated[int | Label, _Either(Integer | Label), Kind.IDENT]
 RealOrName = Annotated[float | Equation | str, _Either(Finite | Equation | Text), Kind.REAL_OR_NAME]
 Name = Annotated[Text, Kind.NAME]
+Other = Annotated[Text, Kind.OTHER]
+"""Beside the known values of a choice: there are others, which are kept as they are written."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,36 +128,37 @@ class Facts:
     """Facts about a keyword.
 
     Which keyword it is: `superseded_by` newer ones, of which each `supersedes` older ones; an `extension` is mudline's
-    own; `plans_decks` says that its lines are about decks to be made, which do not have it. In the sections `passes_in`
-    a keyword of its name passes through.
+    own; `plans_decks` says that its lines are about decks to be made, which do not have it.
 
     What it does: `defines` is what its records define by number or name; `makes` are the keywords of what things
     outside the deck, which its lines are about, may define. With `later_wins` an element follows the last record whose
     SET= holds it, and that record as a whole. `carried` are the fields that a block has from the block before it, where
     it does not give them. `seabed_type` is the type of seabed that a legacy surface is. `soil_springs` hold elements in
-    the soil. What is computed from it is said under the heading `computed_in` of the page on the contact evaluator.
-    `instead_of` says what to write instead of a setting that other keywords have.
+    the soil; of elements with `zero_length` the ends may lie at one place. What is computed from it is said under the
+    heading `computed_in` of the page on the contact evaluator. `instead_of` says what to write instead of a setting
+    that other keywords have.
     """
 
     superseded_by: tuple[Successor, ...] = ()
     supersedes: bool = False
     extension: bool = False
     plans_decks: bool = False
-    passes_in: tuple[str, ...] = ()
     defines: Literal["", "nodes", "elements", "sets", "curves", "parameters"] = ""
     makes: tuple[str, ...] = ()
     later_wins: bool = False
     carried: tuple[str, ...] = ()
     seabed_type: Literal["", "RIGID", "ELASTIC"] = ""
     soil_springs: bool = False
+    zero_length: bool = False
     computed_in: str = ""
     instead_of: Mapping[str, str] = field(default_factory=dict)
 
 
 class Names(Enum):
-    """What a value names; the words are for a reader.
+    """What a value names, or what a field `defines`; the words are for a reader.
 
-    Sets, curves and files are checked wherever they are named; what else is missing is reported by who resolves it.
+    Each is checked wherever it is named. Sets, force-embedment curves, nodes, elements, parameters and files have checks
+    of their own, as they are more than names; all other kinds share one.
     """
 
     SET = "an element set"
@@ -166,6 +170,22 @@ class Names(Enum):
     NODE = "a node"
     ELEMENT = "an element"
     PARAMETER = "a parameter"
+    VESSEL = "a vessel"
+    BODY = "a floating body"
+    AUXILIARY = "an auxiliary body"
+    CABLE = "a cable"
+    LINE = "a line"
+    SECTION_GROUP = "a group of line sections"
+    VECTOR = "a vector"
+    GUIDE = "a guide"
+    MOMENT_CURVATURE = "a moment-curvature curve"
+    FORCE_STRAIN = "a force-strain curve"
+    TORQUE_TWIST = "a torque-twist curve"
+    STRESS_STRAIN = "a stress-strain curve"
+    DAMPER = "a damper curve"
+    DRAG_LIFT = "a drag lift curve"
+    PIP_STIFFNESS = "a stiffness of pipe-in-pipe connections"
+    S_N_CURVE = "an S-N curve"
 
 
 LINE_SETS: Mapping[str, Names] = {
@@ -175,6 +195,27 @@ LINE_SETS: Mapping[str, Names] = {
     "ADDITIONAL": Names.SETS,
 }
 """Settings of lines that make element sets: a line and each of its sections is one."""
+
+
+Subject = Literal["deck", "model", "seabed", "loads", "waves", "vessels", "analysis", "post-processing"]
+"""What a keyword is about."""
+SUBJECTS: tuple[Subject, ...] = get_args(Subject)
+
+
+class Entry(NamedTuple):
+    """A declaration in the index: which module has it, and what has to be known of it before it is imported.
+
+    The lines of a keyword that is `kept` are passed through. With `sections_inferred` it is not confirmed where it
+    belongs.
+    """
+
+    keyword: str
+    module: str
+    sections: tuple[str, ...]
+    subject: Subject
+    kept: bool = False
+    sections_inferred: bool = False
+    zero_length: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -198,3 +239,5 @@ class OpaqueKeyword:
     name_settings: Mapping[str, Names] = field(default_factory=dict)
     labels: bool = False
     makes: tuple[str, ...] = ()
+    subject: Subject = "model"
+    zero_length: bool = False

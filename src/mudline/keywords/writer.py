@@ -4,12 +4,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import Any
+from operator import itemgetter
+from typing import Any, Protocol
 
 from pydantic_core import to_json
 
 from mudline.keywords.model import Block, Comment, FieldSpec, Part, Record, Rows, Setting, columns_of, record_schema
 from mudline.keywords.table import Cell, Listing, Table
+
+
+class Kept(Protocol):
+    """A line that is kept, before the item of an index."""
+
+    @property
+    def before(self) -> int:
+        """The index."""
+
+    @property
+    def text(self) -> str:
+        """The line."""
+
 
 Item = tuple[list[str], int]
 """Lines that comments can stand before, and how many items they count for: a line each of a table, else one."""
@@ -18,7 +32,7 @@ Item = tuple[list[str], int]
 def block_lines(block: Block) -> Iterator[str]:
     """The lines of a block, from its `*KEYWORD` on, without line ends."""
     yield f"*{block.keyword}"
-    yield from with_comments(block.comments, _items(block))
+    yield from with_comments(block.comments, _items(block), getattr(block, "unread", ()))
 
 
 def _record_lines(record: Record) -> Iterator[str]:
@@ -26,7 +40,7 @@ def _record_lines(record: Record) -> Iterator[str]:
     items = list(_items(record))
     if _opens(record) and items:
         yield from items.pop(0)[0]
-    yield from with_comments(record.comments, items)
+    yield from with_comments(record.comments, items, getattr(record, "unread", ()))
 
 
 def _opens(record: Record) -> bool:
@@ -35,21 +49,23 @@ def _opens(record: Record) -> bool:
     return first is not None and isinstance(first.about, Setting)
 
 
-def with_comments(comments: list[Comment], items: Iterable[Item]) -> Iterator[str]:
-    """The lines of items in their order, and the comments where they stood."""
-    comments = sorted(comments, key=lambda comment: comment.before)
+def with_comments(comments: list[Comment], items: Iterable[Item], kept: Iterable[Kept] = ()) -> Iterator[str]:
+    """The lines of items in their order, and between them comments and, behind these, lines that are kept."""
+    between = [*((comment.before, f"C{comment.text}") for comment in comments)]
+    between += [(line.before, line.text) for line in kept]
+    between.sort(key=itemgetter(0))
     at = index = 0
     for lines, count in items:
         done = 0
-        while at < len(comments) and comments[at].before < index + count:
-            before = max(comments[at].before - index, done)
+        while at < len(between) and between[at][0] < index + count:
+            before = max(between[at][0] - index, done)
             yield from lines[done:before]
-            yield f"C{comments[at].text}"
+            yield between[at][1]
             done = before
             at += 1
         yield from lines[done:] if done else lines
         index += count
-    yield from (f"C{comment.text}" for comment in comments[at:])
+    yield from (line for _, line in between[at:])
 
 
 def _items(record: Record) -> Iterator[Item]:
@@ -62,15 +78,15 @@ def _items(record: Record) -> Iterator[Item]:
         if slot in own_row[1:]:
             continue
         value = getattr(record, slot.name)
+        if value is None and slot not in own_row:
+            continue
         setting = slot.about if isinstance(slot.about, Setting) else None
         joins = bool(pending) and setting is not None and _joins(setting, pending)
         if pending and not joins:
             yield [pending], 1
             pending = ""
         if slot in own_row:
-            pending = " " + _row(record, own_row)
-        elif value is None:
-            continue
+            pending = " " + _row(record, own_row) if _has_row(record, own_row) else ""
         elif setting:
             text = f"{setting.key}={_value(value)}"
             pending = f"{pending}, {text}" if joins else f" {text}"
@@ -82,6 +98,11 @@ def _items(record: Record) -> Iterator[Item]:
             yield [f" {_value(value)}"], 1
     if pending:
         yield [pending], 1
+
+
+def _has_row(record: Record, columns: list[FieldSpec]) -> bool:
+    """Whether a record has its row, of which all values may be left out."""
+    return any(slot.required or slot.name in record.model_fields_set for slot in columns)
 
 
 def _joins(setting: Setting, line: str) -> bool:

@@ -9,10 +9,11 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from mudline.deck.coverage import coverage_of
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import BaseProblem, Deck, Opaque
 from mudline.deck.reading import units_of
-from mudline.diagnostics import Blocks, DeckError, Diagnostic, Problem, Severity
+from mudline.diagnostics import Blocks, Coverage, DeckError, Diagnostic, Problem, Severity
 from mudline.keywords.model import Block
 from mudline.keywords.reader import ReadBlock, read_block, read_piece
 from mudline.linting.rule import LintContext, Noticed, Rule
@@ -218,8 +219,21 @@ def lint_bytes(
     Never raises for content: a JSON or YAML file that holds no deck gives the reasons (DOC001, DOC002), whatever rules
     are chosen, as nothing else can be checked.
     """
+    return covered_findings(data, name, chosen, units=units, folder=folder, dialect=dialect)[0]
+
+
+def covered_findings(
+    data: bytes,
+    name: str,
+    chosen: Sequence[Rule],
+    *,
+    units: str | None = None,
+    folder: Path | None = None,
+    dialect: str = "mudline",
+) -> tuple[list[Diagnostic], Coverage]:
+    """What `lint_bytes` finds, and how many keywords were read."""
     try:
         deck = read_deck(data, name, units=units, folder=folder)
     except DeckError as error:
-        return list(error.diagnostics)
-    return lint_context(LintContext(deck, dialect=dialect), chosen)
+        return list(error.diagnostics), Coverage()
+    return lint_context(LintContext(deck, dialect=dialect), chosen), coverage_of(deck)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from bisect import bisect_left, insort
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import islice
 from pathlib import Path
@@ -16,10 +16,10 @@ from pathlib import Path
 from mudline.deck.forms import form_of
 from mudline.deck.model import Deck
 from mudline.deck.reading import read_source
-from mudline.diagnostics import Diagnostic, Problem, Repair, Severity, Span
+from mudline.diagnostics import Coverage, Diagnostic, Problem, Repair, Severity, Span
 from mudline.files import recording_looks
 from mudline.limits import MOST_PASSES, MOST_TRIES
-from mudline.linting.engine import Fixing, LintSettings, lint_bytes, problems_in, unsuppressed
+from mudline.linting.engine import Fixing, LintSettings, covered_findings, problems_in, unsuppressed
 from mudline.linting.rule import LintContext
 from mudline.linting.suppression import MARK
 from mudline.syntax.edits import TextEdit, edited_bytes
@@ -34,6 +34,7 @@ class FileReport:
     `found` are the findings in the content as it is after fixing, in their order; `fixed` those that are gone.
     `changed` is the new content, or None where it is the old one. `note` says why fixes were not made, or "";
     a deck in JSON or YAML has none. `looked_at` are the paths on which the findings depend besides the content.
+    `coverage` says how many keywords were read.
     """
 
     file: str
@@ -42,6 +43,7 @@ class FileReport:
     changed: bytes | None = None
     note: str = ""
     looked_at: tuple[str, ...] = ()
+    coverage: Coverage = field(default_factory=Coverage)
 
 
 def lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None = None) -> FileReport:
@@ -54,9 +56,13 @@ def lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None
         result = fix_bytes(data, name, settings, folder)
     content = data if result.changed is None else result.changed
     with recording_looks() as paths:
-        found = lint_bytes(content, name, settings.rules, units=settings.units, folder=folder, dialect=settings.dialect)
+        found, coverage = covered_findings(
+            content, name, settings.rules, units=settings.units, folder=folder, dialect=settings.dialect
+        )
     fixed = with_severities(result.fixed, settings)
-    return FileReport(name, with_severities(found, settings), fixed, result.changed, result.note, tuple(paths))
+    return FileReport(
+        name, with_severities(found, settings), fixed, result.changed, result.note, tuple(paths), coverage
+    )
 
 
 def with_severities(found: Iterable[Diagnostic], settings: LintSettings) -> tuple[Diagnostic, ...]:

@@ -12,7 +12,7 @@ from mudline.deck.forms import SUFFIXES
 from mudline.deck.loading import load_path
 from mudline.deck.model import Deck, Opaque
 from mudline.diagnostics import DeckError, Problem, Where
-from mudline.keywords.catalogue import in_order, is_superseded, sections_of, suggest_keyword, supersedes
+from mudline.keywords.catalogue import facts_of, in_order, is_superseded, sections_of, suggest_keyword, supersedes
 from mudline.keywords.model import Block
 from mudline.keywords.surfaces import Surface
 from mudline.keywords.values import Equation
@@ -29,7 +29,8 @@ _MISSPELT = "{} may be meant as *{}{}: correct or remove it first"
 def superseded_blocks(deck: Deck) -> list[tuple[Where, Block]]:
     """The blocks of superseded keywords: surfaces first, then curves by set."""
     present = filter(is_superseded, in_order(deck.keywords()))
-    return [found for keyword in present for found in deck.blocks(keyword)]
+    first = sorted(present, key=lambda keyword: not facts_of(keyword, "MODEL").seabed_type)
+    return [found for keyword in first for found in deck.blocks(keyword)]
 
 
 def surfaces(deck: Deck) -> list[tuple[Where, Surface]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,7 +11,9 @@ from numpy.typing import NDArray
 from mudline.contact.arrays import BoolArray
 from mudline.contact.input import LawAssignment, LawKind
 from mudline.contact.laws.linear import penetration_under, smoothed_reaction
+from mudline.deck.coverage import coverage_of, extent
 from mudline.deck.model import Opaque
+from mudline.keywords.model import Block
 from mudline.quantities import finite
 from mudline.scene.assignments import element_smoothing, nodal_springs
 from mudline.scene.model import Scene
@@ -32,10 +35,11 @@ def summarise(scene: Scene) -> dict[str, Any]:
         "sections": [
             {
                 "name": section.name,
-                "keywords": [{"keyword": b.keyword, "read": not isinstance(b, Opaque)} for b in section.blocks],
+                "keywords": [_keyword(block) for block in section.blocks],
             }
             for section in deck.own_sections
         ],
+        "keywords": asdict(coverage_of(deck)),
         "nodes": len(scene.node_ids),
         "elements": len(scene.element_ids),
         "length": _total_length(scene),
@@ -49,6 +53,12 @@ def summarise(scene: Scene) -> dict[str, Any]:
         "extensions": extension_summary(scene),
         "static_embedment": static_embedment(scene),
     }
+
+
+def _keyword(block: Block | Opaque) -> dict[str, Any]:
+    """A keyword: whether its lines are read, and whether some of them were passed over."""
+    found = extent(block)
+    return {"keyword": block.keyword, "read": found != "unread", "partly": found == "partly"}
 
 
 def _total_length(scene: Scene) -> float | None:

@@ -21,7 +21,7 @@ from mudline.limits import LISTED
 from mudline.scene.numbering import Floats, Ids
 from mudline.syntax.rows import read_number, read_rows_fast
 
-_SEPARATORS = (",", ";", "\t")
+SEPARATORS = (",", ";", "\t")
 """Between the fields of a file that another program wrote."""
 
 _UNUSED = "\0"
@@ -151,7 +151,7 @@ def _header(file: str, text: str, needed: Sequence[str], known: Sequence[str] | 
 
     Where `known` is None all names are.
     """
-    row = next(_rows(file, text), ([], 1))[0]
+    row = next(csv_rows(file, text), ([], 1))[0]
     names = [name.strip().lower() for name in row]
     expected = ",".join(known or needed)
     if missing := [name for name in needed if name not in names]:
@@ -170,10 +170,10 @@ def _exported(
     """The separator of a file with other headings, and a name for each of its columns. Raises DeckError."""
     wanted = {name: headings.get(name, name) for name in known if name in headings or name in needed}
     headers = {
-        separator: [field.strip() for field in next(_rows(file, text, separator), ([], 1))[0]]
-        for separator in _SEPARATORS
+        separator: [field.strip() for field in next(csv_rows(file, text, separator), ([], 1))[0]]
+        for separator in SEPARATORS
     }
-    best = max(_SEPARATORS, key=lambda separator: len(headers[separator]))
+    best = max(SEPARATORS, key=lambda separator: len(headers[separator]))
     found = headers[best]
     given = [field.casefold() for field in found]
     names = [f"{_UNUSED}{column}" for column in range(len(found))]
@@ -207,7 +207,7 @@ def _texts(file: str, text: str, names: Sequence[str], separator: str = ",") -> 
     """The rows below the header, whose columns have these names."""
     columns: dict[str, list[str]] = {name: [] for name in names}
     lines: list[int] = []
-    rows = _rows(file, text, separator)
+    rows = csv_rows(file, text, separator)
     next(rows)
     for row, line in rows:
         if not any(field.strip() for field in row):
@@ -220,7 +220,7 @@ def _texts(file: str, text: str, names: Sequence[str], separator: str = ",") -> 
     return CsvTable(file, columns, lines, text, separator)
 
 
-def _rows(file: str, text: str, separator: str = ",") -> Iterator[tuple[list[str], int]]:
+def csv_rows(file: str, text: str, separator: str = ",") -> Iterator[tuple[list[str], int]]:
     """The rows of a text, each with the number of its last line."""
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator)
     try:

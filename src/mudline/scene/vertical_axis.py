@@ -21,8 +21,9 @@ LEVEL = 0.005
 def height_along_z(scene: Scene, elements: Indices, places: Floats) -> str:
     """What makes Z look like the height of nodes at `places` (n, 3), in words; "" where nothing does.
 
-    Either the line has one X and Z goes through the water depth; or elements run along X, and lie just below Z = 0 as a
-    pipe on the seabed does. A vertical riser at Z = 0 does neither, unless it is longer than the water is deep.
+    Either the line has one X and Z goes through the water depth; or elements run along X, and lie just below Z = 0, or
+    at minus the water depth, as a pipe on the seabed does. A vertical riser at Z = 0 does neither, unless it is longer
+    than the water is deep.
     """
     with np.errstate(over="ignore", invalid="ignore"):
         return _reason(scene, elements, places)
@@ -44,6 +45,9 @@ def _reason(scene: Scene, elements: Indices, places: Floats) -> str:
     run = np.abs(second - first)
     along_x = (run[:, 0] > 0.0) & (run[:, 2] <= LEVEL * run[:, 0]) & (run[:, 1] <= run[:, 0])
     middle = 0.5 * first[:, 2] + 0.5 * second[:, 2]
+    sunk = along_x & (abs(middle + depth) <= FLAT * depth)
+    if sunk.sum() > 1 and high_z > low_z + near:
+        return f"{int(sunk.sum())} elements run along X at minus the water depth in Z"
     limit = DEEPEST * np.nan_to_num(scene.diameter[elements])
     lies = along_x & (middle <= 0.0) & (middle >= -limit)
     below = lies & (middle < 0.0)

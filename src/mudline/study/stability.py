@@ -87,9 +87,9 @@ def own_step(scene: Scene) -> OwnStep | None:
     """Return the step of the last *TIME with a fixed step; None without one."""
     found = None
     for where, block in scene.deck.blocks("TIME", "LOAD CASE"):
-        step = getattr(block, "increment", None)
+        step = getattr(getattr(block, "fixed", None), "increment", None)
         if isinstance(step, int | float) and math.isfinite(step) and step > 0.0:
-            found = OwnStep(float(step), line_of(scene, where.inside("increment")))
+            found = OwnStep(float(step), line_of(scene, where.inside("fixed", "increment")))
     return found
 
 

@@ -23,6 +23,7 @@ except ImportError:  # PyYAML without its C library
     from yaml import SafeDumper as _SafeDumper  # type: ignore[assignment]
     from yaml import SafeLoader as _SafeLoader  # type: ignore[assignment]
 
+_TOO_DEEP = "nested too deeply: is this a deck?"
 _TAG = "tag:yaml.org,2002:"
 # the tables of section 10.3.2 of the YAML 1.2.2 specification
 _CORE: dict[str, tuple[str, list[str]]] = {
@@ -146,7 +147,10 @@ def read(data: bytes, file: str) -> Deck:
         root = yaml.compose(text, Loader=CoreLoader)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
-        raise refusal(file, f"not valid YAML: {error.problem}", mark_range(text, mark)) from error
+        # newer versions of the C library count the levels themselves, before the first event of a flow is there
+        deep = "nesting depth" in str(error.problem)
+        message = _TOO_DEEP if deep else f"not valid YAML: {error.problem}"
+        raise refusal(file, message, mark_range(text, mark)) from error
     except yaml.YAMLError as error:
         raise refusal(file, f"not valid YAML: {str(error).partition(chr(10))[0]}") from error
     document = None if root is None else _Reader(file, text).value(root)
@@ -159,7 +163,7 @@ def _look_over(text: str, file: str) -> None:
     for event in yaml.parse(text, Loader=CoreLoader):
         depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
         if depth > DEEPEST:
-            raise refusal(file, "nested too deeply: is this a deck?", mark_range(text, event.start_mark))
+            raise refusal(file, _TOO_DEEP, mark_range(text, event.start_mark))
         if isinstance(event, yaml.AliasEvent):
             message = f"the alias *{event.anchor} is YAML that a deck does not use: write the value out"
             raise refusal(file, message, mark_range(text, event.start_mark))

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
-from typing import Annotated, Literal, cast
+from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field
 
-from mudline.codes.lines import SYN005
-from mudline.diagnostics import Code
+from mudline.keywords.keeping import OpenRecord
 from mudline.keywords.model import Block, ListRow, Record, about, setting
 from mudline.keywords.table import LARGEST_WHOLE
-from mudline.keywords.values import Count, Equation, Finite, Ident, Kind, Names, Real, Whole
+from mudline.keywords.values import Count, Equation, Finite, Ident, Kind, Names, Other, Real, Whole
 
 _DOF = "degree of freedom: 1 vertical, 2 and 3 horizontal, 4 to 6 rotations"
 _VALUE = "displacement that is imposed: a length, of a rotation degrees"
-_OTHERS = "other types exist and are not public: a block with one is passed through unchanged"
+_OTHERS = "the lines of other types are not public: they are passed through unchanged"
 _FOUR = "of four values the last two may be increment and degree of freedom, or degree of freedom and displacement"
 
 Fixation = Annotated[
@@ -48,8 +46,8 @@ class FixedNode(Record):
 class FixedValues(ListRow):
     """First and last node, then the step between them if it is given, the degree of freedom, the displacement."""
 
-    start: Annotated[Whole, about("first node", names=Names.NODE)]
-    end: Annotated[Whole, about("last node", names=Names.NODE)]
+    start: Annotated[Ident, about("first node, or its label", names=Names.NODE)]
+    end: Annotated[Ident, about("last node, or its label", names=Names.NODE)]
     third: Annotated[
         Whole | None, about("of three values the degree of freedom, of five the increment", inferred=_FOUR)
     ] = None
@@ -65,12 +63,15 @@ class FixedRange(Record):
     fixation: Fixation = None
 
 
-class BoundaryType(Record):
+class BoundaryType(OpenRecord):
     """Conditions of one type."""
 
     rule = "boundary_type"
     type_: Annotated[
-        Literal["CONSTANT"], setting("TYPE", "what the conditions are: here constant ones", inferred=_OTHERS)
+        Literal["CONSTANT", "VESSEL"] | Other,
+        setting(
+            "TYPE", "what the conditions are; the lines of constant ones are read", inferred=_OTHERS, opaque=("VESSEL",)
+        ),
     ] = Field(alias="type")
     entries: list[FixedNode | FixedRange] = []
 
@@ -80,15 +81,13 @@ class Boundary(Block):
 
     rule = "boundary"
     sections = ("LOAD CASE",)
+    subject = "loads"
+    page = "kwd_loadcase_boundary"
     summary = "Nodes that are held, or moved, in single degrees of freedom."
     example = "*BOUNDARY\n TYPE=CONSTANT\n 1, 2\n 1, 3, 0.0, FIXATION=RELATIVE\n GEN=11, 20, 1, 6, 0.0\n"
 
     keyword: Literal["BOUNDARY"] = "BOUNDARY"
     types: list[BoundaryType] = []
-
-    def other_form(self, faults: Collection[Code]) -> bool:
-        """Lines of another type have other values; of TYPE=CONSTANT all is known."""
-        return SYN005 in faults and any(cast("str | None", held.type_) is None for held in self.types)
 
 
 BLOCK = Boundary

@@ -47,7 +47,9 @@ class Combinations(Block):
 
     rule = "combinations"
     sections = ("PREPROCESSOR",)
+    subject = "deck"
     facts = Facts(plans_decks=True)
+    page = "kwd_preprocessor_combinations"
     summary = "The decks that `mudline expand` makes from variations, and the names of their files."
     example = (
         "*COMBINATIONS\n DIRECTORY=Soils\n DESCRIPTION=All soils, SUBDIRECTORY=Case %case%, FILENAME=su %su%\n"

@@ -52,6 +52,7 @@ class Elements(Block):
 
     rule = "element"
     facts = Facts(defines="elements")
+    page = "kwd_model_element"
     summary = "Elements by number and their two nodes."
     tabular = True
     example = "*ELEMENT\n 1, 1, 2\n GEN=1, 10\n"

@@ -53,7 +53,7 @@ class ElementSets(Block):
     """Element sets."""
 
     rule = "element_sets"
-    facts = Facts(passes_in=("CLEAR", "DATABASE POSTPROCESSING", "POSTPROCESSING"), defines="sets")
+    facts = Facts(defines="sets")
     summary = "Named groups of elements; ALL is predefined."
     example = "*ELEMENT SETS\n SET=Riser\n 1, 2, 3\n GEN=10, 20, 2\n SET=Everything\n SUBSET=Riser\n"
 

@@ -27,6 +27,7 @@ class Embedment(Block):
     """Force-embedment curves by set."""
 
     rule = "embedment"
+    subject = "seabed"
     facts = Facts(
         superseded_by=(
             Successor("SEABED STIFFNESS"),
@@ -35,6 +36,7 @@ class Embedment(Block):
         defines="curves",
         computed_in="normal-laws",
     )
+    page = "kwd_model_embedment"
     summary = "Force-embedment curves of an elastic seabed, by element set (superseded by *SEABED STIFFNESS)."
     tabular = True
     example = "*EMBEDMENT\n SET=Flowline\n 0.0, 0.0\n 0.1, 1200.0\n 0.5, 10000.0\n"

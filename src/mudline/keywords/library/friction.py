@@ -4,20 +4,21 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.codes.lines import SYN001, SYN004, SYN014
-from mudline.keywords.model import Block, about
+from mudline.keywords.keeping import OpenBlock
+from mudline.keywords.model import about
 from mudline.keywords.values import Real
 
 _NEEDS = "; a direction whose coefficient is 0 stays free"
 
 
-class LinearFriction(Block):
+class LinearFriction(OpenBlock):
     """Stiffnesses that stand for friction; both zero mean that the model is held fast."""
 
     rule = "friction"
     sections = ("LOAD CASE", "MODES")
+    subject = "seabed"
+    page = "kwd_loadcase_friction"
     summary = "Stiffnesses that represent seabed friction in the frequency domain and in modes; both 0: held fast."
-    unpublished = (SYN001, SYN004, SYN014)
     example = "*FRICTION\n 500.0, 250.0\n"
 
     keyword: Literal["FRICTION"] = "FRICTION"

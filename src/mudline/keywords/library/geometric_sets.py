@@ -126,6 +126,7 @@ class GeometricSets(Block):
 
     rule = "geometric_sets"
     facts = Facts(later_wins=True)
+    page = "kwd_model_geometricsets"
     summary = "Stiffness, mass and diameters of element sets, in one of four formats."
     example = "*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 207.0E9, 79.9E9, 0.3239, 0.2731, 7850.0\n"
 

@@ -45,6 +45,7 @@ class LinePathSections(Block):
 
     rule = "line_path_sections"
     facts = Facts(makes=("NODE", "ELEMENT", "ELEMENT SETS"))
+    page = "_line-path-sections"
     summary = "Sections of the lines of *LINE PATHS: element sets by distance along the line."
     example = (
         "*LINE PATH SECTIONS\n"

@@ -50,6 +50,7 @@ class LineSectionGroups(Block):
 
     rule = "line_section_groups"
     facts = Facts(makes=("NODE", "ELEMENT", "ELEMENT SETS"))
+    page = "kwd_model_linesectiongroups"
     summary = "Groups of line sections, one after the other, for the REPEAT= of *LINE PATH SECTIONS."
     example = (
         "*LINE SECTION GROUPS\n"

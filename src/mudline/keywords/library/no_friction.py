@@ -15,4 +15,5 @@ OPAQUE = OpaqueKeyword(
     inferred="It belongs in $LOAD CASE and has no lines; in another section it is not reported.",
     sections=("LOAD CASE",),
     sections_inferred=True,
+    subject="seabed",
 )

@@ -45,6 +45,7 @@ class Nodes(Block):
 
     rule = "node"
     facts = Facts(defines="nodes")
+    page = "kwd_model_node"
     summary = "Nodes by number and coordinates; X is vertical."
     tabular = True
     example = "*NODE\n 1, 0.0, 0.0\n 11, 0.0, 100.0\n GEN=1, 11\n"

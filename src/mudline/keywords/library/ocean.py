@@ -12,6 +12,7 @@ class Ocean(Block):
     """The sea."""
 
     rule = "ocean"
+    page = "kwd_model_ocean"
     summary = "Water depth, density of sea water, gravity."
     example = "*OCEAN\n 500.0, 1025.0, 9.81\n"
 

@@ -6,19 +6,21 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.keywords.model import Block, Record, setting
-from mudline.keywords.soil_springs import OTHER_SOIL_FORMS, CurvesFile, SoilCurves
-from mudline.keywords.values import Facts, Name, Names
+from mudline.keywords.keeping import OpenBlock, OpenRecord
+from mudline.keywords.model import setting
+from mudline.keywords.soil_springs import CurvesFile, SoilCurves
+from mudline.keywords.values import Facts, Name, Names, Other
 
-_OTHERS = "the types of other soil models are not public: a block with one is passed through unchanged"
+_OTHERS = "the types of other soil models are not public: the lines of one are passed through unchanged"
 
 
-class LateralSprings(Record):
+class LateralSprings(OpenRecord):
     """The curves of a set."""
 
     rule = "lateral_springs"
     type_: Annotated[
-        Literal["USER"] | None, setting("TYPE", "curves given by points", default="USER", inferred=_OTHERS)
+        Literal["USER"] | Other | None,
+        setting("TYPE", "curves given by points", default="USER", inferred=_OTHERS, opaque=()),
     ] = Field(default=None, alias="type")
     set_name: Annotated[Name | None, setting("SET", "element set that the curves hold for", names=Names.SET)] = Field(
         default=None, alias="set"
@@ -27,14 +29,15 @@ class LateralSprings(Record):
     curves: SoilCurves = []
 
 
-class LateralSoil(Block):
+class LateralSoil(OpenBlock):
     """Lateral soil springs."""
 
     rule = "p_y"
+    subject = "seabed"
     facts = Facts(soil_springs=True)
+    page = "kwd_model_py"
     summary = "Lateral soil springs by set and depth: points of resistance P and displacement y, resistance first."
     tabular = True
-    unpublished = OTHER_SOIL_FORMS
     example = (
         "*P-Y\n TYPE=USER\n SET=Conductor\n DEPTH=0.0\n 0.0, 0.0\n 4000.0, 0.01\n 9000.0, 0.1\n"
         " DEPTH=10.0\n 0.0, 0.0\n 40000.0, 0.01\n 90000.0, 0.1\n"

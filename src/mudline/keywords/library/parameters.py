@@ -27,7 +27,9 @@ class Parameters(Block):
 
     rule = "parameters"
     sections = ("PREPROCESSOR",)
+    subject = "deck"
     facts = Facts(defines="parameters")
+    page = "kwd_preprocessor_parameters"
     summary = "Named values for equations, and for the variations of a deck."
     slashes = True
     example = "*PARAMETERS\n depth, 500.0\n vessel x, =[depth+5]\n Point, /X:11, Y:22, Z:=[Point_X+10]/\n"

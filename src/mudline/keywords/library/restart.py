@@ -6,20 +6,21 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.codes.lines import SYN004
-from mudline.keywords.model import Block, setting
+from mudline.keywords.keeping import OpenBlock
+from mudline.keywords.model import setting
 from mudline.keywords.values import Name, Names
 
 _WORDS = "the words of the manual are taken as they are, and not checked"
 
 
-class Restart(Block):
+class Restart(OpenBlock):
     """The run that goes before."""
 
     rule = "restart"
     sections = ("LOAD CASE",)
+    subject = "analysis"
+    page = "kwd_loadcase_restart"
     summary = "The deck that this one continues: its model holds here, too."
-    unpublished = (SYN004,)
     example = "*RESTART\n LAST=static\n"
 
     keyword: Literal["RESTART"] = "RESTART"

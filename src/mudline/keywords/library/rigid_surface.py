@@ -17,7 +17,9 @@ class RigidSurface(Surface):
     """Rigid seabed."""
 
     rule = "rigid_surface"
+    subject = "seabed"
     facts = Facts(superseded_by=SURFACE_SUCCESSORS, seabed_type="RIGID")
+    page = "kwd_model_rigidsurface"
     summary = "Rigid seabed: friction, slope or profile (superseded by *SEABED PROPERTIES)."
     example = "*RIGID SURFACE\n 0.3, 0.5\n"
 

@@ -52,6 +52,7 @@ class SeabedFriction(Block):
     """Friction by set."""
 
     rule = "seabed_friction"
+    subject = "seabed"
     facts = Facts(extension=True, later_wins=True, computed_in="friction")
     summary = "Friction in two directions with constant tangential springs, by element set (extension)."
     example = "*SEABED FRICTION\n SET=ALL\n COEFFICIENTS=0.3, 0.6\n STIFFNESS=20000.0, 40000.0\n DIRECTIONS=AXIAL\n"

@@ -55,6 +55,7 @@ class SeabedPlanes(Block):
     """Plane surfaces; the highest of those that hold a point is the seabed there."""
 
     rule = "seabed_planes"
+    subject = "seabed"
     facts = Facts(extension=True, computed_in="shapes-of-the-seabed")
     summary = "A seabed of several plane surfaces: the highest one at a place holds (extension)."
     example = (

@@ -19,7 +19,9 @@ class SeabedProfile(Block):
     """A slope, or a profile from a file."""
 
     rule = "seabed_profile"
+    subject = "seabed"
     facts = Facts(supersedes=True, computed_in="shapes-of-the-seabed")
+    page = "kwd_model_seabedprofile"
     summary = "A seabed that is not flat: a uniform slope, or a profile from a file; without it X = 0."
     example = "*SEABED PROFILE\n TYPE=SLOPING\n DIRECTION=30.0\n SLOPE=2.5\n"
 

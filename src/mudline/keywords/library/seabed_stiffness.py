@@ -22,12 +22,14 @@ class SeabedStiffness(Block):
     """Force-embedment curves."""
 
     rule = "seabed_stiffness"
+    subject = "seabed"
     facts = Facts(
         supersedes=True,
         defines="curves",
         computed_in="normal-laws",
         instead_of={"SET": "name the curve by CURVE= here, and give it to the set in STIFFNESS= of *SEABED PROPERTIES"},
     )
+    page = "kwd_model_seabedstiffness"
     summary = "Force-embedment curves of an elastic seabed, by name."
     tabular = True
     example = "*SEABED STIFFNESS\n CURVE=clay\n 0.0, 0.0\n 0.1, 1200.0\n 0.5, 10000.0\n"

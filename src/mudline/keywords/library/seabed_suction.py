@@ -87,6 +87,7 @@ class SeabedSuction(Block):
     """Suction by set."""
 
     rule = "seabed_suction"
+    subject = "seabed"
     facts = Facts(extension=True, later_wins=True, computed_in="suction")
     summary = "Resistance of the seabed to uplift, with mobilisation, plateau and breakout (extension)."
     example = "*SEABED SUCTION\n SET=ALL\n COHESION=5000.0\n CUTOFF=0.2, 0.8\n"

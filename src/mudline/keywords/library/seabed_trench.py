@@ -88,6 +88,7 @@ class SeabedTrench(Block):
     """Trenches by set."""
 
     rule = "seabed_trench"
+    subject = "seabed"
     facts = Facts(extension=True, later_wins=True, computed_in="trenches")
     tabular = True
     summary = "Lateral resistance of the walls of a trench, by element set (extension)."

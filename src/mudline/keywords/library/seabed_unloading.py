@@ -25,6 +25,7 @@ class SeabedUnloading(Block):
     """Unloading stiffness by set."""
 
     rule = "seabed_unloading"
+    subject = "seabed"
     facts = Facts(extension=True, later_wins=True, computed_in="unloading")
     summary = "The full cycle of penetration, unloading and re-penetration: stiffness on reversal (extension)."
     example = "*SEABED UNLOADING\n SET=ALL\n STIFFNESS=500000.0\n"

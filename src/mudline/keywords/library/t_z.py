@@ -6,12 +6,13 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.keywords.model import Block, Record, setting
-from mudline.keywords.soil_springs import OTHER_SOIL_FORMS, CurvesFile, SoilCurves
+from mudline.keywords.keeping import OpenBlock, OpenRecord
+from mudline.keywords.model import setting
+from mudline.keywords.soil_springs import CurvesFile, SoilCurves
 from mudline.keywords.values import Facts, Name, Names
 
 
-class AxialSprings(Record):
+class AxialSprings(OpenRecord):
     """The curves of a set."""
 
     rule = "axial_springs"
@@ -22,14 +23,15 @@ class AxialSprings(Record):
     curves: SoilCurves = []
 
 
-class AxialSoil(Block):
+class AxialSoil(OpenBlock):
     """Axial soil springs."""
 
     rule = "t_z"
+    subject = "seabed"
     facts = Facts(soil_springs=True)
+    page = "kwd_model_tz"
     summary = "Axial soil springs by set and depth: points of resistance T and displacement z, resistance first."
     tabular = True
-    unpublished = OTHER_SOIL_FORMS
     example = "*T-Z\n SET=Conductor\n DEPTH=0.0\n 0.0, 0.0\n 1500.0, 0.005\n DEPTH=10.0\n 0.0, 0.0\n 12000.0, 0.005\n"
 
     keyword: Literal["T-Z"] = "T-Z"

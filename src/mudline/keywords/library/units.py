@@ -12,6 +12,7 @@ class Units(Block):
 
     rule = "units"
     sections = ("ANALYSIS",)
+    subject = "deck"
     summary = "The unit system of a deck (sister dialect)."
     example = "*UNITS\n UNITS=METRIC\n"
 

@@ -89,7 +89,9 @@ class Variation(Block):
 
     rule = "variation"
     sections = ("PREPROCESSOR",)
+    subject = "deck"
     facts = Facts(plans_decks=True)
+    page = "kwd_preprocessor_variation"
     summary = "What varies from deck to deck: values of parameters, blocks that come and go."
     example = (
         "*VARIATION\n NAME=Soil\n PARA=su, VALUE=2.0, 5.0, 8.0\n PARA=case, GEN=1, 3\n"

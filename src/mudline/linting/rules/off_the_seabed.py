@@ -36,7 +36,9 @@ def not_on_the_seabed(context: LintContext) -> Iterator[Problem]:
     * the line lies level over 100 diameters above the seabed: it rises by less than a tenth of its length, or its
       lowest four nodes or more have one height;
     * Z goes from 0 to the depth, or from the depth below 0 to 0, within 5 % of the depth, and every node has the same X
-      within 1 % of the depth; or, from 0, three nodes or more lie within a diameter of Z = 0, and only one of X = 0.
+      within 1 % of the depth; or, from 0, three nodes or more lie within a diameter of Z = 0, and only one of X = 0;
+    * the three lowest nodes in Z or more lie at minus the depth within 1 % of it, on one level within a diameter, and
+      only one lies within a diameter of X = 0: Z is the height, and 0 at the sea surface.
 
     Nothing is reported where elements come from lines or from another deck, where the shape of the seabed is not known,
     or in models with soil curves.
@@ -88,8 +90,8 @@ class _Line(NamedTuple):
     heights: tuple[float, float]
     diameter: float
     depth: float
-    flat: tuple[int, int]
-    """Nodes within a diameter of X = 0, and of Z = 0."""
+    flat: tuple[int, int, int]
+    """Nodes within a diameter of X = 0, of Z = 0, and of the smallest Z."""
     level: int
     """Nodes as low as the lowest one."""
 
@@ -105,7 +107,10 @@ def _is_low(context: LintContext) -> bool:
     bounds, depth = context.once(bounds_of), _water_depth(context)
     if not bounds.highest <= HIGHEST * bounds.thinnest:
         return False
-    return not depth > 0.0 or (bounds.highest <= depth and bounds.last - bounds.first < (1.0 - 2.0 * NEAR) * depth)
+    if not depth > 0.0:
+        return True
+    rise = bounds.last - bounds.first
+    return bounds.highest <= depth and rise < (1.0 - 2.0 * NEAR) * depth and bounds.first > (NEAR - 1.0) * depth
 
 
 def _water_depth(context: LintContext) -> float:
@@ -130,7 +135,8 @@ def _line(context: LintContext) -> _Line | None:
     diameter = float(np.fmax.reduce(scene.diameter, initial=np.nan, where=scene.law != LawKind.NONE))
     with np.errstate(invalid="ignore"):
         near = np.abs(scene.coordinates[used]) <= diameter
-    flat = int(near[:, 0].sum()), int(near[:, 2].sum())
+        low = scene.coordinates[used, 2] - z[0] <= diameter
+    flat = int(near[:, 0].sum()), int(near[:, 2].sum()), int(low.sum())
     level = int((context.once(depths)[used] >= deepest - ROUNDED * diameter).sum())
     return _Line(used, x, y, z, (-deepest, -highest), diameter, _water_depth(context), flat, level)
 
@@ -167,6 +173,12 @@ def _along_z(line: _Line) -> str:
         return (
             f"Z goes from {first:.5g} to {last:.5g}, and {line.flat[1]} nodes lie within a diameter of 0 in Z and "
             f"{line.flat[0]} in X, as if Z were the height: write the height as X, the first coordinate"
+        )
+    sunk = abs(first + line.depth) <= FLAT * line.depth and last > first + near
+    if line.depth > 0.0 and sunk and line.flat[0] <= 1 and line.flat[2] >= LAID:
+        return (
+            f"{line.flat[2]} nodes lie at Z = {first:.5g}, minus the water depth, and {line.flat[0]} near X = 0, as if "
+            "Z were the height above the sea surface: write the height above the mudline as X, the first coordinate"
         )
     if line.depth > 0.0 and line.x[1] - line.x[0] <= FLAT * line.depth and upright:
         return (

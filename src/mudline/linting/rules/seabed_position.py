@@ -11,9 +11,11 @@ import numpy as np
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.table import LARGEST_WHOLE
 from mudline.linting.rule import LintContext, limited, rule
+from mudline.scene.deck_values import number
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, Mask, blocks_of
 from mudline.scene.seabed import SeabedKind, SeabedShape
+from mudline.scene.vertical_axis import FLAT
 
 if TYPE_CHECKING:
     from mudline.keywords.library.boundary import Boundary, FixedNode, FixedRange
@@ -214,8 +216,19 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
         deep = np.flatnonzero((limit > 0.0) & (depth > limit))
     if deep.size:
         which = f"{first_of('node', scene.node_ids[deep[0]], deep.size)} lie{'s' * (deep.size == 1)}"
-        message = f"{which} more than 5 diameters below the seabed: correct the datum of X"
+        message = f"{which} more than 5 diameters below the seabed: correct the datum of X{_surface(scene)}"
         yield Problem(SBD022, message, where=scene.nodes.where(int(deep[0])))
+
+
+def _surface(scene: Scene) -> str:
+    """Where the datum seems to be, if the lowest node lies at minus the water depth."""
+    oceans = [block for _, block in scene.deck.blocks("OCEAN")]
+    depth = number(oceans[-1], "depth") if oceans else np.nan
+    with np.errstate(invalid="ignore"):
+        lowest = float(np.fmin.reduce(scene.coordinates[:, 0], initial=np.inf))
+    if not (depth > 0.0 and abs(lowest + depth) <= FLAT * depth):
+        return ""
+    return f", which is 0 at the mudline and not at the sea surface: add {depth:.5g}"
 
 
 @rule(SBD021)

@@ -167,7 +167,7 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
     stiffest = max(springs, key=lambda one: one.omega)
     advised = rounded_down(ADVISED_OMEGA_DT / stiffest.omega)
     for where, block in blocks:
-        step = getattr(cast("TimeSpan", block), "increment", None)
+        step = getattr(cast("TimeSpan", block).fixed, "increment", None)
         if isinstance(step, int | float) and stiffest.omega * step > ADVISED_OMEGA_DT:
             table = _STICKING if stiffest.kind in {"friction", "lateral"} else _CONSEQUENCES
             effect = next(words for limit, words in table if stiffest.omega * step <= limit)
@@ -176,9 +176,9 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
             message = (
                 f"omega dt = {stiffest.omega * step:.3g} on the stiffest contact ({_described(scene, stiffest)}, "
                 f"omega = {stiffest.omega:.4g} rad/s): {effect}; give a step of "
-                f"{advised:.3g} or less (inferred: the third value is the step)"
+                f"{advised:.3g} or less"
             )
-            yield Problem(STB002, message, where=where.inside("increment"))
+            yield Problem(STB002, message, where=where.inside("fixed", "increment"))
 
 
 def _described(scene: Scene, one: Oscillation) -> str:

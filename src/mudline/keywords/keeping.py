@@ -1,0 +1,147 @@
+"""Parts of blocks whose form is not public: lines that a model keeps as they are, in their place among the others.
+
+An open block takes any line: one that its declaration does not know is kept. In a record that can keep lines these are
+also the lines behind a setting whose value says that their form is not public.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from mudline.keywords import grammar
+from mudline.keywords.model import Block, FieldSpec, Part, Record, record_schema
+from mudline.keywords.values import Count, Kind, Text
+from mudline.short_repr import with_fields
+from mudline.syntax.fields import canonical_key
+
+_INLINE = re.compile(r",[ \t]*([A-Za-z][\w \t-]*)=([^,\r\n]*)")
+
+
+class KeptLine(BaseModel):
+    """A line that is kept as it is; `before` is the index of the item that it precedes, behind the comments there."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
+    before: Count
+    text: Text
+
+    def __repr__(self) -> str:
+        return with_fields(self, [("before", self.before), ("text", self.text)])
+
+
+def _no_lines() -> list[KeptLine]:
+    """A function of our own: of the class `list` pydantic parses the signature, in each model that has the field."""
+    return []
+
+
+class OpenRecord(Record):
+    """A record that can keep lines."""
+
+    unread: list[KeptLine] = Field(default_factory=_no_lines)
+
+
+class OpenBlock(Block):
+    """A block that keeps every line of a form which it does not know; without `open_lines` only those it is told of."""
+
+    open_lines = True
+    unread: list[KeptLine] = Field(default_factory=_no_lines)
+
+
+# ------------------------------------------------------------------------------------------------- what a model keeps
+
+
+@cache
+def can_keep(part: type[Part]) -> bool:
+    """Whether a part, or one inside it, can keep lines or hold a value that is not known."""
+    slots = record_schema(part).slots
+    inner = (each for slot in slots for each in (slot.row, *slot.record.values()) if each)
+    return "unread" in part.model_fields or any(map(_is_open, slots)) or any(map(can_keep, inner))
+
+
+def _is_open(slot: FieldSpec) -> bool:
+    return slot.kind is Kind.OTHER or slot.about.opaque is not None
+
+
+def kept_lines(part: Part) -> Iterator[str]:
+    """The lines that a part and those inside it keep."""
+    if can_keep(type(part)):
+        yield from (line.text for line in getattr(part, "unread", ()))
+        for inner in _inner(part):
+            yield from kept_lines(inner)
+
+
+def is_read(part: Part) -> bool:
+    """Whether a part keeps no line and holds no value that is not known."""
+    if not can_keep(type(part)):
+        return True
+    slots = record_schema(type(part)).slots
+    values = [(slot, getattr(part, slot.name, None)) for slot in slots if _is_open(slot)]
+    known = all(
+        value is None or (value in slot.choices and value not in (slot.about.opaque or ())) for slot, value in values
+    )
+    return known and not getattr(part, "unread", ()) and all(map(is_read, _inner(part)))
+
+
+def _inner(part: Part) -> Iterator[Part]:
+    for slot in record_schema(type(part)).slots:
+        value = getattr(part, slot.name, None)
+        if isinstance(value, Part):
+            yield value
+        elif slot.record and isinstance(value, list):
+            yield from value
+
+
+# ----------------------------------------------------------------------- settings behind which lines are kept
+
+
+@dataclass
+class _Opener:
+    """A setting whose value may say that the lines behind it are not public, and the keys that end these."""
+
+    known: set[str] = field(default_factory=set)
+    ends: set[str] = field(default_factory=set)
+
+
+@cache
+def openers(block: type[Block]) -> dict[str, _Opener]:
+    """The settings of a block behind which lines may be kept, by their keys."""
+    found: dict[str, _Opener] = {}
+    _add_openers(block, (), found)
+    return found
+
+
+def _add_openers(part: type[Part], ends: Sequence[str], found: dict[str, _Opener]) -> None:
+    schema = record_schema(part)
+    for key, slot in schema.keys.items():
+        if slot.about.opaque is not None:
+            opener = found.setdefault(key, _Opener())
+            opener.known.update(set(slot.choices) - set(slot.about.opaque))
+            opener.ends.update([key, *ends])
+    for slot in schema.slots:
+        firsts = [key for record in slot.record.values() for key in _first_keys(record)]
+        for record in slot.record.values():
+            _add_openers(record, [*ends, *firsts], found)
+
+
+def _first_keys(record: type[Record]) -> Iterable[str]:
+    """The keys with which the lines of a record may begin."""
+    terminals = grammar.first_terminals(record.rule)
+    return [key for key in record_schema(record).keys if grammar.terminal_of(key) in terminals]
+
+
+def opened(block: type[Block], key: str, fields: str) -> frozenset[str]:
+    """The keys that end the lines to be kept behind a line of settings; none where they are read."""
+    known = openers(block)
+    if not known:
+        return frozenset()
+    given = [(key, fields.partition(",")[0]), *_INLINE.findall(fields)]
+    ends: set[str] = set()
+    for name, text in given:
+        opener, value = known.get(canonical_key(name)), " ".join(text.upper().split())
+        if opener and value and value not in opener.known:
+            ends |= opener.ends
+    return frozenset(ends)

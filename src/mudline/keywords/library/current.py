@@ -1,0 +1,70 @@
+"""`*CURRENT`: the current by elevation."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from mudline.keywords.loads import Direction
+from mudline.keywords.model import Block, Record, Row, about, rows, setting
+from mudline.keywords.table import Table
+from mudline.keywords.values import Name, Names, Real
+
+
+class UniformCurrent(Row):
+    """One velocity from the seabed to the surface."""
+
+    velocity: Annotated[Real, about("velocity", unit="L/T")]
+    direction: Direction = None
+
+
+class CurrentPoint(Row):
+    """The velocity at an elevation."""
+
+    elevation: Annotated[Real, about("height above X = 0 (ASCEND), or depth below the water line (DESCEND)", unit="L")]
+    velocity: Annotated[Real, about("velocity there", unit="L/T")]
+    direction: Direction = None
+
+
+class CurrentProfile(Record):
+    """A current."""
+
+    rule = "current_profile"
+    type_: Annotated[
+        Literal["UNIFORM", "PIECEWISE LINEAR", "SUBROUTINE"],
+        setting("TYPE", "one velocity, a profile, or a subroutine"),
+    ] = Field(alias="type")
+    option: Annotated[
+        Literal["ASCEND", "DESCEND"] | None,
+        setting("OPTION", "of a profile: up from X = 0, or down from the water line", default="ASCEND", inline=True),
+    ] = None
+    level: Annotated[
+        Literal["MWL", "AMBIENT"] | None,
+        setting("LEVEL", "of a profile: its water line", default="AMBIENT", inline=True),
+    ] = None
+    user: Annotated[Name | None, setting("USER", "of SUBROUTINE: file with it", names=Names.FILE, inline=True)] = None
+    uniform: Annotated[UniformCurrent | None, about("current of UNIFORM")] = None
+    profile: Annotated[Table | None, rows(CurrentPoint, "profile; at least two points", unordered=True)] = None
+
+    @classmethod
+    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+        """What TYPE= says."""
+        return "uniform" if given.get("type") == "UNIFORM" else "profile"
+
+
+class Current(Block):
+    """Currents."""
+
+    rule = "current"
+    sections = ("LOAD CASE",)
+    subject = "loads"
+    page = "kwd_loadcase_current"
+    summary = "Current: one velocity, a profile of velocities by elevation, or a subroutine."
+    example = "*CURRENT\n TYPE=PIECEWISE LINEAR\n 0.0, 0.1, 180.0\n 300.0, 0.9, 180.0\n"
+
+    keyword: Literal["CURRENT"] = "CURRENT"
+    currents: list[CurrentProfile] = []
+
+
+BLOCK = Current

@@ -1,0 +1,40 @@
+"""`*DRAG LIFT`: lift of lines that lie close to the seabed."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from mudline.keywords.model import Block, Record, Row, about, rows, setting
+from mudline.keywords.table import Table
+from mudline.keywords.values import Name, Real
+
+
+class LiftPoint(Row):
+    """A point of a curve."""
+
+    ratio: Annotated[Real, about("gap to the seabed over drag diameter", unit="-")]
+    coefficient: Annotated[Real, about("drag lift coefficient there", unit="-")]
+
+
+class LiftCurve(Record):
+    """A curve."""
+
+    rule = "lift_curve"
+    curve: Annotated[Name, setting("CURVE", "name of the curve, for *HYDRODYNAMIC SETS")]
+    points: Annotated[Table, rows(LiftPoint, "points in any order", unordered=True)]
+
+
+class DragLift(Block):
+    """Curves of lift."""
+
+    rule = "drag_lift"
+    page = "kwd_model_draglift"
+    summary = "Drag lift coefficients by the gap to the seabed, named by *HYDRODYNAMIC SETS."
+    tabular = True
+    example = "*DRAG LIFT\n CURVE=Lift\n 0.0, 0.9\n 0.5, 0.3\n 1.0, 0.0\n"
+
+    keyword: Literal["DRAG LIFT"] = "DRAG LIFT"
+    curves: list[LiftCurve] = []
+
+
+BLOCK = DragLift

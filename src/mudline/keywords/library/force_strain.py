@@ -1,0 +1,40 @@
+"""`*FORCE-STRAIN`: non-linear axial stiffness."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from mudline.keywords.model import Block, Record, Row, about, rows, setting
+from mudline.keywords.table import Table
+from mudline.keywords.values import Name, Real
+
+
+class ForceStrainPoint(Row):
+    """A point of a curve: force first."""
+
+    force: Annotated[Real, about("axial force; it comes first", unit="F")]
+    strain: Annotated[Real, about("strain there", unit="-")]
+
+
+class ForceStrainCurve(Record):
+    """A curve."""
+
+    rule = "force_strain_curve"
+    curve: Annotated[Name, setting("CURVE", "name of the curve, for EA= of *GEOMETRIC SETS")]
+    points: Annotated[Table, rows(ForceStrainPoint, "points in any order; at least two", unordered=True)]
+
+
+class ForceStrain(Block):
+    """Curves of the flexible format."""
+
+    rule = "force_strain"
+    page = "kwd_model_forcestrain"
+    summary = "Curves of force against strain: non-linear axial stiffness, named by EA= of *GEOMETRIC SETS."
+    tabular = True
+    example = "*FORCE-STRAIN\n CURVE=Pipe\n -2.0E6, -0.004\n 0.0, 0.0\n 2.5E6, 0.004\n"
+
+    keyword: Literal["FORCE-STRAIN"] = "FORCE-STRAIN"
+    curves: list[ForceStrainCurve] = []
+
+
+BLOCK = ForceStrain

@@ -1,0 +1,42 @@
+"""`*MOMENT-CURVATURE`: non-linear bending stiffness."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from mudline.keywords.model import Block, Record, Row, about, rows, setting
+from mudline.keywords.table import Table
+from mudline.keywords.values import Name, Real
+
+
+class MomentCurvaturePoint(Row):
+    """A point of a curve: moment first."""
+
+    moment: Annotated[Real, about("bending moment; it comes first", unit="FL")]
+    curvature: Annotated[Real, about("curvature there", unit="1/L")]
+
+
+class MomentCurvatureCurve(Record):
+    """A curve."""
+
+    rule = "moment_curvature_curve"
+    curve: Annotated[Name, setting("CURVE", "name of the curve, for EIYY= and EIZZ= of *GEOMETRIC SETS")]
+    points: Annotated[Table, rows(MomentCurvaturePoint, "points in any order; at least two", unordered=True)]
+
+
+class MomentCurvature(Block):
+    """Curves of the flexible format."""
+
+    rule = "moment_curvature"
+    page = "kwd_model_momentcurvature"
+    summary = (
+        "Curves of moment against curvature: non-linear bending stiffness, named by EIYY= and EIZZ= of *GEOMETRIC SETS."
+    )
+    tabular = True
+    example = "*MOMENT-CURVATURE\n CURVE=Pipe\n 0.0, 0.0\n 5.0E4, 0.01\n 7.0E4, 0.03\n"
+
+    keyword: Literal["MOMENT-CURVATURE"] = "MOMENT-CURVATURE"
+    curves: list[MomentCurvatureCurve] = []
+
+
+BLOCK = MomentCurvature

@@ -1,0 +1,69 @@
+"""`*PIP STIFFNESS`: contact between pipes in or on each other."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from mudline.keywords.model import Block, Record, Row, about, rows, setting
+from mudline.keywords.table import Table
+from mudline.keywords.values import Name, Real
+
+
+class PipPoint(Row):
+    """A point of a curve."""
+
+    deflection: Annotated[Real, about("deflection", unit="L", at_least=0)]
+    force: Annotated[Real, about("contact force there", unit="F")]
+
+
+class PowerLaw(Row):
+    """The law of TYPE=POWER LAW."""
+
+    largest: Annotated[Real, about("largest contact force", unit="F", at_least=0)]
+    exponent: Annotated[
+        Real | None,
+        about(
+            "exponent", default="5", above=0, inferred="the default: a page on theory says 10, that of the keyword 5"
+        ),
+    ] = None
+
+
+class PipCurve(Record):
+    """A curve, by points or by a law."""
+
+    rule = "pip_curve"
+    curve: Annotated[Name, setting("CURVE", "name, for *PIP CONNECTION and *LINES PIP")]
+    type_: Annotated[
+        Literal["DATA PAIRS", "POWER LAW"] | None,
+        setting("TYPE", "points, or a law", default="DATA PAIRS", inline=True),
+    ] = Field(default=None, alias="type")
+    configuration: Annotated[
+        Literal["PIP", "POP"] | None,
+        setting("CONFIGURATION", "of POWER LAW: pipe in pipe, or on pipe", default="PIP", inline=True),
+    ] = None
+    law: Annotated[PowerLaw | None, about("of POWER LAW: its line")] = None
+    points: Annotated[
+        Table | None, rows(PipPoint, "of DATA PAIRS: points in any order; at least two", unordered=True)
+    ] = None
+
+    @classmethod
+    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+        """What TYPE= says."""
+        return "law" if given.get("type") == "POWER LAW" else "points"
+
+
+class PipStiffness(Block):
+    """Contact curves."""
+
+    rule = "pip_stiffness"
+    page = "kwd_model_pipstiffness"
+    summary = "Non-linear contact of pipe in pipe or pipe on pipe: force against deflection, or a power law."
+    example = "*PIP STIFFNESS\n CURVE=Spacer\n 0.0, 0.0\n 0.01, 5.0E4\n CURVE=Law, TYPE=POWER LAW\n 1.0E6, 5.0\n"
+
+    keyword: Literal["PIP STIFFNESS"] = "PIP STIFFNESS"
+    curves: list[PipCurve] = []
+
+
+BLOCK = PipStiffness

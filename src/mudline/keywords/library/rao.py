@@ -1,0 +1,97 @@
+"""`*RAO`: response amplitude operators of vessels (superseded, still legal)."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from mudline.keywords.model import Block, Record, Row, about, rows, setting
+from mudline.keywords.table import Table
+from mudline.keywords.values import Facts, Name, Names, Real, Successor
+from mudline.keywords.vessels import Vessel
+
+
+class Six(Row):
+    """Values of six motions, of a wave with an amplitude of 1: lengths, and degrees of rotations; phases in degrees."""
+
+    heave: Annotated[Real, about("of heave")]
+    surge: Annotated[Real, about("of surge")]
+    sway: Annotated[Real, about("of sway")]
+    yaw: Annotated[Real, about("of yaw")]
+    roll: Annotated[Real, about("of roll")]
+    pitch: Annotated[Real, about("of pitch")]
+
+
+class FrequencyRao(Record):
+    """Three lines: a frequency, six amplitudes, six phases."""
+
+    rule = "frequency_rao"
+    frequency: Annotated[Real, about("wave frequency", at_least=0)]
+    amplitudes: Annotated[Six, about("amplitudes for a unit wave")]
+    phases: Annotated[Six, about("phases, positive for a lag")]
+
+    @classmethod
+    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+        """Line by line."""
+        return ("frequency", "amplitudes", "phases")[min(number, 2)]
+
+
+class HeadingRao(Record):
+    """The operators of a heading."""
+
+    rule = "heading_rao"
+    heading: Annotated[Real, setting("HEADING", "wave heading", unit="deg", at_least=-180, at_most=180)]
+    frequencies: list[FrequencyRao] = []
+
+
+class RaoLine(Row):
+    """A line of LAYOUT=LINE."""
+
+    heading: Annotated[Real, about("wave heading", unit="deg", at_least=-180, at_most=180)]
+    frequency: Annotated[Real, about("wave frequency", at_least=0)]
+    heave: Annotated[Real, about("amplitude of heave")]
+    heave_phase: Annotated[Real, about("its phase", unit="deg")]
+    surge: Annotated[Real, about("amplitude of surge")]
+    surge_phase: Annotated[Real, about("its phase", unit="deg")]
+    sway: Annotated[Real, about("amplitude of sway")]
+    sway_phase: Annotated[Real, about("its phase", unit="deg")]
+    yaw: Annotated[Real, about("amplitude of yaw")]
+    yaw_phase: Annotated[Real, about("its phase", unit="deg")]
+    roll: Annotated[Real, about("amplitude of roll")]
+    roll_phase: Annotated[Real, about("its phase", unit="deg")]
+    pitch: Annotated[Real, about("amplitude of pitch")]
+    pitch_phase: Annotated[Real, about("its phase", unit="deg")]
+
+
+class VesselRao(Record):
+    """The operators of a vessel: a file, or lines."""
+
+    rule = "vessel_rao"
+    vessel: Vessel
+    format: Annotated[Name | None, setting("FORMAT", "MCS, AQWA, WAMIT, MOSES, ORCAFLEX, or one of *RAO FORMAT")] = None
+    layout: Annotated[
+        Literal["MCS", "LINE"] | None,
+        setting("LAYOUT", "by heading, or a line a frequency", default="MCS", inline=True, behind="FORMAT"),
+    ] = None
+    file: Annotated[Name | None, setting("FILE", "file with the operators, instead of lines", names=Names.FILE)] = None
+    headings: list[HeadingRao] = []
+    lines: Annotated[Table | None, rows(RaoLine, "of LINE: operators", unordered=True)] = None
+
+
+class Raos(Block):
+    """Operators."""
+
+    rule = "rao"
+    sections = ("LOAD CASE",)
+    subject = "vessels"
+    page = "kwd_loadcase_rao"
+    facts = Facts(superseded_by=(Successor("VESSEL,INTEGRATED", "RAO"),))
+    summary = "Response amplitude operators of vessels, from a file or from lines in one of two layouts."
+    example = (
+        "*RAO\n VESSEL=FPSO\n HEADING=0.0\n 0.1\n 0.9, 0.4, 0.0, 0.0, 0.0, 1.1\n 10.0, 90.0, 0.0, 0.0, 0.0, -80.0\n"
+    )
+
+    keyword: Literal["RAO"] = "RAO"
+    vessels: list[VesselRao] = []
+
+
+BLOCK = Raos

@@ -1,0 +1,38 @@
+"""`*VESSEL TIMETRACE`: motions of vessels that are read from files."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from mudline.keywords.model import Block, Record, setting
+from mudline.keywords.values import Name, Names
+from mudline.keywords.vessels import Vessel
+
+
+class VesselMotion(Record):
+    """The motion of a vessel."""
+
+    rule = "vessel_motion"
+    vessel: Vessel
+    option: Annotated[
+        Literal["GLOBAL", "LOCAL"] | None,
+        setting("OPTION", "axes of the displacements", default="GLOBAL", inline=True),
+    ] = None
+    file: Annotated[Name, setting("FILE", "text file of seven columns: time, six displacements", names=Names.FILE)]
+
+
+class VesselTimetrace(Block):
+    """Motions from files."""
+
+    rule = "vessel_timetrace"
+    sections = ("LOAD CASE",)
+    subject = "vessels"
+    page = "kwd_loadcase_vesseltimetrace"
+    summary = "Motions of vessels, of low and high frequency together, from files; not with *RAO or *DRIFT."
+    example = "*VESSEL TIMETRACE\n VESSEL=FPSO\n FILE=motion.dat\n"
+
+    keyword: Literal["VESSEL TIMETRACE"] = "VESSEL TIMETRACE"
+    motions: list[VesselMotion] = []
+
+
+BLOCK = VesselTimetrace

@@ -1,0 +1,59 @@
+"""What the keywords of matrices share: constant ones, or one for each frequency, of floating bodies."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from mudline.keywords.model import Record, Row, about, rows, setting
+from mudline.keywords.table import Table
+from mudline.keywords.values import Name, Names, Real
+from mudline.keywords.vessels import Body
+
+_LINES = "a matrix is six lines of six numbers"
+
+
+class MatrixRow(Row):
+    """A line of a 6x6 matrix."""
+
+    heave: Annotated[Real, about("column of heave")]
+    surge: Annotated[Real, about("column of surge")]
+    sway: Annotated[Real, about("column of sway")]
+    yaw: Annotated[Real, about("column of yaw")]
+    roll: Annotated[Real, about("column of roll")]
+    pitch: Annotated[Real, about("column of pitch")]
+
+
+Matrix = Annotated[Table, rows(MatrixRow, "matrix of 6 lines and 6 columns", inferred=_LINES)]
+
+
+class FrequencyMatrix(Record):
+    """The matrix at a frequency."""
+
+    rule = "frequency_matrix"
+    frequency: Annotated[Real, setting("FREQ", "frequency", unit="Hz", at_least=0, inferred="its unit, as of waves")]
+    matrix: Matrix
+
+
+class MatrixType(Record):
+    """A constant matrix, those by frequency, or that beyond the largest frequency."""
+
+    rule = "matrix_type"
+    type_: Annotated[
+        Literal["CONSTANT", "FREQUENCY", "CUTOFF"],
+        setting("TYPE", "constant, by frequency, or (last) beyond the frequencies"),
+    ] = Field(alias="type")
+    matrix: Annotated[Table | None, rows(MatrixRow, "of CONSTANT and CUTOFF: matrix of 6 lines", inferred=_LINES)] = (
+        None
+    )
+    frequencies: list[FrequencyMatrix] = []
+
+
+class BodyMatrices(Record):
+    """The matrices of a body."""
+
+    rule = "body_matrices"
+    body: Body
+    file: Annotated[Name | None, setting("FILE", "file with the matrices, instead of them", names=Names.FILE)] = None
+    types: list[MatrixType] = []

@@ -1,0 +1,69 @@
+"""The index of the catalogue, made of the declarations in the library. `make index` writes it, a test holds it."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from pathlib import Path
+from pkgutil import iter_modules
+
+from mudline.keywords import catalogue, library
+from mudline.keywords.values import SUBJECTS, Entry
+
+INDEX = Path("src/mudline/keywords/index.py")
+
+_PAGE = '''\
+"""Every declaration of the library; `make index` makes this of them: change those."""
+
+# fmt: off
+from __future__ import annotations
+
+from mudline.keywords.values import Entry
+
+ENTRIES: tuple[Entry, ...] = (
+{lines}
+)
+'''
+
+
+def declared_entries() -> list[Entry]:
+    """An entry for each declaration, in the order of the catalogue: by subject, section and name."""
+    found = [entry for module in iter_modules(library.__path__) for entry in _entries(module.name)]
+    places = {name: number for number, name in enumerate(catalogue.SECTIONS)}
+    return sorted(found, key=lambda entry: (SUBJECTS.index(entry.subject), places[entry.sections[0]], entry.keyword))
+
+
+def _entries(module: str) -> list[Entry]:
+    declared = import_module(f"{library.__name__}.{module}")
+    found: list[Entry] = []
+    if hasattr(declared, "BLOCK"):
+        block = catalogue.load(module)
+        keyword = block.model_fields["keyword"].default
+        found.append(Entry(keyword, module, block.sections, block.subject, zero_length=block.facts.zero_length))
+    if hasattr(declared, "OPAQUE"):
+        kept = catalogue.load_opaque(module)
+        keyword = kept.keyword
+        inferred, short = kept.sections_inferred, kept.zero_length
+        found.append(
+            Entry(
+                keyword, module, kept.sections, kept.subject, kept=True, sections_inferred=inferred, zero_length=short
+            )
+        )
+    return found
+
+
+def index_text() -> str:
+    """The whole file."""
+    return _PAGE.format(lines="\n".join(f"    {_written(entry)}," for entry in declared_entries()))
+
+
+def _written(entry: Entry) -> str:
+    given = [
+        f"{name}={value!r}" if name in Entry._field_defaults else repr(value)
+        for name, value in entry._asdict().items()
+        if value != Entry._field_defaults.get(name)
+    ]
+    return f"Entry({', '.join(given)})".replace("'", '"')
+
+
+if __name__ == "__main__":
+    INDEX.write_text(index_text(), encoding="utf-8", newline="\n")
