@@ -416,13 +416,14 @@ def record_schema(part: type[Part]) -> RecordSchema:
 
 
 @cache
-def _naming(part: type[Part], what: Names) -> tuple[FieldSpec, ...]:
-    """The fields that name a thing of a kind, and those with parts that have one."""
-    return tuple(slot for slot in record_schema(part).slots if slot.about.names is what or _leads_to(slot, what))
-
-
-def _leads_to(slot: FieldSpec, what: Names) -> bool:
-    return any(_naming(part, what) for part in (slot.row, *slot.record.values()) if part)
+def _naming(part: type[Part], what: Names, *, defined: bool = False) -> tuple[FieldSpec, ...]:
+    """The fields that name a thing of a kind, or define one, and those with parts that have one."""
+    return tuple(
+        slot
+        for slot in record_schema(part).slots
+        if (slot.about.defines if defined else slot.about.names) is what
+        or any(_naming(inner, what, defined=defined) for inner in (slot.row, *slot.record.values()) if inner)
+    )
 
 
 def may_name(part: type[Part], what: Names) -> bool:
@@ -430,18 +431,23 @@ def may_name(part: type[Part], what: Names) -> bool:
     return bool(_naming(part, what))
 
 
-def names_given(part: Part, what: Names) -> Iterator[tuple[tuple[str | int, ...], str]]:
-    """The names of things of a kind that a part gives, with their paths; what is not a text is not a name."""
-    for slot in _naming(type(part), what):
+def names_given(part: Part, what: Names, *, defined: bool = False) -> Iterator[tuple[tuple[str | int, ...], str]]:
+    """The names of things of a kind that a part gives, with their paths; what is not a text is not a name.
+
+    With `defined` they are those of things that the part defines.
+    """
+    for slot in _naming(type(part), what, defined=defined):
         value = getattr(part, slot.name, None)
         if isinstance(value, Part):
-            yield from (((slot.json, *path), name) for path, name in names_given(value, what))
+            yield from (((slot.json, *path), name) for path, name in names_given(value, what, defined=defined))
         elif isinstance(value, str) and not isinstance(value, Equation):
             yield (slot.json,), value
         elif isinstance(value, list):
             for index, item in enumerate(value):
                 if isinstance(item, Part):
-                    yield from (((slot.json, index, *path), name) for path, name in names_given(item, what))
+                    yield from (
+                        ((slot.json, index, *path), name) for path, name in names_given(item, what, defined=defined)
+                    )
 
 
 @cache

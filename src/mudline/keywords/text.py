@@ -327,7 +327,6 @@ class BlockReading(Protocol):
     text: str
     places: Places
     problems: list[Problem]
-    lost: int
     unclosed: Span | None
 
     def damage(self, path: Path, problem: Problem) -> None:
@@ -422,7 +421,6 @@ class TableBuilder:
 
     def _fault(self, line: Span, row: int, column: int, fault: str, raw: RawRows) -> None:
         text = self.builder.text
-        self.builder.lost += column == 0
         if column < 0:
             fields, _ = split(text, line)
             required = [column.required for column in self.columns]

@@ -137,6 +137,9 @@ class Facts:
     the soil; of elements with `zero_length` the ends may lie at one place. What is computed from it is said under the
     heading `computed_in` of the page on the contact evaluator. `instead_of` says what to write instead of a setting
     that other keywords have.
+
+    What tells its lines from those of others, where the keyword itself is missing: a deck with it has one of those
+    `beside` it too, and `telling` are lines that no other keyword has. It `tells_units` of all other values.
     """
 
     superseded_by: tuple[Successor, ...] = ()
@@ -152,6 +155,9 @@ class Facts:
     zero_length: bool = False
     computed_in: str = ""
     instead_of: Mapping[str, str] = field(default_factory=dict)
+    beside: tuple[str, ...] = ()
+    telling: tuple[str, ...] = ()
+    tells_units: bool = False
 
 
 class Names(Enum):
