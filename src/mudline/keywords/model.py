@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from types import NoneType, UnionType
-from typing import Annotated, Any, ClassVar, Literal, Union, get_args, get_origin
+from typing import Annotated, Any, ClassVar, Literal, Union, cast, get_args, get_origin
 
 from pydantic import (
     BaseModel,
@@ -15,6 +15,7 @@ from pydantic import (
     GetCoreSchemaHandler,
     GetJsonSchemaHandler,
     SerializationInfo,
+    ValidationInfo,
     model_serializer,
     model_validator,
 )
@@ -30,11 +31,12 @@ from mudline.keywords.table import (
     Table,
     checked_by_parts,
     fewest_fields,
+    misfit,
     read_table,
 )
 from mudline.keywords.values import Count, Equation, Facts, Kind, Label, Names, Subject, Text
 from mudline.limits import MOST_KEYS
-from mudline.short_repr import with_fields
+from mudline.short_repr import counted, with_fields
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +62,49 @@ class FieldInfo:
     heading: str = ""
     opaque: tuple[str, ...] | None = None
 
+    def fault(self, value: float) -> str:
+        """What is wrong with a number, or nothing; NaN stands for one that could not be read."""
+        if self.at_least is not None and value < self.at_least:
+            return f"it must not be less than {self.at_least:g}"
+        if self.above is not None and value <= self.above:
+            return f"it must be greater than {self.above:g}"
+        if self.at_most is not None and value > self.at_most:
+            return f"it must not be more than {self.at_most:g}"
+        return ""
+
+    @property
+    def limits(self) -> dict[str, float]:
+        """The range as JSON Schema says it."""
+        given = {"minimum": self.at_least, "exclusiveMinimum": self.above, "maximum": self.at_most}
+        return {key: limit for key, limit in given.items() if limit is not None}
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        schema = handler(source)
+        return core_schema.with_info_after_validator_function(self._in_range, schema) if self.limits else schema
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return _with_limits(handler(schema), self.limits)
+
+    def _in_range(self, value: object, info: ValidationInfo) -> object:
+        """Refuse a number out of range; the text of a deck is read as it is, and its values are reported by checks."""
+        numeric = isinstance(value, int | float) and info.context != AS_TEXT
+        if numeric and (fault := self.fault(cast("float", value))):
+            raise ValueError(f"{value!r} is out of range: {fault}")
+        return value
+
+
+AS_TEXT = "text of a deck"
+"""The context in which the values of a text are validated."""
+
+
+def _with_limits(schema: dict[str, Any], limits: dict[str, float]) -> dict[str, Any]:
+    """A JSON Schema in which the numbers have limits."""
+    if schema.get("type") in ("number", "integer"):
+        return schema | limits
+    if limits and "anyOf" in schema:
+        return schema | {"anyOf": [_with_limits(one, limits) for one in schema["anyOf"]]}
+    return schema
+
 
 @dataclass(frozen=True, slots=True)
 class Setting(FieldInfo):
@@ -71,6 +116,10 @@ class Setting(FieldInfo):
     key: str = ""
     inline: bool = False
     behind: str = ""
+
+
+FEWEST_POINTS = 2
+"""Points of a curve."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,10 +134,23 @@ class Rows(FieldInfo):
         return table_columns(self.row) if self.row else []
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_plain_validator_function(
-            lambda given: read_table(given, self.columns()),
+        return core_schema.with_info_plain_validator_function(
+            self._read,
             serialization=core_schema.plain_serializer_function_ser_schema(self._written, info_arg=True),
         )
+
+    def _read(self, given: object, info: ValidationInfo) -> Table:
+        """A table; refuses a value out of the range of its column, and a curve of fewer than two points."""
+        table = read_table(given, self.columns())
+        if info.context == AS_TEXT:
+            return table
+        if self.unordered and len(table) < FEWEST_POINTS:
+            raise ValueError(f"{counted(len(table), 'point')}: a curve needs at least {FEWEST_POINTS}")
+        for index, spec in enumerate(record_schema(self.row).columns if self.row else ()):
+            for number, value in enumerate(table.column(index).tolist() if spec.about.limits else ()):
+                if fault := spec.about.fault(value):
+                    raise misfit(f"{value!r} is out of range: {fault}", number, index)
+        return table
 
     def _written(self, table: Table | None, info: SerializationInfo) -> Listing | list[list[Cell]] | None:
         if table is None:  # of a block that could not be read
@@ -101,14 +163,17 @@ class Rows(FieldInfo):
         fewest = fewest_fields(column.required for column in columns)
         listed = {
             "type": "array",
-            "prefixItems": [_cell_schema(column) for column in columns],
+            "prefixItems": [
+                _with_limits(_cell_schema(column), spec.about.limits)
+                for column, spec in zip(columns, record_schema(self.row).columns if self.row else (), strict=True)
+            ],
             "items": False,
             "minItems": fewest,
         }
         return {
             "description": self.meaning,
             "anyOf": [
-                {"type": "array", "items": listed},
+                {"type": "array", "items": listed, **({"minItems": FEWEST_POINTS} if self.unordered else {})},
                 {"type": "string", "description": "the same rows as text, one a line, fields separated by commas"},
             ],
         }
