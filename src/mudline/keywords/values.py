@@ -163,8 +163,8 @@ class Facts:
 class Names(Enum):
     """What a value names, or what a field `defines`; the words are for a reader.
 
-    Each is checked wherever it is named. Sets, force-embedment curves, nodes, elements, parameters and files have checks
-    of their own, as they are more than names; all other kinds share one.
+    Each is checked wherever it is named. Sets, force-embedment curves, nodes, elements, parameters and files have
+    checks of their own, as they are more than names; all other kinds share one.
     """
 
     SET = "an element set"
@@ -212,7 +212,7 @@ class Entry(NamedTuple):
     """A declaration in the index: which module has it, and what has to be known of it before it is imported.
 
     The lines of a keyword that is `kept` are passed through. With `sections_inferred` it is not confirmed where it
-    belongs.
+    belongs. `names` and `defines` are the kinds of things, as members of `Names`, that its fields name and define.
     """
 
     keyword: str
@@ -222,6 +222,8 @@ class Entry(NamedTuple):
     kept: bool = False
     sections_inferred: bool = False
     zero_length: bool = False
+    names: tuple[str, ...] = ()
+    defines: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -64,7 +64,7 @@ def _names(
 def _own_name(context: LintContext, where: Where) -> str:
     """The folded name of what the record around a place defines, "" where it defines nothing."""
     record = context.scene.context.as_written(where._replace(path=where.path[:2]))
-    names = (name for _, name in names_given(record, Names.SET, defined=True)) if isinstance(record, Part) else ()
+    names = (name for _, name in names_given(record, Names.SET, "defines")) if isinstance(record, Part) else ()
     return set_key(next(iter(names), ""))
 
 
