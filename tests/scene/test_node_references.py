@@ -109,10 +109,11 @@ def test_lines_make_nodes_of_their_own() -> None:
     assert "may define it" in messages(text)[0]
 
 
-def test_what_cables_may_make_is_one_info() -> None:
-    text = PIPE + "*CABLE\n 1\n" + HELD + " 99, 1\n 98, 1\n {Hang-off}, 1\n GEN=90, 99, 1\n"
-    assert reported(text) == [("I", "REF006", LINE - 3, 1)]
-    expected = "*CABLE may define nodes that this deck does not show: 2 uses of such nodes (first: node 99)"
+def test_nodes_on_cables_are_one_info() -> None:
+    cables = "*CABLE\n 1, 1, 2, 50.0\n*NODE,CURVILINEAR\n 99, 1, 5.0\n"
+    text = PIPE + cables + HELD + " 99, 1\n 98, 1\n {Hang-off}, 1\n GEN=90, 99, 1\n"
+    assert reported(text)[0] == ("I", "REF006", LINE - 1, 1)
+    expected = "*NODE,CURVILINEAR may define nodes that this deck does not show: 2 uses of such nodes (first: node 99)"
     assert messages(text)[0].startswith(expected)
 
 

@@ -374,7 +374,7 @@ class _Evaluator:
 
     def _number(self, equation: Equation, kind: Kind, label: str, where: Where) -> Value | None:
         """The value of an equation; without one NaN, or None where a whole number belongs."""
-        whole = kind in (Kind.WHOLE, Kind.IDENT)
+        whole = kind in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL)
         nothing = None if whole else math.nan
         try:
             value = self.parameters.evaluate(equation, where)

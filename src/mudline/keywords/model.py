@@ -115,9 +115,9 @@ class Rows(FieldInfo):
 
 
 def _cell_schema(column: Column) -> dict[str, Any]:
-    word = Label if column.kind is Kind.IDENT else Equation
+    words = [Label] * (column.kind in (Kind.IDENT, Kind.WHOLE_OR_LABEL)) + [Equation] * (column.kind is not Kind.IDENT)
     number = {"type": "integer", "minimum": -LARGEST_WHOLE, "maximum": LARGEST_WHOLE}
-    options = [number if column.whole else {"type": "number"}, word.json_schema()]
+    options = [number if column.whole else {"type": "number"}, *(word.json_schema() for word in words)]
     return {"description": column.label, "anyOf": options if column.required else [*options, {"type": "null"}]}
 
 

@@ -33,7 +33,8 @@ class ConstantCoefficients(Row):
         about("tangential added mass coefficient", unit="-", default="0", at_least=0, inferred=_ORDER),
     ] = None
     drag_lift: Annotated[
-        RealOrName | None, about("drag lift coefficient, or a curve of *DRAG LIFT", unit="-", default="none")
+        RealOrName | None,
+        about("drag lift coefficient, or a curve of *DRAG LIFT", unit="-", default="none", names=Names.DRAG_LIFT),
     ] = None
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, Record, setting
-from mudline.keywords.values import Facts, Name, Successor
+from mudline.keywords.values import Facts, Name, Names, Successor
 from mudline.keywords.vessels import Position
 
 
@@ -13,7 +13,7 @@ class VesselPosition(Record):
     """A vessel."""
 
     rule = "vessel_position"
-    vessel: Annotated[Name, setting("VESSEL", "name of the vessel")]
+    vessel: Annotated[Name, setting("VESSEL", "name of the vessel", defines=Names.VESSEL)]
     position: Annotated[Position, setting("INITIAL POSITION", "its reference point and heading")]
 
 

@@ -16,7 +16,7 @@ class IntegratedVessel(OpenRecord):
     """A vessel."""
 
     rule = "integrated_vessel"
-    vessel: Annotated[Name, setting("VESSEL", "name of the vessel", inferred=_MORE)]
+    vessel: Annotated[Name, setting("VESSEL", "name of the vessel", inferred=_MORE, defines=Names.VESSEL)]
     angles: Annotated[
         Literal["LARGE", "SMALL"] | None, setting("ANGLES", "how rotations are combined", default="LARGE")
     ] = None
