@@ -72,6 +72,7 @@ def test_lines_in_which_nothing_is_wrong(line: str) -> None:
         ("1, 2, =[1/0]", ("E", "SYN017", 0, 8)),
         ("GEN=1, 11, =[nothing]", ("E", "REF013", 0, 13)),
         ("GEN=1, 11, 2, =[nothing]", ("E", "REF013", 0, 16)),
+        ("GEN={Top}, 11, 2", ("E", "REF006", 0, 6)),
         ("GEN=1, =[cu(2)], 2", ("W", "SYN017", 0, 9)),
     ],
 )
@@ -98,7 +99,7 @@ def test_what_could_not_be_read_is_told_by_the_reader_only() -> None:
     assert held("x1, 1", "1, one", "GEN=1, x, 2", "1") == [
         ("W", "SYN016", 0, 2),
         ("E", "SYN002", 1, 5),
-        ("E", "SYN002", 2, 9),
+        ("W", "SYN016", 2, 9),
         ("E", "SYN003", 3, 2),
     ]
 

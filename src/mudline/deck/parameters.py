@@ -268,7 +268,7 @@ def whole_fault(equation: Equation, value: Value, label: str, where: Where) -> P
 
 
 _PLAIN = frozenset({float, int, str, NoneType})
-_EVALUATED = (Kind.REAL, Kind.WHOLE, Kind.REAL_OR_NAME)
+_EVALUATED = (Kind.REAL, Kind.WHOLE, Kind.WHOLE_OR_LABEL, Kind.REAL_OR_NAME)
 DEFINING = "PREPROCESSOR"
 """The section of the parameters; `Parameters` and `mudline.variations` evaluate what stands there."""
 

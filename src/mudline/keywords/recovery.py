@@ -81,7 +81,7 @@ def _complete(parser: InteractiveParser) -> tuple[Tree[Token], Mismatch]:
 
 def _next_needed(parser: InteractiveParser, fed: list[str]) -> str:
     """A line that ends the block, or one that was not put in yet: of lines that may be repeated there is no end."""
-    options = sorted(parser.accepts())
+    options = sorted(map(str, parser.accepts()))
     for option in options:
         trial = parser.copy()
         trial.feed_token(Token(option, ""))

@@ -133,9 +133,9 @@ class Facts:
     own; `plans_decks` says that its lines are about decks to be made, which do not have it.
 
     What it does: `defines` is what its records define by number or name; `makes` are the keywords of what things
-    outside the deck, which its lines are about, may define; `out_of_sight` says that the deck has these things, and that
-    where they lie is not computed. With `later_wins` an element follows the last record whose
-    SET= holds it, and that record as a whole. `carried` are the fields that a block has from the block before it, where
+    outside the deck, which its lines are about, may define; `out_of_sight` says that the deck has these things, and
+    where they lie is not computed. With `later_wins` an element follows the last record whose SET= holds it, and that
+    record as a whole. `carried` are the fields that a block has from the block before it, where
     it does not give them. `seabed_type` is the type of seabed that a legacy surface is. `soil_springs` hold elements in
     the soil; of elements with `zero_length` the ends may lie at one place. What is computed from it is said under the
     heading `computed_in` of the page on the contact evaluator. `instead_of` says what to write instead of a setting
@@ -161,8 +161,8 @@ class Facts:
 class Names(Enum):
     """What a value names, or what a field `defines`; the words are for a reader.
 
-    Each is checked wherever it is named. Sets, force-embedment curves, nodes, elements, parameters and files have checks
-    of their own, as they are more than names; all other kinds share one.
+    Each is checked wherever it is named. Sets, force-embedment curves, nodes, elements, parameters and files have
+    checks of their own, as they are more than names; all other kinds share one.
     """
 
     SET = "an element set"

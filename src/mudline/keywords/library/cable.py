@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.keeping import OpenBlock
-from mudline.keywords.model import Record, about
-from mudline.keywords.values import Facts, Ident, Names, Real, Successor, Whole
+from mudline.keywords.keeping import OpenBlock, OpenRecord
+from mudline.keywords.model import about
+from mudline.keywords.values import Ident, Names, Real, Whole
 
 _LINE = "one line with these four data in this order, as the page names the data and not the line; others are kept"
 
 
-class CableLine(Record):
+class CableLine(OpenRecord):
     """A cable."""
 
     rule = "cable_line"
@@ -26,8 +26,7 @@ class Cables(OpenBlock):
 
     rule = "cable"
     page = "theory_geomety_cables_data"
-    facts = Facts(superseded_by=(Successor("LINES"),))
-    summary = "Cables between two nodes, along which *NODE,CURVILINEAR places others (superseded by *LINES)."
+    summary = "Cables between two nodes, along which *NODE,CURVILINEAR places others (older than *LINES)."
     example = "*CABLE\n 1, 1, 41, 565.6\n"
 
     keyword: Literal["CABLE"] = "CABLE"

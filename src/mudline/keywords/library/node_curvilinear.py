@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.keeping import OpenBlock
+from mudline.keywords.keeping import OpenBlock, OpenRecord
 from mudline.keywords.model import ListRow, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Facts, Ident, Names, Real, Successor, Whole
+from mudline.keywords.values import Facts, Ident, Names, Real, Whole
 
 
 class CurvilinearNode(Row):
@@ -33,7 +33,7 @@ class CurvilinearRows(Record):
     nodes: Annotated[Table, rows(CurvilinearNode, "nodes: number, cable and distance")]
 
 
-class CurvilinearGenerate(Record):
+class CurvilinearGenerate(OpenRecord):
     """Equally spaced nodes between two on a cable."""
 
     rule = "curvilinear_generate"
@@ -46,8 +46,8 @@ class CurvilinearNodes(OpenBlock):
 
     rule = "node_curvilinear"
     page = "kwd_model_nodecurvilinear"
-    facts = Facts(superseded_by=(Successor("LINES"),), makes=("NODE",), out_of_sight=True)
-    summary = "Nodes by their distance along a *CABLE; their coordinates are not computed here."
+    facts = Facts(makes=("NODE",), out_of_sight=True)
+    summary = "Nodes by their distance along a *CABLE; their coordinates are not computed here (older than *LINES)."
     tabular = True
     example = "*NODE,CURVILINEAR\n 2, 1, 14.1\n 41, 1, 565.6\n CURV=2, 41, CABLE=1\n"
 
