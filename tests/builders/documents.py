@@ -14,7 +14,7 @@ from mudline.keywords import catalogue
 from mudline.keywords.library.geometric_sets import GeometricSet
 from mudline.keywords.library.seabed_profile import SeabedProfile
 from mudline.keywords.library.variation import VariedParameter
-from mudline.keywords.model import Block, FieldSpec, ListRow, Record, Row, record_schema
+from mudline.keywords.model import FEWEST_POINTS, Block, FieldSpec, ListRow, Record, Row, Rows, record_schema
 from mudline.keywords.values import Kind
 from mudline.quantities import UNIT_SYSTEMS
 from mudline.syntax.rows import spells_number
@@ -110,8 +110,17 @@ def cell(slot: FieldSpec) -> st.SearchStrategy[Any]:
     options: list[st.SearchStrategy[Any]] = [st.sampled_from(choices)] if choices else []
     options += [BY_KIND[slot.kind]] if slot.kind and slot.about.opaque is None else []
     options += [row(slot.row)] if slot.row else []
-    value = st.one_of(options)
+    value = st.one_of(options).map(lambda given: _in_range(slot, given))
     return st.lists(value, min_size=1, max_size=4) if slot.many else value
+
+
+def _in_range(slot: FieldSpec, given: object) -> object:
+    """A value that the declaration allows: the same, without its sign, or the nearest to a limit."""
+    if not isinstance(given, int | float) or not slot.about.fault(given):
+        return given
+    about = slot.about
+    nearest = about.at_most if about.at_most is not None else about.at_least if about.above is None else about.above + 1
+    return next(value for value in (abs(given), nearest) if value is not None and not about.fault(value))
 
 
 @st.composite
@@ -135,7 +144,8 @@ def table(slot: FieldSpec, fewest: int) -> st.SearchStrategy[list[list[Any]]]:
     """Rows of a table; the same few of them many times over make a long one."""
     assert slot.row is not None
     cells = line(record_schema(slot.row).columns).map(lambda given: list(given.values()))
-    rows = st.lists(cells, min_size=fewest, max_size=4)
+    curve = isinstance(slot.about, Rows) and slot.about.unordered
+    rows = st.lists(cells, min_size=max(fewest, FEWEST_POINTS if curve else 0), max_size=4)
     return st.tuples(rows, st.sampled_from([1, 1, 1, 12])).map(lambda pair: pair[0] * pair[1])
 
 

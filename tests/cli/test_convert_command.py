@@ -149,3 +149,21 @@ def test_bytes_are_utf_8_with_line_feeds_whatever_the_terminal_is(place: Place) 
     assert outcome.code == 0
     assert " CURVE=Lehm\u00e4\n".encode() in outcome.output
     assert b"\r" not in outcome.output
+
+
+@pytest.mark.parametrize(
+    ("lines", "code"),
+    [
+        ("*OCEAN\n -5.0, 1025.0\n", "SBD010"),
+        ("*SEABED STIFFNESS\n CURVE=a\n 0, 0\n", "CRV001"),
+        ("$LOAD CASE\n*TIME\n STEP=FIXED\n 0, 10, -1\n", "SBD010"),
+    ],
+)
+def test_values_that_no_document_holds(place: Place, folder: Path, lines: str, code: str) -> None:
+    """The finding has its own code and place, nothing is written; keyword text keeps the deck as it is."""
+    deck = place(f"$MODEL\n{lines}")
+    for form in ("json", "yaml"):
+        outcome = run("convert", deck, "-o", f"out.{form}")
+        assert (outcome.code, outcome.out, (folder / f"out.{form}").exists()) == (1, "", False)
+        assert f": error: {code} " in outcome.err
+    assert run("convert", deck, "--to", "keyword").code == 0

@@ -234,10 +234,12 @@ def test_a_fault_in_a_block_of_rows_is_told_at_its_row() -> None:
     assert same.message == found.message
 
 
+POINTS = [[0, 0], [1, 2]]
+
 UNSAYABLE: list[tuple[str, Document]] = [
-    ("curves[0].name", {"keyword": "SEABED STIFFNESS", "curves": [{"name": "a, b", "points": []}]}),
-    ("curves[0].name", {"keyword": "SEABED STIFFNESS", "curves": [{"name": " a", "points": []}]}),
-    ("curves[0].points", {"keyword": "EMBEDMENT", "curves": [{"set": "a", "points": [[1, 2]]}, {"points": [[3, 4]]}]}),
+    ("curves[0].name", {"keyword": "SEABED STIFFNESS", "curves": [{"name": "a, b", "points": POINTS}]}),
+    ("curves[0].name", {"keyword": "SEABED STIFFNESS", "curves": [{"name": " a", "points": POINTS}]}),
+    ("curves[0].points", {"keyword": "EMBEDMENT", "curves": [{"set": "a", "points": POINTS}, {"points": POINTS}]}),
     ("entries[0]", {"keyword": "NODE", "entries": [{"nodes": []}]}),
     ("entries[0].nodes[0]", {"keyword": "NODE", "entries": [{"nodes": [["=[a], b=[c]", 0, 0]]}]}),
     ("sets[0].stiffness", {"keyword": "SEABED PROPERTIES", "sets": [{"set": "a", "stiffness": "12"}]}),

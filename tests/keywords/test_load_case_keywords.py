@@ -52,15 +52,16 @@ def test_no_friction_is_kept_wherever_it_stands() -> None:
 
 
 def test_soil_springs() -> None:
-    lines = "*P-Y\n TYPE=user\n SET=Pipe\n DEPTH=-1\n 0, 0\n 5e3, =[y]\n NODE={Mudline}\n 1, 2\n SET=Pile\n FILE=a.py\n"
+    lines = "*P-Y\n TYPE=user\n SET=Pipe\n DEPTH=-1\n 0, 0\n 5e3, =[y]\n NODE={Mudline}\n 1, 2\n 3, 4\n"
+    lines += " SET=Pile\n FILE=a.py\n"
     curves: list[dict[str, object]] = [
         {"depth": -1.0, "points": [[0.0, 0.0], [5000.0, "=[y]"]]},
-        {"node": "{Mudline}", "points": [[1.0, 2.0]]},
+        {"node": "{Mudline}", "points": [[1.0, 2.0], [3.0, 4.0]]},
     ]
     conductor = {"type": "USER", "set": "Pipe", "curves": curves}
     assert values("MODEL", lines) == {"sets": [conductor, {"set": "Pile", "file": "a.py"}]}
-    axial = {"set": "a", "curves": [{"depth": 2.0, "points": [[1.0, 2.0]]}]}
-    assert values("MODEL", "*T-Z\n SET=a\n DEPTH=2\n 1, 2\n") == {"sets": [axial]}
+    axial = {"set": "a", "curves": [{"depth": 2.0, "points": [[1.0, 2.0], [3.0, 4.0]]}]}
+    assert values("MODEL", "*T-Z\n SET=a\n DEPTH=2\n 1, 2\n 3, 4\n") == {"sets": [axial]}
 
 
 def test_resistance_comes_first() -> None:

@@ -15,10 +15,10 @@ from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Diagnostic, Problem, Severity, Span
 from mudline.formatting.document import same_meaning
 from mudline.keywords.model import Part, record_schema
+from mudline.keywords.ranges import range_fault
 from mudline.keywords.table import Table
 from mudline.keywords.values import Equation, Kind
 from mudline.limits import LISTED
-from mudline.scene.deck_values import range_fault
 from mudline.scene.model import resolve
 from mudline.short_repr import cut
 from mudline.syntax.edits import TextEdit, edited_bytes

@@ -15,7 +15,9 @@ from mudline.cli.view import View
 from mudline.deck.forms import SUFFIXES, form_names, form_of
 from mudline.deck.loading import dump
 from mudline.deck.model import Deck
-from mudline.keywords.model import Comment
+from mudline.diagnostics import DeckError, Severity
+from mudline.keywords.model import Block, Comment
+from mudline.keywords.ranges import is_refused
 from mudline.keywords.table import Table
 
 _FORMS = click.Choice(form_names())
@@ -40,13 +42,16 @@ def command(
 ) -> int:
     """Convert a deck between keyword text, JSON and YAML; tables (.xlsx, .csv) to a deck.
 
-    Only blank lines and the spelling of numbers are lost.
+    Only blank lines and the spelling of numbers are lost. A deck with a value that its keyword does not allow, as a
+    curve of one point or a negative depth, is not written as JSON or YAML.
     """
     form = target or _form_of_output(output)
     table = _table_form(deck, source)
     read = _tables(deck, table) if table else deck.load(source).require()
     if read is None:
         return FOUND
+    if form != "keyword":
+        _require_values(read)
     if in_order:
         for name in sort_curves(read):
             notify(f"curve {name} keeps its order: a ratio in it is an equation")
@@ -82,6 +87,19 @@ def _tables(deck: GivenDeck, form: str) -> Deck | None:
     for sheet in found.left_out:
         notify(f"sheet {sheet} is left out: no headings of a keyword in its first row")
     return found.deck
+
+
+def _require_values(deck: Deck) -> None:
+    """Raise DeckError with the errors of a deck some of whose values no document holds."""
+    blocks = (block for section in deck.sections for block in section.blocks)
+    if not any(isinstance(block, Block) and is_refused(block) for block in blocks):
+        return
+    from mudline.linting.engine import joined_problems  # noqa: PLC0415 - only a faulty deck is checked
+    from mudline.linting.registry import rules  # noqa: PLC0415 - as above
+    from mudline.linting.rule import LintContext  # noqa: PLC0415 - as above
+
+    found = joined_problems(LintContext(deck), rules(), suppress=False)
+    raise DeckError(deck.diagnose([one for one in found if one.weight is Severity.ERROR]))
 
 
 def _form_of_output(output: str | None) -> str:

@@ -15,7 +15,7 @@ from typing import cast
 from mudline.keywords import index
 from mudline.keywords.model import Block
 from mudline.keywords.names_only import NAMES, ZERO_LENGTH
-from mudline.keywords.values import Entry, Facts, OpaqueKeyword
+from mudline.keywords.values import Entry, Facts, Names, OpaqueKeyword
 from mudline.spelling import Effort, nearest
 
 SECTIONS = (
@@ -144,6 +144,16 @@ def has_certain_section(keyword: str) -> bool:
     """Whether it is certain where a keyword belongs; of postprocessing that is inferred."""
     certain = (sections_of(keyword) or ("",))[0] in CERTAIN_SECTIONS
     return certain or bool(_read(keyword)) or sections_of(keyword) == ()
+
+
+def definers(what: Names) -> list[str]:
+    """The keywords that define things of a kind."""
+    return [entry.keyword for entry in index.ENTRIES if what.name in entry.defines]
+
+
+def users(what: Names) -> list[str]:
+    """The keywords that name things of a kind."""
+    return [entry.keyword for entry in index.ENTRIES if what.name in entry.names]
 
 
 def may_have_no_length(keyword: str) -> bool:

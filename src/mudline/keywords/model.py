@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from types import NoneType, UnionType
-from typing import Annotated, Any, ClassVar, Literal, Union, get_args, get_origin
+from typing import Annotated, Any, ClassVar, Literal, Union, cast, get_args, get_origin
 
 from pydantic import (
     BaseModel,
@@ -15,6 +15,7 @@ from pydantic import (
     GetCoreSchemaHandler,
     GetJsonSchemaHandler,
     SerializationInfo,
+    ValidationInfo,
     model_serializer,
     model_validator,
 )
@@ -30,11 +31,12 @@ from mudline.keywords.table import (
     Table,
     checked_by_parts,
     fewest_fields,
+    misfit,
     read_table,
 )
 from mudline.keywords.values import Count, Equation, Facts, Kind, Label, Names, Subject, Text
 from mudline.limits import MOST_KEYS
-from mudline.short_repr import with_fields
+from mudline.short_repr import counted, with_fields
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +62,49 @@ class FieldInfo:
     heading: str = ""
     opaque: tuple[str, ...] | None = None
 
+    def fault(self, value: float) -> str:
+        """What is wrong with a number, or nothing; NaN stands for one that could not be read."""
+        if self.at_least is not None and value < self.at_least:
+            return f"it must not be less than {self.at_least:g}"
+        if self.above is not None and value <= self.above:
+            return f"it must be greater than {self.above:g}"
+        if self.at_most is not None and value > self.at_most:
+            return f"it must not be more than {self.at_most:g}"
+        return ""
+
+    @property
+    def limits(self) -> dict[str, float]:
+        """The range as JSON Schema says it."""
+        given = {"minimum": self.at_least, "exclusiveMinimum": self.above, "maximum": self.at_most}
+        return {key: limit for key, limit in given.items() if limit is not None}
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        schema = handler(source)
+        return core_schema.with_info_after_validator_function(self._in_range, schema) if self.limits else schema
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return _with_limits(handler(schema), self.limits)
+
+    def _in_range(self, value: object, info: ValidationInfo) -> object:
+        """Refuse a number out of range; the text of a deck is read as it is, and its values are reported by checks."""
+        numeric = isinstance(value, int | float) and info.context != AS_TEXT
+        if numeric and (fault := self.fault(cast("float", value))):
+            raise ValueError(f"{value!r} is out of range: {fault}")
+        return value
+
+
+AS_TEXT = "text of a deck"
+"""The context in which the values of a text are validated."""
+
+
+def _with_limits(schema: dict[str, Any], limits: dict[str, float]) -> dict[str, Any]:
+    """A JSON Schema in which the numbers have limits."""
+    if schema.get("type") in ("number", "integer"):
+        return schema | limits
+    if limits and "anyOf" in schema:
+        return schema | {"anyOf": [_with_limits(one, limits) for one in schema["anyOf"]]}
+    return schema
+
 
 @dataclass(frozen=True, slots=True)
 class Setting(FieldInfo):
@@ -71,6 +116,10 @@ class Setting(FieldInfo):
     key: str = ""
     inline: bool = False
     behind: str = ""
+
+
+FEWEST_POINTS = 2
+"""Points of a curve."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,10 +134,23 @@ class Rows(FieldInfo):
         return table_columns(self.row) if self.row else []
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_plain_validator_function(
-            lambda given: read_table(given, self.columns()),
+        return core_schema.with_info_plain_validator_function(
+            self._read,
             serialization=core_schema.plain_serializer_function_ser_schema(self._written, info_arg=True),
         )
+
+    def _read(self, given: object, info: ValidationInfo) -> Table:
+        """A table; refuses a value out of the range of its column, and a curve of fewer than two points."""
+        table = read_table(given, self.columns())
+        if info.context == AS_TEXT:
+            return table
+        if self.unordered and len(table) < FEWEST_POINTS:
+            raise ValueError(f"{counted(len(table), 'point')}: a curve needs at least {FEWEST_POINTS}")
+        for index, spec in enumerate(record_schema(self.row).columns if self.row else ()):
+            for number, value in enumerate(table.column(index).tolist() if spec.about.limits else ()):
+                if fault := spec.about.fault(value):
+                    raise misfit(f"{value!r} is out of range: {fault}", number, index)
+        return table
 
     def _written(self, table: Table | None, info: SerializationInfo) -> Listing | list[list[Cell]] | None:
         if table is None:  # of a block that could not be read
@@ -101,14 +163,17 @@ class Rows(FieldInfo):
         fewest = fewest_fields(column.required for column in columns)
         listed = {
             "type": "array",
-            "prefixItems": [_cell_schema(column) for column in columns],
+            "prefixItems": [
+                _with_limits(_cell_schema(column), spec.about.limits)
+                for column, spec in zip(columns, record_schema(self.row).columns if self.row else (), strict=True)
+            ],
             "items": False,
             "minItems": fewest,
         }
         return {
             "description": self.meaning,
             "anyOf": [
-                {"type": "array", "items": listed},
+                {"type": "array", "items": listed, **({"minItems": FEWEST_POINTS} if self.unordered else {})},
                 {"type": "string", "description": "the same rows as text, one a line, fields separated by commas"},
             ],
         }
@@ -350,14 +415,30 @@ def record_schema(part: type[Part]) -> RecordSchema:
     return found
 
 
+Role = Literal["names", "defines"]
+"""What a field does with a name: it uses that of another thing, or gives a thing its own."""
+
+
 @cache
-def _naming(part: type[Part], what: Names) -> tuple[FieldSpec, ...]:
-    """The fields that name a thing of a kind, and those with parts that have one."""
-    return tuple(slot for slot in record_schema(part).slots if slot.about.names is what or _leads_to(slot, what))
+def _naming(part: type[Part], what: Names, role: Role = "names") -> tuple[FieldSpec, ...]:
+    """The fields that name or define a thing of a kind, and those with parts that have one."""
+    return tuple(
+        slot
+        for slot in record_schema(part).slots
+        if getattr(slot.about, role) is what or any(_naming(each, what, role) for each in _inside(slot))
+    )
 
 
-def _leads_to(slot: FieldSpec, what: Names) -> bool:
-    return any(_naming(part, what) for part in (slot.row, *slot.record.values()) if part)
+def _inside(slot: FieldSpec) -> list[type[Part]]:
+    return [part for part in (slot.row, *slot.record.values()) if part]
+
+
+@cache
+def kinds_of(part: type[Part], role: Role) -> frozenset[Names]:
+    """The kinds of things that the fields of a part, and of those inside it, name or define."""
+    slots = record_schema(part).slots
+    own = {kind for slot in slots if (kind := getattr(slot.about, role)) is not None}
+    return frozenset(own).union(*(kinds_of(each, role) for slot in slots for each in _inside(slot)))
 
 
 def may_name(part: type[Part], what: Names) -> bool:
@@ -365,18 +446,40 @@ def may_name(part: type[Part], what: Names) -> bool:
     return bool(_naming(part, what))
 
 
-def names_given(part: Part, what: Names) -> Iterator[tuple[tuple[str | int, ...], str]]:
+def names_given(part: Part, what: Names, role: Role = "names") -> Iterator[tuple[tuple[str | int, ...], str]]:
     """The names of things of a kind that a part gives, with their paths; what is not a text is not a name."""
-    for slot in _naming(type(part), what):
+    for slot in _naming(type(part), what, role):
         value = getattr(part, slot.name, None)
         if isinstance(value, Part):
-            yield from (((slot.json, *path), name) for path, name in names_given(value, what))
+            yield from (((slot.json, *path), name) for path, name in names_given(value, what, role))
         elif isinstance(value, str) and not isinstance(value, Equation):
             yield (slot.json,), value
         elif isinstance(value, list):
             for index, item in enumerate(value):
                 if isinstance(item, Part):
-                    yield from (((slot.json, index, *path), name) for path, name in names_given(item, what))
+                    yield from (((slot.json, index, *path), name) for path, name in names_given(item, what, role))
+
+
+def idents_given(part: Part, what: Names) -> Iterator[tuple[tuple[str | int, ...], int | Label]]:
+    """The numbers and labels of nodes or elements that a part gives, with their paths; what could not be read is none.
+
+    Those in the rows of a table are left out: a keyword with such a table looks at them itself.
+    """
+    for slot in _naming(type(part), what):
+        value = getattr(part, slot.name, None)
+        for path, item in enumerate_items(slot, value):
+            if isinstance(item, Part):
+                yield from (((*path, *inner), ident) for inner, ident in idents_given(item, what))
+            elif isinstance(item, int | Label) and slot.about.names is what:
+                yield path, item
+
+
+def enumerate_items(slot: FieldSpec, value: object) -> Iterator[tuple[tuple[str | int, ...], object]]:
+    """The value of a field, or those of its list, each with the path to it."""
+    if isinstance(value, list):
+        yield from (((slot.json, index), item) for index, item in enumerate(value))
+    else:
+        yield (slot.json,), value
 
 
 @cache

@@ -16,7 +16,7 @@ from typing import Any, cast
 from mudline.diagnostics import Problem, Span
 from mudline.keywords.grammar import ROW, SMALL, Tree, fitting, records_of, terminal_of
 from mudline.keywords.making import can_be_made, make
-from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Record, columns_of, record_schema
+from mudline.keywords.model import AS_TEXT, Block, FieldSpec, ListRow, Part, Record, columns_of, record_schema
 from mudline.keywords.table import LARGEST_WHOLE, Column, from_numbers, from_rows
 from mudline.keywords.text import UnreadableError, Value, read_value
 from mudline.keywords.values import Equation, Kind
@@ -93,7 +93,9 @@ def read_plain(
         return None
     try:
         values = {"keyword": name, **_contents(text, leaves, declared, keys)}
-        return cast("Block", make(declared, values)) if can_be_made(declared) else declared.model_validate(values)
+        if can_be_made(declared):
+            return cast("Block", make(declared, values))
+        return declared.model_validate(values, context=AS_TEXT)
     except (_OddError, ValueError):
         return None
 

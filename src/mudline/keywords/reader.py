@@ -17,7 +17,7 @@ from mudline.keywords.builder import Builder, ParsedRecord, construct
 from mudline.keywords.grammar import END, ROW, Content, Mismatch
 from mudline.keywords.keeping import opened
 from mudline.keywords.kept_lines import doubtful, of_other_form
-from mudline.keywords.model import Block, Part, RecordSchema, record_schema
+from mudline.keywords.model import AS_TEXT, Block, Part, RecordSchema, record_schema
 from mudline.keywords.places import Path, Places
 from mudline.keywords.plain import read_plain
 from mudline.keywords.text import hint, instead, merge_per_line, shown, suggestion
@@ -174,7 +174,7 @@ class _Reader:
         built.values["keyword"] = self.raw.name
         if not builder.damaged:
             try:
-                return self.declared.model_validate(built.values)
+                return self.declared.model_validate(built.values, context=AS_TEXT)
             except ValidationError as error:
                 for fault in error.errors():
                     place = tuple(fault["loc"])

@@ -30,7 +30,7 @@ def not_whole(written: str, value: float, label: str) -> str:
     return f"{written} is not a whole number: {label} needs one"
 
 
-def _misfit(message: str, row: int, column: int | None = None) -> ValidationError:
+def misfit(message: str, row: int, column: int | None = None) -> ValidationError:
     """The fault of a cell or, without a column, of a row of a list that a table cannot hold."""
     kind = PydanticCustomError("table", "{fault}", {"fault": message})
     place = InitErrorDetails(type=kind, loc=(row,) if column is None else (row, column), input=None)
@@ -160,16 +160,16 @@ def from_cells(cells: list[object], columns: Sequence[Column]) -> Table:
     """A table from lists, as JSON holds them. Raises ValidationError for the first row or cell that does not fit."""
     for row, fields in enumerate(cells):
         if type(fields) is not list:
-            raise _misfit(f"expected a row: a list of {_count(columns)} values", row)
+            raise misfit(f"expected a row: a list of {_count(columns)} values", row)
     rows = cast("list[list[object]]", cells)
     lengths = np.fromiter(map(len, rows), dtype=np.intp, count=len(rows))
     fewest, width = _fewest(columns), int(lengths.max(initial=0))
     if width > len(columns) or (len(rows) and int(lengths.min()) < fewest):
         row = int(np.flatnonzero((lengths > len(columns)) | (lengths < fewest))[0])
-        raise _misfit(f"{counted(int(lengths[row]), 'field')}, expected {_count(columns)}", row)
+        raise misfit(f"{counted(int(lengths[row]), 'field')}, expected {_count(columns)}", row)
     table = _numbers(rows, lengths, width) or _cells(rows, lengths, width, columns)
     for (row, column), fault in _not_whole(table, columns).items():
-        raise _misfit(fault, row, column)
+        raise misfit(fault, row, column)
     return table
 
 
@@ -199,9 +199,9 @@ def _cells(rows: list[list[object]], lengths: NDArray[np.intp], width: int, colu
             if isinstance(cell, int | float) and not isinstance(cell, bool):
                 values[row, column] = _finite(cell, row, column)
             elif cell is not None and (not isinstance(cell, str) or not cell):
-                raise _misfit(f"{cell!r} is not allowed here: expected {columns[column].kind.value}", row, column)
+                raise misfit(f"{cell!r} is not allowed here: expected {columns[column].kind.value}", row, column)
             elif fault := columns[column].fault(cell or ""):
-                raise _misfit(fault, row, column)
+                raise misfit(fault, row, column)
             else:
                 words[row, column] = _word(cell or "")
     return _without_empty_ends(Table(values, lengths, words), columns)
@@ -213,7 +213,7 @@ def _finite(cell: float, row: int, column: int) -> float:
     except OverflowError:
         value = math.inf
     if not math.isfinite(value):
-        raise _misfit("the number is not finite, or too large for double precision", row, column)
+        raise misfit("the number is not finite, or too large for double precision", row, column)
     return value
 
 
@@ -221,7 +221,7 @@ def from_text(text: str, columns: Sequence[Column]) -> Table:
     """A table from a block of rows, as YAML holds a long one. Raises ValidationError for the first fault."""
     table, faults = from_rows(read_rows(text, Span(0, len(text)), len(columns)), columns)
     for (row, column), fault in sorted(faults.items()):
-        raise _misfit(fault, row, column if column >= 0 else None)
+        raise misfit(fault, row, column if column >= 0 else None)
     return table
 
 

@@ -210,7 +210,7 @@ class Entry(NamedTuple):
     """A declaration in the index: which module has it, and what has to be known of it before it is imported.
 
     The lines of a keyword that is `kept` are passed through. With `sections_inferred` it is not confirmed where it
-    belongs.
+    belongs. `names` and `defines` are the kinds of things, as members of `Names`, that its fields name and define.
     """
 
     keyword: str
@@ -220,6 +220,8 @@ class Entry(NamedTuple):
     kept: bool = False
     sections_inferred: bool = False
     zero_length: bool = False
+    names: tuple[str, ...] = ()
+    defines: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from mudline.keywords.values import Name, Names, Real
 COEFFICIENTS = "coefficients by heading"
 TAG = "a line of this word alone: the block is that of a mooring analysis, which has one vessel"
 
-Vessel = Annotated[Name, setting("VESSEL", "vessel", names=Names.VESSEL)]
+Vessel = Annotated[Name, setting("VESSEL", "vessel of *VESSEL or *VESSEL,INTEGRATED", names=Names.VESSEL)]
 Body = Annotated[Name, setting("FLOATING BODY", "floating body", names=Names.BODY)]
 
 

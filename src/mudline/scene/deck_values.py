@@ -13,7 +13,7 @@ from mudline.deck.parameters import Parameters, folded
 from mudline.diagnostics import Span, Where
 from mudline.files import look
 from mudline.keywords import catalogue
-from mudline.keywords.model import Block, FieldSpec, Part, Row, may_name, names_given, record_schema
+from mudline.keywords.model import Block, Part, Row, may_name, names_given, record_schema
 from mudline.keywords.values import LINE_SETS, Names
 from mudline.syntax.fields import read_line
 from mudline.syntax.rows import read_number
@@ -38,28 +38,6 @@ def number(part: object, name: str, default: float = math.nan) -> float:
     """A value that is given and is a number, else `default`."""
     value = getattr(part, name, None)
     return float(value) if isinstance(value, float | int) else default
-
-
-def range_fault(value: float, slot: FieldSpec) -> str:
-    """What is wrong with a number, or nothing; NaN stands for one that could not be read."""
-    low, above, most = slot.about.at_least, slot.about.above, slot.about.at_most
-    if low is not None and value < low:
-        return f"{_in_words(slot)} is {value!r}: it must not be less than {low:g}"
-    if above is not None and value <= above:
-        return f"{_in_words(slot)} is {value!r}: it must be greater than {above:g}"
-    if most is not None and value > most:
-        return f"{_in_words(slot)} is {value!r}: it must not be more than {most:g}"
-    return ""
-
-
-def _in_words(slot: FieldSpec) -> str:
-    """The field in words: `FRICTION=`, `water depth`, `external diameter Do`, `area of the section (A)`."""
-    meaning = slot.about.meaning.partition(";")[0]
-    if slot.key:
-        return slot.label
-    if slot.label.islower():  # words of the meaning; a symbol has capitals
-        return meaning
-    return f"{meaning} ({slot.label})" if " of " in meaning else f"{meaning} {slot.label}"
 
 
 def surfaces(deck: Deck) -> list[tuple[Where, Surface]]:

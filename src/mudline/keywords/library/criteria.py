@@ -56,7 +56,7 @@ class Criteria(Block):
     ] = None
     adjust: Annotated[Name, setting("ADJUST", "node, vessel, element or set that is changed", inline=True)]
     vector: Annotated[
-        Name | None, setting("VECTOR", "of NODE and VESSEL: direction", inline=True, names=Names.VECTOR)
+        Name | None, setting("VECTOR", "of NODE and VESSEL: direction, of *VECTOR", inline=True, names=Names.VECTOR)
     ] = None
     iterations: Annotated[Whole | None, setting("MAX ITERATIONS", "most iterations", at_least=1)] = None
     least: Annotated[

@@ -23,7 +23,7 @@ class _Stiffness(Row):
 
 
 class _Curve(Row):
-    curve: Annotated[Name, about("curve", names=Names.PIP_STIFFNESS)]
+    curve: Annotated[Name, about("curve of *PIP STIFFNESS", names=Names.PIP_STIFFNESS)]
 
 
 class _Bulkhead(Row):
@@ -55,7 +55,7 @@ class LinePair(Record):
     """Two lines."""
 
     rule = "line_pair"
-    primary: Annotated[Name, setting("PRIMARY", "line", names=Names.LINE)]
+    primary: Annotated[Name, setting("PRIMARY", "line of *LINES", names=Names.LINE)]
     secondary: Annotated[Name, setting("SECONDARY", "line in or on it", inline=True, names=Names.LINE)]
     type_: Annotated[
         Literal["PIP", "POP"] | None,

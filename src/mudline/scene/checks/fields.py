@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import cache
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
@@ -12,12 +11,11 @@ from mudline.codes.references import REF015
 from mudline.deck.model import Opaque
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.keywords.catalogue import may_have_no_length
-from mudline.keywords.model import FieldSpec, ListRow, Part, Rows, record_schema
-from mudline.keywords.table import Table
+from mudline.keywords.ranges import range_faults, ranged_slots
 from mudline.keywords.text import shown
 from mudline.limits import MOST_REPORTED
 from mudline.scene.checks import check
-from mudline.scene.deck_values import missing_files, range_fault
+from mudline.scene.deck_values import missing_files
 from mudline.scene.sections import format_of
 
 if TYPE_CHECKING:
@@ -37,8 +35,8 @@ def negative_property(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Such a value has no physical meaning: a sign was typed by mistake, or the value is in the wrong field. The same
     holds for a share above 1, as the floor of CYCLIC= in *SEABED SUCTION. Correct it. Values of equations and of tables
-    are looked at too. The geometry of a trench and the stiffness of unloading have rules of their own, EXT003 and
-    EXT009.
+    are looked at too. A deck in JSON or YAML with such a value is refused when it is read, and `convert` writes none.
+    The geometry of a trench and the stiffness of unloading have rules of their own, EXT003 and EXT009.
 
     Example:
          $MODEL
@@ -53,54 +51,10 @@ def negative_property(scene: ResolvedDeck) -> Iterator[Problem]:
     """
     for i, section in enumerate(scene.deck.sections):
         for j, block in enumerate(section.blocks):
-            if type(block) is not Opaque and _checked_slots(type(block)):
-                for path, message in _faults(block):
+            if type(block) is not Opaque and ranged_slots(type(block)):
+                for path, message in range_faults(block):
                     if _GEOMETRY not in path[2:3] or block.keyword != "SEABED TRENCH":
                         yield Problem(SBD010, message, where=Where(i, j, path))
-
-
-@cache
-def _checked_slots(part: type[Part]) -> tuple[FieldSpec, ...]:
-    """The fields with a range, and those with parts that have one."""
-    return tuple(slot for slot in record_schema(part).slots if _ranged(slot))
-
-
-def _ranged(slot: FieldSpec) -> bool:
-    about = slot.about
-    if any(limit is not None for limit in (about.at_least, about.above, about.at_most)):
-        return True
-    parts = [slot.row, *slot.record.values()]
-    return any(_checked_slots(part) for part in parts if part and not issubclass(part, ListRow))
-
-
-def _faults(part: Part) -> Iterator[tuple[tuple[str | int, ...], str]]:
-    """Path and message of each value that is out of range."""
-    for slot in _checked_slots(type(part)):
-        value: Any = getattr(part, slot.name)
-        if value is None:
-            continue
-        if isinstance(value, float | int):
-            if fault := range_fault(value, slot):
-                yield (slot.json,), fault
-        elif isinstance(value, Part):
-            yield from (((slot.json, *path), fault) for path, fault in _faults(value))
-        elif isinstance(value, Table):
-            yield from (((slot.json, *path), fault) for path, fault in _table_faults(value, slot))
-        elif isinstance(value, list):
-            for index, item in enumerate(value):
-                if isinstance(item, Part):
-                    yield from (((slot.json, index, *path), fault) for path, fault in _faults(item))
-
-
-def _table_faults(table: Table, slot: FieldSpec) -> Iterator[tuple[tuple[int, int], str]]:
-    """Row, column and message of each value of a table that is out of range."""
-    columns = record_schema(slot.row).columns if isinstance(slot.about, Rows) and slot.row else []
-    for index, column in enumerate(columns):
-        if not _ranged(column):
-            continue
-        for row, value in enumerate(table.column(index).tolist()):
-            if fault := range_fault(value, column):
-                yield (row, index), fault
 
 
 @check(REF015)
