@@ -74,7 +74,7 @@ class VesselRao(Record):
     ] = None
     file: Annotated[Name | None, setting("FILE", "file with the operators, instead of lines", names=Names.FILE)] = None
     headings: list[HeadingRao] = []
-    lines: Annotated[Table | None, rows(RaoLine, "of LINE: operators", unordered=True)] = None
+    lines: Annotated[Table | None, rows(RaoLine, "of LINE: operators, in any order")] = None
 
 
 class Raos(Block):
