@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.keeping import OpenBlock, OpenRecord
-from mudline.keywords.model import ListRow, Record, Row, about, rows, setting
+from mudline.keywords.model import Block, ListRow, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Facts, Ident, Names, Real, Whole
 
@@ -33,7 +32,7 @@ class CurvilinearRows(Record):
     nodes: Annotated[Table, rows(CurvilinearNode, "nodes: number, cable and distance")]
 
 
-class CurvilinearGenerate(OpenRecord):
+class CurvilinearGenerate(Record):
     """Equally spaced nodes between two on a cable."""
 
     rule = "curvilinear_generate"
@@ -41,7 +40,7 @@ class CurvilinearGenerate(OpenRecord):
     cable: Annotated[Whole, setting("CABLE", "number of the cable", names=Names.CABLE, inline=True)]
 
 
-class CurvilinearNodes(OpenBlock):
+class CurvilinearNodes(Block):
     """Nodes on cables."""
 
     rule = "node_curvilinear"

@@ -41,6 +41,7 @@ class IntegratedVessels(OpenBlock):
     rule = "vessel_integrated"
     subject = "vessels"
     page = "kwd_model_vesselintegrated"
+    known_forms = True
     summary = "Vessels: initial positions, response amplitude operators, and the shapes that are drawn."
     example = (
         "*VESSEL,INTEGRATED\n VESSEL=FPSO\n INITIAL POSITION=1005.0, 0.0, 0.0, 90.0\n"
