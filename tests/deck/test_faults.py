@@ -197,12 +197,12 @@ def test_labels_with_commas_hold_together() -> None:
 
 
 @pytest.mark.parametrize(
-    "head", ["*NODE, CURVILINEAR", "*node,curvilinear", "* Node ,  Curvilinear", "\t*NODE ,CURVILINEAR  "]
+    "head", ["*TIME, DISCONNECT", "*time,disconnect", "* Time ,  Disconnect", "\t*TIME ,DISCONNECT  "]
 )
 def test_a_keyword_with_a_comma(head: str) -> None:
-    deck = deck_of(f"  $ model \n{head}\n any, {{thing\n")
+    deck = deck_of(f"  $ load case \n{head}\n any, {{thing\n")
     assert deck.problems == []
-    assert deck.sections[0].blocks == [Opaque(keyword="NODE,CURVILINEAR", lines=[" any, {thing"])]
+    assert deck.sections[0].blocks == [Opaque(keyword="TIME,DISCONNECT", lines=[" any, {thing"])]
 
 
 @pytest.mark.parametrize(

@@ -134,7 +134,7 @@ def _checked(found: Value, operand: Operand, assignment: Assignment, line: int) 
     slot = found.field.slot
     if operand.number is None or (slot.kind is Kind.NAME and not slot.choices):
         return operand.text
-    if slot.kind in (Kind.WHOLE, Kind.IDENT) and not operand.number.is_integer():
+    if slot.kind in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL) and not operand.number.is_integer():
         raise AssignmentError(f"{assignment.path} cannot be {assignment.value!r}: expected a whole number", line)
     if fault := range_fault(operand.number, slot):
         raise AssignmentError(fault, line)

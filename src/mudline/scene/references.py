@@ -138,7 +138,11 @@ def check_boundaries(context: Context, nodes: Numbered) -> None:
             for j, entry in enumerate(held.entries):
                 place = where.inside("types", i, "entries", j)
                 if hasattr(entry, "generate"):
-                    _check_range(context, nodes, cast("FixedRange", entry), place.inside("generate"))
+                    span = cast("FixedRange", entry)
+                    _check_range(context, nodes, span, place.inside("generate"))
+                    ends = (getattr(span.generate, "start", None), getattr(span.generate, "end", None))
+                    labels = enumerate(ends)
+                    named += [(end, place.inside("generate", at)) for at, end in labels if isinstance(end, Label)]
                 else:
                     named.append((entry.node, place.inside("node")))
                     _check_freedom(context, entry.dof, place.inside("dof"))
