@@ -73,6 +73,7 @@ class Kind(Enum):
     WHOLE_OR_LABEL = "a whole number, an equation =[...] or a {label}"
     REAL_OR_NAME = "a number, an equation =[...] or a name"
     NAME = "a name"
+    TITLE = "a text"
     OTHER = "another value"
 
 
@@ -110,6 +111,8 @@ WholeOrLabel = Annotated[int | Equation | Label, _Either(Integer | Equation | La
 Ident = Annotated[int | Label, _Either(Integer | Label), Kind.IDENT]
 RealOrName = Annotated[float | Equation | str, _Either(Finite | Equation | Text), Kind.REAL_OR_NAME]
 Name = Annotated[Text, Kind.NAME]
+Title = Annotated[Text, Kind.TITLE]
+"""A text to the end of its line, commas included."""
 Other = Annotated[Text, Kind.OTHER]
 """Beside the known values of a choice: there are others, which are kept as they are written."""
 
