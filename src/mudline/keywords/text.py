@@ -42,7 +42,7 @@ class UnreadableError(Exception):
 
 def read_value(field: Field, slot: FieldSpec, problems: list[Problem]) -> Value:
     """The value of a field; raises UnreadableError. What is only doubtful is added to `problems`."""
-    if slot.kind is Kind.NAME:
+    if slot.kind is Kind.NAME or slot.kind is Kind.TITLE:
         return field.text
     if slot.kind is Kind.OTHER:
         return _open_choice(field, slot, problems)
