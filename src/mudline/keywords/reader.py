@@ -89,6 +89,9 @@ def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -
 
 def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
     """Whether a block reads without an error, and all of it; sooner known than what is wrong in it."""
+    keys = all_keys(declared)
+    if any(leaf.kind is Kind.SETTING and first_key(text, leaf.span) not in keys for leaf in raw.leaves):
+        return False
     reader = _Reader(text, raw, declared, last=False)
     fits = _plain(text, raw, declared, reader.nowhere) is not None
     if not fits and grammar.tree_of(declared.rule, reader.contents()) is not None and not reader.lost:

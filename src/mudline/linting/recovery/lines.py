@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
-from functools import cache
+from collections.abc import Iterator, Sequence
+from functools import cache, lru_cache
 from typing import NamedTuple
 
 from mudline.codes.contact import SBD006
@@ -174,26 +174,28 @@ def reads_as(blocks: Blocks, section: str, own: str, lines: str, *, legal: bool 
     first = next(iter(data_of(block.leaves)), None)
     if first is None:
         return []
-    candidates: Iterable[str]
-    key = ""
     if first.kind in (Kind.SETTING, Kind.UNDECIDED):
-        key = first_key(text, first.span)
-        candidates = catalogue.read_keywords()
+        candidates = _taking(section, first_key(text, first.span))
     else:
         beside = {other for each in blocks.keywords for other in catalogue.facts_of(each).beside}
-        candidates = sorted(beside - blocks.keywords)
+        read = ((each, catalogue.block_class(section, each)) for each in sorted(beside - blocks.keywords))
+        candidates = {each: one for each, one in read if one and not ("." in piece and _of_whole_numbers(one))}
     fitting = [
         keyword
-        for keyword in candidates
-        if keyword != own
-        and (declared := catalogue.block_class(section, keyword)) is not None
-        and (key in all_keys(declared) if key else not ("." in piece and _of_whole_numbers(declared)))
-        and reads(*_block(section, keyword, piece), declared)
+        for keyword, declared in candidates.items()
+        if keyword != own and reads(*_block(section, keyword, piece), declared)
     ]
     defining = {each: [what for what in blocks.missing if _defines(each, what)] for each in fitting}
     lacked = [each for each, kinds in defining.items() if any(blocks.missing[what] for what in kinds)]
     new = [each for each in fitting if each not in blocks.keywords and not (legal and defining[each])]
     return lacked or new or ([] if legal else fitting)
+
+
+@lru_cache(256)
+def _taking(section: str, key: str) -> dict[str, type[Block]]:
+    """The keywords of a section that have a setting, with their declarations."""
+    read = ((keyword, catalogue.block_class(section, keyword)) for keyword in catalogue.read_keywords())
+    return {keyword: declared for keyword, declared in read if declared and key in all_keys(declared)}
 
 
 def _block(section: str, keyword: str, lines: str) -> tuple[str, RawBlock]:

@@ -82,13 +82,12 @@ def _numbers(context: LintContext, text: TextOrigin) -> Iterator[Correction]:
 
 def _rows_without_name(context: LintContext, text: TextOrigin, curves: list[str]) -> Iterator[Correction]:
     """Points that begin again: the line with a curve that nothing defines, or with a set that nothing uses."""
-    used = {set_key(name) for kind in (Names.SET, Names.SUBSET) for _, _, name in given_names(context.deck, kind)}
-    named = context.scene.set_table.named
-    sets = [one.name for key, one in named.items() if key not in used and one.where is not None]
     for curve in context.scene.laws.curves:
-        names = curves if not curve.embedment else sets if len(sets) == 1 and not curve.whole else []
         point = _begins_again(curve)
-        span = text.span(curve.point(point)) if point and names else None
+        if not point or (curve.embedment and curve.whole):
+            continue
+        names = _unused_set(context) if curve.embedment else curves
+        span = text.span(curve.point(point)) if names else None
         if span is None:
             continue
         line = f"{'SET' if curve.embedment else 'CURVE'}={names.pop(0)}"
@@ -97,6 +96,14 @@ def _rows_without_name(context: LintContext, text: TextOrigin, curves: list[str]
         repair = Repair("unsafe", f"write {line}", ((place, f" {line}\n"),))
         cause = Problem(SYN001, message, span, repair=repair)
         yield Correction(cause, (TextEdit(place, f" {line}\n"),), span)
+
+
+def _unused_set(context: LintContext) -> list[str]:
+    """The name of the only set that nothing uses."""
+    used = {set_key(name) for kind in (Names.SET, Names.SUBSET) for _, _, name in given_names(context.deck, kind)}
+    named = context.scene.set_table.named
+    sets = [one.name for key, one in named.items() if key not in used and one.where is not None]
+    return sets if len(sets) == 1 else []
 
 
 def _begins_again(curve: SceneCurve) -> int:
