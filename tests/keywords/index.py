@@ -5,11 +5,16 @@ from __future__ import annotations
 from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
+from typing import get_args
 
 from mudline.keywords import catalogue, library
+from mudline.keywords.model import Role, kinds_of
 from mudline.keywords.values import SUBJECTS, Entry
 
+_WIDE = 115
 INDEX = Path("src/mudline/keywords/index.py")
+
+ROLES: tuple[Role, ...] = get_args(Role)
 
 _PAGE = '''\
 """Every declaration of the library; `make index` makes this of them: change those."""
@@ -38,7 +43,11 @@ def _entries(module: str) -> list[Entry]:
     if hasattr(declared, "BLOCK"):
         block = catalogue.load(module)
         keyword = block.model_fields["keyword"].default
-        found.append(Entry(keyword, module, block.sections, block.subject, zero_length=block.facts.zero_length))
+        names, defines = (tuple(sorted(kind.name for kind in kinds_of(block, role))) for role in ROLES)
+        short = block.facts.zero_length
+        found.append(
+            Entry(keyword, module, block.sections, block.subject, zero_length=short, names=names, defines=defines)
+        )
     if hasattr(declared, "OPAQUE"):
         kept = catalogue.load_opaque(module)
         keyword = kept.keyword
@@ -62,7 +71,10 @@ def _written(entry: Entry) -> str:
         for name, value in entry._asdict().items()
         if value != Entry._field_defaults.get(name)
     ]
-    return f"Entry({', '.join(given)})".replace("'", '"')
+    line = f"Entry({', '.join(given)})"
+    if len(line) > _WIDE:
+        line = "Entry(\n" + "".join(f"        {each},\n" for each in given) + "    )"
+    return line.replace("'", '"')
 
 
 if __name__ == "__main__":

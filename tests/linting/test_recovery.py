@@ -291,12 +291,11 @@ def test_a_setting_of_another_name_is_no_row() -> None:
     assert one.message == "*SEABED UNLOADING has no setting KU=: it takes SET=, STIFFNESS="
 
 
-@pytest.mark.parametrize("keyword", ["NODE,CURVILINEAR", "CABLE"])
-def test_nodes_out_of_sight_are_one_info(keyword: str) -> None:
+def test_nodes_out_of_sight_are_one_info() -> None:
     nodes = DECK[DECK.index("*NODE") : DECK.index("*ELEMENT\n")]
-    one = only(changed((nodes, f"*{keyword}\n 1, 0.0\n 11, 100.0\n")))
-    assert (one.code, one.severity, one.line, one.blocks) == ("REF006", Severity.INFO, 4, True)
-    assert f"*{keyword} may define nodes that this deck does not show" in one.message
+    one = only(changed((nodes, "*CABLE\n 1, 1, 11, 100.0\n*NODE,CURVILINEAR\n 1, 1, 0.0\n 11, 1, 100.0\n")))
+    assert (one.code, one.severity, one.line, one.blocks) == ("REF006", Severity.INFO, 6, True)
+    assert "*NODE,CURVILINEAR may define nodes that this deck does not show" in one.message
 
 
 def test_files_are_looked_for_once_more(tmp_path: Path) -> None:
@@ -336,7 +335,9 @@ def test_the_decks_without_a_fault_are_clean() -> None:
 
 def test_the_same_fault_in_row_after_row_is_one_finding() -> None:
     (one,) = (each for each in found(changed((CURVE, POINTS))) if each.code == "SYN003")
-    assert one.message == ("3 fields, expected 2 (`ratio, force`); and 3 more rows of this block (2, 3, 4), the last in line 24")
+    assert one.message == (
+        "3 fields, expected 2 (`ratio, force`); and 3 more rows of this block (2, 3, 4), the last in line 24"
+    )
     assert (one.line, [each.line for each in one.following]) == (21, [22, 23, 24])
 
 
@@ -368,7 +369,7 @@ ONE_CAUSE = {
     "a number used twice": ((" 7, -0.05", " 6, -0.05"), "REF007", 11),
     "nodes pasted twice": ((ROWS, ROWS + ROWS), "REF007", 17),
     "a letter in a density": ((" 500.0, 1025.0", " 500.0, l025.0"), "SYN002", 3),
-    "laws without their keyword line": (("*SEABED PROPERTIES\n TYPE", "*CABLE\n x\n TYPE"), "SBD006", 36),
+    "laws without their keyword line": (("*SEABED PROPERTIES\n TYPE", "*LINE PATHS\n x\n TYPE"), "SBD006", 36),
 }
 
 
@@ -429,6 +430,14 @@ MISSPELT = {
     "a curve": (LONG, "STIFFNESS=Dense Sand", "STIFFNESS=Dense Snad", ("REF002", 32)),
     "a curve where it is defined": (LONG, "CURVE=Dense Sand", "CURVE=Dense Sad", ("REF002", 32)),
     "a subset": (LONG, "10\n*GEO", "10\n SET=Line\n SUBSET=Risr\n*GEO", ("REF008", 17)),
+    "another curve": (
+        LONG.replace("*GEO", "*MOMENT-CURVATURE\n CURVE=Pipe\n 0.0, 0.0\n 5.0E4, 0.01\n*GEO").replace(
+            " 1.0E8,", " ,", 1
+        ),
+        "*GEOMETRIC SETS\n SET=ALL",
+        "*GEOMETRIC SETS\n SET=ALL, EIYY=Pipp",
+        ("REF002", 21),
+    ),
     "a set of a legacy curve": (SURFACE, " SET=Right\n 0.0", " SET=Rigth\n 0.0", ("REF001", 25)),
 }
 

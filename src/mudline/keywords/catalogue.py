@@ -15,7 +15,7 @@ from typing import cast
 from mudline.keywords import index
 from mudline.keywords.model import Block
 from mudline.keywords.names_only import NAMES, ZERO_LENGTH
-from mudline.keywords.values import Entry, Facts, OpaqueKeyword
+from mudline.keywords.values import Entry, Facts, Names, OpaqueKeyword
 from mudline.spelling import Effort, nearest
 
 SECTIONS = (
@@ -146,6 +146,16 @@ def has_certain_section(keyword: str) -> bool:
     return certain or bool(_read(keyword)) or sections_of(keyword) == ()
 
 
+def definers(what: Names) -> list[str]:
+    """The keywords that define things of a kind."""
+    return [entry.keyword for entry in index.ENTRIES if what.name in entry.defines]
+
+
+def users(what: Names) -> list[str]:
+    """The keywords that name things of a kind."""
+    return [entry.keyword for entry in index.ENTRIES if what.name in entry.names]
+
+
 def may_have_no_length(keyword: str) -> bool:
     """Whether the elements of a keyword may have no length."""
     return keyword in ZERO_LENGTH or any(entry.zero_length for entry in entries(keyword))
@@ -157,13 +167,18 @@ def is_extension(keyword: str) -> bool:
 
 
 def is_superseded(keyword: str) -> bool:
-    """Whether newer keywords take the place of a keyword."""
-    return bool(facts_of(keyword).superseded_by)
+    """Whether newer keywords of the seabed take the place of one."""
+    return _of_seabed(keyword) and bool(facts_of(keyword, "MODEL").superseded_by)
 
 
 def supersedes(keyword: str) -> bool:
-    """Whether a keyword takes the place of older ones."""
-    return facts_of(keyword).supersedes
+    """Whether a keyword takes the place of older ones of the seabed."""
+    return _of_seabed(keyword) and facts_of(keyword, "MODEL").supersedes
+
+
+def _of_seabed(keyword: str) -> bool:
+    """Whether a keyword is one of the two families of the seabed, which exclude each other."""
+    return any(entry.subject == "seabed" for entry in entries(keyword))
 
 
 def holds_in_soil(keyword: str) -> bool:

@@ -180,9 +180,9 @@ class Rows(FieldInfo):
 
 
 def _cell_schema(column: Column) -> dict[str, Any]:
-    word = Label if column.kind is Kind.IDENT else Equation
+    words = [Label] * (column.kind in (Kind.IDENT, Kind.WHOLE_OR_LABEL)) + [Equation] * (column.kind is not Kind.IDENT)
     number = {"type": "integer", "minimum": -LARGEST_WHOLE, "maximum": LARGEST_WHOLE}
-    options = [number if column.whole else {"type": "number"}, word.json_schema()]
+    options = [number if column.whole else {"type": "number"}, *(word.json_schema() for word in words)]
     return {"description": column.label, "anyOf": options if column.required else [*options, {"type": "null"}]}
 
 
@@ -302,7 +302,8 @@ class Block(Record):
     `sections` are those where it belongs; `subject` is what it is about; `page` is the page of the manual with its
     format; `facts` is what else is known of it; `tabular` keeps runs of numeric lines whole, as arrays; `slashes` says
     that /.../ is one field; `example` is a block that reads without a finding. With `open_lines` a line of a form that
-    the declaration does not know is kept as it is.
+    the declaration does not know is kept as it is; with `known_forms` only one whose key or place it does not know: in
+    others a fault is a fault.
     """
 
     sections: ClassVar[tuple[str, ...]] = ("MODEL",)
@@ -313,6 +314,7 @@ class Block(Record):
     tabular: ClassVar[bool] = False
     slashes: ClassVar[bool] = False
     open_lines: ClassVar[bool] = False
+    known_forms: ClassVar[bool] = False
     example: ClassVar[str]
     keyword: str
 
@@ -415,15 +417,30 @@ def record_schema(part: type[Part]) -> RecordSchema:
     return found
 
 
+Role = Literal["names", "defines"]
+"""What a field does with a name: it uses that of another thing, or gives a thing its own."""
+
+
 @cache
-def _naming(part: type[Part], what: Names, *, defined: bool = False) -> tuple[FieldSpec, ...]:
-    """The fields that name a thing of a kind, or define one, and those with parts that have one."""
+def _naming(part: type[Part], what: Names, role: Role = "names") -> tuple[FieldSpec, ...]:
+    """The fields that name or define a thing of a kind, and those with parts that have one."""
     return tuple(
         slot
         for slot in record_schema(part).slots
-        if (slot.about.defines if defined else slot.about.names) is what
-        or any(_naming(inner, what, defined=defined) for inner in (slot.row, *slot.record.values()) if inner)
+        if getattr(slot.about, role) is what or any(_naming(each, what, role) for each in _inside(slot))
     )
+
+
+def _inside(slot: FieldSpec) -> list[type[Part]]:
+    return [part for part in (slot.row, *slot.record.values()) if part]
+
+
+@cache
+def kinds_of(part: type[Part], role: Role) -> frozenset[Names]:
+    """The kinds of things that the fields of a part, and of those inside it, name or define."""
+    slots = record_schema(part).slots
+    own = {kind for slot in slots if (kind := getattr(slot.about, role)) is not None}
+    return frozenset(own).union(*(kinds_of(each, role) for slot in slots for each in _inside(slot)))
 
 
 def may_name(part: type[Part], what: Names) -> bool:
@@ -431,23 +448,40 @@ def may_name(part: type[Part], what: Names) -> bool:
     return bool(_naming(part, what))
 
 
-def names_given(part: Part, what: Names, *, defined: bool = False) -> Iterator[tuple[tuple[str | int, ...], str]]:
-    """The names of things of a kind that a part gives, with their paths; what is not a text is not a name.
-
-    With `defined` they are those of things that the part defines.
-    """
-    for slot in _naming(type(part), what, defined=defined):
+def names_given(part: Part, what: Names, role: Role = "names") -> Iterator[tuple[tuple[str | int, ...], str]]:
+    """The names of things of a kind that a part gives, with their paths; what is not a text is not a name."""
+    for slot in _naming(type(part), what, role):
         value = getattr(part, slot.name, None)
         if isinstance(value, Part):
-            yield from (((slot.json, *path), name) for path, name in names_given(value, what, defined=defined))
+            yield from (((slot.json, *path), name) for path, name in names_given(value, what, role))
         elif isinstance(value, str) and not isinstance(value, Equation):
             yield (slot.json,), value
         elif isinstance(value, list):
             for index, item in enumerate(value):
                 if isinstance(item, Part):
-                    yield from (
-                        ((slot.json, index, *path), name) for path, name in names_given(item, what, defined=defined)
-                    )
+                    yield from (((slot.json, index, *path), name) for path, name in names_given(item, what, role))
+
+
+def idents_given(part: Part, what: Names) -> Iterator[tuple[tuple[str | int, ...], int | Label]]:
+    """The numbers and labels of nodes or elements that a part gives, with their paths; what could not be read is none.
+
+    Those in the rows of a table are left out: a keyword with such a table looks at them itself.
+    """
+    for slot in _naming(type(part), what):
+        value = getattr(part, slot.name, None)
+        for path, item in enumerate_items(slot, value):
+            if isinstance(item, Part):
+                yield from (((*path, *inner), ident) for inner, ident in idents_given(item, what))
+            elif isinstance(item, int | Label) and slot.about.names is what:
+                yield path, item
+
+
+def enumerate_items(slot: FieldSpec, value: object) -> Iterator[tuple[tuple[str | int, ...], object]]:
+    """The value of a field, or those of its list, each with the path to it."""
+    if isinstance(value, list):
+        yield from (((slot.json, index), item) for index, item in enumerate(value))
+    else:
+        yield (slot.json,), value
 
 
 @cache

@@ -147,7 +147,7 @@ class _Reader:
         while True:
             self.problems, self.lost = [*noticed], lost
             found = self._attempt(contents)
-            odd = self._of_other_form(contents) if self.declared.open_lines else ()
+            odd = self._of_other_form(contents) if self.declared.open_lines and not self.declared.known_forms else ()
             if not odd:
                 return found
             noticed += doubtful(self.problems)

@@ -84,12 +84,22 @@ def _takes(parser: InteractiveParser, *tokens: Token) -> bool:
 def _complete(parser: InteractiveParser) -> tuple[Tree[Token], Mismatch]:
     """Feed the mandatory lines that the end of a block lacks."""
     expected = tuple(sorted(parser.accepts()))
-    first = expected[0]
-    missing = first
+    fed: list[str] = []
     while END not in parser.accepts():
-        parser.feed_token(Token(missing, ""))
-        missing = min(parser.accepts())
-    return parser.feed_eof(), Mismatch(None, expected, first)
+        fed.append(_next_needed(parser, fed))
+        parser.feed_token(Token(fed[-1], ""))
+    return parser.feed_eof(), Mismatch(None, expected, fed[0])
+
+
+def _next_needed(parser: InteractiveParser, fed: list[str]) -> str:
+    """A line that ends the block, or one that was not put in yet: of lines that may be repeated there is no end."""
+    options = sorted(map(str, parser.accepts()))
+    for option in options:
+        trial = parser.copy()
+        trial.feed_token(Token(option, ""))
+        if END in trial.accepts():
+            return option
+    return next((option for option in options if option not in fed), options[0])
 
 
 def _node(tree: Tree[Token], contents: list[Content]) -> Node:

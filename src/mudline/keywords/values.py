@@ -70,8 +70,10 @@ class Kind(Enum):
     REAL = "a number or an equation =[...]"
     WHOLE = "a whole number or an equation =[...]"
     IDENT = "a number or a {label}"
+    WHOLE_OR_LABEL = "a whole number, an equation =[...] or a {label}"
     REAL_OR_NAME = "a number, an equation =[...] or a name"
     NAME = "a name"
+    TITLE = "a text"
     OTHER = "another value"
 
 
@@ -105,9 +107,12 @@ Text = Annotated[str, Field(strict=True, pattern=r"^[^\r\n]*$", json_schema_extr
 
 Real = Annotated[float | Equation, _Either(Finite | Equation), Kind.REAL]
 Whole = Annotated[int | Equation, _Either(Integer | Equation), Kind.WHOLE]
+WholeOrLabel = Annotated[int | Equation | Label, _Either(Integer | Equation | Label), Kind.WHOLE_OR_LABEL]
 Ident = Annotated[int | Label, _Either(Integer | Label), Kind.IDENT]
 RealOrName = Annotated[float | Equation | str, _Either(Finite | Equation | Text), Kind.REAL_OR_NAME]
 Name = Annotated[Text, Kind.NAME]
+Title = Annotated[Text, Kind.TITLE]
+"""A text to the end of its line, commas included."""
 Other = Annotated[Text, Kind.OTHER]
 """Beside the known values of a choice: there are others, which are kept as they are written."""
 
@@ -131,8 +136,9 @@ class Facts:
     own; `plans_decks` says that its lines are about decks to be made, which do not have it.
 
     What it does: `defines` is what its records define by number or name; `makes` are the keywords of what things
-    outside the deck, which its lines are about, may define. With `later_wins` an element follows the last record whose
-    SET= holds it, and that record as a whole. `carried` are the fields that a block has from the block before it, where
+    outside the deck, which its lines are about, may define; `out_of_sight` says that the deck has these things, and
+    where they lie is not computed. With `later_wins` an element follows the last record whose SET= holds it, and that
+    record as a whole. `carried` are the fields that a block has from the block before it, where
     it does not give them. `seabed_type` is the type of seabed that a legacy surface is. `soil_springs` hold elements in
     the soil; of elements with `zero_length` the ends may lie at one place. What is computed from it is said under the
     heading `computed_in` of the page on the contact evaluator. `instead_of` says what to write instead of a setting
@@ -148,6 +154,7 @@ class Facts:
     plans_decks: bool = False
     defines: Literal["", "nodes", "elements", "sets", "curves", "parameters"] = ""
     makes: tuple[str, ...] = ()
+    out_of_sight: bool = False
     later_wins: bool = False
     carried: tuple[str, ...] = ()
     seabed_type: Literal["", "RIGID", "ELASTIC"] = ""
@@ -163,8 +170,8 @@ class Facts:
 class Names(Enum):
     """What a value names, or what a field `defines`; the words are for a reader.
 
-    Each is checked wherever it is named. Sets, force-embedment curves, nodes, elements, parameters and files have checks
-    of their own, as they are more than names; all other kinds share one.
+    Each is checked wherever it is named. Sets, force-embedment curves, nodes, elements, parameters and files have
+    checks of their own, as they are more than names; all other kinds share one.
     """
 
     SET = "an element set"
@@ -212,7 +219,7 @@ class Entry(NamedTuple):
     """A declaration in the index: which module has it, and what has to be known of it before it is imported.
 
     The lines of a keyword that is `kept` are passed through. With `sections_inferred` it is not confirmed where it
-    belongs.
+    belongs. `names` and `defines` are the kinds of things, as members of `Names`, that its fields name and define.
     """
 
     keyword: str
@@ -222,6 +229,8 @@ class Entry(NamedTuple):
     kept: bool = False
     sections_inferred: bool = False
     zero_length: bool = False
+    names: tuple[str, ...] = ()
+    defines: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,8 +11,8 @@ from mudline.keywords.values import Name, Names, Real
 COEFFICIENTS = "coefficients by heading"
 TAG = "a line of this word alone: the block is that of a mooring analysis, which has one vessel"
 
-Vessel = Annotated[Name, setting("VESSEL", "vessel of *VESSEL or *VESSEL,INTEGRATED")]
-Body = Annotated[Name, setting("FLOATING BODY", "floating body")]
+Vessel = Annotated[Name, setting("VESSEL", "vessel of *VESSEL or *VESSEL,INTEGRATED", names=Names.VESSEL)]
+Body = Annotated[Name, setting("FLOATING BODY", "floating body", names=Names.BODY)]
 
 
 class Position(Row):
@@ -68,7 +68,7 @@ class BodyCoefficients(Record):
     file: Annotated[Name | None, setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE)] = (
         None
     )
-    headings: Annotated[Table | None, rows(Coefficients, COEFFICIENTS, unordered=True)] = None
+    headings: Annotated[Table | None, rows(Coefficients, COEFFICIENTS)] = None
 
 
 class VesselCoefficients(Record):
@@ -79,7 +79,7 @@ class VesselCoefficients(Record):
     file: Annotated[Name | None, setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE)] = (
         None
     )
-    headings: Annotated[Table | None, rows(Coefficients, COEFFICIENTS, unordered=True)] = None
+    headings: Annotated[Table | None, rows(Coefficients, COEFFICIENTS)] = None
 
     @classmethod
     def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:

@@ -14,7 +14,7 @@ from mudline.scene.context import Context
 from mudline.scene.force_curves import read_curves
 from mudline.scene.laws import read_extensions, read_laws, read_resistance
 from mudline.scene.mesh import read_elements, read_nodes
-from mudline.scene.references import check_boundaries, check_lines, check_references, check_soil
+from mudline.scene.references import check_boundaries, check_idents, check_lines, check_references, check_soil
 from mudline.scene.resolved import ResolvedDeck
 from mudline.scene.restart import continued
 from mudline.scene.seabed import read_seabed
@@ -118,5 +118,6 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     if external is None:  # a file of elements does not define every node and set
         check_soil(context, nodes)
         check_boundaries(context, nodes)
+        check_idents(context, nodes, elements.numbered)
     context.report_out_of_sight()
     return Scene(ready, nodes, elements, sets, sections, laws, resistance, extensions, seabed, context.problems)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from functools import cache
 from itertools import chain
 from typing import TYPE_CHECKING, cast
 
@@ -14,8 +15,8 @@ from mudline.codes.lines import SYN001, SYN005
 from mudline.codes.references import REF001, REF005, REF006, REF010
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import folded
-from mudline.diagnostics import Code, Severity, Where
-from mudline.keywords.model import Block, may_name, names_given
+from mudline.diagnostics import Blocks, Code, Severity, Where
+from mudline.keywords.model import Block, idents_given, may_name, names_given
 from mudline.keywords.text import shown
 from mudline.keywords.values import Label, Names
 from mudline.limits import MOST_REPORTED
@@ -65,6 +66,39 @@ def check_soil(context: Context, nodes: Numbered) -> None:
     _check_nodes(context, nodes, named)
 
 
+def check_idents(context: Context, nodes: Numbered, elements: Numbered) -> None:
+    """Every node and element that a keyword names, but those that are looked at where nodes and sets are made."""
+    for i, section in enumerate(context.deck.sections):
+        for j, block in enumerate(section.blocks):
+            if type(block) is Opaque or not _names_idents(type(block)):
+                continue
+            for what, check in ((Names.NODE, _check_nodes), (Names.ELEMENT, _check_elements)):
+                named = [(ident, Where(i, j, path)) for path, ident in idents_given(block, what)]
+                check(context, nodes if what is Names.NODE else elements, named)
+
+
+@cache
+def _names_idents(block: type[Block]) -> bool:
+    made = block.facts.defines or block.facts.soil_springs or block.model_fields["keyword"].default == KEYWORD
+    return not made and (may_name(block, Names.NODE) or may_name(block, Names.ELEMENT))
+
+
+KEYWORD = "BOUNDARY"
+"""Has a check of its own: its ranges may lack some nodes."""
+
+
+def _check_elements(context: Context, elements: Numbered, named: Sequence[tuple[object, Where]]) -> None:
+    """Report the numbers of elements that the deck lacks; labels of elements are checked where they may be made."""
+    numbers = [(ident, where) for ident, where in named if isinstance(ident, int) and not isinstance(ident, bool)]
+    if not numbers or not (len(elements) or "ELEMENT" in context.deck.keywords()):
+        return
+    indices = elements.indices(np.array([number for number, _ in numbers], dtype=np.int64))
+    for index in np.flatnonzero(indices < 0)[: MOST_REPORTED + 1].tolist():
+        number, where = numbers[index]
+        message = f"element {number} is not defined: define it in *ELEMENT, or correct the number"
+        context.report_missing(REF005, message, where, "ELEMENT", number, blocks=Blocks.NEVER)
+
+
 def _check_nodes(context: Context, nodes: Numbered, named: Sequence[tuple[object, Where]]) -> None:
     """Report the nodes, numbers or labels, that the deck lacks; anything else could not be read and is skipped."""
     if not named:
@@ -104,7 +138,11 @@ def check_boundaries(context: Context, nodes: Numbered) -> None:
             for j, entry in enumerate(held.entries):
                 place = where.inside("types", i, "entries", j)
                 if hasattr(entry, "generate"):
-                    _check_range(context, nodes, cast("FixedRange", entry), place.inside("generate"))
+                    span = cast("FixedRange", entry)
+                    _check_range(context, nodes, span, place.inside("generate"))
+                    ends = (getattr(span.generate, "start", None), getattr(span.generate, "end", None))
+                    labels = enumerate(ends)
+                    named += [(end, place.inside("generate", at)) for at, end in labels if isinstance(end, Label)]
                 else:
                     named.append((entry.node, place.inside("node")))
                     _check_freedom(context, entry.dof, place.inside("dof"))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, Record, setting
-from mudline.keywords.values import Name, Real, Whole
+from mudline.keywords.values import Name, Names, Real, Whole
 
 
 class Criterion(Record):
@@ -55,7 +55,9 @@ class Criteria(Block):
         setting("OPTION", "the same of a length", inferred="the manual prints OPTION=LENGTH; VARIABLE=LENGTH is taken"),
     ] = None
     adjust: Annotated[Name, setting("ADJUST", "node, vessel, element or set that is changed", inline=True)]
-    vector: Annotated[Name | None, setting("VECTOR", "of NODE and VESSEL: direction, of *VECTOR", inline=True)] = None
+    vector: Annotated[
+        Name | None, setting("VECTOR", "of NODE and VESSEL: direction, of *VECTOR", inline=True, names=Names.VECTOR)
+    ] = None
     iterations: Annotated[Whole | None, setting("MAX ITERATIONS", "most iterations", at_least=1)] = None
     least: Annotated[
         Real | None, setting("MIN ADJUSTMENT", "smallest change", inline=True, behind="MAX ITERATIONS")

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Name, Names, Real
 
 
 class DamperPoint(Row):
@@ -20,7 +20,7 @@ class DamperCurve(Record):
     """A curve."""
 
     rule = "damper_curve"
-    name: Annotated[Name, setting("NAME", "name of the curve")]
+    name: Annotated[Name, setting("NAME", "name of the curve", defines=Names.DAMPER)]
     variable: Annotated[
         Literal["TIME", "VELOCITY"] | None, setting("VARIABLE", "what comes first", default="TIME", inline=True)
     ] = None

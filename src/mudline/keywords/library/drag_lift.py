@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Name, Names, Real
 
 
 class LiftPoint(Row):
@@ -20,7 +20,7 @@ class LiftCurve(Record):
     """A curve."""
 
     rule = "lift_curve"
-    curve: Annotated[Name, setting("CURVE", "name of the curve, for *HYDRODYNAMIC SETS")]
+    curve: Annotated[Name, setting("CURVE", "name of the curve, for *HYDRODYNAMIC SETS", defines=Names.DRAG_LIFT)]
     points: Annotated[Table, rows(LiftPoint, "points in any order", unordered=True)]
 
 

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Name, Names, Real
 
 
 class ForceStrainPoint(Row):
@@ -20,7 +20,9 @@ class ForceStrainCurve(Record):
     """A curve."""
 
     rule = "force_strain_curve"
-    curve: Annotated[Name, setting("CURVE", "name of the curve, for EA= of *GEOMETRIC SETS")]
+    curve: Annotated[
+        Name, setting("CURVE", "name of the curve, for EA= of *GEOMETRIC SETS", defines=Names.FORCE_STRAIN)
+    ]
     points: Annotated[Table, rows(ForceStrainPoint, "points in any order; at least two", unordered=True)]
 
 

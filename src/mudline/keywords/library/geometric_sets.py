@@ -84,13 +84,19 @@ class GeometricSet(Record):
     ] = None
     set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
     buoyancy: Annotated[Literal["DISTRIBUTED"] | None, setting("BUOYANCY", "distributed buoyancy", inline=True)] = None
-    eiyy_curve: Annotated[Name | None, setting("EIYY", _CURVE.format("EIyy"), inline=True)] = None
-    eizz_curve: Annotated[Name | None, setting("EIZZ", _CURVE.format("EIzz"), inline=True)] = None
-    gj_curve: Annotated[Name | None, setting("GJ", _CURVE.format("GJ"), inline=True)] = None
-    ea_curve: Annotated[Name | None, setting("EA", _CURVE.format("EA"), inline=True)] = None
-    ei_curve: Annotated[Name | None, setting("EI", _CURVE.format("EI"), inline=True)] = None
+    eiyy_curve: Annotated[
+        Name | None, setting("EIYY", _CURVE.format("EIyy"), inline=True, names=Names.MOMENT_CURVATURE)
+    ] = None
+    eizz_curve: Annotated[
+        Name | None, setting("EIZZ", _CURVE.format("EIzz"), inline=True, names=Names.MOMENT_CURVATURE)
+    ] = None
+    gj_curve: Annotated[Name | None, setting("GJ", _CURVE.format("GJ"), inline=True, names=Names.TORQUE_TWIST)] = None
+    ea_curve: Annotated[Name | None, setting("EA", _CURVE.format("EA"), inline=True, names=Names.FORCE_STRAIN)] = None
+    ei_curve: Annotated[Name | None, setting("EI", _CURVE.format("EI"), inline=True, names=Names.MOMENT_CURVATURE)] = (
+        None
+    )
     hysteresis_curve: Annotated[Name | None, setting("EI_HYSTERESIS", _CURVE.format("EI"), inline=True)] = None
-    e_curve: Annotated[Name | None, setting("E", _CURVE.format("E"), inline=True)] = None
+    e_curve: Annotated[Name | None, setting("E", _CURVE.format("E"), inline=True, names=Names.STRESS_STRAIN)] = None
     plastic_hardening: Annotated[Name | None, setting("PLASTIC HARDENING", "plastic hardening model", inline=True)] = (
         None
     )

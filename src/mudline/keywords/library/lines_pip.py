@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from mudline.keywords.model import Block, Record, Row, about, setting
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Name, Names, Real
 
 
 class Spacing(Row):
@@ -23,7 +23,7 @@ class _Stiffness(Row):
 
 
 class _Curve(Row):
-    curve: Annotated[Name, about("curve of *PIP STIFFNESS")]
+    curve: Annotated[Name, about("curve of *PIP STIFFNESS", names=Names.PIP_STIFFNESS)]
 
 
 class _Bulkhead(Row):
@@ -55,8 +55,8 @@ class LinePair(Record):
     """Two lines."""
 
     rule = "line_pair"
-    primary: Annotated[Name, setting("PRIMARY", "line of *LINES")]
-    secondary: Annotated[Name, setting("SECONDARY", "line in or on it", inline=True)]
+    primary: Annotated[Name, setting("PRIMARY", "line of *LINES", names=Names.LINE)]
+    secondary: Annotated[Name, setting("SECONDARY", "line in or on it", inline=True, names=Names.LINE)]
     type_: Annotated[
         Literal["PIP", "POP"] | None,
         setting("TYPE", "pipe in pipe, or on pipe", default="PIP", inline=True, inferred="it may be left out"),

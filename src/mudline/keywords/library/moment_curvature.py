@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Name, Names, Real
 
 
 class MomentCurvaturePoint(Row):
@@ -20,7 +20,10 @@ class MomentCurvatureCurve(Record):
     """A curve."""
 
     rule = "moment_curvature_curve"
-    curve: Annotated[Name, setting("CURVE", "name of the curve, for EIYY= and EIZZ= of *GEOMETRIC SETS")]
+    curve: Annotated[
+        Name,
+        setting("CURVE", "name of the curve, for EIYY= and EIZZ= of *GEOMETRIC SETS", defines=Names.MOMENT_CURVATURE),
+    ]
     points: Annotated[Table, rows(MomentCurvaturePoint, "points in any order; at least two", unordered=True)]
 
 

@@ -14,7 +14,10 @@ _CURVES = "the curve is one of *PIP STIFFNESS, as of *LINES PIP"
 _SLIDING = "the form of many sliding connections: that of one, with GEN= in place of its node"
 Stiffness = Annotated[Real | None, setting("STIFFNESS", "stiffness, or give CURVE=", unit="F/L", inline=True)]
 CurveName = Annotated[
-    Name | None, setting("CURVE", "curve of *PIP STIFFNESS, or give STIFFNESS=", inline=True, inferred=_CURVES)
+    Name | None,
+    setting(
+        "CURVE", "curve of *PIP STIFFNESS, or give STIFFNESS=", inline=True, inferred=_CURVES, names=Names.PIP_STIFFNESS
+    ),
 ]
 AxialStiffness = Annotated[
     Real | None, setting("AXIAL_STIFF", "of sliding ones: axial stiffness", unit="F/L", at_least=0, inline=True)

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from mudline.keywords.model import Block, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Name, Names, Real
 
 
 class PipPoint(Row):
@@ -34,7 +34,7 @@ class PipCurve(Record):
     """A curve, by points or by a law."""
 
     rule = "pip_curve"
-    curve: Annotated[Name, setting("CURVE", "name, for *PIP CONNECTION and *LINES PIP")]
+    curve: Annotated[Name, setting("CURVE", "name, for *PIP CONNECTION and *LINES PIP", defines=Names.PIP_STIFFNESS)]
     type_: Annotated[
         Literal["DATA PAIRS", "POWER LAW"] | None,
         setting("TYPE", "points, or a law", default="DATA PAIRS", inline=True),

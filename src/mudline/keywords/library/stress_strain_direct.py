@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Name, Names, Real
 
 
 class StressStrainPoint(Row):
@@ -20,7 +20,9 @@ class StressStrainCurve(Record):
     """A curve."""
 
     rule = "stress_strain_direct_curve"
-    curve: Annotated[Name, setting("CURVE", "name of the curve, for E= of *GEOMETRIC SETS")]
+    curve: Annotated[
+        Name, setting("CURVE", "name of the curve, for E= of *GEOMETRIC SETS", defines=Names.STRESS_STRAIN)
+    ]
     points: Annotated[
         Table,
         rows(

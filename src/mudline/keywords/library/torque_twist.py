@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Name, Names, Real
 
 
 class TorqueTwistPoint(Row):
@@ -20,7 +20,9 @@ class TorqueTwistCurve(Record):
     """A curve."""
 
     rule = "torque_twist_curve"
-    curve: Annotated[Name, setting("CURVE", "name of the curve, for GJ= of *GEOMETRIC SETS")]
+    curve: Annotated[
+        Name, setting("CURVE", "name of the curve, for GJ= of *GEOMETRIC SETS", defines=Names.TORQUE_TWIST)
+    ]
     points: Annotated[Table, rows(TorqueTwistPoint, "points in any order; at least two", unordered=True)]
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, Record, setting
-from mudline.keywords.values import Facts, Name, Successor
+from mudline.keywords.values import Name, Names
 from mudline.keywords.vessels import Position
 
 
@@ -13,7 +13,7 @@ class VesselPosition(Record):
     """A vessel."""
 
     rule = "vessel_position"
-    vessel: Annotated[Name, setting("VESSEL", "name of the vessel")]
+    vessel: Annotated[Name, setting("VESSEL", "name of the vessel", defines=Names.VESSEL)]
     position: Annotated[Position, setting("INITIAL POSITION", "its reference point and heading")]
 
 
@@ -23,8 +23,7 @@ class Vessels(Block):
     rule = "vessel"
     subject = "vessels"
     page = "kwd_model_vessel"
-    facts = Facts(superseded_by=(Successor("VESSEL,INTEGRATED"),))
-    summary = "Vessels: where their reference points are at first, and their headings."
+    summary = "Vessels: initial positions of their reference points, and headings (older than *VESSEL,INTEGRATED)."
     example = "*VESSEL\n VESSEL=FPSO\n INITIAL POSITION=1005.0, 0.0, 0.0, 90.0\n"
 
     keyword: Literal["VESSEL"] = "VESSEL"

@@ -190,6 +190,6 @@ class Blocks:
 
     def _missing(self, what: Names, defined: set[str]) -> list[str]:
         for _, block in self.deck.blocks_that(lambda declared: declared.facts.defines):
-            defined |= {set_key(name) for _, name in names_given(block, what, defined=True)}
+            defined |= {set_key(name) for _, name in names_given(block, what, "defines")}
         given = (name for _, _, name in given_names(self.deck, what))
         return list(dict.fromkeys(name for name in given if name and set_key(name) not in defined))

@@ -17,6 +17,7 @@ from mudline.keywords.reader import all_keys
 from mudline.keywords.text import shown
 from mudline.linting.rule import LintContext, rule
 from mudline.linting.suppression import MARK
+from mudline.scene.names import CURVES, repeated, unused
 from mudline.syntax.fields import first_key
 from mudline.syntax.rows import read_number
 from mudline.syntax.tree import Kind, Leaf
@@ -31,12 +32,13 @@ REF004 = Code("REF004", "duplicate-curve", Severity.WARNING)
 
 @rule(REF003)
 def unused_curve(context: LintContext) -> Iterator[Problem]:
-    """No STIFFNESS= uses the curve.
+    """No STIFFNESS=, or other setting that takes curves of its kind, uses the curve.
 
     It was measured or calculated for something, so perhaps the elements that it was meant for follow another law. Name
     it in a STIFFNESS= of *SEABED PROPERTIES, or remove it. Another estimate of a soil that is used, as Clay Low beside
     Clay Best, is an info: decks carry all of them. Nothing is reported in a deck whose STIFFNESS= is an
-    equation, as its parameters choose the curve, or for a curve whose name reads as a number (SBD017).
+    equation, as its parameters choose the curve, or for a curve whose name reads as a number (SBD017). The curves of
+    *MOMENT-CURVATURE and the like are looked at too: it is an info where mudline knows no keyword that would use one.
 
     Example:
          $MODEL
@@ -54,28 +56,29 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:8
     """
+    yield from unused(context.scene.context, CURVES, REF003)
     if _chosen_elsewhere(context):
         return
     scene = context.scene
     names = {folded(curve.name) for curve in scene.laws.curves if not curve.embedment}
     unknown = scene.laws.referenced - names
-    unused: dict[str, list[SceneCurve]] = {}
+    idle: dict[str, list[SceneCurve]] = {}
     for curve in scene.laws.curves:
         name = folded(curve.name)
         if curve.embedment or not curve.named or name in scene.laws.referenced:
             continue
         if read_number(name) is not None:  # a STIFFNESS= may mean it, which SBD017 reports
             continue
-        if name in unused:
-            unused[name].append(curve)
+        if name in idle:
+            idle[name].append(curve)
         elif not scene.context.near(name, unknown):  # else it is misspelt where it is used, which is reported there
-            unused[name] = [curve]
-    if not unused or (len(unused) == 1 and len(unknown) == 1):
+            idle[name] = [curve]
+    if not idle or (len(idle) == 1 and len(unknown) == 1):
         return
-    places = [curve.where for curves in unused.values() for curve in curves]
+    places = [curve.where for curves in idle.values() for curve in curves]
     repairs = removals(context.text, places) if context.text else {}
     soils = {_without_estimate(name) for name in scene.laws.referenced}
-    for curve, *_ in unused.values():
+    for curve, *_ in idle.values():
         message = f"curve {shown(curve.name)} is not used: name it in a STIFFNESS=, or remove it"
         soil = _without_estimate(curve.name)
         severity = Severity.INFO if soil != folded(curve.name) and soil in soils else None
@@ -155,6 +158,7 @@ def duplicate_curve(context: LintContext) -> Iterator[Problem]:
             message = f"{what}: the later one is used (inferred); keep one of them"
             yield Problem(REF004, message, where=curve.title)
         known.add(key)
+    yield from repeated(context.scene.context, CURVES, REF004)
 
 
 def removals(text: TextOrigin, unused: Iterable[Where]) -> dict[Where, Repair]:

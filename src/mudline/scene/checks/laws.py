@@ -15,6 +15,7 @@ from mudline.keywords.text import advice_on, shown
 from mudline.keywords.values import Names
 from mudline.scene.checks import check
 from mudline.scene.laws import NOTHING, typed_blocks
+from mudline.scene.names import CURVES, undefined
 from mudline.scene.references import given_names
 
 if TYPE_CHECKING:
@@ -281,10 +282,12 @@ REF002 = Code("REF002", "undefined-curve", Severity.ERROR)
 
 @check(REF002)
 def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
-    """A STIFFNESS= names a curve that the deck does not define.
+    """A STIFFNESS=, or another setting that takes the name of a curve, names one that the deck does not define.
 
     The elements of the set have no seabed then. A STIFFNESS= that is not a number is taken for the name of a curve, so
-    a slip in a number is reported here too. Define the curve in *SEABED STIFFNESS, or correct the name.
+    a slip in a number is reported here too. Define the curve in *SEABED STIFFNESS, or correct the name. The curves of
+    *MOMENT-CURVATURE, *FORCE-STRAIN and the like are looked up in the same way; without one of them the contact with
+    the seabed can be computed all the same. It is a warning where a line that was not read may define the curve.
 
     Example:
          $MODEL
@@ -301,6 +304,7 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 10:12
     """
+    yield from undefined(scene.context, CURVES, REF002)
     names = {folded(curve.name): curve.name for curve in scene.laws.curves if curve.named and not curve.embedment}
     if names.keys() >= scene.laws.referenced:
         return
