@@ -314,7 +314,7 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     for _, where, name in given_names(scene.deck, Names.CURVE):
         if folded(name) in names:
             continue
-        hint = scene.context.hint(name, names) or other
+        hint = scene.context.hint(name, names) or ("" if name[:1].isdigit() else other)
         advice = advice_on(name) or "*SEABED STIFFNESS has no such curve"
         message = f"curve {shown(name)} is not defined{hint}: {advice}"
         problem = scene.context.missing(REF002, message, where, "SEABED STIFFNESS", name)
