@@ -310,7 +310,8 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
         return
     followed: set[Where] | None = None
     unused = [name for key, name in names.items() if key not in scene.laws.referenced]
-    other = f" (did you mean {unused[0]}, which nothing uses?)" if len(unused) == 1 else ""
+    elsewhere = scene.context.possible_definition("SEABED STIFFNESS")
+    other = f" (did you mean {unused[0]}, which nothing uses?)" if len(unused) == 1 and not elsewhere else ""
     for _, where, name in given_names(scene.deck, Names.CURVE):
         if folded(name) in names:
             continue
