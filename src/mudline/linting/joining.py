@@ -64,6 +64,8 @@ def joined_findings(text: TextOrigin, problems: list[Problem]) -> list[Problem]:
         _judged(text, problems, rows),
         _spelt_wrong(text, problems, rows),
         _on_one_line(text, problems),
+        _alike(text, problems),
+        _idle(problems),
         _repeated(text, rows),
         _meant_numbers(text, problems),
         _lacking(text, problems),
@@ -190,6 +192,28 @@ def _on_one_line(text: TextOrigin, problems: list[Problem]) -> Iterator[_Group]:
         more = of_line.get((_WITH_ANOTHER.get(problem.code.code, ""), text.place(problem).line))
         if more is not None:
             yield _Cause(problem), [more], more.message
+
+
+def _alike(text: TextOrigin, problems: list[Problem]) -> Iterator[_Group]:
+    """Further fields of a row of which the same is said."""
+    alike: dict[tuple[str, int, str], list[Problem]] = {}
+    for problem in problems:
+        if problem.code not in _OF_ROWS and not problem.lacks and problem.message != MORE:
+            alike.setdefault((problem.code.code, text.place(problem).line, problem.message), []).append(problem)
+    for first, *others in alike.values():
+        if others:
+            yield (
+                _Cause(first, repair=_of_all(first, others)),
+                others,
+                f"and {counted(len(others), 'more field')} of it",
+            )
+
+
+def _idle(problems: list[Problem]) -> Iterator[_Group]:
+    """The one curve that nothing uses, under the one law that lacks a stiffness."""
+    bare, idle = ([one for one in problems if one.code.code == code] for code in ("SBD006", "REF003"))
+    if len(bare) == len(idle) == 1:
+        yield _Cause(bare[0]), idle, idle[0].message
 
 
 def _meant_numbers(text: TextOrigin, problems: list[Problem]) -> Iterator[_Group]:
