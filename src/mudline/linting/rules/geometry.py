@@ -47,13 +47,17 @@ def number_and_curve(context: LintContext) -> Iterator[Problem]:
 
     Example:
          $MODEL
+         *MOMENT-CURVATURE
+          CURVE=Bend Stiffener
+          0.0, 0.0
+          8000.0, 0.2
          *GEOMETRIC SETS
           OPTION=FLEXIBLE
           SET=ALL, EI=Bend Stiffener
         - 23.5E3, 23.5E3, 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3429, 0.3429, 0.3429
         + , , 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3429, 0.3429, 0.3429
 
-    Finds: 5:2
+    Finds: 9:2
     """
     for where, entry in entries_of_sets(context.written("GEOMETRIC SETS")):
         if entry.mooring is not None:
