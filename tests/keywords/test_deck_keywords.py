@@ -224,3 +224,12 @@ def test_other_types_of_hydrodynamic_coefficients_are_kept() -> None:
     first, second = block.sets  # type: ignore[attr-defined]
     assert [line.text for line in first.unread] == [" 1E4, 1.2", " 1E6, 0.7"]
     assert second.constant.normal_drag == 1.0
+
+
+@pytest.mark.parametrize("title", ["Anchor, axial = EA e, =[x]", "12", '"a, b"', "Heave", "C 1"])
+def test_a_title_is_the_rest_of_its_line(title: str) -> None:
+    lines = f"*PARA FORCE\n TITLE={title}\n DATA1=1\n DATA2=1\n DATA3=TENSION\n"
+    deck = deck_of(f"$SUMMARY POSTPROCESSING\n{lines}")
+    assert deck.problems == []
+    assert written("para_force", lines)["title"] == title
+    held(deck)

@@ -135,9 +135,9 @@ def test_a_deck_without_nodes_is_not_judged() -> None:
     ]
 
 
-def test_a_node_that_could_not_be_read_is_a_warning() -> None:
-    text = "$MODEL\n*NODE\n 1, 0.0, 0.0\n 2x, 0.0, 5.0\n" + HELD + " 2, 1\n"
-    assert reported(text) == [("W", "REF006", 8, 2)]
+def test_a_number_that_could_not_be_read_excuses_what_one_edit_of_it_gives() -> None:
+    text = "$MODEL\n*NODE\n 1, 0.0, 0.0\n 2x, 0.0, 5.0\n" + HELD + " 2, 1\n 21, 1\n 31, 1\n"
+    assert reported(text) == [("E", "REF006", 10, 2)]
 
 
 def test_a_file_of_elements_does_not_tell_of_every_node(tmp_path: Path) -> None:

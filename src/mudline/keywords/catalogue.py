@@ -167,13 +167,18 @@ def is_extension(keyword: str) -> bool:
 
 
 def is_superseded(keyword: str) -> bool:
-    """Whether newer keywords take the place of a keyword."""
-    return bool(facts_of(keyword).superseded_by)
+    """Whether newer keywords of the seabed take the place of one."""
+    return _of_seabed(keyword) and bool(facts_of(keyword, "MODEL").superseded_by)
 
 
 def supersedes(keyword: str) -> bool:
-    """Whether a keyword takes the place of older ones."""
-    return facts_of(keyword).supersedes
+    """Whether a keyword takes the place of older ones of the seabed."""
+    return _of_seabed(keyword) and facts_of(keyword, "MODEL").supersedes
+
+
+def _of_seabed(keyword: str) -> bool:
+    """Whether a keyword is one of the two families of the seabed, which exclude each other."""
+    return any(entry.subject == "seabed" for entry in entries(keyword))
 
 
 def holds_in_soil(keyword: str) -> bool:

@@ -25,6 +25,7 @@ TAKES = {
     Kind.WHOLE_OR_LABEL: "whole number or {label}",
     Kind.REAL_OR_NAME: "number or name",
     Kind.NAME: "name",
+    Kind.TITLE: "text",
     Kind.OTHER: "...",
 }
 

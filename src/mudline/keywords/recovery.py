@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from copy import copy
 from functools import cache
 
 from lark import Lark, Token, Tree, UnexpectedToken
@@ -58,15 +59,26 @@ def _recover(parser: InteractiveParser, token: Token, content: Content) -> Misma
     """Feed the missing line before a token that does not fit, or drop the token."""
     expected = tuple(sorted(parser.accepts()))
     for missing in expected:
-        trial = parser.copy()
-        if missing == END:
-            continue
-        trial.feed_token(Token(missing, ""))
-        if token.type in trial.accepts():
+        if missing != END and _takes(parser, Token(missing, ""), token):
             parser.feed_token(Token(missing, ""))
             parser.feed_token(token)
             return Mismatch(content, expected, missing)
     return Mismatch(content, expected, "")
+
+
+def _takes(parser: InteractiveParser, *tokens: Token) -> bool:
+    """Whether a parser takes some tokens; the trial makes no tree, so that nothing has to be copied for it."""
+    state = parser.parser_state
+    rules = copy(state.parse_conf)
+    rules.callbacks = {}
+    fresh = type(state)(rules, state.lexer, [*state.state_stack], [*state.value_stack])
+    trial = InteractiveParser(parser.parser, fresh, parser.lexer_thread)
+    try:
+        for token in tokens:
+            trial.feed_token(token)
+    except UnexpectedToken:
+        return False
+    return True
 
 
 def _complete(parser: InteractiveParser) -> tuple[Tree[Token], Mismatch]:

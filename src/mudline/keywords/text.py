@@ -42,7 +42,7 @@ class UnreadableError(Exception):
 
 def read_value(field: Field, slot: FieldSpec, problems: list[Problem]) -> Value:
     """The value of a field; raises UnreadableError. What is only doubtful is added to `problems`."""
-    if slot.kind is Kind.NAME:
+    if slot.kind is Kind.NAME or slot.kind is Kind.TITLE:
         return field.text
     if slot.kind is Kind.OTHER:
         return _open_choice(field, slot, problems)
@@ -327,7 +327,6 @@ class BlockReading(Protocol):
     text: str
     places: Places
     problems: list[Problem]
-    lost: int
     unclosed: Span | None
 
     def damage(self, path: Path, problem: Problem) -> None:
@@ -422,7 +421,6 @@ class TableBuilder:
 
     def _fault(self, line: Span, row: int, column: int, fault: str, raw: RawRows) -> None:
         text = self.builder.text
-        self.builder.lost += column == 0
         if column < 0:
             fields, _ = split(text, line)
             required = [column.required for column in self.columns]

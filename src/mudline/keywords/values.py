@@ -73,6 +73,7 @@ class Kind(Enum):
     WHOLE_OR_LABEL = "a whole number, an equation =[...] or a {label}"
     REAL_OR_NAME = "a number, an equation =[...] or a name"
     NAME = "a name"
+    TITLE = "a text"
     OTHER = "another value"
 
 
@@ -110,6 +111,8 @@ WholeOrLabel = Annotated[int | Equation | Label, _Either(Integer | Equation | La
 Ident = Annotated[int | Label, _Either(Integer | Label), Kind.IDENT]
 RealOrName = Annotated[float | Equation | str, _Either(Finite | Equation | Text), Kind.REAL_OR_NAME]
 Name = Annotated[Text, Kind.NAME]
+Title = Annotated[Text, Kind.TITLE]
+"""A text to the end of its line, commas included."""
 Other = Annotated[Text, Kind.OTHER]
 """Beside the known values of a choice: there are others, which are kept as they are written."""
 
@@ -140,6 +143,9 @@ class Facts:
     the soil; of elements with `zero_length` the ends may lie at one place. What is computed from it is said under the
     heading `computed_in` of the page on the contact evaluator. `instead_of` says what to write instead of a setting
     that other keywords have.
+
+    What tells its lines from those of others, where the keyword itself is missing: a deck with it has one of those
+    `beside` it too, and `telling` are lines that no other keyword has. It `tells_units` of all other values.
     """
 
     superseded_by: tuple[Successor, ...] = ()
@@ -156,6 +162,9 @@ class Facts:
     zero_length: bool = False
     computed_in: str = ""
     instead_of: Mapping[str, str] = field(default_factory=dict)
+    beside: tuple[str, ...] = ()
+    telling: tuple[str, ...] = ()
+    tells_units: bool = False
 
 
 class Names(Enum):

@@ -47,7 +47,7 @@ def superseded_keyword(context: LintContext) -> Iterator[Problem]:
     """
     if not context.superseded:
         return
-    found = context.deck.blocks_that(lambda declared: declared.facts.superseded_by)
+    found = context.deck.blocks_that(lambda declared: declared.subject == "seabed" and declared.facts.superseded_by)
     for number, (where, block) in enumerate(found):
         newer = " and ".join(map(str, block.facts.superseded_by))
         message = f"*{block.keyword} is superseded by {newer}: `mudline migrate` rewrites the deck"
