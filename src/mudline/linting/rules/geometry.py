@@ -52,6 +52,11 @@ def number_and_curve(context: LintContext) -> Iterator[Problem]:
           SET=ALL, EI=Bend Stiffener
         - 23.5E3, 23.5E3, 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3429, 0.3429, 0.3429
         + , , 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3429, 0.3429, 0.3429
+         *MOMENT-CURVATURE
+          CURVE=Bend Stiffener
+          0.0, 0.0
+          23.5E3, 1.0
+          40.0E3, 2.5
 
     Finds: 5:2
     """
