@@ -11,8 +11,6 @@ from mudline.diagnostics import Severity
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
 from mudline.scene.model import resolve
-from mudline.syntax.source import Source
-from mudline.syntax.tree import parse
 from tests.samples import SAMPLES, sample
 
 DECKS = sorted(path.name for path in SAMPLES.glob("*.keyx?"))
@@ -102,14 +100,6 @@ def test_every_sample_is_there() -> None:
         "slope-friction.keyxm",
         "variations.keyxm",
     ]
-
-
-@pytest.mark.parametrize("name", DECKS)
-def test_the_leaves_of_the_tree_are_the_file(name: str) -> None:
-    data = (SAMPLES / name).read_bytes()
-    source = Source.from_bytes(data, name)
-    text = "".join(source.text[slice(*leaf.span)] for leaf in parse(source).leaves())
-    assert source.to_bytes(text) == data
 
 
 @pytest.mark.parametrize("name", DECKS)

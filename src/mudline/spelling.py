@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import re
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
 from mudline.limits import LONGEST_MISSPELT, SPELLING_EFFORT
@@ -38,6 +39,35 @@ def nearest(word: str, known: Iterable[str], effort: Effort | None = None) -> st
             most = distance
             found.append((distance, name))
     return min(found, default=(0, ""))[1]
+
+
+_MARKS = re.compile(r"[0-9]+|\b\w{1,2}\b")
+"""Numbers and words of one or two letters: they tell things of a kind apart."""
+_FEWEST_LETTERS = 4
+
+
+def same_marks(one: str, other: str) -> bool:
+    """Whether one of two names that are spelt nearly alike may be a slip: "End 2" is none of "End 1"."""
+    return _MARKS.findall(one.casefold()) == _MARKS.findall(other.casefold())
+
+
+def meant_names(word: str, known: Iterable[str], effort: Effort | None = None) -> list[str]:
+    """Return the known names for one of which a name was meant, as near as each other.
+
+    None is so near whose numbers or short words are others, or that has, as the word may have, fewer than four letters.
+    """
+    if len(word) < _FEWEST_LETTERS:
+        return []
+    return equally_near(
+        word, [name for name in known if len(name) >= _FEWEST_LETTERS and same_marks(word, name)], effort
+    )
+
+
+def equally_near(word: str, known: Collection[str], effort: Effort | None = None) -> list[str]:
+    """Return the known names that are as near as the nearest one."""
+    near = nearest(word, known, effort)
+    most = edits(word.casefold(), near.casefold(), 2) if near else 0
+    return [name for name in known if edits(word.casefold(), name.casefold(), most) <= most] if near else []
 
 
 def edits(one: str, other: str, most: int) -> int:

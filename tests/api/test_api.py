@@ -16,7 +16,6 @@ import pytest
 import mudline
 from mudline.deck.loading import load_path
 from tests.builders.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED, UNUSED
-from tests.contact.comparison import plain_loops
 
 EMPTY = '{"format": "mudline-deck/1", "source": "", "units": "user", "sections": []}'
 NAMES = [name for name in mudline.__all__ if name != "__version__"]
@@ -121,18 +120,6 @@ def test_every_deck_is_of_one_class(path: Path) -> None:
     assert copies[::2] == [deck, deck]
 
 
-def test_deck_of_a_scene_that_continues_another_is_a_deck_too(path: Path) -> None:
-    dynamic = path.with_name("dynamic.keyxm")
-    dynamic.write_text("$LOAD CASE\n*RESTART\n LAST=scr.keyxm\n", encoding="utf-8")
-    scene = mudline.read(dynamic).scene()
-    assert isinstance(scene.deck, mudline.Deck)
-    assert scene.deck.to_keyword() == mudline.read(dynamic).to_keyword()
-    assert mudline.from_json(scene.deck.to_json()).to_yaml() == scene.deck.to_yaml()
-    again = scene.deck.scene()
-    assert again.node_ids.tolist() == scene.node_ids.tolist() == mudline.read(path).scene().node_ids.tolist()
-    assert again.curves == scene.curves
-
-
 def test_keyword_text(path: Path) -> None:
     deck = mudline.from_keyword(CLEAN)
     assert deck.sections == mudline.read(path).sections
@@ -174,16 +161,6 @@ def test_text_in_place_of_a_path(text: object, function: str) -> None:
 def test_what_is_no_path(given: object, found: str) -> None:
     with pytest.raises(TypeError, match=f"^expected a path as str or os.PathLike, found {found}$"):
         mudline.read(cast("str", given))
-
-
-@pytest.mark.parametrize("read", [mudline.from_json, mudline.from_yaml])
-def test_document_that_is_none(read: object) -> None:
-    assert callable(read)
-    with pytest.raises(mudline.DeckError) as caught:
-        read("{")
-    assert caught.value.diagnostics[0].code == "DOC001"
-    with pytest.raises(mudline.DeckError, match="not UTF-8"):
-        read(EMPTY.replace('"source": ""', '"source": "\ud800"'))
 
 
 # ------------------------------------------------------------------------------------------------------------- linting
@@ -239,20 +216,6 @@ def test_contact(path: Path) -> None:
     assert [stage.stage for stage in contact.plan] == (
         ["floor", "normal law", "smoothing", "unloading", "suction", "friction", "lateral", "trench", "assembly"]
     )
-
-
-def test_both_backends_of_a_scene_with_history(path: Path) -> None:
-    unloading = "$MODEL\n*SEABED UNLOADING\n SET=ALL\n STIFFNESS=1.0E6\n"
-    scene = mudline.read(changed(path, path.read_text(encoding="utf-8") + unloading)).scene()
-    down = np.array([0.0, 0.2, 0.1, 0.15])[:, np.newaxis, np.newaxis] * [1.0, 0.0, 0.0]
-    moved = scene.coordinates - down
-    plain = scene.contact(backend="numpy").evaluate(moved)
-    with plain_loops():
-        fast = scene.contact(backend="fast").evaluate(moved)
-    assert plain.force[2, 0] == 0.0
-    np.testing.assert_allclose(fast.force, plain.force, rtol=1e-13)
-    with pytest.raises(ValueError, match="backend must be auto, numpy or fast"):
-        scene.contact(backend="quick")  # type: ignore[arg-type]  # that is what is tried
 
 
 def test_positions_of_a_scene(path: Path, tmp_path: Path) -> None:

@@ -4,10 +4,6 @@ from __future__ import annotations
 
 import pickle
 import rlcompleter
-import subprocess
-import sys
-from collections.abc import Iterator
-from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -15,16 +11,11 @@ import pytest
 
 import mudline
 from mudline.contact.seabed import SlopingSeabed
-from mudline.keywords.model import Comment
 from mudline.results.evaluation import evaluate_scene
 from mudline.scene.model import resolve
-from mudline.short_repr import LETTERS, brief, cut, listed, short_repr
 from tests.builders.decks import BAD_NUMBER, CLEAN
-from tests.processes import TIMEOUT
 
 SAMPLES = Path(__file__).parents[2] / "samples"
-DECKS = ("full-cycle.keyxm", "legacy-flowline.keyxm", "slope-friction.keyxm")
-"""Of both families, with suction, and on a slope."""
 
 USED = {
     "mudline": "Deck Scene ContactModel ContactResult ContactState Plan ForceCurve read lint from_keyword",
@@ -44,54 +35,6 @@ INTERNAL = {
 
 def own(thing: object) -> bool:
     return type(thing).__module__.startswith("mudline")
-
-
-def inside(thing: object) -> Iterator[object]:
-    """What hangs on an object: attributes, values of a mapping, items."""
-    if own(thing):
-        yield from (getattr(thing, name) for name in object.__dir__(thing) if not name.startswith(("_", "model_")))
-    if isinstance(thing, dict):
-        yield from thing.values()
-    if isinstance(thing, list | tuple):
-        yield from islice(thing, 20)
-
-
-def reached(starts: list[object]) -> list[object]:
-    """All objects of mudline that can be reached from some."""
-    waiting, known, found = list(starts), {}, []
-    while waiting:
-        thing = waiting.pop()
-        if id(thing) in known or not (own(thing) or isinstance(thing, dict | list | tuple)):
-            continue
-        known[id(thing)] = thing
-        found += [thing] if own(thing) else []
-        waiting += inside(thing)
-    return found
-
-
-def held(deck: mudline.Deck) -> list[object]:
-    """The objects that a user makes from a deck."""
-    scene = deck.scene()
-    contact = scene.contact()
-    still = np.zeros_like(scene.coordinates)
-    result, state = contact.step(scene.coordinates, still, contact.initial_state(), 0.1)
-    series = np.repeat(scene.coordinates[np.newaxis], 2, axis=0)
-    parts = list(contact.stream(series, times=np.arange(2.0)))
-    tangent = contact.tangent(scene.coordinates, still, contact.initial_state(), 0.1)
-    resolved = resolve(deck)
-    evaluation = evaluate_scene(resolved)
-    begin = contact.initial_state()
-    more = [contact.stiffest(), evaluation, resolved.law_arrays(), *parts]
-    return [deck, scene, contact, result, begin, state, tangent, *more]
-
-
-@pytest.mark.parametrize("name", DECKS)
-def test_every_object_is_shown_in_two_lines(name: str) -> None:
-    found = reached(held(mudline.read(SAMPLES / name)))
-    assert len(found) > 100
-    shown = {type(thing).__qualname__: repr(thing) for thing in found if not isinstance(thing, type)}
-    assert {kind: text for kind, text in shown.items() if len(text) > 240 or text.count("\n") > 1} == {}
-    assert {kind: text for kind, text in shown.items() if " at 0x" in text} == {}
 
 
 def test_representations_of_the_main_objects(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -140,25 +83,6 @@ def test_errors_are_counted(tmp_path: Path) -> None:
     assert (again.diagnostics, str(again)) == (caught.value.diagnostics, str(caught.value))
 
 
-def test_values_in_short() -> None:
-    assert brief("x" * 100) == repr("x" * 55 + "...")
-    assert brief((1, "a")) == "(1, 'a')"
-    assert brief((1,)) == "(1,)"
-    assert brief((1, 2, 3, 4, 5)) == "5 items"
-    assert brief([]) == "[]"
-    assert brief({1: 2}) == "1 item"
-    assert brief(np.zeros((2, 3))) == "<float64 (2, 3)>"
-    assert brief(mudline.Severity.ERROR) == "ERROR"
-    assert brief(mudline.from_keyword(CLEAN).scene().curves) == "<ByName of 1>"
-    assert cut("abcdef", 5) == "ab..."
-    assert listed([]) == ""
-    assert short_repr(3) == "int()"
-    long = Comment(before=1, text="x" * 5000)
-    assert len(repr(long)) < LETTERS
-    curve = mudline.ForceCurve([(index + 1 / 3, index + 1 / 7) for index in range(8)], "c" * 500)
-    assert len(repr(curve)) < LETTERS
-
-
 @pytest.mark.parametrize("name", USED)
 def test_dir_and_completion_show_what_is_needed(name: str) -> None:
     deck = mudline.read(SAMPLES / "full-cycle.keyxm")
@@ -179,11 +103,3 @@ def test_dir_and_completion_show_what_is_needed(name: str) -> None:
     completer = rlcompleter.Completer(things)
     offered = [completer.complete(f"{name}.", index) for index in range(200)]
     assert used <= {word.removeprefix(f"{name}.").rstrip("()") for word in offered if word}
-
-
-def test_importing_the_package_loads_nothing_else() -> None:
-    program = (
-        "import sys, mudline; print(sorted(name for name in sys.modules if name.startswith(('mudline', 'numpy'))))"
-    )
-    ran = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=TIMEOUT, check=True)
-    assert ran.stdout.strip() == "['mudline']"

@@ -116,16 +116,6 @@ def test_a_file_cut_short_is_named_and_its_decks_are_read_again(
     assert contents(archive) == before
 
 
-def test_a_missing_file_is_named(archive: Path, decks: Path, before: dict[str, list[str]]) -> None:
-    path = some_file(archive, "laws")
-    path.unlink()
-    outcome = run("query", archive, "SELECT 1")
-    assert outcome.code == 2
-    assert f"{path.as_posix()} is missing" in outcome.err
-    index(decks, archive=archive)
-    assert contents(archive) == before
-
-
 def test_a_file_that_changed_without_its_size_is_found(
     archive: Path, decks: Path, before: dict[str, list[str]]
 ) -> None:

@@ -66,12 +66,6 @@ def test_a_question_reads_the_archive_only(archive: Path, sql: str, why: str) ->
     assert sorted(archive.rglob("*")) == before
 
 
-def test_nothing_is_said_beside_the_answer(archive: Path) -> None:
-    with started("-m", "mudline", "query", str(archive), "SELECT 1 AS one", "--output-format", "csv") as running:
-        assert running.out.read().decode().splitlines() == ["one", "1"]
-        assert running.err.read() == b""
-
-
 def test_the_locks_hold_without_the_look_at_the_statement(archive: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(database, "_READING", ("SELECT", "EXPLAIN", "COPY", "ATTACH", "LOAD", "SET", "EXPORT"))
     for sql in (
@@ -203,10 +197,6 @@ def test_values_that_a_form_cannot_hold(archive: Path, tmp_path: Path, sql: str,
     assert outcome.code == 2
     assert why in outcome.err
     assert not list(tmp_path.iterdir())
-
-
-def test_columns_of_one_name_are_shown(archive: Path) -> None:
-    assert run("query", archive, "SELECT 1 AS a, 2 AS a", "--output-format", "csv").out.splitlines() == ["a,a", "1,2"]
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")

@@ -133,7 +133,7 @@ def _fields(text: str) -> list[tuple[str, ...]]:
 
 
 def test_the_field_that_may_hold_the_value_is_meant() -> None:
-    assert _fields("TIME.step=0.05") == [("increment",)]
+    assert _fields("TIME.step=0.05") == [("fixed", "increment")]
     assert _fields("TIME.step=fixed") == [("step",)]
     assert _fields("SEABED PROPERTIES.stiffness=1") == [("sets", "stiffness")]
     assert _fields("SEABED PROPERTIES.suction.stiffness=1") == [("sets", "suction", "stiffness")]

@@ -10,14 +10,23 @@ import re
 import statistics
 import sys
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from threading import Timer
+from typing import TYPE_CHECKING
 
 from tests.benchmarks.bench import Bench, Table
 from tests.benchmarks.decks import ALIKE
 from tests.benchmarks.runner import ROOT, Job, cpu, figure
 
+if TYPE_CHECKING:
+    from tests.lsp.raw import RawClient
+
 LINES = (240, 20_000)
 LONG = 10**6
+PATIENCE = 120.0
+"""Seconds by the clock in which the findings of a change have to come; a check that crashes publishes none."""
 SLIPS = {
     " 9, -0.05, 40.0\n": " 9, -0.05, 4O.0\n",
     " 20, 20, 21\n": " 20, 20, 9021\n",
@@ -74,17 +83,35 @@ def waits(path: Path, changes: int) -> list[float]:
     taken: list[float] = []
     with raw_client() as client:
         client.begin()
-        client.open(uri, text)
-        client.findings(uri)
+        with _bounded(client, path):
+            client.open(uri, text)
+            client.findings(uri)
         for version in range(2, changes + 4):
             end = {**place, "character": place["character"] + (3 if version > 2 else 0)}
             change = {"range": {"start": place, "end": end}, "text": f"{version:03}"}
             identifier = {"uri": uri, "version": version}
-            begun = time.perf_counter()
-            client.notify("textDocument/didChange", {"textDocument": identifier, "contentChanges": [change]})
-            client.findings(uri)
-            taken.append(time.perf_counter() - begun)
+            with _bounded(client, path):
+                begun = time.perf_counter()
+                client.notify("textDocument/didChange", {"textDocument": identifier, "contentChanges": [change]})
+                client.findings(uri)
+                taken.append(time.perf_counter() - begun)
     return taken[2:]
+
+
+@contextmanager
+def _bounded(client: RawClient, path: Path) -> Iterator[None]:
+    """Wait for findings no longer than `PATIENCE`, and say what the server said if none came."""
+    timer = Timer(PATIENCE, client.process.kill)
+    timer.start()
+    try:
+        yield
+    except (AssertionError, BrokenPipeError) as error:
+        said = client.process.communicate()[1].decode(errors="replace")
+        raise SystemExit(
+            f"{path}: no findings within {PATIENCE:.0f} s, or the server ended; it said:\n{said}"
+        ) from error
+    finally:
+        timer.cancel()
 
 
 if __name__ == "__main__":

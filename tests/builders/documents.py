@@ -97,6 +97,7 @@ BY_KIND: dict[Kind, st.SearchStrategy[object]] = {
     Kind.IDENT: st.one_of(wholes, wholes, labels),
     Kind.REAL_OR_NAME: st.one_of(reals, equations, names.filter(_no_number)),
     Kind.NAME: names,
+    Kind.TITLE: st.lists(names, min_size=1, max_size=3).map(", = ".join),
     Kind.OTHER: names.filter(_no_number),
 }
 

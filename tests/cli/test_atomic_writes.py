@@ -21,14 +21,6 @@ class BrokenError(Exception):
     """What went wrong while pieces were made."""
 
 
-def test_bytes_and_pieces(folder: Path) -> None:
-    write_atomically(folder / "a", b"one piece")
-    write_atomically(folder / "b", (piece for piece in (b"two ", b"", b"pieces")))
-    assert (folder / "a").read_bytes() == b"one piece"
-    assert (folder / "b").read_bytes() == b"two pieces"
-    assert sorted(path.name for path in folder.iterdir()) == ["a", "b"]
-
-
 def test_old_file_survives_a_failure(folder: Path) -> None:
     def pieces() -> Iterator[bytes]:
         yield b"half"
@@ -50,16 +42,6 @@ def test_nothing_is_left_behind(folder: Path, failure: type[BaseException]) -> N
     with pytest.raises(failure):
         write_atomically(folder / "new", pieces())
     assert list(folder.iterdir()) == []
-
-
-def test_old_file_survives_when_it_cannot_be_replaced(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (folder / "a").write_bytes(b"old")
-
-    monkeypatch.setattr(Path, "replace", Mock(side_effect=FULL))
-    with pytest.raises(OSError, match="No space"):
-        write_atomically(folder / "a", b"new")
-    assert (folder / "a").read_bytes() == b"old"
-    assert [path.name for path in folder.iterdir()] == ["a"]
 
 
 def test_command_tells_that_a_file_cannot_be_written(
@@ -90,26 +72,3 @@ def test_directory_is_not_replaced(place: Place, folder: Path, options: tuple[st
     outcome = run(command, place(), "-o", "out.json", *rest)
     assert (outcome.code, outcome.out) == (2, "")
     assert outcome.err == "mudline: out.json: cannot be written: is a directory\n"
-
-
-def test_deck_is_replaced_by_its_own_sorted_form(place: Place, folder: Path) -> None:
-    name = place()
-    before = (folder / name).read_bytes()
-    assert run("convert", name, "-o", name).code == 0
-    assert (folder / name).read_bytes() != b""
-    assert run("lint", name).code == 0
-    assert len((folder / name).read_bytes().splitlines()) == len(before.splitlines())
-
-
-def test_long_name(folder: Path) -> None:
-    name = "n" * 250
-    write_atomically(folder / name, b"x")
-    assert [path.name for path in folder.iterdir()] == [name]
-
-
-def test_name_of_the_temporary_file_may_be_taken(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    taken = ".a.7461.mudline"
-    (folder / taken).write_bytes(b"another's")
-    monkeypatch.setattr(os, "urandom", Mock(side_effect=[b"ta", b"free"]))
-    write_atomically(folder / "a", b"x")
-    assert {path.name: path.read_bytes() for path in folder.iterdir()} == {"a": b"x", taken: b"another's"}

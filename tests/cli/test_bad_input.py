@@ -105,23 +105,6 @@ def test_windows_line_ends_and_mark_change_nothing(place: Place) -> None:
         assert found.out.replace("other", "plain") == expected.out
 
 
-@pytest.mark.parametrize("end", ["\r", "\r\n", "\n"])
-def test_place_of_a_fault_counts_every_kind_of_line_end(place: Place, end: str) -> None:
-    text = CLEAN.replace(" 2, -0.1, 10.0", " 2, -0.1, ten").replace("\n", end)
-    for data in (text.encode(), b"\xef\xbb\xbf" + text.encode()):
-        (found,) = lint(place, data)
-        assert (found["line"], found["column"], found["end_column"]) == (6, 11, 14)
-
-
-def test_cp1252_is_read_with_a_warning(place: Place) -> None:
-    name = place(CLEAN.replace("Clay", "Lehm\u00e4").encode("cp1252"))
-    outcome = run("lint", name, "--output-format", "json")
-    assert outcome.code == 1
-    assert [(found["code"], found["severity"]) for found in outcome.json()] == [("SYN012", "warning")]
-    assert run("curves", name).out.startswith("curve Lehm\u00e4: 3 points")
-    assert "Lehm\u00e4" in run("convert", name, "--to", "json").out
-
-
 ONE_LINE = {
     "digits": "1234," * (LONG // 5),
     "one number": "1" * LONG,
@@ -151,12 +134,6 @@ def test_long_names_do_not_fill_the_screen(place: Place) -> None:
     assert len(run("convert", place(text + "*NODE\n 1, x, 2\n"), "--to", "json").err) < 5000
 
 
-def test_many_findings(place: Place) -> None:
-    outcome = run("lint", place("$MODEL\n" + "*FOO\n" * 3000))
-    assert ":1002:1: info SYN009 and more of the same: the first 1000 are listed" in outcome.out
-    assert outcome.out.endswith("Found 1001 info in 1 file.\nRead 0 of 3000 keywords; not read: *FOO (3000).\n")
-
-
 @pytest.mark.parametrize("text", ["", "\n", "\r\n\r\n", "C only a comment", "C only\nC comments\n", "\ufeff", "$MODEL"])
 def test_nearly_nothing(place: Place, text: str) -> None:
     assert run("lint", place(text)).code == 0
@@ -171,11 +148,6 @@ def test_document_that_is_no_deck(place: Place, form: str, text: str) -> None:
         outcome = run(command[0], place(text, f"deck.{form}"), *command[1:])
         assert_quiet(outcome)
         assert outcome.code == 1
-
-
-def test_document_that_is_not_utf_8(place: Place) -> None:
-    (found,) = lint(place, b'{"format":\n "\xff"}', "deck.json")
-    assert (found["code"], found["line"]) == ("DOC001", 2)
 
 
 SOURCE = (SAMPLES / "broken.keyxm").read_bytes()

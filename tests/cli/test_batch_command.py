@@ -154,15 +154,6 @@ def test_units_that_differ_are_shown_and_compared() -> None:
     assert "[" not in found.out
 
 
-def test_only_the_first_of_many_rows_are_listed(four: str, place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mudline.cli.batch_text.SHOWN_ROWS", 1)
-    place(BAD_NUMBER, "decks/e.keyxm")
-    outcome = batch(four).out
-    assert "1 more deck: -v shows all\n" in outcome
-    assert "2 more decks: -v shows all\n" in outcome
-    assert "more deck" not in batch(four, "-v").out
-
-
 # ------------------------------------------------------------------------------------------------------- exit codes
 
 
@@ -270,12 +261,6 @@ def test_decks_after_expand_keep_their_folders() -> None:
     expected = {f"{row['deck'].removeprefix('waves/').removesuffix('.keyxm')}.npz" for row in found}
     assert {name for name in files() if name.endswith(".npz")} == expected
     assert (len(found), "Near/Wave 08s.npz" in expected) == (6, True)
-
-
-def test_deck_that_is_given_twice_has_one_row(place: Place) -> None:
-    found = batch(place(), "./deck.keyxm", ".", "--output-format", "json", "--form", "json").json()
-    assert [(row["deck"], row["result"]) for row in found] == [("deck.keyxm", "deck.json")]
-    assert_fits(json.loads(Path("out/deck.json").read_bytes()), "evaluate")
 
 
 def test_results_do_not_replace_what_they_are_made_from(two: str, folder: Path) -> None:

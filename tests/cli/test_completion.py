@@ -8,7 +8,6 @@ from unittest.mock import patch
 import pytest
 
 from mudline.cli.main import COMMANDS
-from mudline.linting import registry
 from tests.cli.runner import Outcome, run
 
 
@@ -64,14 +63,3 @@ def test_formats_and_commands_are_offered() -> None:
     assert offered("lint", "--output-format", "sa") == ["plain,sarif"]
     assert offered("convert", "--to", "y") == ["plain,yaml"]
     assert offered("help", "li") == ["plain,lint"]
-
-
-def test_nothing_is_offered_for_what_is_unknown(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert offered("lnit", "--sel") == []
-    monkeypatch.setattr(registry, "_collected", lambda: ((), ("a plugin cannot be used",)))
-    assert offered("lint", "--select", "SYN") == []
-
-
-def test_an_unknown_question_is_answered_by_nothing() -> None:
-    outcome = answered({"_MUDLINE_COMPLETE": "tcsh_source"})
-    assert (outcome.code, outcome.out, outcome.err) == (1, "", "")

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import csv
-from pathlib import Path
 
-import numpy as np
 import pytest
 
-from mudline.quantities import LINES
 from tests.builders.decks import CLEAN, CLEAN_WARNING, LINEAR, PULLING
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Json, assert_fits, run
@@ -298,30 +295,3 @@ def test_value_that_overflows_names_the_line_of_the_element(place: Place) -> Non
     assert outcome.err.startswith("deck.keyxm:9:")
     assert "RUN001 element 1" in outcome.err
     assert "overflows" in outcome.err
-
-
-def test_length_that_overflows_names_the_line_of_the_element(place: Place) -> None:
-    deck = CLEAN.replace(" 2, -0.1, 10.0", " 2, -0.1, 1.0E308").replace(" 1, -0.1, 0.0", " 1, -0.1, -1.0E308")
-    for options in ((), ("--plan",)):
-        outcome = run("evaluate", place(deck), *options)
-        assert (outcome.code, outcome.out) == (1, "")
-        assert "RUN001 element 1 has no known finite length" in outcome.err
-
-
-def test_npz_holds_the_same_numbers(place: Place, folder: Path) -> None:
-    name = place()
-    assert run("evaluate", name, "-o", "out.npz").err == f"{CLEAN_WARNING}mudline: deck.keyxm -> out.npz\n"
-    found = run("evaluate", name, "--output-format", "json").json()
-    with np.load(folder / "out.npz", allow_pickle=False) as archive:
-        arrays = dict(archive)
-    element, node = set(found["elements"][0]), set(found["nodes"][0])
-    of_nodes = {f"node_{name}" if name in element else name for name in node}
-    lines = {name for name in arrays if name.startswith("summary_")}
-    assert set(arrays) == element | of_nodes | lines | {"units", "format"}
-    assert (str(arrays["units"]), str(arrays["format"])) == ("metric", found["format"])
-    assert lines == {f"summary_{name}" for name in LINES}
-    for row, index in ((found["elements"][0], 0), (found["elements"][1], 1), (found["nodes"][2], 2)):
-        for name, value in row.items():
-            key = f"node_{name}" if "node" in row and name in element else name
-            expected = "" if value is None else value
-            assert np.array_equal(arrays[key][index], np.array(expected)), key

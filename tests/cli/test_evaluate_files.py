@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import json
 from pathlib import Path
 
 import numpy as np
@@ -11,9 +9,8 @@ import pytest
 
 from mudline.cli.evaluate_inputs import read_headings
 from mudline.results.forms import FORMS
-from tests.builders.decks import CLEAN, PULLING
 from tests.cli.conftest import Place
-from tests.cli.runner import SAMPLES, Json, Outcome, assert_fits, no_constant, run
+from tests.cli.runner import SAMPLES, Json, Outcome, assert_fits, run
 
 STEPS = """\
 time,node,x,y,z
@@ -115,22 +112,6 @@ def test_nodes_of_steps_are_shown(place: Place, steps: str) -> None:
     assert run("evaluate", place(), "--positions", steps).out.split("\n\n")[0] != outcome.out.split("\n\n")[0]
 
 
-def test_npz_of_steps(place: Place, steps: str, folder: Path) -> None:
-    assert run("evaluate", place(PULLING), "--positions", steps, "--tension", "cut", "-o", "out.npz").code == 0
-    with np.load(folder / "out.npz", allow_pickle=False) as archive:
-        arrays = dict(archive)
-    assert arrays["time"].tolist() == [0.0, 2.5]
-    for name in ("depth", "ratio", "contact", "force", "slope", "stiffness", "law", "state"):
-        assert arrays[name].shape == (2, 2), name
-    for name in ("gap", "normal_force", "axial_force", "lateral_force", "axial_state", "lateral_state"):
-        assert arrays[name].shape == (2, 3), name
-    for name in ("normal", "reaction"):
-        assert arrays[name].shape == (2, 3, 3), name
-    assert arrays["element"].tolist() == [1, 2]
-    assert arrays["law"].tolist() == [["curve-cut", "curve:Clay"], ["curve-cut", "curve-cut"]]
-    assert arrays["contact"].dtype == np.bool_
-
-
 def test_positions_of_some_nodes(folder: Path) -> None:
     outcome = run("evaluate", SCR, "--positions", SAMPLES / "positions.csv", "--output-format", "json")
     assert outcome.code == 0
@@ -201,28 +182,12 @@ def test_file_that_is_missing(place: Place, option: str) -> None:
     assert outcome.err == "mudline: nowhere.csv: no such file or directory\n"
 
 
-@pytest.mark.parametrize("name", ["dir", "dir.npz", "dir.npy"])
-def test_positions_that_are_a_directory(place: Place, folder: Path, name: str) -> None:
-    (folder / name).mkdir()
-    outcome = run("evaluate", place(), "--positions", name)
-    assert (outcome.code, outcome.err) == (2, f"mudline: {name}: is a directory\n")
-
-
 @pytest.mark.parametrize("option", ["--positions", "--elements"])
 def test_file_with_a_fault(place: Place, folder: Path, option: str) -> None:
     (folder / "bad.csv").write_text("node,x,y\n1,2,3\n", encoding="utf-8")
     outcome = run("evaluate", place(), option, "bad.csv")
     assert (outcome.code, outcome.out) == (1, "")
     assert outcome.err.startswith("bad.csv:1:1: error: DAT001 the header lacks ")
-
-
-def test_position_that_is_not_finite_names_node_and_step(place: Place, folder: Path) -> None:
-    values = np.zeros((3, 3, 3))
-    values[1, 2, 0] = np.nan
-    np.save(folder / "p.npy", values)
-    outcome = run("evaluate", place(), "--positions", "p.npy")
-    assert (outcome.code, outcome.out) == (1, "")
-    assert "RUN001 node 3 at step 1: its position (nan, 0.0, 0.0) is not finite" in outcome.err
 
 
 @pytest.mark.parametrize("name", ["out.txt", "out", "out.npy", "-"])
@@ -238,27 +203,6 @@ def test_folder_that_is_missing(place: Place, name: str) -> None:
     outcome = run("evaluate", place(), "-o", name)
     assert (outcome.code, outcome.out) == (2, "")
     assert outcome.err == f"mudline: {name}: cannot be written: no such file or directory\n"
-
-
-def test_names_are_spelled_as_the_formats_need_it(place: Place, folder: Path) -> None:
-    text = run("convert", place(), "--to", "json").out
-    name = place(text.replace("Clay", 'Cl\\"ay, 1').replace("Pipe", "Rohr\u00e4"), "deck.json")
-    found = run("evaluate", name, "--output-format", "json").json()["elements"][0]
-    (row, _) = csv.DictReader(run("evaluate", name, "--output-format", "csv").out.splitlines())
-    assert run("evaluate", name, "-o", "out.npz").code == 0
-    with np.load(folder / "out.npz") as archive:
-        arrays = {key: archive[key][0] for key in ("law", "set")}
-    for source in (found, row, arrays):
-        assert source["law"] == 'curve:Cl"ay, 1'
-        assert source["set"] == "Rohr\u00e4"
-
-
-def test_json_never_holds_nan(place: Place, steps: str, folder: Path) -> None:
-    bare = CLEAN.partition("*GEOMETRIC SETS")[0] + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=Pipe\n STIFFNESS=1.0E4\n"
-    assert run("evaluate", place(bare), "--positions", steps, "-o", "out.json").code == 0
-    text = (folder / "out.json").read_text(encoding="utf-8")
-    found = json.loads(text, parse_constant=no_constant)
-    assert {element["ratio"] for step in found["steps"] for element in step["elements"]} == {None}
 
 
 # --------------------------------------------------------- positions from a CSV of another program, by its own headings
@@ -344,11 +288,6 @@ def test_headings_that_the_file_lacks(place: Place, text: str, columns: str, mes
     outcome = evaluated(place(), text, columns)
     assert (outcome.code, outcome.out) == (1, "")
     assert outcome.err.startswith(message)
-
-
-def test_long_headers_are_cut_in_messages(place: Place) -> None:
-    header = ",".join(f"c{number}" for number in range(20))
-    assert "'c9' and 10 more" in evaluated(place(), f"{header}\n", "node=n").err
 
 
 def test_columns_are_for_positions_from_csv(place: Place) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from pathlib import Path
 from unittest.mock import patch
 
@@ -10,11 +9,8 @@ import numpy as np
 import pytest
 
 from mudline.results.forms import parquet
-from tests.builders.decks import CLEAN, CLEAN_WARNING
 from tests.cli.conftest import Place
 from tests.cli.runner import run
-from tests.cli.test_evaluate_files import STEPS
-from tests.cli.test_evaluate_states import BOTH, PULL
 
 pq = pytest.importorskip("pyarrow.parquet")
 OUTPUTS = ("out.csv", "out.json", "out.npz", "out.parquet")
@@ -27,33 +23,6 @@ def long(folder: Path) -> str:
     steps[:, :, 1] = [0.0, 10.0, 20.0]
     np.save(folder / "long.npy", steps)
     return "long.npy"
-
-
-@pytest.mark.parametrize(("deck", "text"), [(CLEAN, ""), (CLEAN, STEPS), (BOTH, PULL)])
-def test_parquet_holds_what_csv_does(place: Place, folder: Path, deck: str, text: str) -> None:
-    options = (place(deck), *(("--positions", place(text, "p.csv")) if text else ()))
-    assert run("evaluate", *options, "-o", "out.csv", "-q").code == 0
-    outcome = run("evaluate", *options, "-o", "out.parquet")
-    warned = "" if text else CLEAN_WARNING
-    assert outcome.err == (
-        f"{warned}mudline: nodes -> out-nodes.parquet\nmudline: summary -> out-summary.parquet\n"
-        "mudline: deck.keyxm -> out.parquet\n"
-    )
-    for name in ("out", "out-nodes", "out-summary"):
-        table = pq.read_table(folder / f"{name}.parquet")
-        rows = list(csv.reader((folder / f"{name}.csv").read_text(encoding="utf-8").splitlines()))
-        assert [*table.column_names, "units"] == rows[0]
-        assert {row.pop() for row in rows} == {"units", "metric"}
-        for column, *texts in zip(*rows, strict=True):
-            values = table[column].to_pylist()
-            spelled = [_spelled(value) for value in values]
-            assert spelled == texts, column
-
-
-def _spelled(value: object) -> str:
-    if value is None:
-        return ""
-    return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def test_parquet_has_groups_of_rows(place: Place, long: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

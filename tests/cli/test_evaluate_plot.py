@@ -5,12 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from unittest.mock import patch
 
-import numpy as np
 import pytest
 
-from tests.builders.decks import CLEAN, CLEAN_WARNING, LINEAR
+from tests.builders.decks import CLEAN, CLEAN_WARNING
 from tests.cli.conftest import Place
-from tests.cli.runner import SAMPLES, run
+from tests.cli.runner import run
 from tests.cli.test_evaluate_files import STEPS
 
 pytest.importorskip("matplotlib")
@@ -45,13 +44,6 @@ def test_a_curve_is_in_the_legend_whatever_its_name(place: Place, folder: Path) 
     assert "_Clay" in words(folder)
 
 
-def test_panels_without_data_are_left_out(place: Place, folder: Path) -> None:
-    assert run("evaluate", place(LINEAR), "--plot", "p.svg", "--units", "user").code == 0
-    text = words(folder)
-    assert "evaluated points" not in text
-    assert "[m]" not in text
-
-
 @pytest.mark.parametrize(
     "deck",
     [
@@ -75,22 +67,6 @@ def test_large_model(place: Place, folder: Path) -> None:
     rest = CLEAN.partition("*ELEMENT SETS\n SET=Pipe\n 1, 2\n")[2].replace("Pipe", "ALL")
     assert run("evaluate", place(f"$MODEL\n{numbers}{rest}"), "--plot", "p.svg", "-q").code == 0
     assert (folder / "p.svg").stat().st_size < 2_000_000
-
-
-def test_many_curves_and_many_steps(place: Place, folder: Path) -> None:
-    sample = SAMPLES / "legacy-flowline.keyxm"
-    assert run("evaluate", sample, "--plot", "p.png", "-q").code == 0
-    places = np.zeros((5000, 3, 3))
-    places[:, :, 0] = -0.05 + 0.1 * np.sin(np.arange(5000) * 0.7)[:, None]
-    places[:, :, 1] = [0.0, 10.0, 20.0]
-    np.save(folder / "p.npy", places)
-    assert run("evaluate", place(), "--positions", "p.npy", "--plot", "p.svg").code == 0
-    assert (folder / "p.svg").stat().st_size < 2_000_000
-
-
-def test_no_positions_leave_the_curve(place: Place) -> None:
-    (positions := Path("p.csv")).write_text("time,node,x,y,z\n0,2,-0.1,0,0\n1,2,-0.1,0,0\n", encoding="utf-8")
-    assert run("evaluate", place(), "--positions", positions, "--plot", "p.png").code == 0
 
 
 @pytest.mark.parametrize("name", ["p.jpg", "p", "p.gif"])

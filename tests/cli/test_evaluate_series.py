@@ -119,18 +119,6 @@ def test_terminal_shows_what_a_whole_run_does(place: Place) -> None:
 # ------------------------------------------------------------------------------------------------------ what is refused
 
 
-def test_a_fault_in_a_late_step_names_it(place: Place, long: Path, folder: Path) -> None:
-    positions = np.load(long)
-    positions[690, 1, 2] = np.nan
-    positions[699, 0, 0] = np.inf
-    np.save(long, positions)
-    place()
-    outcome = run("evaluate", *GIVEN, "-o", "out.json")
-    assert outcome.code == 1
-    assert not list(folder.glob("out*"))
-    assert "node 2 at step 690: its position" in outcome.err
-
-
 @pytest.mark.usefixtures("long")
 @pytest.mark.parametrize(
     ("options", "message"),
@@ -145,15 +133,6 @@ def test_options_that_do_not_fit(place: Place, folder: Path, options: tuple[str,
     outcome = run("evaluate", place(), *options)
     assert (outcome.code, outcome.out) == (2, "")
     assert message in outcome.err
-
-
-@pytest.mark.usefixtures("long")
-def test_bar_on_a_terminal(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mudline.cli.view.DELAY", 0.0)
-    monkeypatch.delenv("CI", raising=False)
-    place()
-    assert "/700" in run("evaluate", *GIVEN, "-o", "out.json", terminal=True).err
-    assert "/700" not in run("evaluate", *GIVEN, "-o", "out.json").err
 
 
 # ----------------------------------------------- touchdown of lines, and their least and largest figures over all steps

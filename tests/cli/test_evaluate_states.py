@@ -70,23 +70,6 @@ def test_json_names_the_states(pulled: tuple[str, ...]) -> None:
     assert found["steps"][2]["nodes"][0]["normal_force"] < 0.0
 
 
-def test_forms_agree(pulled: tuple[str, ...], folder: Path) -> None:
-    found = run("evaluate", *pulled, "--output-format", "json").json()
-    assert run("evaluate", *pulled, "-o", "out.npz", "-q").code == 0
-    with np.load(folder / "out.npz", allow_pickle=False) as archive:
-        arrays = dict(archive)
-    assert run("evaluate", *pulled, "-o", "out.csv", "-q").code == 0
-    for table, keys, name in (
-        ("elements", ("state", "force"), "out.csv"),
-        ("nodes", ("axial_state", "lateral_state", "axial_force", "lateral_force"), "out-nodes.csv"),
-    ):
-        rows = list(csv.DictReader((folder / name).read_text(encoding="utf-8").splitlines()))
-        for key in keys:
-            of_json = [row[key] for step in found["steps"] for row in step[table]]
-            assert arrays[key].ravel().tolist() == of_json
-            assert [row[key] for row in rows] == [str(value) for value in of_json]
-
-
 def test_velocities_of_the_file_are_used(place: Place) -> None:
     lines = PULL.splitlines()
     still = [lines[0] + ",vx,vy,vz", *(f"{line},0,0,0" for line in lines[1:])]
@@ -237,7 +220,6 @@ WARNING = (
     "PROPERTIES?), and element 1 is in contact without a seabed law: correct the name\n"
 )
 OWN = "mudline: the positions are the deck's own coordinates, not a solved shape\n"
-ABOVE = "time,node,x,y,z\n" + "".join(f"{step},{node},{5 - step},{node},0\n" for step in (0, 1) for node in (1, 2, 3))
 
 
 def test_misspelt_keyword_is_said_in_the_place_of_zeros(place: Place) -> None:
@@ -248,12 +230,6 @@ def test_misspelt_keyword_is_said_in_the_place_of_zeros(place: Place) -> None:
     everything = run("evaluate", place(MISSPELT), "-v").out
     assert everything.startswith(message)
     assert "none              2        1      0.1         0" in everything
-
-
-def test_steps_without_a_law_are_no_table_of_zeros(place: Place) -> None:
-    outcome = run("evaluate", place(MISSPELT), "--positions", place(ABOVE.replace(",5", ",-5"), "below.csv"))
-    assert "none of 2 elements has a seabed law" in outcome.out
-    assert len(outcome.out.splitlines()) == 1
 
 
 @pytest.mark.parametrize(("options", "code"), [((), 0), (("--fail-on", "error"), 0), (("--fail-on", "warning"), 1)])
@@ -276,29 +252,6 @@ def test_json_has_the_warnings(place: Place) -> None:
     (warning,) = found["warnings"]
     assert (warning["code"], warning["line"], warning["elements"], warning["first"]) == ("SYN009", 18, 1, 1)
     assert warning["message"] in WARNING
-
-
-def test_json_of_time_steps(place: Place) -> None:
-    options = ("--positions", place(ABOVE, "above.csv"), "--output-format", "json")
-    found = run("evaluate", place(), *options).json()
-    assert_fits(found, "evaluate")
-    assert found["positions"] == "file"
-    assert [(each["code"], each["elements"], each["first"]) for each in found["warnings"]] == [("GEO005", 2, 1)]
-    assert "the smallest clearance is 4 m, of node 1 at time 1" in found["warnings"][0]["message"]
-
-
-def test_refused_deck_has_no_warnings(place: Place) -> None:
-    outcome = run("evaluate", place(CLEAN.replace("*SEABED STIFFNESS", "*SEABED STIFNES")))
-    assert outcome.code == 1
-    assert "SYN009" in outcome.err
-    assert "warning: deck" not in outcome.err
-
-
-def test_plot_has_a_line_under_its_title(place: Place, folder: Path) -> None:
-    run("evaluate", place(MISSPELT), "--plot", "p.svg")
-    run("evaluate", SAMPLES / "flowline-gen.keyxm", "--plot", "q.svg")
-    assert "1 warning: 1 element in contact without a seabed law" in (folder / "p.svg").read_text(encoding="utf-8")
-    assert "warning" not in (folder / "q.svg").read_text(encoding="utf-8")
 
 
 # ------------------------------------------------------------------------------------------------------------ validate

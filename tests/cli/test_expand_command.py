@@ -128,13 +128,6 @@ def test_files_that_the_deck_names_are_not_copied_and_that_is_told(place: Place)
     assert "c d: the deck" not in run("expand", name, "-o", "out", "--force").err
 
 
-def test_many_files_in_the_way_are_counted(place: Place) -> None:
-    name = place(STUDY.replace("50, 100, 50", "1, 20"))
-    run("expand", name, "-o", "out")
-    outcome = run("expand", name, "-o", "out")
-    assert outcome.err.splitlines()[-2:] == ["mudline: and 1 more of the same", "mudline: nothing is written"]
-
-
 def test_the_deck_itself_is_never_overwritten(place: Place, folder: Path) -> None:
     name = place(STUDY.partition("*VARIATION")[0] + "*COMBINATIONS\n DESCRIPTION=d, FILENAME=deck\n" + CLEAN)
     before = (folder / name).read_bytes()
@@ -142,21 +135,6 @@ def test_the_deck_itself_is_never_overwritten(place: Place, folder: Path) -> Non
     assert outcome.code == 2
     assert "deck.keyxm: is the deck itself, which is not overwritten" in outcome.err
     assert (folder / name).read_bytes() == before
-
-
-def test_a_file_where_a_folder_is_wanted(place: Place) -> None:
-    name = place(STUDY)
-    place("mine", "out")
-    outcome = run("expand", name, "-o", "out", "--force")
-    message = "mudline: out: is a file: expected a folder for the decks"
-    assert (outcome.code, outcome.err.splitlines()[0]) == (2, message)
-    place("mine", "there/Near")
-    outcome = run("expand", name, "-o", "there", "--force")
-    assert outcome.code == 2
-    assert outcome.err.splitlines()[0] == "mudline: there/Near/at 50.keyxm: there/Near is a file, not a folder"
-    outcome = run("expand", name, "-o", "there/Near/deeper")
-    assert outcome.code == 2
-    assert "there/Near" in outcome.err
 
 
 def test_a_folder_where_a_file_is_wanted(place: Place, folder: Path) -> None:
@@ -184,23 +162,6 @@ def test_where_to_write_must_be_said(place: Place) -> None:
     outcome = run("expand", place(STUDY))
     assert outcome.code == 2
     assert "no folder to write to: give -o DIR, or --dry-run" in outcome.err
-
-
-def test_a_path_that_cannot_be_looked_at(place: Place) -> None:
-    outcome = run("expand", place(STUDY), "-o", "a\0b")
-    assert outcome.code == 2
-    assert "cannot be inspected" in outcome.err
-
-
-def test_a_folder_that_cannot_be_made(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
-    def fail(*_: object, **__: object) -> None:
-        raise PermissionError(13, "Permission denied")
-
-    name = place(STUDY)
-    monkeypatch.setattr(Path, "mkdir", fail)
-    outcome = run("expand", name, "-o", "out")
-    assert outcome.code == 2
-    assert "out/Near: cannot be created: permission denied" in outcome.err
 
 
 def test_standard_input_and_notes() -> None:

@@ -6,7 +6,7 @@ import json
 import os
 import subprocess
 import sys
-from pathlib import Path, PurePath
+from pathlib import Path
 
 import pytest
 
@@ -35,26 +35,6 @@ def test_directory_is_searched_for_decks(place: Place) -> None:
     assert names("decks") == expected
     assert names("decks/") == expected
     assert names("./decks") == [f"./{name}" for name in expected]
-
-
-def test_files_of_folders_come_where_the_name_of_the_folder_does(place: Place, folder: Path) -> None:
-    inner = (
-        "a.keyxm",
-        "a/z.keyxm",
-        "a-b/c.keyxm",
-        "a-b/c/d.keyxm",
-        "b.keyxm",
-        "c.keyxm",
-        "d.keyxm",
-        "e.keyxm",
-        "Z/a.das",
-    )
-    for name in inner:
-        place(CLEAN, f"decks/{name}")
-    (folder / "decks/b.keyxm.d").mkdir()
-    expected = [path.as_posix() for path in sorted(PurePath("decks", name) for name in inner)]
-    assert names("decks") == expected
-    assert names("decks/b.keyxm", "decks") == ["decks/b.keyxm", *(one for one in expected if one != "decks/b.keyxm")]
 
 
 def test_current_directory_adds_nothing_to_the_names(place: Place) -> None:
@@ -98,13 +78,6 @@ def test_directory_where_one_deck_belongs(command: str, folder: Path) -> None:
     outcome = run(command, str(folder), *(["--to", "json"] if command == "convert" else []))
     assert outcome.code == 2
     assert outcome.err.endswith("is a directory: this command takes one deck\n")
-
-
-@pytest.mark.parametrize("command", ["lint", "show"])
-def test_name_that_is_too_long(command: str) -> None:
-    outcome = run(command, "x" * 5000)
-    assert (outcome.code, outcome.out) == (2, "")
-    assert outcome.err.endswith("file name too long\n")
 
 
 @pytest.mark.parametrize("command", ["lint", "show"])
@@ -160,17 +133,6 @@ def test_standard_input_that_is_closed(command: str) -> None:
     done = subprocess.run([sys.executable, "-c", words], capture_output=True, text=True, timeout=TIMEOUT, check=False)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.endswith("standard input is closed\n")
-
-
-@pytest.mark.parametrize("form", ["json", "yaml", "yml"])
-@pytest.mark.parametrize("command", ["show", "curves", "evaluate"])
-def test_document_gives_what_its_deck_gives(place: Place, command: str, form: str) -> None:
-    expected = run(command, place(), "--output-format", "json").out
-    text = run("convert", "deck.keyxm", "--to", "json" if form == "json" else "yaml").output
-    outcome = run(command, place(text, f"deck.{form}"), "--output-format", "json")
-    warned = CLEAN_WARNING.replace("deck.keyxm", f"deck.{form}") if command == "evaluate" else ""
-    assert (outcome.code, outcome.err) == (0, warned)
-    assert outcome.out == expected.replace("deck.keyxm", f"deck.{form}")
 
 
 # -------------------------------------------------------------- searched directories without what .gitignore files hide
@@ -239,11 +201,6 @@ def test_the_folder_of_git_is_not_searched(decks: Path) -> None:
     (decks / ".git/x.keyxm").write_text(CLEAN, encoding="utf-8")
     assert not [name for name in names("decks") if ".git" in name]
     assert "decks/.git/x.keyxm" in names("decks", gitignore=False)
-
-
-def test_names_in_any_bytes(decks: Path) -> None:
-    (decks / ".gitignore").write_bytes(b"\xff\xfe*.keyxm\n/old\n")
-    assert "decks/old/b.keyxm" not in names("decks")
 
 
 def test_a_file_that_cannot_be_read_is_told(decks: Path, monkeypatch: pytest.MonkeyPatch) -> None:

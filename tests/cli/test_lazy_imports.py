@@ -69,21 +69,11 @@ def test_keywords_that_a_deck_lacks_are_not_loaded(place: Place) -> None:
     }
 
 
-def test_schema_needs_no_scene() -> None:
-    names = modules("schema")
-    assert not names & {"rich", "matplotlib", "mudline.scene.model", "mudline.contact"}
-
-
 def test_evaluation_loads_only_what_the_deck_needs(place: Place) -> None:
     names = modules("evaluate", place(), "--output-format", "json")
     assert not names & {"rich", "matplotlib", "yaml", "scipy", "numba", "multiprocessing", "pyarrow"}
     assert "mudline.contact.laws.curve" in names
     assert "mudline.contact.laws.linear" not in names
-
-
-def test_conversion_needs_no_scene(place: Place) -> None:
-    names = modules("convert", place(), "--to", "json")
-    assert not names & {"rich", "mudline.scene.model", "mudline.contact"}
 
 
 def test_curves_draw_nothing_unasked(place: Place) -> None:

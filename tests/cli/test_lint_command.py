@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import json
 import multiprocessing
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -21,7 +18,6 @@ from tests.builders.decks import UNUSED as SOFT
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Outcome, assert_fits, run
 from tests.linting.test_recovery import changed
-from tests.processes import TIMEOUT
 
 UNUSED = SOFT.replace(" 0.1, 1.0\n", " 0.1, 100.0\n")
 """A REF003 (warning), and nothing else."""
@@ -308,41 +304,6 @@ def test_output_is_the_same_whatever_the_number_of_processes(
     monkeypatch.setenv("MUDLINE_CACHE_DIR", str(folder / "cache"))
     assert [run("lint", *words, "2") for _ in range(2)] == [alone] * 2
     assert len(list((folder / "cache").iterdir())) == 1
-
-
-COPIES = """
-import sys
-from mudline.__main__ import main
-
-sys.argv[0] = "mudline"
-from mudline.running import executors
-
-executors.PAYS, executors.TRIED = dict.fromkeys(executors.PAYS, 0.0), 0.0
-start_method, used = executors.start_method, []
-executors.start_method = lambda: used.append(start_method()) or used[-1]
-code = main(sys.argv[1:])
-print(*set(used), code, file=sys.stderr)
-"""
-
-
-def test_copies_of_a_process_without_threads_say_the_same(decks: str) -> None:
-    alone = run("lint", decks, "--jobs", "1", "--no-cache")
-    words = [sys.executable, "-c", COPIES, "lint", decks, "--jobs", "2", "--no-cache"]
-    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
-    done = subprocess.run(words, env=environment, capture_output=True, text=True, timeout=TIMEOUT, check=True)
-    assert done.stdout == alone.out
-    assert done.stderr in ("fork 1\n", "forkserver 1\n", "spawn 1\n")
-    assert done.stderr.startswith("fork ") or not sys.platform.startswith("linux")
-
-
-def test_run_that_ends_early_ends_its_processes(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    def interrupt(*_: object) -> None:
-        if multiprocessing.active_children():
-            raise KeyboardInterrupt
-
-    monkeypatch.setattr("mudline.cli.lint_report.Report.add", interrupt)
-    assert run("lint", decks, "--jobs", "2", "--no-cache").code == 130
-    assert multiprocessing.active_children() == []
 
 
 def test_fixing_stays_in_one_process(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -65,12 +65,6 @@ def test_diff_writes_nothing(place: Place) -> None:
     assert [path.name for path in Path().iterdir()] == ["deck.keyxm"]
 
 
-def test_diff_in_colours(place: Place) -> None:
-    outcome = run("migrate", "--diff", "--color", "always", place(SAMPLE))
-    assert "\x1b[32m+*SEABED PROPERTIES\x1b[0m\n" in outcome.out
-    assert "\x1b[31m-*ELASTIC SURFACE\x1b[0m\n" in outcome.out
-
-
 def test_a_profile_is_written_beside_the_new_deck(place: Place) -> None:
     Path("out").mkdir()
     outcome = run("migrate", place(PROFILE), "-o", "out/new.keyxm")
@@ -144,16 +138,6 @@ def test_elements_of_a_deck_that_continues_one_keep_its_stiffness(place: Place) 
     place("$MODEL\n*NODE\n 9, 0.3, 30.0\n*ELEMENT\n 9, 3, 9\n$LOAD CASE\n*RESTART\n LAST=base\n", "child.keyxm")
     assert run("migrate", "base.keyxm", "-o", "more.keyxm").code == 0
     assert " SET=ALL\n STIFFNESS=1e4\n SET=Pipe\n" in Path("more.keyxm").read_text(encoding="utf-8")
-
-
-def test_a_deck_whose_only_surface_is_misspelt(place: Place) -> None:
-    outcome = run("migrate", place(PROFILE.replace("*RIGID SURFACE", "*RIGID SURFACES")))
-    line = PROFILE[: PROFILE.index("*RIGID")].count("\n") + 1
-    assert outcome.code == 1
-    assert outcome.err == (
-        f"deck.keyxm:{line}:1: error: MIG001 *RIGID SURFACES, which is not known, may be meant as *RIGID SURFACE: "
-        "correct or remove it first\n"
-    )
 
 
 def test_one_output_takes_one_deck(place: Place) -> None:

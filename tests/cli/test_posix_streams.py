@@ -54,17 +54,6 @@ def test_standard_error_that_is_closed(folder: Path) -> None:
     assert (done.returncode, done.stdout) == (141, b"")
 
 
-CLOSED = {name: PIPED[name] for name in ("rules", "version")}
-
-
-@pytest.mark.parametrize("arguments", CLOSED.values(), ids=CLOSED)
-def test_output_that_was_closed_before_the_start(arguments: list[str]) -> None:
-    words = f"exec {sys.executable} -m mudline {' '.join(arguments)} >&-"
-    done = subprocess.run(["/bin/sh", "-c", words], capture_output=True, timeout=TIMEOUT, check=False)
-    assert done.returncode in {0, 1}
-    assert done.stderr == b""
-
-
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no device that is always full")
 @pytest.mark.parametrize("arguments", [PIPED["rules"], PIPED["version"]], ids=["rules", "version"])
 def test_output_that_is_full(arguments: list[str]) -> None:
@@ -74,14 +63,6 @@ def test_output_that_is_full(arguments: list[str]) -> None:
     assert (done.returncode, done.stderr) == (2, b"mudline: the output cannot be written: no space left on device\n")
 
 
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no device that is always full")
-def test_output_and_standard_error_that_are_full() -> None:
-    with Path("/dev/full").open("wb") as full:
-        words = [sys.executable, "-m", "mudline", "--version"]
-        done = subprocess.run(words, stdout=full, stderr=full, timeout=TIMEOUT, check=False)
-    assert done.returncode == 2
-
-
 def test_interruption(folder: Path) -> None:
     (folder / "deck.keyxm").write_text("$MODEL\n", encoding="utf-8")
     with started("-m", "mudline", "lint", "-v", "deck.keyxm", "-") as running:
@@ -89,14 +70,6 @@ def test_interruption(folder: Path) -> None:
         running.process.send_signal(signal.SIGINT)
         assert running.process.wait(TIMEOUT) == 130
         assert (running.out.read(), running.err.read()) == (b"", b"")
-
-
-def test_ctrl_c_is_quiet(place: Place) -> None:
-    with started("-m", "mudline", "lint", place(), "--watch") as running:
-        assert b"waiting" in running.err.readline()
-        running.process.send_signal(signal.SIGINT)
-        assert running.err.read() == b""
-        assert running.process.wait(TIMEOUT) == 130
 
 
 def test_file_name_that_is_no_utf_8(folder: Path) -> None:

@@ -9,7 +9,7 @@ import pytest
 
 from tests.builders.decks import CLEAN, ILLEGAL
 from tests.cli.conftest import Place
-from tests.cli.runner import SAMPLES, assert_fits, run
+from tests.cli.runner import SAMPLES, run
 
 DYNAMIC = "$LOAD CASE\n*RESTART\n LAST=static\n$MODEL\n*ELEMENT SETS\n SET=First\n SUBSET=Pipe\n"
 
@@ -27,15 +27,6 @@ def test_show_says_what_the_deck_continues(pair: str) -> None:
     first, second, third, fourth = found.out.splitlines()[:4]
     assert first == "dynamic.keyxm: metric units, 3 nodes, 2 elements, 20.008 m long, elastic seabed"
     assert [second, third, fourth] == ["  continues static.keyxm", "  $LOAD CASE: *RESTART", "  $MODEL: *ELEMENT SETS"]
-
-
-def test_show_as_json(pair: str, place: Place) -> None:
-    last = place("$LOAD CASE\n*RESTART\n LAST=Dynamic\n", "last.keyx")
-    for name, files in ((pair, ["static.keyxm"]), (last, ["dynamic.keyxm", "static.keyxm"]), ("static.keyxm", [])):
-        value = json.loads(run("show", name, "--output-format", "json").out)
-        assert_fits(value, "show")
-        assert value["continues"] == files
-        assert (value["units"], value["elements"]) == ("metric", 2)
 
 
 def test_evaluate_and_curves_as_of_the_static_deck(pair: str) -> None:
@@ -65,12 +56,6 @@ def test_a_missing_deck_is_a_warning(place: Place) -> None:
     )
     assert run("validate", name).code == 0
     assert run("show", name).out.startswith("dynamic.keyxm: metric units, 0 nodes, 0 elements, no seabed\n  $LOAD")
-
-
-def test_standard_input_has_no_folder(pair: str) -> None:
-    data = Path(pair).read_bytes()
-    assert run("lint", "-", "--select", "REF015", stdin=data).code == 0
-    assert "continues" not in run("show", "-", stdin=data).out
 
 
 def test_errors_of_the_static_deck_are_told_with_their_file(place: Place) -> None:

@@ -76,17 +76,6 @@ def test_dumb_terminal(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
 
 # ------------------------------------------------------------------------------------------------ text that looks alive
 
-ALIVE = ["=[depth+5]", "[/x]", "[red]", "[bold]b[/bold]", ":smile:", "[link=http://x]y[/link]", "{0}", "%s", "\\[x]"]
-
-
-@pytest.mark.parametrize("text", ALIVE)
-@pytest.mark.parametrize("color", ["never", "always"])
-def test_markup_is_plain_text(place: Place, text: str, color: str) -> None:
-    line = f" 2, -0.1, 1 {text} 0"
-    outcome = run("lint", place(CLEAN.replace(" 2, -0.1, 10.0", line)), "--color", color)
-    assert outcome.code == 1
-    assert f" 6 | {line}\n" in plain(outcome.out)
-
 
 @pytest.mark.parametrize("text", ["[/x]", "[red]", ":smile:"])
 @pytest.mark.parametrize("command", COMMANDS, ids=str)
@@ -192,24 +181,12 @@ def test_long_line_is_cut_around_the_fault(at: int) -> None:
     assert under.count("^") == 3
 
 
-def test_fault_longer_than_the_screen() -> None:
-    source, under = marked(bad_line(f" 2, -0.1, {'x' * 500}"))
-    assert len(source) <= 120
-    assert len(under) <= len(source)
-    assert under.index("^") == source.index("x")
-
-
 @pytest.mark.parametrize("width", [40, 80, 100, 200])
 def test_lines_fit_the_terminal(place: Place, monkeypatch: pytest.MonkeyPatch, width: int) -> None:
     monkeypatch.setenv("COLUMNS", str(width))
     name = place(CLEAN.replace(" 2, -0.1, 10.0", f" 2, -0.1, {'9' * 50} {'8' * 200}, ten"))
     lines = plain(run("lint", name, terminal=True).out).splitlines()
     assert max(map(cell_len, lines)) <= width
-
-
-def test_narrow_terminal_still_shows_something(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("COLUMNS", "5")
-    assert "ten" in plain(run("lint", place(BAD_NUMBER), terminal=True).out)
 
 
 def test_message_is_not_broken_in_a_pipe(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:

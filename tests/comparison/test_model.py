@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from mudline.comparison import model
 from mudline.comparison.comparing import compare
-from mudline.comparison.model import NO_SPANS, Spans, spans_of, spans_of_run, text_of, union
+from mudline.comparison.model import Spans, spans_of, spans_of_run, text_of, union
 from mudline.deck.loading import load_bytes
 from mudline.scene.model import resolve
 
@@ -42,20 +42,6 @@ def test_unions(numbers: list[int], runs: list[tuple[int, int, int]]) -> None:
     check(union(parts), wanted)
 
 
-@pytest.mark.parametrize(
-    ("spans", "text"),
-    [
-        (NO_SPANS, ""),
-        (spans_of_run(1, 20, 1), "1-20"),
-        (spans_of_run(1, 0, 1), ""),
-        (spans_of_run(1, 6, 2), "1, 3, 5"),
-        (union([spans_of_run(1, 20, 1), spans_of_run(25, 25, 1), spans_of_run(3, 21, 1)]), "1-21, 25"),
-    ],
-)
-def test_text(spans: Spans, text: str) -> None:
-    assert text_of(spans) == text
-
-
 def test_numbers_with_one_step_are_a_range() -> None:
     assert text_of(spans_of_run(0, 400_000, 2)) == "0-400000 step 2"
     assert text_of(spans_of(np.array([1, 2, 3, 5, 7, 9, 11, 13, 20, 22, 24, 30]))) == "1-3, 5-13 step 2, 20, 22, 24, 30"
@@ -82,24 +68,6 @@ def test_a_text_names_all_numbers_whatever_its_pieces(runs: list[tuple[int, int,
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(model, "_AT_ONCE", piece)
         assert text_of(spans_of(np.array(numbers, dtype=np.int64))) == text
-
-
-def test_generated_sets_are_not_listed() -> None:
-    """Ten million numbers are 80 MB."""
-    text = "$MODEL\n*LINES\n x\n*ELEMENT SETS\n SET=A\n GEN=1, {end}\n SET=B\n GEN=1, 10000000\n 7, 8, {{L}}\n"
-    before, after = (
-        resolve(load_bytes(text.format(end=end).encode(), "deck.keyxm")) for end in ("9000000", "10000000")
-    )
-    tracemalloc.start()
-    try:
-        found = compare(before, after)
-        _, peak = tracemalloc.get_traced_memory()
-    finally:
-        tracemalloc.stop()
-    assert [(one.where, one.before, one.after) for one in found] == [
-        ("element sets/A", "1-9000000", "1-10000000"),
-    ]
-    assert peak < 5_000_000
 
 
 @pytest.mark.parametrize("step", [1, 2, 7])

@@ -104,17 +104,6 @@ def test_which_block_wins_counts_for_elements_that_the_deck_does_not_show() -> N
     ]
 
 
-def test_elements_that_the_deck_shows_are_reported_once_beside_those_of_lines() -> None:
-    lines = "*LINES\n LINE=Riser\n SECTION=A, 10\n"
-    old = PIPE_WITH_SETS + lines + "*ELASTIC SURFACE\n 5e4\n*EMBEDMENT\n SET=A\n 0, 0\n 1, 5\n"
-    new = migrate(deck_of(old)).content.decode()
-    assert compared(old, new).differences == []
-    assert shown(compared(old, new.replace("STIFFNESS=5e4", "STIFFNESS=6e4"))) == [
-        "elements 1-12/laws/stiffness: 50000.0 -> 60000.0",
-        "an element of no set but ALL/laws/stiffness: 50000.0 -> 60000.0",
-    ]
-
-
 def test_a_deck_rewritten_by_hand() -> None:
     """Other names, other orders, and a set of all elements in the place of ALL."""
     old = PIPE_WITH_SETS + "*ELASTIC SURFACE\n 5e4, 0.3, 0.4\n*EMBEDMENT\n SET=West\n 0, 0\n 0.5, 4000\n"

@@ -11,7 +11,6 @@ import pytest
 
 from mudline.curves import ForceCurve
 from mudline.curves.points import FloatArray
-from mudline.curves.search import workspace
 from tests.curves.plain import steps
 
 CURVES = {
@@ -52,14 +51,6 @@ def test_results_are_all_that_grows(name: str) -> None:
     assert peak(lambda: curve.evaluate(query)) < 16 * QUERY + FIXED
     assert peak(lambda: curve.segment(query)) < 8 * QUERY + FIXED
     assert peak(lambda: curve.extrapolated(query)) < QUERY + FIXED
-
-
-def test_nobody_gets_arrays_that_are_in_use() -> None:
-    with workspace() as one, workspace() as other:
-        assert one is not other
-        assert not np.shares_memory(one.real, other.real)
-    with workspace() as again:
-        assert again is one
 
 
 def test_queries_in_several_threads_do_not_mix() -> None:

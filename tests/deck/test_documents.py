@@ -93,62 +93,38 @@ BREAKS: list[tuple[Path, object, str]] = [
     (("surprise",), 1, "surprise"),
     (("format",), "mudline-deck/9", "mudline-deck/1"),
     (("format",), GONE, "mudline-deck/1"),
-    (("format",), 1, "mudline-deck/1"),
     (("units",), "metres", "units"),
-    (("units",), None, "units"),
-    (("units",), ["metric"], "units"),
-    (("units",), {"metric": 1}, "units"),
     (("source",), 5, "source"),
     (("preamble",), "C title", "preamble"),
-    (("preamble",), ["a", 1], "preamble[1]"),
     (("comments",), [{"before": -1, "text": ""}], "comments[0].before"),
     (("comments",), [{"before": 0}], "comments[0].text"),
-    (("comments",), [{"before": 0.5, "text": ""}], "comments[0].before"),
-    (("comments",), [{"before": True, "text": ""}], "comments[0].before"),
-    (("comments",), [{"before": 0, "text": "a\nb"}], "comments[0].text"),
-    (("comments",), {"before": 0, "text": ""}, "comments"),
     (("sections",), GONE, "sections"),
-    (("sections",), {}, "sections"),
     (("sections", 0), [], "sections[0]"),
     (("sections", 0, "name"), GONE, "sections[0].name"),
     (("sections", 0, "name"), 3, "sections[0].name"),
-    (("sections", 0, "blocks"), GONE, "sections[0].blocks"),
     (("sections", 0, "blocks"), None, "sections[0].blocks"),
-    (("sections", 0, "block"), [], "sections[0].block"),
     ((*BLOCKS, 0), 5, "sections[0].blocks[0]"),
     ((*BLOCKS, 0, "keyword"), GONE, "sections[0].blocks[0]"),
     ((*BLOCKS, 0, "keyword"), ["OCEAN"], "sections[0].blocks[0]"),
     ((*BLOCKS, 0, "depht"), 1.0, "sections[0].blocks[0].depht"),
     ((*BLOCKS, 0, "depth"), GONE, "sections[0].blocks[0].depth"),
-    ((*BLOCKS, 0, "depth"), None, "sections[0].blocks[0].depth"),
     ((*BLOCKS, 0, "depth"), "deep", "sections[0].blocks[0].depth"),
     ((*BLOCKS, 0, "depth"), True, "sections[0].blocks[0].depth"),
-    ((*BLOCKS, 0, "depth"), [1.0], "sections[0].blocks[0].depth"),
-    ((*BLOCKS, 0, "depth"), "=[a\nb]", "sections[0].blocks[0].depth"),
-    ((*BLOCKS, 0, "comments"), [{"before": "0", "text": ""}], "sections[0].blocks[0].comments[0].before"),
-    ((*BLOCKS, 1, "entries", 0, "nodes"), 5, "sections[0].blocks[1].entries[0].nodes"),
-    ((*BLOCKS, 1, "entries", 0, "nodes"), [[1, 2.0]], "sections[0].blocks[1].entries[0].nodes"),
     ((*BLOCKS, 1, "entries", 0, "nodes"), [[1.5, 2.0, 3.0]], "sections[0].blocks[1].entries[0].nodes"),
-    ((*BLOCKS, 1, "entries", 0, "nodes"), [[1, 2.0, "x"]], "sections[0].blocks[1].entries[0].nodes"),
-    ((*BLOCKS, 1, "entries", 0, "nodes"), [[1, 2.0, True]], "sections[0].blocks[1].entries[0].nodes"),
     ((*BLOCKS, 1, "entries", 0, "nodes"), [[1, None, 0.0]], "sections[0].blocks[1].entries[0].nodes"),
     ((*BLOCKS, 1, "entries", 0, "nodes"), [[1, 2.0, 3.0, 4.0, 5.0]], "sections[0].blocks[1].entries[0].nodes"),
-    ((*BLOCKS, 1, "entries", 0, "nodes"), [1, 2.0, 3.0], "sections[0].blocks[1].entries[0].nodes"),
     ((*BLOCKS, 1, "entries", 1, "generate"), [1], "sections[0].blocks[1].entries[1].generate"),
     ((*BLOCKS, 1, "entries", 1, "generate"), [1, 2.5], "sections[0].blocks[1].entries[1].generate"),
     ((*BLOCKS, 2, "entries", 0, "elements"), [[1, 1, "End"]], "sections[0].blocks[2].entries[0].elements"),
     ((*BLOCKS, 3, "sets", 0, "members", 0, "elements"), [2**53 + 2], "sections[0].blocks[3].sets[0].members[0]"),
-    ((*BLOCKS, 3, "sets", 0, "name"), GONE, "sections[0].blocks[3].sets[0].name"),
     ((*BLOCKS, 3, "sets", 0, "name"), "a\r", "sections[0].blocks[3].sets[0].name"),
     ((*BLOCKS, 4, "sets", 0, "option"), "BOX", "sections[0].blocks[4].sets[0].option"),
     ((*BLOCKS, 4, "sets", 0, "rigid", "Do"), "wide", "sections[0].blocks[4].sets[0].rigid.Do"),
     ((*BLOCKS, 5, "type"), "SOFT", "sections[0].blocks[5].type"),
-    ((*BLOCKS, 5, "sets", 0, "stiffness"), False, "sections[0].blocks[5].sets[0].stiffness"),
     ((*BLOCKS, 6, "curves", 0, "points"), [[0.0], [1.0, 2.0]], "sections[0].blocks[6].curves[0].points"),
     ((*BLOCKS, 7, "lines"), GONE, "sections[0].blocks[7]"),
     ((*BLOCKS, 7, "lines"), " opaque", "sections[0].blocks[7].lines"),
     ((*BLOCKS, 7, "lines"), ["a\nb"], "sections[0].blocks[7].lines[0]"),
-    ((*BLOCKS, 7, "extra"), 1, "sections[0].blocks[7].extra"),
 ]
 
 
@@ -251,56 +227,12 @@ def test_deep_yaml_does_not_crash_the_process(level: str) -> None:
     assert (run.returncode, run.stdout) == (0, "refused\n")
 
 
-@pytest.mark.parametrize("name", ["a.json", "a.yaml"])
-def test_documents_are_utf8(name: str) -> None:
-    with pytest.raises(DeckError) as caught:
-        load_bytes(b'{"format":\n "\xe9"}', name)
-    assert [(one.code, one.line) for one in caught.value.diagnostics] == [("DOC001", 2)]
-
-
-_values = st.recursive(
-    st.none()
-    | st.booleans()
-    | st.integers()
-    | st.floats()
-    | st.text(max_size=3)
-    | st.sampled_from(["=[x]", "{l}", "ALL"]),
-    lambda inner: (
-        st.lists(inner, max_size=3) | st.dictionaries(st.sampled_from(["keyword", "name", "before", "x"]), inner)
-    ),
-    max_leaves=5,
-)
-
-
-def _paths(value: object, path: Path = ()) -> list[Path]:
-    inner = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
-    return [*([path] if path else []), *(found for key, item in inner for found in _paths(item, (*path, key)))]
-
-
-@given(st.sampled_from(_paths(json.loads(JSON))), _values)
-@settings(max_examples=25)
-def test_any_value_at_any_place_is_read_or_refused_as_the_schema_says(path: Path, value: object) -> None:
-    made = changed(path, value)
-    accepted = validator().is_valid(made)
-    for text, name in ((json.dumps(made), "a.json"), (yaml.safe_dump(made), "a.yaml")):
-        deck = read_or_refuse(text.encode(), name)
-        assert deck is None or accepted
-        assert deck is None or load_bytes(dump(deck, "json").encode(), "a.json").sections == deck.sections
-
-
 @given(mutated(deck_texts().map(lambda t: dump(load_bytes(t.encode(), "a.keyxm"), "json").encode())), st.booleans())
 @settings(max_examples=25)
 def test_mutated_json_is_read_or_refused(data: bytes, as_yaml: bool) -> None:
     deck = read_or_refuse(data, "a.yaml" if as_yaml else "a.json")
     if deck is not None:
         validator().validate(json.loads(dump(deck, "json")))
-
-
-@given(st.text(max_size=40) | st.text("{}[]:-,'\"&*!|> \n#?%@a1", max_size=40), st.sampled_from(["a.json", "a.yaml"]))
-@settings(max_examples=60)
-def test_random_text_is_refused(text: str, name: str) -> None:
-    with pytest.raises(DeckError):
-        load_bytes(text.encode(), name)
 
 
 def test_an_empty_end_of_a_row_is_no_field() -> None:

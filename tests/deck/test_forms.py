@@ -19,7 +19,7 @@ from mudline.diagnostics import DeckError, Severity
 from mudline.keywords.model import Block
 from mudline.keywords.ranges import is_refused
 from tests.builders.documents import validator
-from tests.builders.keyword_texts import MODELLED, deck_texts, mutated
+from tests.builders.keyword_texts import deck_texts, mutated
 from tests.builders.scenes import deck_of
 from tests.samples import SAMPLES
 
@@ -82,14 +82,6 @@ def test_samples(path: Path) -> None:
     assert remarks(dump(deck, "keyword")) == remarks(text)
 
 
-@given(deck_texts())
-@settings(max_examples=15)
-def test_decks(text: str) -> None:
-    deck = deck_of(text)
-    assert [str(found) for found in deck.diagnose(deck.problems) if found.severity is Severity.ERROR] == []
-    held(deck)
-
-
 @pytest.mark.parametrize("value", ["-", "+", "1E", "-2e-"])
 def test_a_curve_named_like_the_beginning_of_a_number(value: str) -> None:
     text = f"$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS={value}"
@@ -99,90 +91,12 @@ def test_a_curve_named_like_the_beginning_of_a_number(value: str) -> None:
     held(deck)
 
 
-@given(deck_texts())
-@settings(max_examples=12)
-def test_no_comment_is_lost(text: str) -> None:
-    lines = iter(range(10**6))
-    numbered = re.sub(
-        r"(?m)^[Cc](?=[ \t]|\r|\n|$|-|=|\*|#|~|\.).*?(?=\r|\n|$)", lambda _: f"C remark {next(lines)} .", text
-    )
-    written = dump(deck_of(numbered), "keyword")
-    wanted = re.findall(r"remark (\d+) \.", numbered)
-    assert sorted(re.findall(r"remark (\d+) \.", written)) == sorted(wanted)  # settings find their order, too
-
-
 @given(mutated(deck_texts().map(str.encode)))
 @settings(max_examples=20)
 def test_what_reads_without_an_error_is_the_same_in_every_form(data: bytes) -> None:
     deck = load_bytes(data, NAME)
     assume(all(problem.weight is not Severity.ERROR for problem in deck.problems))
     held(deck)
-
-
-LINES = {
-    "UNITS": ["UNITS=METRIC"],
-    "OCEAN": [" 500.0, , =[g]"],
-    "PARAMETERS": [" a, 1.5D0", ' b, "x, y"', " c, /1 2/"],
-    "NODE": [" 1, -0.0, =[y]", " =[n], 1, 2, 3,", " GEN=1, 3", " 5 6 7"],
-    "ELEMENT": [" 1, {a, b}, 2", " 2, 2, 3, , , 1", " GEN=1, 3, 2"],
-    "ELEMENT SETS": [" SET=x", " 1, {l}", " GEN=1, 2", " SUBSET=ALL", " SET=y"],
-    "LINE SECTION GROUPS": [
-        " NAME=x",
-        " SECTION=a b, =[l]",
-        " ADDITIONAL=c, d",
-        " ADDITIONAL=e",
-        " ,2,",
-        " SECTION=f, 3",
-        " 1",
-        " NAME=y",
-    ],
-    "LINE PATH SECTIONS": [
-        " LINE=x",
-        " SECTION=a, 0, -1.5, REPEAT=g",
-        " SECTION=b, -1, repeat=h",
-        " ADDITIONAL=c,d",
-        " LINE=y",
-    ],
-    "GEOMETRIC SETS": [
-        " SET=x, EIYY=c",
-        " ,,,,1,2,3,4,5",
-        " OPTION=MOORING",
-        " SET=y",
-        " 1, 2, 3",
-        " SET=z",
-        " 1,2,3,,5",
-    ],
-    "SEABED PROPERTIES": [" STIFFNESS=1", " SET=x", " STIFFNESS==[k]", " FRICTION=,0.3", " LATERAL=3", " SUCTION=1,2"],
-    "SEABED STIFFNESS": [" CURVE=a", " 0,0", " 1e-320, =[f]", "CURVE=b", "CURVE=c", " 1,1"],
-    "EMBEDMENT": [" 0,0", " 1,1", " SET=x", " 2,2"],
-    "ELASTIC SURFACE": [" ,0.3", " 1.5"],
-    "RIGID SURFACE": [" 0.3", " 1,2", " 3,4"],
-    "VARIATION": [
-        " NAME=x",
-        ' PARA=a, VALUE=08, "b, c"',
-        " PARA=d, GEN=1, 3",
-        " ACTION=REMOVE, KEYWORD=VESSEL,INTEGRATED",
-        " NAME=y",
-    ],
-    "COMBINATIONS": [" DIRECTORY=d", " DESCRIPTION=t u, FILENAME=%a%s", " VARIATIONS=x, y", " VARIATIONS=z"],
-}
-
-
-@pytest.mark.parametrize("keyword", sorted(LINES))
-def test_a_comment_before_every_line(keyword: str) -> None:
-    section = MODELLED[keyword][0]
-    lines = [f"${section}", f"*{keyword}", *LINES[keyword], "*TITLE", " opaque", f"*{keyword}", *LINES[keyword]]
-    text = "".join(f"C before {index}\n{line}\n" for index, line in enumerate(lines)) + "C end\n"
-    deck = deck_of(text)
-    assert [str(found) for found in deck.diagnose(deck.problems)] == []
-    held(deck)
-    written = dump(deck, "keyword").splitlines()
-    assert len(written) == len(text.splitlines())
-    assert [line for line in written if line.startswith("C b")] == [f"C before {i}" for i in range(len(lines))]
-
-
-def test_every_keyword_is_tried() -> None:
-    assert sorted(LINES) == sorted(MODELLED)
 
 
 @given(

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck
 from tests.builders.documents import KEYWORDS, Keyword, Values, alone, block, declared, document, validator
+from tests.builders.keyword_texts import canonical_texts
 from tests.syntax.test_lossless import BOM
 
 
@@ -72,6 +73,9 @@ def test_every_keyword(keyword: Keyword, data: st.DataObject) -> None:
     assert type(found) is declared(keyword)
     held_in_documents(deck)
     held_in_text(deck)
+    lines = dump(deck, "keyword").split("\n")[:-1]
+    remarked = "".join(f"C before {index}\n{line}\n" for index, line in enumerate(lines)) + "C end\n"
+    assert dump(read(remarked, "keyword"), "keyword") == remarked
 
 
 @given(document())
@@ -82,7 +86,7 @@ def test_whole_decks(made: Values) -> None:
     held_in_text(deck)
 
 
-texts = document().map(lambda made: dump(of(made), "keyword"))
+texts = canonical_texts
 ends = st.sampled_from([["\n"], ["\r\n"], ["\r"], ["\n", "\r\n"], ["\r", "\r\n"]])
 
 

@@ -143,6 +143,7 @@ def _certain(block: type[Block]) -> str:
         if block.facts.extension
         else "What this page says is certain"
     )
+    says += f", by the page `{block.page}` of the manual" if block.page else ""
     if found := inferences(block):
         return "\n".join([f"{says}, but for what is inferred:", "", *(f"* {each}" for each in found)])
     return f"{says}. Nothing is inferred."

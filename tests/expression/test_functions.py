@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mudline.expression.evaluation import FORMS, FUNCTIONS, evaluate
+from mudline.expression.evaluation import FUNCTIONS, evaluate
 from mudline.expression.parsing import parse
 
 # Function -> calls and their values; whole numbers and closed forms, so that nothing is taken from the function itself.
@@ -70,20 +70,6 @@ def test_every_function_is_worked() -> None:
     assert set(WORKED) == set(FUNCTIONS)
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        *("acos", "asin", "atan", "cos", "cosh", "exp", "log10", "sin", "sinh", "sqrt", "tan", "tanh"),
-        *("atan2", "pow"),
-    ],
-)
-@given(x=st.floats(min_value=0.001, max_value=1.0), y=st.floats(min_value=0.001, max_value=1.0))
-def test_functions_are_those_of_the_standard_library(name: str, x: float, y: float) -> None:
-    arguments = [x, y][: FUNCTIONS[name].least]
-    text = f"{name}({', '.join(map(repr, arguments))})"
-    assert value(text) == getattr(math, name)(*arguments)
-
-
 @given(st.floats(min_value=-1e9, max_value=1e9), st.integers(min_value=-3, max_value=5))
 def test_round_is_the_nearest_decimal(x: float, digits: int) -> None:
     rounded = value(f"round({x!r}, {digits})")
@@ -91,21 +77,3 @@ def test_round_is_the_nearest_decimal(x: float, digits: int) -> None:
     half_spacing = math.ulp(rounded) / 2  # the decimal is the nearest float64
     assert abs(rounded - x) <= 0.5 * 10.0**-digits * (1 + 1e-9) + half_spacing
     assert rounded == float(f"{rounded:.{max(digits, 0)}f}")
-
-
-def test_a_call_is_described_in_words() -> None:
-    assert FUNCTIONS["sqrt"].wants == "1 argument"
-    assert FUNCTIONS["pi"].wants == "0 arguments"
-    assert FUNCTIONS["log"].wants == "1 or 2 arguments"
-    assert FUNCTIONS["max"].wants == "at least 1 argument"
-    assert FORMS["if"].wants == "3 arguments"
-
-
-def test_tables_are_keyed_by_lower_case_names_and_say_what_they_mean() -> None:
-    entries = {**FUNCTIONS, **FORMS}
-    assert len(entries) == len(FUNCTIONS) + len(FORMS)
-    for name, entry in entries.items():
-        assert name == entry.name == entry.name.lower()
-        assert entry.takes(entry.least)
-        assert not entry.takes(entry.least - 1)
-        assert entry.meaning

@@ -8,8 +8,7 @@ from textwrap import dedent
 import pytest
 
 from mudline.deck.loading import dump, load_bytes
-from mudline.diagnostics import DeckError
-from mudline.formatting.document import Reading, formatted
+from mudline.formatting.document import formatted
 from tests.docs.blocks import Page
 
 
@@ -261,17 +260,6 @@ def test_the_line_end_that_prevails_holds_for_all_lines(end: str) -> None:
     assert record_schema(text) == end.join(["$MODEL", "*NEW", " a", " b ", "*OCEAN", " 5", "C x", ""])
 
 
-def test_nothing_stays_nothing() -> None:
-    assert record_schema("") == ""
-    assert record_schema("\n \n\t") == ""
-    assert record_schema("C") == "C\n"
-
-
-def test_a_deck_in_canonical_layout_is_the_very_same_object() -> None:
-    data = b"$MODEL\n*OCEAN\n 5\n"
-    assert formatted(data, "deck.keyxm") is data
-
-
 def test_numbers_and_names_are_spelled_as_they_were() -> None:
     same(
         "*EMBEDMENT\nset=clay  One\n007,1.0D3\n+1.E0,-.5\n",
@@ -279,29 +267,10 @@ def test_numbers_and_names_are_spelled_as_they_were() -> None:
     )
 
 
-@pytest.mark.parametrize("text", ["$MODEL\n*OCEAN\n 1.O\n", "*OCEAN\n 1\n", "$MODEL\n*NODE\n 1,=[a\n"])
-def test_a_deck_with_an_error_is_refused(text: str) -> None:
-    with pytest.raises(DeckError):
-        formatted(text.encode(), "deck.keyxm")
-
-
-def test_a_row_that_no_model_holds_stays_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Reading, "kind_at", lambda _reading, _start: None)
-    assert record_schema("$model\n*ocean\n5  6\n") == "$MODEL\n*OCEAN\n5  6\n"
-
-
 def test_the_page_shows_what_comes_out() -> None:
     page = Path(__file__).parents[2] / "docs" / "format.md"
     before, after = (block.text for block in Page.read(page).blocks if block.language == "mudline")
     assert record_schema(before) == after
-
-
-def test_documents_are_written_as_conversion_writes_them() -> None:
-    data = b'{"format": "mudline-deck/1", "units": "metric", "sections": [{"name":"MODEL","blocks":[]}]}'
-    new = formatted(data, "deck.json")
-    assert new != data
-    assert formatted(new, "deck.json") == new
-    assert load_bytes(new, "deck.json") == load_bytes(data, "deck.json")
 
 
 def test_lines_that_are_kept_stay_as_they_are() -> None:

@@ -104,9 +104,7 @@ def test_a_wrong_number_of_values_in_a_known_form_is_told() -> None:
 def test_time() -> None:
     assert values("LOAD CASE", "*TIME\n STEP=FIXED\n 0, 100, , 10\n") == {
         "step": "FIXED",
-        "start": 0.0,
-        "end": 100.0,
-        "ramp": 10.0,
+        "fixed": {"start": 0.0, "end": 100.0, "ramp": 10.0},
     }
 
 
@@ -145,7 +143,6 @@ def test_faults_of_a_known_form_are_told(lines: str, expected: Lines) -> None:
 KEPT = [
     "LOAD CASE|*BOUNDARY\n TYPE=CONSTANT\n 1, 2\n TYPE=VESSEL\n VESSEL=Semi\n 201, 1\n",
     "LOAD CASE|*BOUNDARY\n TYPE=SINUSOIDAL, AMPLITUDE=2\n 1\n",
-    "LOAD CASE|*TIME\n STEP=VARIABLE\n 0, 100, x\n",
     "LOAD CASE|*RESTART\n FROM=static\n",
     "MODES|*FRICTION\n MODE=1\n",
     "MODEL|*P-Y\n TYPE=SAND\n SET=Pile\n 35.0, 10.0\n",

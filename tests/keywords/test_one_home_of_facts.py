@@ -24,6 +24,7 @@ ROOT = Path(mudline.__file__).parent
 ASKING = frozenset(
     {
         *("blocks", "possible_definition", "misplaced", "missing", "report_missing", "has_unread_line_after"),
+        "misread",
         *("get", "add", "setdefault", "written"),
     }
 )
@@ -32,9 +33,6 @@ CONSTANTS = frozenset({"KEYWORD", "_KEYWORD"})
 EXCEPTIONS = {
     "comparison/comparing.py": "asks for the labels in the blocks of nodes and of elements",
     "linting/rules/geometry.py": "keywords that name sets whose sections are given elsewhere",
-    "linting/line_corrections.py": "the keywords of points that a graphical interface shows as tables",
-    "linting/corrections.py": "the keyword whose lines are known by their TYPE=, and those whose copies are told",
-    "linting/engine.py": "looks for nodes without elements, which may be both",
     "linting/joining.py": "the density of the water and the type of the seabed, which it names as causes",
     "migration/refusals.py": "what a seabed or a deck before has instead, and whose laws a migrated surface would meet",
     "migration/rewriting.py": "writes these blocks",

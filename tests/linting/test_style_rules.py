@@ -59,12 +59,12 @@ C remoulded
  TYPE=ELASTIC
  SET=1D3
  STIFFNESS=Clay
-*CABLE
+*LINE PATHS
  as\tit  is 1.0D3
 c kept
 CURVE=Clay
 """
-KEPT = GOOD[GOOD.index("*CABLE") :].encode()
+KEPT = GOOD[GOOD.index("*LINE PATHS") :].encode()
 
 
 def fixed(text: str, *codes: str) -> Fixed:
@@ -92,7 +92,7 @@ DATA = re.compile(r" [-+.\d]")
 @st.composite
 def spoilt(draw: st.DrawFn) -> str:
     """The good deck, its lines written as people and programs do."""
-    lines = GOOD[: GOOD.index("*CABLE")].splitlines()
+    lines = GOOD[: GOOD.index("*LINE PATHS")].splitlines()
     return "\n".join(draw(_spoilt(line)) for line in lines) + f"\n{KEPT.decode()}"
 
 
@@ -158,11 +158,11 @@ def test_what_could_not_be_read_is_no_number() -> None:
 
 
 def test_small_letters_of_comments_are_seen_outside_kept_blocks() -> None:
-    text = f"c one\nc\nc---\n$MODEL\nc two\n{CURVES[7:]}{CLAY}c mudline: ignore STY001\n*CABLE\nc kept\n"
+    text = f"c one\nc\nc---\n$MODEL\nc two\n{CURVES[7:]}{CLAY}c mudline: ignore STY001\n*LINE PATHS\nc kept\n"
     lines = [line for _, line, _ in found(text, "STY002")]
     assert lines == [1, 2, 3, 5, 10]
     after = mended(text, "STY002")
-    assert after.endswith("C mudline: ignore STY001\n*CABLE\nc kept\n")
+    assert after.endswith("C mudline: ignore STY001\n*LINE PATHS\nc kept\n")
     assert after.startswith("C one\nC\nC---\n$MODEL\nC two\n")
 
 
@@ -192,7 +192,7 @@ def test_other_lines_are_no_indented_comments(line: str) -> None:
 
 
 def test_what_looks_like_a_comment_in_a_kept_block_is_left() -> None:
-    assert found("$MODEL\n*CABLE\n C note\nc note\nCURVE=x\n\tx 1.0D3 \n", *CODES) == []
+    assert found("$MODEL\n*LINE PATHS\n C note\nc note\nCURVE=x\n\tx 1.0D3 \n", *CODES) == []
 
 
 def test_a_tab_in_a_name_is_found_and_left() -> None:
@@ -249,8 +249,8 @@ def test_heads_are_mended_in_the_preamble_and_at_the_very_beginning() -> None:
 
 
 def test_trailing_blanks_go_from_every_line_that_is_not_kept() -> None:
-    text = "C a \r\n  \r\n$MODEL\t\r\n*OCEAN \r\nC  \r\n 500.0 \r\n*CABLE \r\n x \r\n"
-    after = "C a\r\n\r\n$MODEL\r\n*OCEAN\r\nC\r\n 500.0\r\n*CABLE\r\n x \r\n"
+    text = "C a \r\n  \r\n$MODEL\t\r\n*OCEAN \r\nC  \r\n 500.0 \r\n*LINE PATHS \r\n x \r\n"
+    after = "C a\r\n\r\n$MODEL\r\n*OCEAN\r\nC\r\n 500.0\r\n*LINE PATHS\r\n x \r\n"
     assert mended(text, "STY007") == after
     assert mended("$MODEL\n*OCEAN\n 500.0 ", "STY007") == "$MODEL\n*OCEAN\n 500.0"
 

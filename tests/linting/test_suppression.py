@@ -153,7 +153,7 @@ def test_a_document_that_keyword_text_cannot_say_hides_nothing() -> None:
 
 
 def test_opaque_blocks_and_binary_content() -> None:
-    assert codes("$MODEL\n*CABLE\nC mudline: ignore-block CRV005\n x\n", "CRV005", "STY010") == ["STY010"]
-    deck = load_bytes(b"$MODEL\n*CABLE\nC mudline: ignore-block CRV005\n x\n", "deck.keyxm")
+    assert codes("$MODEL\n*LINE PATHS\nC mudline: ignore-block CRV005\n x\n", "CRV005", "STY010") == ["STY010"]
+    deck = load_bytes(b"$MODEL\n*LINE PATHS\nC mudline: ignore-block CRV005\n x\n", "deck.keyxm")
     assert len(lint_bytes(to_json(deck).encode(), "deck.json", select(["CRV005", "STY010"]))) == 1
     assert lint_bytes("C mudline: ignore-file\n".encode("utf-16"), "deck.keyxm", select(["SYN012"])) != []

@@ -63,7 +63,7 @@ FAULTY = (
     .replace(" 0.46, 7850.0\n", " 0.46, 7850.0\n SET=End\n 207.0E9, 79.6E9, 0.3, 0.26, 7850.0\n")
     .replace(" 100.0, 1025.0", " =[nothing], 1025.0")
     .replace(" 0.1, 1000.0\n 0.5, 3000.0\n", "")
-    + "*CABLE\n x\n*EMBEDMENT\n SET=Nowhere\n 0.0, 0.0\n 0.5, 900.0\n"
+    + "*LINE PATHS\n x\n*EMBEDMENT\n SET=Nowhere\n 0.0, 0.0\n 0.5, 900.0\n"
 )
 
 
@@ -77,7 +77,7 @@ FAULTY = (
         (" 1, 2, 77", " 1, 2, 7", ["element 77 is not defined here"]),
         ("SET=Pipe\n STIFF", "SET=P", ["D = 0.3 to 0.5 m"]),
         ("STIFFNESS=Clay", "STIFFNESS=C", ["curve Clay cannot be evaluated"]),
-        ("*CABLE", "*", ["passed through unchanged"]),
+        ("*LINE PATHS", "*", ["passed through unchanged"]),
         ("*EMBEDMENT", "*", ["Superseded by"]),
         ("SET=Nowhere", "SET=N", ["**SET="]),
         ("0.5, 900.0", "0", ["point 2 of 2 of the curve of set Nowhere"]),

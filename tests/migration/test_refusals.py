@@ -124,11 +124,6 @@ def test_default_lengths_of_the_unit_system_are_no_obstacle() -> None:
         migrate(deck_of(imperial, "deck.keyxm"))
 
 
-def test_a_length_in_a_direction_without_friction_is_no_obstacle() -> None:
-    found = migrate(deck_of(PIPE_WITH_SETS + "*ELASTIC SURFACE\n 1e4, 0.0, , , , , 2.0, 2.0\n"))
-    assert b"(longitudinal 2.0, transverse 2.0) left out" in found.content
-
-
 def test_names_of_curves() -> None:
     names = ["Clay", "clay", "12", "1e5", "nan", "=[x]", "CLAY curve", "Sand", "3 m"]
     found = curve_names(names, ["SAND", "12 curve"])
@@ -224,12 +219,6 @@ def test_curves_before_one_for_all_are_left_out() -> None:
         + left_out("  SET=West", "  0, 0", "  1, 5")
         + f" CURVE=ALL\n{SECOND} CURVE=7 curve\n{FIRST}"
     )
-
-
-def test_a_block_that_becomes_comments_below_an_opaque_one() -> None:
-    head = PIPE_WITH_SETS + "*HYDRODYNAMIC SETS\n SET=ALL\n 1.0, 2.0\n"
-    bed = f"*EMBEDMENT\n SET=7\n\n{FIRST}{BED}*EMBEDMENT\n SET=7\n{SECOND}"
-    assert seabed_after(head, bed).startswith("C *EMBEDMENT\n" + left_out("  SET=7"))
 
 
 def test_a_surface_without_stiffness_needs_no_comment() -> None:

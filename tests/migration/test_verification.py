@@ -91,16 +91,3 @@ def test_elements_that_cannot_be_evaluated_are_verified_by_their_laws(old: str, 
     text = SAMPLE.replace(old, new) + lines
     assert verify(migrate(deck_of(text))).differences == ()
     assert verify(tampered("STIFFNESS=East Bank", "STIFFNESS=5e4", text=text)).differences
-
-
-def test_many_sets_are_compared_one_after_the_other() -> None:
-    names = [f"S{index}" for index in range(60)]
-    sets = "".join(f" SET={name}\n 1\n" for name in names)
-    curves = "".join(f" SET={name}\n 0, 0\n 1, {index + 1}\n" for index, name in enumerate(names))
-    text = (
-        PIPE_WITH_SETS + "*LINES\n LINE=Riser\n*ELEMENT SETS\n" + sets + "*ELASTIC SURFACE\n 1e4\n*EMBEDMENT\n" + curves
-    )
-    verdict = verify(migrate(deck_of(text)))
-    assert verdict.differences == ()
-    assert verdict.representatives == 2 * (1 + 60 + 59)
-    assert verdict.kinds == 3

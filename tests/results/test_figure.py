@@ -20,7 +20,7 @@ from mudline.contact import ContactInput, ContactModel, ContactResult, LawAssign
 from mudline.contact.touchdown import line_summaries
 from mudline.results.plot_data import PlotData
 from mudline.results.plots.figure import figure_of, panels_of, reaction
-from mudline.results.plots.style import Stretch, thinned, widened
+from mudline.results.plots.style import Stretch
 from mudline.scene.model import resolve
 from mudline.scene.positions import read_positions
 from tests.samples import SAMPLES
@@ -102,14 +102,6 @@ def test_every_panel_has_a_label_with_a_unit() -> None:
     loops = figure_of(PlotData.of_result(cycle(), [2, 1]), str)
     shown = [axes.get_xlabel() for axes in loops.axes if "penetration" in axes.get_xlabel()]
     assert shown == ["penetration of element 2 [m]", "penetration of element 1 [m]"]
-
-
-def test_panels_along_the_line_share_their_range_and_those_over_time_theirs() -> None:
-    figure = figure_of(PlotData.of_result(heave()), str)
-    along, over_time = figure.axes[:3], figure.axes[4:]
-    assert len({axes.get_xlim() for axes in along}) == len({axes.get_xlim() for axes in over_time}) == 1
-    shown = [axes.get_xlabel() for axes in figure.axes if axes.get_xlabel()]
-    assert shown == ["arc length along the line [m]", "embedment ratio, depth / diameter [-]", "time [s]"]
 
 
 def test_what_is_drawn_is_the_result() -> None:
@@ -257,30 +249,7 @@ def test_a_result_refuses_what_it_cannot_draw(tmp_path: Path) -> None:
 # ------------------------------------------------------------------------------------------------------------ scales
 
 
-@pytest.mark.parametrize(
-    ("values", "wanted"),
-    [
-        ([485.0, 485.001], (482.5755, 487.4255)),
-        ([-200.0, -200.0], (-201.0, -199.0)),
-        ([100.0, 150.0], (100.0, 150.0)),
-        ([0.0, 0.0], (0.0, 0.0)),
-        ([-1.7e308, 1.7e308], (-1.7e308, 1.7e308)),
-    ],
-)
-def test_a_scale_spans_a_hundredth_of_its_values(values: list[float], wanted: tuple[float, float]) -> None:
-    assert widened(np.array(values)) == pytest.approx(wanted, rel=1e-6)
-
-
 def test_a_total_that_hardly_changes_is_flat() -> None:
     axes = Figure().add_subplot()
     reaction(axes, PlotData.of_result(result("slope-friction.keyxm", "slope-friction.csv")))
     assert axes.get_ylim() == pytest.approx((57_948.0, 58_531.0), rel=2e-3)
-
-
-def test_thinning_keeps_ends_and_extremes() -> None:
-    values = np.sin(np.arange(100_000) * 0.01)
-    values[777] = 5.0
-    kept = thinned(values, 200)
-    assert len(kept) <= 402
-    assert {0, 777, 99_999} <= set(kept.tolist())
-    assert thinned(values[:50], 200).tolist() == list(range(50))

@@ -11,8 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mudline.contact.columns import coded
-from mudline.quantities import csv_lines, finite, headed, shown, unit_names
+from mudline.quantities import csv_lines, shown
 from mudline.results.forms.text import Spelling
 
 JSON = Spelling(json.dumps, "null")
@@ -35,21 +34,6 @@ def test_what_overflowed_is_no_value() -> None:
     column = np.array([1.5, math.inf, -math.inf])
     assert CSV.column(column) == ["1.5", "", ""]
     assert JSON.column(column) == ["1.5", "null", "null"]
-
-
-@given(st.lists(st.integers(-(2**63), 2**63 - 1), min_size=1))
-def test_whole_numbers(values: list[int]) -> None:
-    assert JSON.column(np.array(values, dtype=np.int64)) == [str(value) for value in values]
-
-
-def test_truth_values() -> None:
-    assert CSV.column(np.array([True, False])) == ["true", "false"]
-
-
-@given(st.lists(st.none() | st.text()))
-def test_names(values: list[str | None]) -> None:
-    codes, different = coded(values)
-    assert json.loads(f"[{','.join(JSON.column(codes, different))}]") == values
 
 
 @given(st.lists(st.lists(st.text(st.characters(exclude_characters="\r", codec="utf-8")), min_size=2, max_size=4)))
@@ -78,15 +62,3 @@ def test_csv_values() -> None:
 )
 def test_numbers_for_people(value: float | None, text: str) -> None:
     assert shown(value) == text
-
-
-def test_numbers_that_json_can_hold() -> None:
-    assert [finite(value) for value in (1.5, None, math.nan, math.inf, -math.inf)] == [1.5, None, None, None, None]
-
-
-def test_units() -> None:
-    assert unit_names("metric") == ("m", "N", "N/m", "N/m2")
-    assert unit_names("imperial") == ("ft", "lbf", "lbf/ft", "lbf/ft2")
-    assert unit_names("user") == ("", "", "", "")
-    assert headed("depth", "m") == "depth\n[m]"
-    assert headed("depth", "") == "depth"

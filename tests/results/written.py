@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import FORMS, Output, Sink, contents_of, table_path, tables_of
 from mudline.results.forms.text import text_writer
-from mudline.results.totals import StepSummary, StepTotal, Total, totals
+from mudline.results.totals import StepSummary, StepTotal
 
 Json: TypeAlias = Any
 
@@ -36,11 +36,6 @@ def pieces(evaluation: Evaluation, form: str, table: str = "elements") -> Iterat
 def json_of(evaluation: Evaluation) -> Json:
     """What the JSON holds."""
     return json.loads("".join(pieces(evaluation, "json")))
-
-
-def csv_of(evaluation: Evaluation, table: str) -> str:
-    """The CSV of `elements`, `nodes` or `summary`."""
-    return "".join(pieces(evaluation, "csv", table))
 
 
 def write(evaluation: Evaluation, path: Path) -> Path:
@@ -70,8 +65,3 @@ def steps_of(evaluation: Evaluation, most: int | None = None) -> list[StepTotal]
     for part in evaluation.parts():
         digest.take(part)
     return digest.steps
-
-
-def totals_of(evaluation: Evaluation) -> list[Total]:
-    """The figures of the first step by law and set."""
-    return totals(evaluation, next(evaluation.parts()))

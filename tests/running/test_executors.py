@@ -101,16 +101,6 @@ def test_processes_end_at_once_with_the_block(monkeypatch: pytest.MonkeyPatch) -
     assert multiprocessing.active_children() == []
 
 
-@pytest.mark.parametrize(("platform", "method"), [("win32", "spawn"), ("darwin", "spawn"), ("freebsd", "forkserver")])
-def test_systems_start_processes_in_their_own_way(monkeypatch: pytest.MonkeyPatch, platform: str, method: str) -> None:
-    def listdir(_: str) -> list[str]:
-        raise FileNotFoundError
-
-    monkeypatch.setattr("sys.platform", platform)
-    monkeypatch.setattr(os, "listdir", listdir)
-    assert start_method() == method
-
-
 @pytest.mark.parametrize(("threads", "method"), [(["1"], "fork"), (["1", "2"], "forkserver")])
 def test_a_process_with_threads_is_not_copied(monkeypatch: pytest.MonkeyPatch, threads: list[str], method: str) -> None:
     monkeypatch.setattr("sys.platform", "linux")

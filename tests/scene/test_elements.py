@@ -111,8 +111,8 @@ def test_rows_that_could_not_be_read_lead_to_nothing_more() -> None:
 
 
 def test_an_element_that_was_not_read_may_be_the_one_that_a_set_lists() -> None:
-    text = ELEMENT + " 1, 1, 2\n 2x, 2, 3\n*ELEMENT SETS\n SET=a\n 1, 2\n GEN=1, 3\n"
-    assert reported(text) == [("W", "REF005", NODES_END + 6, 5)]
+    text = ELEMENT + " 1, 1, 2\n 2x, 2, 3\n*ELEMENT SETS\n SET=a\n 1, 2\n 1, 22, 33\n GEN=1, 3\n"
+    assert reported(text) == [("E", "REF005", NODES_END + 7, 9)]
 
 
 def test_a_pattern_of_which_a_value_is_not_known_makes_nothing() -> None:

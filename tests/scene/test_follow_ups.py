@@ -23,7 +23,7 @@ def test_a_set_of_the_deck_goes_before_one_of_a_line() -> None:
     ("before", "supplier"),
     [
         ("*LINES\n LINE=SCR\n", "*LINES, which is not read, may define it"),
-        ("*CABLE\n 1, 2\n", "*CABLE, which is not read, may define it"),
+        ("*LINE PATHS\n LINE=a\n", "*LINE PATHS, which is not read, may define it"),
         ("*ELEMENT SETTS\n SET=a\n 1\n", "*ELEMENT SETTS, which is not known, may define it"),
         ("*ELEMENT SETS\n SEET=a\n 1\n", "a line of *ELEMENT SETS that could not be used may define it"),
     ],
@@ -40,7 +40,7 @@ def test_keywords_astray_may_define_it() -> None:
     assert messages(early)[0].endswith("the *ELEMENT SETS before the first section may define it")
     wrong = "$LOAD CASE\n*ELEMENT SETS\n SET=b\n 1\n" + PIPE + seabed
     assert messages(wrong)[0].endswith("the *ELEMENT SETS in $LOAD CASE, where it does not belong, may define it")
-    right = "$CLEAR\n*ELEMENT SETS\n 1, 2\n" + PIPE + seabed
+    right = "$CLEAR\n*ELEMENT SETS\n 1, 2\n 3, 4\n" + PIPE + seabed
     assert reported(right)[0][:2] == ("E", "REF001")
 
 

@@ -72,6 +72,7 @@ def test_lines_in_which_nothing_is_wrong(line: str) -> None:
         ("1, 2, =[1/0]", ("E", "SYN017", 0, 8)),
         ("GEN=1, 11, =[nothing]", ("E", "REF013", 0, 13)),
         ("GEN=1, 11, 2, =[nothing]", ("E", "REF013", 0, 16)),
+        ("GEN={Top}, 11, 2", ("E", "REF006", 0, 6)),
         ("GEN=1, =[cu(2)], 2", ("W", "SYN017", 0, 9)),
     ],
 )
@@ -98,7 +99,7 @@ def test_what_could_not_be_read_is_told_by_the_reader_only() -> None:
     assert held("x1, 1", "1, one", "GEN=1, x, 2", "1") == [
         ("W", "SYN016", 0, 2),
         ("E", "SYN002", 1, 5),
-        ("E", "SYN002", 2, 9),
+        ("W", "SYN016", 2, 9),
         ("E", "SYN003", 3, 2),
     ]
 
@@ -109,10 +110,11 @@ def test_lines_make_nodes_of_their_own() -> None:
     assert "may define it" in messages(text)[0]
 
 
-def test_what_cables_may_make_is_one_info() -> None:
-    text = PIPE + "*CABLE\n 1\n" + HELD + " 99, 1\n 98, 1\n {Hang-off}, 1\n GEN=90, 99, 1\n"
-    assert reported(text) == [("I", "REF006", LINE - 3, 1)]
-    expected = "*CABLE may define nodes that this deck does not show: 2 uses of such nodes (first: node 99)"
+def test_nodes_on_cables_are_one_info() -> None:
+    cables = "*CABLE\n 1, 1, 2, 50.0\n*NODE,CURVILINEAR\n 99, 1, 5.0\n"
+    text = PIPE + cables + HELD + " 99, 1\n 98, 1\n {Hang-off}, 1\n GEN=90, 99, 1\n"
+    assert reported(text)[0] == ("I", "REF006", LINE - 1, 1)
+    expected = "*NODE,CURVILINEAR may define nodes that this deck does not show: 2 uses of such nodes (first: node 99)"
     assert messages(text)[0].startswith(expected)
 
 
@@ -133,9 +135,9 @@ def test_a_deck_without_nodes_is_not_judged() -> None:
     ]
 
 
-def test_a_node_that_could_not_be_read_is_a_warning() -> None:
-    text = "$MODEL\n*NODE\n 1, 0.0, 0.0\n 2x, 0.0, 5.0\n" + HELD + " 2, 1\n"
-    assert reported(text) == [("W", "REF006", 8, 2)]
+def test_a_number_that_could_not_be_read_excuses_what_one_edit_of_it_gives() -> None:
+    text = "$MODEL\n*NODE\n 1, 0.0, 0.0\n 2x, 0.0, 5.0\n" + HELD + " 2, 1\n 21, 1\n 31, 1\n"
+    assert reported(text) == [("E", "REF006", 10, 2)]
 
 
 def test_a_file_of_elements_does_not_tell_of_every_node(tmp_path: Path) -> None:

@@ -56,7 +56,6 @@ def labels_of(text: str) -> list[str]:
         ("*LINES\n LINE={open, 2\n", "{open,_2"),
         ("*LINE LOCATIONS\n LINE=SCR\n SECTION=no set, 3\n", "SCR"),
         ("*LINE PATHS\n LINE=Flowline\n 0, 0, 0\n", "Flowline"),
-        ("*CABLE\n NAME=a\n", "a"),
         ("*NODE,CURVILINEAR\n LINE=a\n", ""),
         ("*LINE PATH SECTIONS\n LINE=a\n SECTION=b, 0, 1, REPEAT=no\n ADDITIONAL=c, d\n", "a b c d"),
         ("*LINE SECTION GROUPS\n NAME=a\n SECTION=b, 1\n ADDITIONAL=c, d\n 1, 2, 3\n", "a b c d"),
@@ -76,7 +75,7 @@ def test_names_of_a_keyword_with_a_model_that_a_document_gives_as_lines() -> Non
     assert list(opaque_set_names(load_bytes(json.dumps(document).encode(), "deck.json"))) == ["a", "b", "c", "d"]
 
 
-_KEYWORDS = st.sampled_from(["LINES", "LINE PATHS", "CABLE", "LINE PATH SECTIONS", "LINE SECTION GROUPS"])
+_KEYWORDS = st.sampled_from(["LINES", "LINE PATHS", "LINE PATH SECTIONS", "LINE SECTION GROUPS"])
 _CASES = st.sampled_from([str.upper, str.lower, str.title])
 
 
@@ -171,14 +170,14 @@ def test_a_set_in_quotes_that_the_deck_defines_itself() -> None:
 def test_the_block_that_may_define_it_is_named() -> None:
     seabed = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=b\n STIFFNESS=1\n"
     sections = "*LINE PATH SECTIONS\n LINE=x\n"
-    assert messages(PIPE + "*LINE LOCATIONS\n x, 2\n*CABLE\n 1\n" + seabed)[0].endswith(
-        "*CABLE, which is not read, may define it"
+    assert messages(PIPE + "*LINE LOCATIONS\n x, 2\n*LINE PATHS\n 1\n" + seabed)[0].endswith(
+        "*LINE PATHS, which is not read, may define it"
     )
     ending = "the lines of *LINE PATH SECTIONS, which this deck does not show, may define it"
     assert messages(PIPE + sections + seabed)[0].endswith(ending)
     ending = "a line of *LINE PATH SECTIONS that could not be used may define it"
     assert messages(PIPE + LINES + sections + " SECTIN=b, 1\n" + seabed)[0].endswith(ending)
-    assert reported(PIPE + "*NODE,CURVILINEAR\n 1\n" + seabed) == [("E", "REF001", 13, 6)]
+    assert reported(PIPE + "*NODE,CURVILINEAR\n 1, 1, 2.0\n" + seabed) == [("E", "REF001", 13, 6)]
 
 
 # --------------------------------------------------------------------------------------------------------------- labels
@@ -190,7 +189,7 @@ def test_the_block_that_may_define_it_is_named() -> None:
         ("*LINE LOCATIONS\n LINE=SCR\n Seabed End, 0.0, 1E3\n {Hang-off}, =[x]\n", ["SCR", "Seabed End", "Hang-off"]),
         ('*LINES\n LINE=SCR, START="Seabed End", {Top}\nC {no}\n 1, 2\n', ["SCR", "Seabed End", "Top"]),
         ("*LINE PATHS\n LABEL=a b\n", ["a b"]),
-        ("*CABLE\n {no}\n*P-Y\n {no}\n", []),
+        ("*P-Y\n {no}\n", []),
         ("*LINE SECTION GROUPS\n NAME=no\n", []),
     ],
 )

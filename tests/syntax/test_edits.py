@@ -55,12 +55,6 @@ def test_overlapping_edits_are_refused(edits: list[TextEdit]) -> None:
     assert {caught.value.first, caught.value.second} <= set(edits)
 
 
-@pytest.mark.parametrize("span", [(5, 7), (-1, 2), (3, 2), (7, 7)])
-def test_edits_outside_the_text_are_refused(span: tuple[int, int]) -> None:
-    with pytest.raises(ValueError, match="does not lie in a text of 6 characters"):
-        apply_edits("abcdef", [edit(*span, "x")])
-
-
 @pytest.mark.parametrize(
     ("text", "offset", "end"),
     [
@@ -112,9 +106,3 @@ def test_a_text_is_its_kept_pieces_and_the_new_ones(
     if len(set(places)) == len(places):
         shuffled.shuffle(edits)
         assert apply_edits(text + last, edits) == expected + last
-
-
-@given(st.binary(max_size=80))
-@settings(max_examples=60)
-def test_no_edit_changes_no_byte(data: bytes) -> None:
-    assert edited_bytes(source(data), []) == data

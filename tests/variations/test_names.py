@@ -12,8 +12,7 @@ from hypothesis import strategies as st
 from mudline.deck.loading import dump, load_bytes
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
-from mudline.variations.files import Taken, path_fault
-from mudline.variations.names import filled, placeholders, unquoted
+from mudline.variations.files import path_fault
 from mudline.variations.planning import plan
 from tests.builders.decks import varied_deck
 from tests.builders.scenes import only, planned, refused
@@ -75,14 +74,6 @@ def test_no_folder_leads_out_of_the_output_folder(folder: str, key: str) -> None
     assert only(refused(content))[0] == "EXP001"
 
 
-@pytest.mark.parametrize("file", ["..", "../a", "/a", "b\\c", "NUL", "a:b", "", "%Folder%"])
-def test_no_file_name_leads_out_of_the_output_folder(file: str) -> None:
-    variations = " NAME=v\n PARA=Folder, VALUE=../../etc/passwd\n" if "%" in file else ""
-    assert {found.code for found in refused(varied_deck(variations, f' DESCRIPTION=d, FILENAME="{file}"\n'))} == {
-        "EXP001"
-    }
-
-
 def test_an_empty_folder_is_refused() -> None:
     assert (
         "has a folder without a name"
@@ -110,23 +101,6 @@ def test_a_path_without_a_fault_stays_where_it_is_on_every_system(parts: list[st
         assert ".." not in pure.parts
         assert pure.is_relative_to(kind("root"))
         assert len(pure.parts) == 1 + path.count("/") + 1
-
-
-def test_placeholders() -> None:
-    assert placeholders("a %b c% % d %e") == ["b c", "d"]
-    assert placeholders("100 % sure") == []
-    assert filled("%a%-%B %%", str.upper) == "A-B%"
-    assert unquoted('"a"') == "a"
-    assert unquoted('"') == '"'
-
-
-def test_what_is_taken() -> None:
-    taken = Taken()
-    assert taken.take("a/b", 0) is None
-    assert taken.take("A/B", 1) == 0
-    assert taken.take("a", 2) == 0
-    assert taken.take("a/b/c", 3) == 0
-    assert taken.take("a/c", 4) is None
 
 
 CODES = ["REF001", "REF013", "SYN009", "SYN010"]
@@ -205,15 +179,3 @@ def test_a_sheet_may_hold_the_variations() -> None:
     rest = WHOLE.replace("All", "Sheet")
     assert [one.split()[2] for one in reported(rest)] == ["REF001"]
     assert reported(rest + "*EXCEL VARIATIONS\n FILE=a.xls\n") == []
-
-
-def test_broken_lines_are_no_hindrance() -> None:
-    lines = (
-        "*VARIATION\n NAME=a\n PARA=, VALUE=1\n ACTION=ADD, KEYWORD=\n ACTION=AD\n"
-        "*COMBINATIONS\n DESCRIPTION=a\n VARIATIONS=\n"
-    )
-    assert reported(WHOLE + lines) == []
-
-
-def test_a_deck_without_variations_has_no_names() -> None:
-    assert reported("$MODEL\n*OCEAN\n 100.0\n") == []

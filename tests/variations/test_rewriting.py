@@ -12,12 +12,11 @@ from hypothesis import strategies as st
 from mudline.deck.forms import form_names
 from mudline.deck.loading import dump, load_bytes
 from mudline.deck.parameters import Parameters, folded
-from mudline.diagnostics import DeckError
 from mudline.keywords.values import Equation
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
 from mudline.variations.cases import parameter_field
-from mudline.variations.files import ExpansionPlan, path_fault
+from mudline.variations.files import ExpansionPlan
 from mudline.variations.planning import plan
 from tests.builders.decks import VARIED_MODEL, VARIED_PARAMETERS, varied_deck
 from tests.builders.scenes import deck_of, only, refused
@@ -74,31 +73,6 @@ def test_line_ends_and_encodings_stay(end: str, encoding: str, tmp_path: Path) -
     expected = expected.replace(" 1, 1, 2\n", " 1, 1, 2\nC \u00fcber\n*TITLE\n a\n")
     assert found.decks[0].path == "S\u00fcd.keyxm"
     assert found.content(found.decks[0]) == expected.replace("\n", end).encode(encoding)
-
-
-@pytest.mark.parametrize(
-    ("text_", "field"),
-    [
-        ("08", "08"),
-        ("-1.5E3", "-1.5E3"),
-        ("=[a, b]", "=[a, b]"),
-        ("Near", "Near"),
-        ("Near side", '"Near side"'),
-        ("a, b", '"a, b"'),
-        ('"a, b"', '"a, b"'),
-        ("/1 2/", '"/1 2/"'),
-        ("=x", '"=x"'),
-        ("{a", '"{a"'),
-        ("", None),
-        ('a "b" c', None),
-        ('a"b', None),
-    ],
-)
-def test_values_as_fields(text_: str, field: str | None) -> None:
-    assert parameter_field(text_) == field
-    if field is not None:
-        value = Parameters(deck_of(f"$PREPROCESSOR\n*PARAMETERS\n x, {field}\n a, 1\n b, 2\n")).definitions["x"].value
-        assert str(value) == text_.strip('"') or math.isclose(float(str(value)), float(text_))
 
 
 # --------------------------------------------------------------------------------------------------------- properties
@@ -166,43 +140,6 @@ def same(value: float | str, written: str) -> bool:
     return value == (written.strip('"') if isinstance(value, str) else float(written))
 
 
-SHARDS = [
-    "%",
-    '"',
-    ",",
-    "\n",
-    "=[",
-    "]",
-    "/",
-    "VALUE=",
-    "GEN=1, 9",
-    "*VARIATION\n",
-    "..",
-    "\\",
-    "\0",
-    "C",
-    "\r",
-    "\xe9",
-    "1e308",
-]
-
-
-@given(st.lists(st.tuples(st.integers(0, 420), st.integers(0, 9), st.sampled_from(["", *SHARDS])), max_size=4))
-@settings(max_examples=100)
-def test_a_damaged_deck_is_refused_or_gives_decks_that_read(changes: list[tuple[int, int, str]]) -> None:
-    content = varied_deck(WAVES + " PARA=Point_X, GEN=1, 2\n ACTION=REMOVE, KEYWORD=OFFSET, SECTION=LOAD CASE\n", ALL)
-    for at, length, shard in changes:
-        content = content[:at] + shard + content[at + length :]
-    try:
-        found = plan(deck_of(content))
-    except DeckError:
-        return
-    assert len({new.path for new in found.decks}) == len(found.decks)
-    for new in found.decks:
-        assert not path_fault(new.path)
-        load_bytes(found.content(new), new.path).require()
-
-
 # ------------------------------------------------------------------------------------------------------------ actions
 
 
@@ -259,11 +196,6 @@ def test_a_file_without_a_last_line_end_gets_one_before_what_is_added() -> None:
     assert contents(plan(deck_of(content))) == [added + "*NO FRICTION\n"]
 
 
-def test_a_block_may_take_the_place_of_another() -> None:
-    found = plan(deck_of(acting("ADD, KEYWORD=WAVE-REGULAR", "REMOVE, KEYWORD=WAVE-REGULAR")))
-    assert contents(found) == [BARE.replace(" 1.0, =[Period], 0.0\n", "")]
-
-
 @pytest.mark.parametrize(
     ("action", "message"),
     [
@@ -287,26 +219,6 @@ def test_actions_that_cannot_be_done(action: str, message: str, tmp_path: Path) 
     found = only(refused(acting(action), folder=tmp_path))
     assert message in found[3]
     assert found[:3] == ("EXP001", *((1, 1) if "bad.txt" in action else (12, 2)))
-
-
-def test_a_file_that_the_encoding_of_the_deck_lacks(tmp_path: Path) -> None:
-    (tmp_path / "a.txt").write_text(" \u6f22\n", encoding="utf-8")
-    content = acting("ADD, KEYWORD=OFFSET, FILE=a.txt").replace("C in", "C \u00fc in").encode("cp1252")
-    assert "which the encoding of the deck lacks" in only(refused(content, folder=tmp_path))[3]
-
-
-def test_a_file_too_large_or_closed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (tmp_path / "a.txt").write_text(" 1\n")
-    monkeypatch.setattr("mudline.variations.cases.LARGEST_FILE", 2)
-    assert "million bytes" in only(refused(acting("ADD, KEYWORD=OFFSET, FILE=a.txt"), folder=tmp_path))[3]
-
-    def fail(_: Path) -> bytes:
-        raise PermissionError(13, "Permission denied")
-
-    monkeypatch.setattr("mudline.variations.cases.LARGEST_FILE", 20)
-    monkeypatch.setattr(Path, "read_bytes", fail)
-    found = only(refused(acting("ADD, KEYWORD=OFFSET, FILE=a.txt"), folder=tmp_path))
-    assert "a.txt cannot be read: permission denied" in found[3]
 
 
 def test_a_deck_from_nowhere_has_no_files_beside_it() -> None:
@@ -338,13 +250,6 @@ def test_the_suffix_of_a_name_tells_the_form() -> None:
     )
     ends = {new.path: found.content(new)[:1] for new in found.decks}
     assert ends == {"09.json": b"{", "201.json": b"{", "09.keyx": b"$", "201.keyx": b"$"}
-
-
-def test_a_fault_of_a_json_deck_is_reported_at_its_place_there() -> None:
-    content = dump(deck_of(varied_deck(WAVES, " DESCRIPTION=d, FILENAME=%Period%\n VARIATIONS=Wave\n")), "json")
-    line = content[: content.index('["Wave"]')].count("\n") + 1
-    found = only(refused(content, "study.json"))
-    assert found[:2] == ("EXP001", line)
 
 
 @pytest.mark.parametrize("name", ["variations.keyxm", "parametric.keyxm"])

@@ -132,9 +132,9 @@ def _kinds(target: Target) -> Iterator[str]:
 def _checked(found: Value, operand: Operand, assignment: Assignment, line: int) -> float | str:
     """The value that is wanted, as a deck holds it; raises AssignmentError for one that the field cannot have."""
     slot = found.field.slot
-    if operand.number is None or (slot.kind is Kind.NAME and not slot.choices):
+    if operand.number is None or (slot.kind in (Kind.NAME, Kind.TITLE) and not slot.choices):
         return operand.text
-    if slot.kind in (Kind.WHOLE, Kind.IDENT) and not operand.number.is_integer():
+    if slot.kind in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL) and not operand.number.is_integer():
         raise AssignmentError(f"{assignment.path} cannot be {assignment.value!r}: expected a whole number", line)
     if fault := range_fault(operand.number, slot):
         raise AssignmentError(fault, line)

@@ -50,7 +50,7 @@ class DeclaredField(NamedTuple):
             return self.slot.kind is not None
         if self.slot.kind is Kind.IDENT:
             return Label.match(operand.text) is not None
-        return self.slot.kind in (Kind.NAME, Kind.REAL_OR_NAME)
+        return self.slot.kind in (Kind.NAME, Kind.TITLE, Kind.REAL_OR_NAME)
 
     @property
     def dotted(self) -> str:

@@ -15,6 +15,7 @@ from mudline.cli.streams import emit, emit_json, notify, notify_missing, writing
 from mudline.cli.view import View
 from mudline.curves import ForceCurve
 from mudline.deck.parameters import folded
+from mudline.linting.engine import naming_causes
 from mudline.linting.output import visible
 from mudline.quantities import UnitNames, csv_lines, finite, headed, shown, unit_names
 from mudline.results.summary import CURVE_SIDES, followers
@@ -67,7 +68,9 @@ def command(
     if output_format == "csv" and ratios and weight is not None:
         raise click.UsageError("CSV holds one table: give --at or --weight, not both")
     form = options.form_of_file(picture, ("png", "svg")) if picture else ""
-    scene = resolve(deck.load()).require()
+    given = deck.load()
+    with naming_causes(given):
+        scene = resolve(given).require()
     try:
         rows = _curve_rows(scene, ratios, weight)
     except ValueError as error:

@@ -15,7 +15,7 @@ import click
 from mudline.cli.options import INPUT, Command, option
 from mudline.cli.streams import reason
 from mudline.deck.model import Deck
-from mudline.diagnostics import DeckError
+from mudline.linting.engine import naming_causes
 from mudline.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
 from mudline.scene.csv_file import read_external
 from mudline.scene.model import Scene, resolve
@@ -40,13 +40,8 @@ class EvaluateInputs:
     def scene(self, deck: Deck) -> Scene:
         """The scene of a deck; raises DeckError with the causes of what keeps it from being evaluated."""
         external = read_file(self.elements, read_external) if self.elements else None
-        try:
+        with naming_causes(deck):
             return resolve(deck, external).require_evaluable(self.tension)
-        except DeckError as error:
-            from mudline.linting.engine import named_causes  # noqa: PLC0415 - only where the deck is refused
-            from mudline.linting.registry import rules  # noqa: PLC0415 - as above
-
-            raise DeckError(named_causes(deck, error.diagnostics, rules())) from error
 
     def evaluation(self, deck: Deck) -> Evaluation:
         """A deck ready to be evaluated, at positions of a file or its own. Raises DeckError, click.ClickException."""

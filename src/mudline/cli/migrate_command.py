@@ -15,6 +15,7 @@ from mudline.deck.forms import form_of
 from mudline.deck.loading import dump, load_bytes
 from mudline.diagnostics import DeckError
 from mudline.limits import SHOWN_ROWS
+from mudline.linting.engine import naming_causes
 from mudline.migration.migrating import Migration, Verdict, legacy_blocks, migrate, verify
 from mudline.migration.refusals import Continuations, misspelt
 from mudline.short_repr import counted
@@ -87,7 +88,8 @@ class _Run:
             return DONE
         path = Path(self.file.path) if self.file.path else None
         continued_by = continuations.of(path) if path else []
-        migration = migrate(deck, continued_by, extended=path is not None and continuations.extend(path))
+        with naming_causes(deck):
+            migration = migrate(deck, continued_by, extended=path is not None and continuations.extend(path))
         if proved and not self._proved(verify(migration)):
             return FOUND
         content = self._content(migration)

@@ -17,6 +17,7 @@ from mudline.cli.inputs import GivenDeck, refuses_bad_decks
 from mudline.cli.streams import emit, emit_json, notify, notify_missing, write_text, writing
 from mudline.cli.view import View, tracked
 from mudline.files import suffix_of
+from mudline.linting.engine import naming_causes
 from mudline.linting.output import visible
 from mudline.quantities import csv_lines, headed, shown, unit_names
 from mudline.scene.model import resolve
@@ -72,7 +73,9 @@ def command(
     if plot and find_spec("matplotlib") is None:
         notify_missing("--plot", "matplotlib", "plot")
         return WRONG_USAGE
-    scene = resolve(GivenDeck(deck, stdin_name, units).load()).require()
+    given = GivenDeck(deck, stdin_name, units).load()
+    with naming_causes(given):
+        scene = resolve(given).require()
     found = study(scene, only or PARTS, draw=plot is not None, tracked=lambda parts: tracked(parts, view))
     if plot:
         _plot(found, Path(plot), view)

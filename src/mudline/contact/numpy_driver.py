@@ -201,37 +201,32 @@ class Nodes:
         walls = None if laid is None or not self._ranks else self._trench_limits(places, across, pressing, laid)
         stick = history.stick_points[here].T.copy()
         held = history.states[here, 0] > 0
-        forces = np.empty(closed.shape), np.empty(closed.shape)
-        slips = np.empty(closed.shape, np.bool_), np.empty(closed.shape, np.bool_)
+        forces, slips = np.empty(limits.shape), np.empty(limits.shape, np.bool_)
+        elongation = np.empty((2, len(self._active)))
         for step, close in enumerate(closed):
             on, held = held & close, close
             u, v = tuple(axis[step] for axis in along), tuple(axis[step] for axis in across)
             away = np.where(on, places[first:, step] - stick[first:], 0.0)
-            elongation = plane.dot(u, away), plane.dot(v, away)
-            k1, k2, limit_1, limit_2 = springs[0][step], springs[1][step], limits[0][step], limits[1][step]
-            t1, t2 = k1 * elongation[0], k2 * elongation[1]
+            elongation[0], elongation[1] = plane.dot(u, away), plane.dot(v, away)
+            spring, limit = springs[:, step], limits[:, step]
+            trial = spring * elongation
             if walls is not None:
-                limit_2 = limit_2 + np.where(t2 > 0.0, walls[0][step], walls[1][step])
-            (f1, slip_1), (f2, slip_2) = law.in_box(t1, limit_1), law.in_box(t2, limit_2)
+                limit[1] += np.where(trial[1] > 0.0, walls[0][step], walls[1][step])
+            force, slip = law.in_box(trial, limit)
             if self._curved:
-                if limited:
-                    *curved, slip = law.on_ellipse(t1, t2, limit_1, limit_2)
-                    curved += [slip, slip]
-                else:
-                    curved = list(law.in_ellipse(t1, t2, limit_1, limit_2))
-                f1, f2, slip_1, slip_2 = (
-                    np.where(self._elliptic, ours, theirs)
-                    for ours, theirs in zip(curved, (f1, f2, slip_1, slip_2), strict=True)
-                )
-            moved = plane.blend(
-                u, v, law.slip_distance(slip_1, elongation[0], f1, k1), law.slip_distance(slip_2, elongation[1], f2, k2)
-            )
+                mapped = law.on_ellipse if limited else law.in_ellipse
+                # forces, and whether both directions slip, or each
+                curved = mapped(trial[0], trial[1], limit[0], limit[1])
+                for side, slipping in enumerate((curved[2], curved[-1])):
+                    force[side] = np.where(self._elliptic, curved[side], force[side])
+                    slip[side] = np.where(self._elliptic, slipping, slip[side])
+            moves = law.slip_distance(slip, elongation, force, spring)
+            moved = plane.blend(u, v, moves[0], moves[1])
             stick = np.where(on, stick, places[:, step])
             for point, way in zip(stick[first:], moved, strict=True):
                 np.add(point, way, out=point)
-            np.subtract(0.0, f1, out=forces[0][step])
-            np.subtract(0.0, f2, out=forces[1][step])
-            slips[0][step], slips[1][step] = slip_1, slip_2
+            np.subtract(0.0, force, out=forces[:, step])
+            slips[:, step] = slip
         history.stick_points[here] = np.where(held, stick, np.nan).T
         for side in range(2):
             states = (slips[side].view(np.int8) + np.int8(1)) * closed.view(np.int8)
@@ -239,7 +234,7 @@ class Nodes:
             history.states[here, side] = states[-1]
             if part.friction_state is not None:
                 part.friction_state[:, here, side] = states
-        return forces
+        return forces[0], forces[1]
 
     def _trench_limits(
         self, places: FloatArray, across: Components, pressing: FloatArray, laid: LaidCentreline

@@ -158,17 +158,18 @@ class Elements:
         """
         if self._back is None and len(self._groups) == 1 and not self._bare:
             self._apply_normal_law(self._groups[0], depth, ratio, touches, values, part)
+            _zero_outside(touches, *values)
             return
         z, on = depth.take(self._order, axis=1), touches.take(self._order, axis=1)
-        found = [np.empty(depth.shape) for _ in values]
-        start = 0
+        found, start = np.empty((3, *depth.shape)), 0
         for group in self._groups:
             some = slice(start, start + len(group.at))
             ours = found[0][:, some], found[1][:, some], found[2][:, some]
             self._apply_normal_law(group, z[:, some], None, on[:, some], ours, part)
             start = some.stop
+        found[..., start:] = 0.0
+        _zero_outside(on, found)
         for target, source in zip(values, found, strict=True):
-            source[:, start:] = 0.0
             if self._back is None:
                 target[...] = source
             else:
@@ -183,7 +184,7 @@ class Elements:
         values: Values,
         part: ContactResult,
     ) -> None:
-        """Write what one law gives on its elements."""
+        """Write what one law gives on its elements, whether or not they touch."""
         force, slope, stiffness = values
         if group.rows.curve >= 0:
             curve = self._tables.given.curves[group.rows.curve]
@@ -198,12 +199,10 @@ class Elements:
         else:
             force[...], stiffness[...] = group.rows.reaction(depth, group.diameter, *group.columns)
             np.multiply(stiffness, group.diameter, out=slope)
-        if not touches.all():
-            _zero_outside(touches, values)
         if self._tables.cuts and group.rows.curve >= 0:
-            pulls = force < 0.0
+            pulls = touches & (force < 0.0)
             if pulls.any():
-                _zero_outside(~pulls, values)
+                _zero_outside(~pulls, *values)
                 part.cut[:, self.begin + group.at] = pulls
 
     def _apply_unloading(
@@ -417,8 +416,10 @@ class Elements:
         return tuple(axis / size for axis in total)
 
 
-def _zero_outside(inside: BoolArray, values: tuple[FloatArray, ...]) -> None:
+def _zero_outside(inside: BoolArray, *values: FloatArray) -> None:
     """Set values to 0 but for those inside, whatever they are."""
+    if inside.all():
+        return
     mask = inside.astype(np.int64)
     np.negative(mask, out=mask)
     for array in values:

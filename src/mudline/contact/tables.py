@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
@@ -66,7 +66,7 @@ class ContactState:
 
 
 def _copied(part: Part) -> Part:
-    return type(part)(*(getattr(part, field.name).copy(order="K") for field in fields(part)))
+    return type(part)(*(getattr(part, name).copy(order="K") for name in part.__dataclass_fields__))
 
 
 class Batch(NamedTuple):

@@ -268,7 +268,7 @@ def whole_fault(equation: Equation, value: Value, label: str, where: Where) -> P
 
 
 _PLAIN = frozenset({float, int, str, NoneType})
-_EVALUATED = (Kind.REAL, Kind.WHOLE, Kind.REAL_OR_NAME)
+_EVALUATED = (Kind.REAL, Kind.WHOLE, Kind.WHOLE_OR_LABEL, Kind.REAL_OR_NAME)
 DEFINING = "PREPROCESSOR"
 """The section of the parameters; `Parameters` and `mudline.variations` evaluate what stands there."""
 
@@ -374,7 +374,7 @@ class _Evaluator:
 
     def _number(self, equation: Equation, kind: Kind, label: str, where: Where) -> Value | None:
         """The value of an equation; without one NaN, or None where a whole number belongs."""
-        whole = kind in (Kind.WHOLE, Kind.IDENT)
+        whole = kind in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL)
         nothing = None if whole else math.nan
         try:
             value = self.parameters.evaluate(equation, where)

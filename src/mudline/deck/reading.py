@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from pathlib import PurePath
 from typing import TYPE_CHECKING, cast
 
@@ -64,7 +65,7 @@ class Findings:
         sections = catalogue.sections_of(keyword)
         if sections is None:
             if self._reports(SYN009, None, where):
-                near = suggest_keyword(keyword, section)
+                near = _suggested(keyword, section)
                 message = f"keyword *{keyword} is not known{_meant(keyword, near)}: it is passed through unchanged"
                 meant = f"*{near}" if near else ""
                 if keyword.startswith("*"):
@@ -113,6 +114,12 @@ class Findings:
         if count == MOST_REPORTED + 1:
             self.problems.append(Problem(code, MORE, span, None, where))
         return count <= MOST_REPORTED
+
+
+@lru_cache(256)
+def _suggested(keyword: str, section: str) -> str:
+    """`suggest_keyword`, of keywords that stand in many decks, or in a deck that is read several times."""
+    return suggest_keyword(keyword, section)
 
 
 def _meant(name: str, near: str) -> str:

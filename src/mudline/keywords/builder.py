@@ -154,6 +154,9 @@ class Builder:
         first = found.keys.get(groups[0].key) if groups else None
         if first and first.json not in built.values and self._of_other_form(built, first, groups, path):
             return
+        if first and first.kind is Kind.TITLE and groups[0].fields[0].text:
+            self._rest_of_line(built, first, groups, path)
+            return
         for group in groups:
             slot = found.keys.get(group.key)
             if slot and slot.json in built.values:  # a key that may stand twice has a field for each
@@ -178,11 +181,15 @@ class Builder:
         if value in slot.choices and value not in (slot.about.opaque or ()):
             return False
         read_value(groups[0].fields[0], slot, self.problems)
+        self._rest_of_line(built, slot, groups, path)
+        return True
+
+    def _rest_of_line(self, built: ParsedRecord, slot: FieldSpec, groups: list[Group], path: Path) -> None:
+        """All behind the key of a setting as its value."""
         start = self.text.index("=", groups[0].span.start) + 1
         whole = trimmed(self.text, start, groups[-1].span.end)
         self.places.spans[*path, slot.json] = whole
         built.values[slot.json] = self.text[slice(*whole)]
-        return True
 
     def _setting(self, built: ParsedRecord, slot: FieldSpec, group: Group, path: Path) -> None:
         self.places.spans[path] = group.span

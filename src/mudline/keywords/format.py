@@ -22,8 +22,10 @@ TAKES = {
     Kind.REAL: "number",
     Kind.WHOLE: "whole number",
     Kind.IDENT: "number or {label}",
+    Kind.WHOLE_OR_LABEL: "whole number or {label}",
     Kind.REAL_OR_NAME: "number or name",
     Kind.NAME: "name",
+    Kind.TITLE: "text",
     Kind.OTHER: "...",
 }
 

@@ -180,9 +180,9 @@ class Rows(FieldInfo):
 
 
 def _cell_schema(column: Column) -> dict[str, Any]:
-    word = Label if column.kind is Kind.IDENT else Equation
+    words = [Label] * (column.kind in (Kind.IDENT, Kind.WHOLE_OR_LABEL)) + [Equation] * (column.kind is not Kind.IDENT)
     number = {"type": "integer", "minimum": -LARGEST_WHOLE, "maximum": LARGEST_WHOLE}
-    options = [number if column.whole else {"type": "number"}, word.json_schema()]
+    options = [number if column.whole else {"type": "number"}, *(word.json_schema() for word in words)]
     return {"description": column.label, "anyOf": options if column.required else [*options, {"type": "null"}]}
 
 
@@ -302,7 +302,8 @@ class Block(Record):
     `sections` are those where it belongs; `subject` is what it is about; `page` is the page of the manual with its
     format; `facts` is what else is known of it; `tabular` keeps runs of numeric lines whole, as arrays; `slashes` says
     that /.../ is one field; `example` is a block that reads without a finding. With `open_lines` a line of a form that
-    the declaration does not know is kept as it is.
+    the declaration does not know is kept as it is; with `known_forms` only one whose key or place it does not know: in
+    others a fault is a fault.
     """
 
     sections: ClassVar[tuple[str, ...]] = ("MODEL",)
@@ -313,6 +314,7 @@ class Block(Record):
     tabular: ClassVar[bool] = False
     slashes: ClassVar[bool] = False
     open_lines: ClassVar[bool] = False
+    known_forms: ClassVar[bool] = False
     example: ClassVar[str]
     keyword: str
 

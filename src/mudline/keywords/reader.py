@@ -10,7 +10,7 @@ from typing import Protocol, cast
 from pydantic import ValidationError
 
 from mudline.codes.lines import SYN001, SYN004, SYN013, SYN014
-from mudline.diagnostics import Problem, Span
+from mudline.diagnostics import Problem, Severity, Span
 from mudline.keywords import grammar
 from mudline.keywords.attaching import Between, attach
 from mudline.keywords.builder import Builder, ParsedRecord, construct
@@ -87,6 +87,20 @@ def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -
     return _plain(text, raw, declared, found) or _Reader(text, raw, declared, last=last).read()
 
 
+def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
+    """Whether a block reads without an error, and all of it; sooner known than what is wrong in it."""
+    keys = all_keys(declared)
+    if any(leaf.kind is Kind.SETTING and first_key(text, leaf.span) not in keys for leaf in raw.leaves):
+        return False
+    reader = _Reader(text, raw, declared, last=False)
+    fits = _plain(text, raw, declared, reader.nowhere) is not None
+    if not fits and grammar.tree_of(declared.rule, reader.contents()) is not None and not reader.lost:
+        reader = _Reader(text, raw, declared, last=False)
+        found = reader.read()
+        fits = not found.lost and not reader.kept and not any(one.weight is Severity.ERROR for one in found.problems)
+    return fits
+
+
 def read_piece(piece: str, start: int, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
     """Read a block as if its own lines were the whole text; `raw` is the block in the text, where it is at `start`."""
     return read_block(piece, _moved(raw, -start), declared, last=last)
@@ -128,12 +142,12 @@ class _Reader:
 
     def read(self) -> ReadBlock:
         """What the lines give; of an open block without those that have another form than it knows."""
-        contents = self._contents()
+        contents = self.contents()
         noticed, lost = self.problems, self.lost
         while True:
             self.problems, self.lost = [*noticed], lost
             found = self._attempt(contents)
-            odd = self._of_other_form(contents) if self.declared.open_lines else ()
+            odd = self._of_other_form(contents) if self.declared.open_lines and not self.declared.known_forms else ()
             if not odd:
                 return found
             noticed += doubtful(self.problems)
@@ -185,7 +199,12 @@ class _Reader:
                     self.problems.append(Problem(SYN001, message, span))
         return cast("Block", construct(built))
 
-    def _contents(self) -> list[Content]:
+    def nowhere(self) -> Places:
+        """No places, for a block of which none is asked for."""
+        return Places(self.text, self.raw.head.span)
+
+    def contents(self) -> list[Content]:
+        """The lines as the terminals of the grammar; those that are none are reported."""
         contents: list[Content] = []
         ends: frozenset[str] = frozenset()
         for leaf in self.raw.leaves:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from copy import copy
 from functools import cache
 
 from lark import Lark, Token, Tree, UnexpectedToken
@@ -58,26 +59,47 @@ def _recover(parser: InteractiveParser, token: Token, content: Content) -> Misma
     """Feed the missing line before a token that does not fit, or drop the token."""
     expected = tuple(sorted(parser.accepts()))
     for missing in expected:
-        trial = parser.copy()
-        if missing == END:
-            continue
-        trial.feed_token(Token(missing, ""))
-        if token.type in trial.accepts():
+        if missing != END and _takes(parser, Token(missing, ""), token):
             parser.feed_token(Token(missing, ""))
             parser.feed_token(token)
             return Mismatch(content, expected, missing)
     return Mismatch(content, expected, "")
 
 
+def _takes(parser: InteractiveParser, *tokens: Token) -> bool:
+    """Whether a parser takes some tokens; the trial makes no tree, so that nothing has to be copied for it."""
+    state = parser.parser_state
+    rules = copy(state.parse_conf)
+    rules.callbacks = {}
+    fresh = type(state)(rules, state.lexer, [*state.state_stack], [*state.value_stack])
+    trial = InteractiveParser(parser.parser, fresh, parser.lexer_thread)
+    try:
+        for token in tokens:
+            trial.feed_token(token)
+    except UnexpectedToken:
+        return False
+    return True
+
+
 def _complete(parser: InteractiveParser) -> tuple[Tree[Token], Mismatch]:
     """Feed the mandatory lines that the end of a block lacks."""
     expected = tuple(sorted(parser.accepts()))
-    first = expected[0]
-    missing = first
+    fed: list[str] = []
     while END not in parser.accepts():
-        parser.feed_token(Token(missing, ""))
-        missing = min(parser.accepts())
-    return parser.feed_eof(), Mismatch(None, expected, first)
+        fed.append(_next_needed(parser, fed))
+        parser.feed_token(Token(fed[-1], ""))
+    return parser.feed_eof(), Mismatch(None, expected, fed[0])
+
+
+def _next_needed(parser: InteractiveParser, fed: list[str]) -> str:
+    """A line that ends the block, or one that was not put in yet: of lines that may be repeated there is no end."""
+    options = sorted(map(str, parser.accepts()))
+    for option in options:
+        trial = parser.copy()
+        trial.feed_token(Token(option, ""))
+        if END in trial.accepts():
+            return option
+    return next((option for option in options if option not in fed), options[0])
 
 
 def _node(tree: Tree[Token], contents: list[Content]) -> Node:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, Row, about, setting
-from mudline.keywords.values import Name, Real, Whole
+from mudline.keywords.values import Name, Real, Title, Whole
 
 LOCATION = "place on the section, of outputs that have one"
 AXIS = "name of an axis system of *AXIS/VECTOR"
@@ -17,7 +17,7 @@ class SummaryRequest(Block):
     sections = ("SUMMARY POSTPROCESSING",)
     subject = "post-processing"
 
-    title: Annotated[Name | None, setting("TITLE", "title of the output", default="blank")] = None
+    title: Annotated[Title | None, setting("TITLE", "title of the output", default="blank")] = None
     scale: Annotated[Real | None, setting("SCALE", "factor on the values", default="1")] = None
     units: Annotated[
         Name | None, setting("UNITS", "unit of the output", default="of its kind", inline=True, behind="SCALE")

@@ -54,7 +54,7 @@ class Column(NamedTuple):
     @property
     def whole(self) -> bool:
         """Whether its numbers are whole."""
-        return self.kind in (Kind.WHOLE, Kind.IDENT)
+        return self.kind in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL)
 
     def fault(self, word: str) -> str:
         """Why a field that is not a number is not allowed here, or ""."""

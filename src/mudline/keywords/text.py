@@ -42,7 +42,7 @@ class UnreadableError(Exception):
 
 def read_value(field: Field, slot: FieldSpec, problems: list[Problem]) -> Value:
     """The value of a field; raises UnreadableError. What is only doubtful is added to `problems`."""
-    if slot.kind is Kind.NAME:
+    if slot.kind is Kind.NAME or slot.kind is Kind.TITLE:
         return field.text
     if slot.kind is Kind.OTHER:
         return _open_choice(field, slot, problems)
@@ -55,12 +55,12 @@ def read_value(field: Field, slot: FieldSpec, problems: list[Problem]) -> Value:
 def _number(field: Field, slot: FieldSpec, problems: list[Problem]) -> Value:
     number = read_number(field.text)
     if number is None:
-        if slot.kind is Kind.IDENT:
+        if slot.kind in (Kind.IDENT, Kind.WHOLE_OR_LABEL):
             return _label(field, slot, problems)
         if slot.kind is Kind.REAL_OR_NAME and not field.text.startswith("=[") and not _looks_numeric(field.text):
             return field.text
         raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label), field.span))
-    if slot.kind not in (Kind.WHOLE, Kind.IDENT):
+    if slot.kind not in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL):
         return number
     if not number.is_integer() or abs(number) > LARGEST_WHOLE:
         raise UnreadableError(Problem(SYN002, not_whole(field.text, number, slot.label), field.span))
@@ -72,7 +72,7 @@ def _label(field: Field, slot: FieldSpec, problems: list[Problem]) -> Label:
         return label
     braced = maybe_label(field.text)
     if braced is None:
-        raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label, Kind.IDENT), field.span))
+        raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label, slot.kind), field.span))
     message = f"{shown(field.text)} is not a number: if it is a label, write {braced}"
     problems.append(Problem(SYN016, message, field.span, repair=in_braces(field.text, field.span)))
     return braced
@@ -327,7 +327,6 @@ class BlockReading(Protocol):
     text: str
     places: Places
     problems: list[Problem]
-    lost: int
     unclosed: Span | None
 
     def damage(self, path: Path, problem: Problem) -> None:
@@ -422,7 +421,6 @@ class TableBuilder:
 
     def _fault(self, line: Span, row: int, column: int, fault: str, raw: RawRows) -> None:
         text = self.builder.text
-        self.builder.lost += column == 0
         if column < 0:
             fields, _ = split(text, line)
             required = [column.required for column in self.columns]

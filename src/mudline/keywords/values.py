@@ -70,8 +70,10 @@ class Kind(Enum):
     REAL = "a number or an equation =[...]"
     WHOLE = "a whole number or an equation =[...]"
     IDENT = "a number or a {label}"
+    WHOLE_OR_LABEL = "a whole number, an equation =[...] or a {label}"
     REAL_OR_NAME = "a number, an equation =[...] or a name"
     NAME = "a name"
+    TITLE = "a text"
     OTHER = "another value"
 
 
@@ -105,9 +107,12 @@ Text = Annotated[str, Field(strict=True, pattern=r"^[^\r\n]*$", json_schema_extr
 
 Real = Annotated[float | Equation, _Either(Finite | Equation), Kind.REAL]
 Whole = Annotated[int | Equation, _Either(Integer | Equation), Kind.WHOLE]
+WholeOrLabel = Annotated[int | Equation | Label, _Either(Integer | Equation | Label), Kind.WHOLE_OR_LABEL]
 Ident = Annotated[int | Label, _Either(Integer | Label), Kind.IDENT]
 RealOrName = Annotated[float | Equation | str, _Either(Finite | Equation | Text), Kind.REAL_OR_NAME]
 Name = Annotated[Text, Kind.NAME]
+Title = Annotated[Text, Kind.TITLE]
+"""A text to the end of its line, commas included."""
 Other = Annotated[Text, Kind.OTHER]
 """Beside the known values of a choice: there are others, which are kept as they are written."""
 
@@ -131,12 +136,16 @@ class Facts:
     own; `plans_decks` says that its lines are about decks to be made, which do not have it.
 
     What it does: `defines` is what its records define by number or name; `makes` are the keywords of what things
-    outside the deck, which its lines are about, may define. With `later_wins` an element follows the last record whose
-    SET= holds it, and that record as a whole. `carried` are the fields that a block has from the block before it, where
+    outside the deck, which its lines are about, may define; `out_of_sight` says that the deck has these things, and
+    where they lie is not computed. With `later_wins` an element follows the last record whose SET= holds it, and that
+    record as a whole. `carried` are the fields that a block has from the block before it, where
     it does not give them. `seabed_type` is the type of seabed that a legacy surface is. `soil_springs` hold elements in
     the soil; of elements with `zero_length` the ends may lie at one place. What is computed from it is said under the
     heading `computed_in` of the page on the contact evaluator. `instead_of` says what to write instead of a setting
     that other keywords have.
+
+    What tells its lines from those of others, where the keyword itself is missing: a deck with it has one of those
+    `beside` it too, and `telling` are lines that no other keyword has. It `tells_units` of all other values.
     """
 
     superseded_by: tuple[Successor, ...] = ()
@@ -145,6 +154,7 @@ class Facts:
     plans_decks: bool = False
     defines: Literal["", "nodes", "elements", "sets", "curves", "parameters"] = ""
     makes: tuple[str, ...] = ()
+    out_of_sight: bool = False
     later_wins: bool = False
     carried: tuple[str, ...] = ()
     seabed_type: Literal["", "RIGID", "ELASTIC"] = ""
@@ -152,6 +162,9 @@ class Facts:
     zero_length: bool = False
     computed_in: str = ""
     instead_of: Mapping[str, str] = field(default_factory=dict)
+    beside: tuple[str, ...] = ()
+    telling: tuple[str, ...] = ()
+    tells_units: bool = False
 
 
 class Names(Enum):

@@ -68,7 +68,7 @@ class BodyCoefficients(Record):
     file: Annotated[Name | None, setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE)] = (
         None
     )
-    headings: Annotated[Table | None, rows(Coefficients, COEFFICIENTS, unordered=True)] = None
+    headings: Annotated[Table | None, rows(Coefficients, COEFFICIENTS)] = None
 
 
 class VesselCoefficients(Record):
@@ -79,7 +79,7 @@ class VesselCoefficients(Record):
     file: Annotated[Name | None, setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE)] = (
         None
     )
-    headings: Annotated[Table | None, rows(Coefficients, COEFFICIENTS, unordered=True)] = None
+    headings: Annotated[Table | None, rows(Coefficients, COEFFICIENTS)] = None
 
     @classmethod
     def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:

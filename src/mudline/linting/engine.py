@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import lru_cache
@@ -12,7 +13,7 @@ from typing import TYPE_CHECKING
 from mudline.deck.coverage import coverage_of
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import BaseProblem, Deck, Opaque
-from mudline.deck.reading import units_of
+from mudline.deck.reading import TextOrigin, units_of
 from mudline.diagnostics import Blocks, Coverage, DeckError, Diagnostic, Problem, Severity
 from mudline.keywords.model import Block
 from mudline.keywords.reader import ReadBlock, read_block, read_piece
@@ -21,7 +22,7 @@ from mudline.linting.suppression import suppressions
 from mudline.syntax.tree import RawBlock
 
 if TYPE_CHECKING:
-    from mudline.linting.recovery import Recovered
+    from mudline.linting.recovery.engine import Recovered
 
 
 class Fixing(StrEnum):
@@ -68,11 +69,9 @@ def joined_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: b
     the deck suppress.
     """
     meant = _meant(context, chosen, suppress=suppress)
-    if meant is None:
-        found = problems_in(context, chosen)
-    else:
-        checked = problems_in(LintContext(meant.deck, dialect=context.dialect), chosen)
-        found = [*meant.causes, *map(meant.as_written, checked)]
+    found = problems_in(meant.context if meant else context, chosen)
+    if meant is not None:
+        found = [*meant.causes, *meant.as_written(found)]
     found = unsuppressed(context, found, chosen) if suppress else found
     if not found or context.text is None:
         return found
@@ -84,30 +83,42 @@ def joined_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: b
 def _meant(context: LintContext, chosen: Sequence[Rule], *, suppress: bool) -> Recovered | None:
     """The deck as it was meant; None where it is so, or was made by a program."""
     deck = context.deck
-    if context.text is None or not may_recover(deck):
+    if context.text is None or not (may_recover(deck) or context.scene.lacks):
         return None
-    codes = {rule.code.code for rule in chosen}
-    reported = [one for one in deck.problems if one.code.code in codes]
     hiding = context.once(suppressions) if suppress else None
-    reported = hiding.split(reported, ())[0] if hiding else reported
     units = None if units_of(deck) == deck.units else deck.units
 
-    def reread(data: bytes) -> Deck:
+    def again(data: bytes) -> Deck:
         return read_deck(data, deck.file, units=units, folder=deck.folder)
 
-    from mudline.linting.recovery import recovered  # noqa: PLC0415 - most decks do without
+    def told(problems: Sequence[Problem]) -> Sequence[Problem]:
+        return hiding.split([*problems], ())[0] if hiding else problems
 
-    return recovered(deck, reported, codes, reread, _read_once)
+    from mudline.linting.recovery.engine import Reading, recovered  # noqa: PLC0415 - most decks do without
+
+    return recovered(context, {rule.code.code for rule in chosen}, Reading(again, _read_once, told))
 
 
 def may_recover(deck: Deck) -> bool:
     """Whether something in a deck was not read, is passed through, or may stand there twice."""
-    if deck.problems:
+    origin = deck.origin
+    if deck.problems or (isinstance(origin, TextOrigin) and any(read.lost for read in origin.read.values())):
         return True
-    model = [block for section in deck.sections if section.name == "MODEL" for block in section.blocks]
-    names = [block.keyword for block in model]
-    opaque = any(type(block) is Opaque for block in model)
-    return opaque or "ELEMENT" not in names or any(names.count(each) > 1 for each in ("NODE", "ELEMENT"))
+    blocks = [block for section in deck.sections for block in section.blocks]
+    keywords = [block.keyword for block in blocks]
+    for block in blocks:
+        if isinstance(block, Opaque):
+            return True
+        facts = block.facts
+        if facts.defines and (keywords.count(block.keyword) > 1 or not {*facts.beside} <= {*keywords}):
+            return True
+    return False
+
+
+def repairs_of_causes(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
+    """The faults of a deck that a repair clears, as far as the deck as it was meant shows them; see `problems_in`."""
+    meant = _meant(context, [rule for rule in chosen if isinstance(rule.check, Noticed)], suppress=True)
+    return [one for one in meant.causes if one.repair is not None] if meant else []
 
 
 def named_causes(deck: Deck, refused: Sequence[Diagnostic], chosen: Sequence[Rule]) -> list[Diagnostic]:
@@ -120,6 +131,17 @@ def named_causes(deck: Deck, refused: Sequence[Diagnostic], chosen: Sequence[Rul
     reported = [one for one in found if one.blocking is not Blocks.NEVER or one.code in causes]
     reported = [one for one in reported if one.blocking is not Blocks.WITH_TENSION or one.code.code in codes]
     return deck.diagnose(reported) or list(refused)
+
+
+@contextmanager
+def naming_causes(deck: Deck) -> Iterator[None]:
+    """Refuse a deck with the causes of that for which it is refused inside: raises DeckError with these."""
+    try:
+        yield
+    except DeckError as error:
+        from mudline.linting.registry import rules  # noqa: PLC0415 - only where the deck is refused
+
+        raise DeckError(named_causes(deck, error.diagnostics, rules())) from error
 
 
 def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:

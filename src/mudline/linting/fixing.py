@@ -19,7 +19,7 @@ from mudline.deck.reading import read_source
 from mudline.diagnostics import Coverage, Diagnostic, Problem, Repair, Severity, Span
 from mudline.files import recording_looks
 from mudline.limits import MOST_PASSES, MOST_TRIES
-from mudline.linting.engine import Fixing, LintSettings, covered_findings, problems_in, unsuppressed
+from mudline.linting.engine import Fixing, LintSettings, covered_findings, problems_in, repairs_of_causes, unsuppressed
 from mudline.linting.rule import LintContext
 from mudline.linting.suppression import MARK
 from mudline.syntax.edits import TextEdit, edited_bytes
@@ -282,7 +282,11 @@ class Reader:
         problems = problems_in(context, self.settings.rules)
         everything = [*deck.problems, *context.scene.problems, *problems]
         errors = Counter(problem.code.code for problem in everything if problem.weight is Severity.ERROR)
-        return FixState(data, source, deck, unsuppressed(context, problems, self.settings.rules), errors)
+        found = unsuppressed(context, problems, self.settings.rules)
+        made = {edit for one in found if one.repair for edit in one.repair.edits}
+        causes = repairs_of_causes(context, self.settings.rules)
+        found += [one for one in causes if one.repair and not made.issuperset(one.repair.edits)]
+        return FixState(data, source, deck, found, errors)
 
     def after(self, before: FixState, repairs: Sequence[Repair]) -> FixState | None:
         """The stage after some repairs; None if they cannot be made, change nothing, or make the deck worse."""

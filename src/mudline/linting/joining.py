@@ -17,7 +17,7 @@ from mudline.codes.references import REF005, REF006, REF007
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import MORE, Problem, Severity, Span, Where
 from mudline.diagnostics import Blocks as Blocking
-from mudline.linting.corrections import also_in, line_at, whole
+from mudline.linting.recovery.blocks import also_in, line_at, whole
 from mudline.short_repr import counted
 from mudline.syntax.rows import NUMBER
 from mudline.syntax.tree import RawBlock

@@ -14,6 +14,7 @@ from mudline.codes.fields import SYN016
 from mudline.codes.lines import SYN001, SYN004
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import EvaluatedDeck, folded
+from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import MORE, Blocks, Code, Problem, Severity, Where
 from mudline.keywords import catalogue
 from mudline.keywords.catalogue import meant_in, suggest_keyword
@@ -30,8 +31,11 @@ from mudline.scene.deck_values import (
     opaque_set_names,
 )
 from mudline.short_repr import counted, short_repr
-from mudline.spelling import Effort, nearest
+from mudline.spelling import Effort, edits, equally_near, nearest
 from mudline.syntax.tree import canonical_name, mark_of
+
+MOST_NAMED = 3
+"""Names of which each may be the one that was meant."""
 
 _NUMBERED = {"NODE": "node", "ELEMENT": "element"}
 """Keywords of what has numbers."""
@@ -53,7 +57,8 @@ class Context:
     """The evaluated deck, the deck as written, and what was noticed.
 
     `unread` holds keywords of which something that defines nodes, elements, sets or curves could not be used;
-    `doubtful` the first and last number of what a GEN= with a fault may have been meant to define.
+    `doubtful` the first and last number of what a GEN= with a fault may have been meant to define. `excused` holds, by
+    the place of a number of a node or an element that could not be read, those that it may be and that nothing defines.
     """
 
     deck: EvaluatedDeck
@@ -61,6 +66,8 @@ class Context:
     problems: list[Problem] = field(default_factory=list)
     unread: set[str] = field(default_factory=set)
     doubtful: dict[str, list[tuple[int, int]]] = field(default_factory=dict)
+    excused: dict[Where, set[int]] = field(default_factory=dict)
+    _misread: dict[str, list[tuple[Where, str]]] = field(default_factory=dict)
     _reported: dict[str, int] = field(default_factory=dict)
     _placeless: set[tuple[int, int]] = field(default_factory=set)
     _out_of_sight: dict[tuple[str, str], _Uses] = field(default_factory=dict)
@@ -102,8 +109,11 @@ class Context:
     ) -> None:
         """Note a name or number that nothing defines; nodes and elements out of sight are noted together at the end.
 
-        `lacks` is what is missing, None where it is not one thing.
+        `lacks` is what is missing, None where it is not one thing. A number that one edit of another one gives, which
+        could not be read, is not missing.
         """
+        if isinstance(lacks, int) and self._is_excused(keyword, lacks):
+            return
         if keyword in _NUMBERED and (definer := self._definer(keyword)):
             use = self._out_of_sight.setdefault(
                 (definer, keyword), _Uses(code, lacks if isinstance(lacks, int) else None, where)
@@ -112,6 +122,23 @@ class Context:
             use.blocks = blocks or use.blocks
         elif self._reported.get(code.code, 0) <= MOST_REPORTED:
             self.note(replace(self.missing(code, message, where, keyword, lacks), blocks=blocks))
+
+    def misread(self, keyword: str, where: Where) -> None:
+        """Note the place of a number of a node or an element that could not be read."""
+        origin = self.deck.origin if where.section < len(self.deck.own_sections) else None
+        span = origin.span(where) if isinstance(origin, TextOrigin) else None
+        written = origin.source.unified[slice(*span)] if isinstance(origin, TextOrigin) and span else ""
+        if not written or written.startswith("=") or "," in written:
+            self.unread.add(keyword)
+        else:
+            self._misread.setdefault(keyword, []).append((where, written))
+
+    def _is_excused(self, keyword: str, number: int) -> bool:
+        """Whether a number that is not defined may be one that could not be read."""
+        found = [where for where, written in self._misread.get(keyword, ()) if edits(written, str(number), 1) <= 1]
+        for where in found:
+            self.excused.setdefault(where, set()).add(number)
+        return bool(found)
 
     def report_out_of_sight(self) -> None:
         """Note once for each keyword whose lines are not read how often the deck uses what it may define."""
@@ -153,7 +180,7 @@ class Context:
             return words
         if self.restart:
             return "the deck that *RESTART continues may define it"
-        if keyword in self.unread:
+        if keyword in self.unread or (number is None and keyword in self._misread):
             return f"a line of *{keyword} that could not be used may define it"
         if any(number is None or low <= number <= high for low, high in self.doubtful.get(keyword, ())):
             return f"a GEN= of *{keyword} that could not be used may define it"
@@ -177,9 +204,12 @@ class Context:
         return list(self._misplaced)
 
     def hint(self, word: str, names: Mapping[str, str]) -> str:
-        """` (did you mean X?)` for the name spelt nearly as `word`, or nothing; the keys of `names` are folded."""
-        near = self.near(word, names)
-        return hint(names[near]) if near else ""
+        """` (did you mean X?)` for the name spelt nearly as `word`, or nothing; the keys of `names` are folded.
+
+        Names that are equally near are all among them.
+        """
+        near = equally_near(folded(word), names, self._effort)
+        return hint(" or ".join(names[each] for each in near[:MOST_NAMED]))
 
     def near(self, word: str, known: Collection[str]) -> str:
         """The name among `known`, all of them folded, that is spelt nearly as `word`, or ""."""

@@ -107,7 +107,8 @@ def external_definers(deck: Deck) -> list[str]:
 
 def is_read_definer(keyword: str) -> bool:
     """Whether a keyword is read, and the lines that it is about make things which the deck does not show."""
-    return bool(catalogue.facts_of(keyword).makes)
+    facts = catalogue.facts_of(keyword)
+    return bool(facts.makes) and not facts.out_of_sight
 
 
 def definition_by(definer: str, keyword: str) -> str:
@@ -116,7 +117,8 @@ def definition_by(definer: str, keyword: str) -> str:
         return ""
     if is_read_definer(definer):
         return f"the lines of *{definer}, which this deck does not show, may define it"
-    return f"*{definer}, which is not read, may define it"
+    why = "whose nodes have no coordinates here" if catalogue.facts_of(definer).out_of_sight else "which is not read"
+    return f"*{definer}, {why}, may define it"
 
 
 def makes_labels(definer: str) -> bool:

@@ -80,19 +80,20 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
 def _add_nodes(context: Context, gathered: Definitions, entry: NodeRows, where: Where) -> None:
     table = entry.nodes
     values = side_by_side(table.column(1), table.column(2), table.column(3, default=0.0))
-    if not _add_rows(gathered, table.column(0), values, where, "nodes"):
-        context.unread.add("NODE")
+    for row in _add_rows(gathered, table.column(0), values, where, "nodes"):
+        context.misread("NODE", where.inside("nodes", row, 0))
 
 
-def _add_rows(gathered: Definitions, numbers: Floats, values: Floats, where: Where, table: str) -> bool:
-    """Add the rows of a table that have a number; whether all of them do."""
+def _add_rows(gathered: Definitions, numbers: Floats, values: Floats, where: Where, table: str) -> list[int]:
+    """Add the rows of a table that have a number; returns the others."""
     ids, known = whole_numbers(numbers)
     if np.count_nonzero(known) == len(known):
         gathered.add(Batch(ids, values, where, table))
-        return True
+        return []
     rows = np.flatnonzero(known)
     gathered.add(Batch(ids[rows], values[rows], where, table, rows))
-    return False
+    unknown: list[int] = np.flatnonzero(~known)[: MOST_REPORTED + 1].tolist()
+    return unknown
 
 
 def _node_line(context: Context, gathered: Definitions, given: NodeRange, where: Where) -> _NodeLine | None:
@@ -181,8 +182,8 @@ def _add_elements(context: Context, gathered: Definitions, entry: ElementRows, w
     table = entry.elements
     _check_labels(context, table, where)
     ends = side_by_side(table.column(1), table.column(2))
-    if not _add_rows(gathered, table.column(0), ends, where, "elements"):
-        context.unread.add("ELEMENT")
+    for row in _add_rows(gathered, table.column(0), ends, where, "elements"):
+        context.misread("ELEMENT", where.inside("elements", row, 0))
 
 
 def _check_labels(context: Context, table: Table, where: Where) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator, Sequence
 from functools import cache
 from itertools import chain
@@ -26,6 +25,7 @@ from mudline.scene.deck_values import bare, makes_labels
 from mudline.scene.laws import LawTable
 from mudline.scene.numbering import Numbered
 from mudline.scene.sets import Sets
+from mudline.spelling import same_marks
 
 if TYPE_CHECKING:
     from mudline.keywords.library.boundary import Boundary, FixedRange, FixedValues
@@ -36,8 +36,6 @@ if TYPE_CHECKING:
     from mudline.keywords.library.p_y import LateralSoil
 
 _FREEDOMS = 6
-_MARKS = re.compile(r"[0-9]+|\b\w{1,2}\b")
-"""Numbers and words of one or two letters: they distinguish things of a kind."""
 
 
 def check_references(context: Context, sets: Sets, laws: LawTable, *, with_soil: bool) -> None:
@@ -164,7 +162,11 @@ def check_boundaries(context: Context, nodes: Numbered) -> None:
             for j, entry in enumerate(held.entries):
                 place = where.inside("types", i, "entries", j)
                 if hasattr(entry, "generate"):
-                    _check_range(context, nodes, cast("FixedRange", entry), place.inside("generate"))
+                    span = cast("FixedRange", entry)
+                    _check_range(context, nodes, span, place.inside("generate"))
+                    ends = (getattr(span.generate, "start", None), getattr(span.generate, "end", None))
+                    labels = enumerate(ends)
+                    named += [(end, place.inside("generate", at)) for at, end in labels if isinstance(end, Label)]
                 else:
                     named.append((entry.node, place.inside("node")))
                     _check_freedom(context, entry.dof, place.inside("dof"))
@@ -250,15 +252,10 @@ def check_label(context: Context, code: Code, label: str, where: Where) -> None:
     if not context.external_definers or folded(name) in context.labels:
         return
     near = context.near(name, context.labels)
-    if near and _is_slip(folded(name), near) and not context.is_guessed_label(where):
+    if near and same_marks(name, near) and not context.is_guessed_label(where):
         makers = " or ".join(f"*{keyword}" for keyword in context.external_definers if makes_labels(keyword))
         message = f"label {shown(label)} is not in {makers} (did you mean {{{context.labels[near]}}}?)"
         context.report(code, f"{message}: correct it", where, Severity.WARNING)
-
-
-def _is_slip(name: str, near: str) -> bool:
-    """Whether one of two names that are spelt nearly alike is a typing error: {End 2} is none of {End 1}."""
-    return _MARKS.findall(name) == _MARKS.findall(near)
 
 
 def _check_name(context: Context, what: tuple[str, str, str], name: str, where: Where, known: dict[str, str]) -> None:

@@ -135,6 +135,14 @@ class ResolvedDeck:
         return self.set_table.context
 
     @property
+    def lacks(self) -> bool:
+        """Whether the deck uses something that it does not define, or gives a curve two forces at one ratio."""
+        curves = {folded(one.name) for one in self.laws.curves if not one.embedment}
+        clashing = any(one.curve is not None and not one.whole for one in self.laws.curves)
+        missing = any(one.lacks for one in self.noticed) or not self.laws.referenced <= curves
+        return missing or clashing or bool(self.context.excused)
+
+    @property
     def source(self) -> str:
         """The deck: the file that it was made from, or its own."""
         return str(self.deck.source or self.deck.file)

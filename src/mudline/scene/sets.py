@@ -77,8 +77,7 @@ class Sets:
     def check(self, name: str, where: Where) -> None:
         """Report a name at a place that is the name of no set."""
         if self.find(name) is None:
-            near = self.context.near(name, self.named)
-            hint = f" (did you mean {self.named[near].name}?)" if near else ""
+            hint = self.context.hint(name, {key: found.name for key, found in self.named.items()})
             advice = advice_on(name) or "define it in *ELEMENT SETS"
             message = f"set {shown(name)} is not defined{hint}: {advice}"
             self.context.report_missing(REF001, message, where, "ELEMENT SETS", name)
@@ -196,7 +195,7 @@ class _Reader:
                     hint = self.context.hint(name, self._names)
                     message = f"SUBSET= names no set: {shown(name)} is not defined{hint}; define it"
                     place = where.inside("members", index, "subset")
-                    self.context.report_missing(REF008, message, place, "ELEMENT SETS")
+                    self.context.report_missing(REF008, message, place, "ELEMENT SETS", name)
 
     @cached_property
     def _names(self) -> dict[str, str]:

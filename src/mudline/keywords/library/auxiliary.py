@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, ListRow, Record, about, setting
-from mudline.keywords.values import Facts, Name, Successor, Whole
+from mudline.keywords.values import Name, Whole
 
 
 class AuxiliaryRange(ListRow):
@@ -43,7 +43,6 @@ class Auxiliary(Block):
 
     rule = "auxiliary"
     page = "kwd_model_auxiliary"
-    facts = Facts(superseded_by=(Successor("VESSEL,INTEGRATED", "PROFILE"), Successor("BODY,INTEGRATED")))
     summary = "Auxiliary elements that are drawn as bodies, and what they move with."
     example = "*AUXILIARY\n BODY=FPSO\n 1, 2, 3\n GEN=10, 20, 2\n"
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, Record, Row, about, setting
-from mudline.keywords.values import Facts, Ident, Name, Names, Real
+from mudline.keywords.values import Ident, Name, Names, Real
 from mudline.keywords.vessels import Dimensions
 
 
@@ -36,7 +36,6 @@ class DrawnBodies(Block):
 
     rule = "body_integrated"
     page = "kwd_model_bodyintegrated"
-    facts = Facts(supersedes=True)
     summary = "Bodies that are drawn: where they are, their shapes, and the nodes that they move with."
     example = "*BODY,INTEGRATED\n BODY=Manifold\n LOCATION=0.0, 10.0, 0.0\n NODE=1\n PROFILE=PLET\n"
 

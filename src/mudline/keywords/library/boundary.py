@@ -10,7 +10,7 @@ from pydantic import BeforeValidator, Field
 from mudline.keywords.keeping import OpenRecord
 from mudline.keywords.model import Block, ListRow, Record, about, setting
 from mudline.keywords.table import LARGEST_WHOLE
-from mudline.keywords.values import Count, Equation, Finite, Ident, Kind, Names, Other, Real, Whole
+from mudline.keywords.values import Count, Equation, Finite, Ident, Kind, Names, Other, Real, Whole, WholeOrLabel
 
 _DOF = "degree of freedom: 1 vertical, 2 and 3 horizontal, 4 to 6 rotations"
 _VALUE = "displacement that is imposed: a length, of a rotation degrees"
@@ -46,8 +46,8 @@ class FixedNode(Record):
 class FixedValues(ListRow):
     """First and last node, then the step between them if it is given, the degree of freedom, the displacement."""
 
-    start: Annotated[Ident, about("first node, or its label", names=Names.NODE)]
-    end: Annotated[Ident, about("last node, or its label", names=Names.NODE)]
+    start: Annotated[WholeOrLabel, about("first node, or its label", names=Names.NODE)]
+    end: Annotated[WholeOrLabel, about("last node, or its label", names=Names.NODE)]
     third: Annotated[
         Whole | None, about("of three values the degree of freedom, of five the increment", inferred=_FOUR)
     ] = None

@@ -1,18 +1,36 @@
-"""`*CABLE`: cables along which `*NODE,CURVILINEAR` places nodes.
-
-Its format is not public: the lines are kept, the names in them are used.
-"""
+"""`*CABLE`: cables along which `*NODE,CURVILINEAR` places nodes (superseded, still legal)."""
 
 from __future__ import annotations
 
-from mudline.keywords.values import LINE_SETS, OpaqueKeyword
+from typing import Annotated, Literal
 
-OPAQUE = OpaqueKeyword(
-    keyword="CABLE",
-    summary="Cables along which *NODE,CURVILINEAR places nodes (superseded by *LINES).",
-    example="*CABLE\n 1, 41, 565.6\n",
-    certain="Nodes can be given by their distance along a cable; *LINES supersedes it, and it is still legal.",
-    inferred="It may define nodes, elements and element sets, these by LINE=, NAME=, SECTION= and ADDITIONAL=.",
-    name_settings=LINE_SETS,
-    makes=("NODE", "ELEMENT", "ELEMENT SETS"),
-)
+from mudline.keywords.keeping import OpenBlock, OpenRecord
+from mudline.keywords.model import about
+from mudline.keywords.values import Ident, Names, Real, Whole
+
+_LINE = "one line with these four data in this order, as the page names the data and not the line; others are kept"
+
+
+class CableLine(OpenRecord):
+    """A cable."""
+
+    rule = "cable_line"
+    cable: Annotated[Whole, about("number of the cable", defines=Names.CABLE, inferred=_LINE)]
+    start: Annotated[Ident, about("node where it starts", names=Names.NODE)]
+    end: Annotated[Ident, about("node where it ends", names=Names.NODE)]
+    length: Annotated[Real, about("length", unit="L", above=0)]
+
+
+class Cables(OpenBlock):
+    """Cables."""
+
+    rule = "cable"
+    page = "theory_geomety_cables_data"
+    summary = "Cables between two nodes, along which *NODE,CURVILINEAR places others (older than *LINES)."
+    example = "*CABLE\n 1, 1, 41, 565.6\n"
+
+    keyword: Literal["CABLE"] = "CABLE"
+    cables: list[CableLine] = []
+
+
+BLOCK = Cables

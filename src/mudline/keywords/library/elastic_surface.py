@@ -39,7 +39,7 @@ class ElasticSurface(Surface):
 
     rule = "elastic_surface"
     subject = "seabed"
-    facts = Facts(superseded_by=SURFACE_SUCCESSORS, seabed_type="ELASTIC")
+    facts = Facts(superseded_by=SURFACE_SUCCESSORS, seabed_type="ELASTIC", beside=("EMBEDMENT",))
     page = "kwd_model_elasticsurface"
     summary = "Elastic seabed: stiffness, friction, slope or profile (superseded by *SEABED PROPERTIES)."
     example = "*ELASTIC SURFACE\n 50000.0, 0.3, 0.5\n"

@@ -51,7 +51,7 @@ class Elements(Block):
     """Elements."""
 
     rule = "element"
-    facts = Facts(defines="elements")
+    facts = Facts(defines="elements", beside=("NODE",))
     page = "kwd_model_element"
     summary = "Elements by number and their two nodes."
     tabular = True

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, Row, about, rows
 from mudline.keywords.table import Table
-from mudline.keywords.values import Facts, Successor, Whole
+from mudline.keywords.values import Whole
 
 _FORM = "the line: a number and 2 nodes; the manual page was not seen"
 
@@ -23,7 +23,6 @@ class AuxiliaryElements(Block):
     """Auxiliary elements."""
 
     rule = "element_auxiliary"
-    facts = Facts(superseded_by=(Successor("BODY,INTEGRATED"),))
     summary = "Elements of auxiliary bodies, each between 2 auxiliary nodes."
     tabular = True
     example = "*ELEMENT,AUXILIARY\n 1, 1001, 1002\n"

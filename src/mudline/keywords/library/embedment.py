@@ -34,6 +34,7 @@ class Embedment(Block):
             Successor("SEABED PROPERTIES", "STIFFNESS"),
         ),
         defines="curves",
+        beside=("ELASTIC SURFACE",),
         computed_in="normal-laws",
     )
     page = "kwd_model_embedment"

@@ -33,7 +33,8 @@ class ConstantCoefficients(Row):
         about("tangential added mass coefficient", unit="-", default="0", at_least=0, inferred=_ORDER),
     ] = None
     drag_lift: Annotated[
-        RealOrName | None, about("drag lift coefficient, or a curve of *DRAG LIFT", unit="-", default="none")
+        RealOrName | None,
+        about("drag lift coefficient, or a curve of *DRAG LIFT", unit="-", default="none", names=Names.DRAG_LIFT),
     ] = None
 
 
@@ -57,6 +58,7 @@ class HydrodynamicSets(OpenBlock):
     rule = "hydrodynamic_sets"
     page = "theory_hydrodynamic_constant"
     facts = Facts(later_wins=True)
+    known_forms = True
     summary = "Drag, inertia and added mass coefficients by element set."
     example = "*HYDRODYNAMIC SETS\n DIAMETER=DRAG\n SET=ALL, TYPE=CONSTANT\n 1.0, 0.0, 2.0, 1.0, 0.0\n"
 

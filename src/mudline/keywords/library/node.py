@@ -44,7 +44,7 @@ class Nodes(Block):
     """Nodes."""
 
     rule = "node"
-    facts = Facts(defines="nodes")
+    facts = Facts(defines="nodes", beside=("ELEMENT",))
     page = "kwd_model_node"
     summary = "Nodes by number and coordinates; X is vertical."
     tabular = True

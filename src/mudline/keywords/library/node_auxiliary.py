@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, Row, about, rows
 from mudline.keywords.table import Table
-from mudline.keywords.values import Facts, Real, Successor, Whole
+from mudline.keywords.values import Real, Whole
 
 
 class AuxiliaryNode(Row):
@@ -23,7 +23,6 @@ class AuxiliaryNodes(Block):
 
     rule = "node_auxiliary"
     page = "kwd_model_nodeauxiliary"
-    facts = Facts(superseded_by=(Successor("BODY,INTEGRATED"),))
     summary = "Nodes of auxiliary bodies, which are drawn and have no stiffness."
     tabular = True
     example = "*NODE,AUXILIARY\n 1001, 1000.0, 900.0\n 1002, 1020.0, 900.0, 5.0\n"

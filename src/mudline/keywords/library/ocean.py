@@ -5,13 +5,14 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, about
-from mudline.keywords.values import Real
+from mudline.keywords.values import Facts, Real
 
 
 class Ocean(Block):
     """The sea."""
 
     rule = "ocean"
+    facts = Facts(tells_units=True)
     page = "kwd_model_ocean"
     summary = "Water depth, density of sea water, gravity."
     example = "*OCEAN\n 500.0, 1025.0, 9.81\n"

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, Row, about, rows
 from mudline.keywords.table import Table
-from mudline.keywords.values import Facts, Successor, Whole
+from mudline.keywords.values import Whole
 
 _FORM = "the line: a number and 3 nodes; the manual page was not seen"
 
@@ -24,7 +24,6 @@ class AuxiliaryPanels(Block):
     """Auxiliary panels."""
 
     rule = "panel_auxiliary"
-    facts = Facts(superseded_by=(Successor("BODY,INTEGRATED"),))
     summary = "Panels of auxiliary bodies, each between 3 auxiliary nodes."
     tabular = True
     example = "*PANEL,AUXILIARY\n 1, 1001, 1002, 1003\n"

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Facts, Name, Names, Real, Successor
+from mudline.keywords.values import Name, Names, Real
 from mudline.keywords.vessels import Vessel
 
 
@@ -74,7 +74,7 @@ class VesselRao(Record):
     ] = None
     file: Annotated[Name | None, setting("FILE", "file with the operators, instead of lines", names=Names.FILE)] = None
     headings: list[HeadingRao] = []
-    lines: Annotated[Table | None, rows(RaoLine, "of LINE: operators", unordered=True)] = None
+    lines: Annotated[Table | None, rows(RaoLine, "of LINE: operators, in any order")] = None
 
 
 class Raos(Block):
@@ -84,8 +84,7 @@ class Raos(Block):
     sections = ("LOAD CASE",)
     subject = "vessels"
     page = "kwd_loadcase_rao"
-    facts = Facts(superseded_by=(Successor("VESSEL,INTEGRATED", "RAO"),))
-    summary = "Response amplitude operators of vessels, from a file or from lines in one of two layouts."
+    summary = "Response amplitude operators of vessels, by file or lines (older than *VESSEL,INTEGRATED)."
     example = (
         "*RAO\n VESSEL=FPSO\n HEADING=0.0\n 0.1\n 0.9, 0.4, 0.0, 0.0, 0.0, 1.1\n 10.0, 90.0, 0.0, 0.0, 0.0, -80.0\n"
     )

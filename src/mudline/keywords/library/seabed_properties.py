@@ -84,7 +84,13 @@ class SeabedProperties(Block):
 
     rule = "seabed_properties"
     subject = "seabed"
-    facts = Facts(supersedes=True, later_wins=True, carried=("type_",), computed_in="normal-laws")
+    facts = Facts(
+        supersedes=True,
+        later_wins=True,
+        carried=("type_",),
+        computed_in="normal-laws",
+        telling=("TYPE=ELASTIC", "TYPE=RIGID"),
+    )
     page = "kwd_model_seabedproperties"
     summary = "Rigid or elastic seabed; stiffness, friction, lateral resistance and suction by element set."
     example = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=50000.0\n FRICTION=0.3, 0.5, 0.03, 0.05\n"

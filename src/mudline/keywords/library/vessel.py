@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, Record, setting
-from mudline.keywords.values import Facts, Name, Names, Successor
+from mudline.keywords.values import Name, Names
 from mudline.keywords.vessels import Position
 
 
@@ -23,8 +23,7 @@ class Vessels(Block):
     rule = "vessel"
     subject = "vessels"
     page = "kwd_model_vessel"
-    facts = Facts(superseded_by=(Successor("VESSEL,INTEGRATED"),))
-    summary = "Vessels: where their reference points are at first, and their headings."
+    summary = "Vessels: initial positions of their reference points, and headings (older than *VESSEL,INTEGRATED)."
     example = "*VESSEL\n VESSEL=FPSO\n INITIAL POSITION=1005.0, 0.0, 0.0, 90.0\n"
 
     keyword: Literal["VESSEL"] = "VESSEL"

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.keywords.keeping import OpenBlock, OpenRecord
 from mudline.keywords.model import setting
-from mudline.keywords.values import Facts, Name, Names
+from mudline.keywords.values import Name, Names
 from mudline.keywords.vessels import Dimensions, LocalDistance, Position
 
 _MORE = "more lines follow, of which the manual page was not seen: they are kept as they are"
@@ -41,7 +41,7 @@ class IntegratedVessels(OpenBlock):
     rule = "vessel_integrated"
     subject = "vessels"
     page = "kwd_model_vesselintegrated"
-    facts = Facts(supersedes=True)
+    known_forms = True
     summary = "Vessels: initial positions, response amplitude operators, and the shapes that are drawn."
     example = (
         "*VESSEL,INTEGRATED\n VESSEL=FPSO\n INITIAL POSITION=1005.0, 0.0, 0.0, 90.0\n"

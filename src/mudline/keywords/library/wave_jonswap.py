@@ -96,6 +96,7 @@ class JonswapSeas(OpenBlock):
     sections = ("LOAD CASE",)
     subject = "waves"
     page = "kwd_loadcase_wavejonswap"
+    known_forms = True
     summary = "Random seas with a Jonswap spectrum, by its parameters or by wave height and period."
     example = "*WAVE-JONSWAP\n FREQUENCY=AREA, SPEC=HSTP\n 4.5, 11.0, 0.01, 0.35, 80, 1, 180.0\n"
 

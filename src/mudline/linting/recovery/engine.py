@@ -1,4 +1,4 @@
-"""The deck as it was meant, for findings alone: faults of reading are recovered from, and all checks see the outcome.
+"""The deck as it was meant, for findings alone: faults are recovered from, and all checks see the outcome.
 
 A fault of reading has corrections; one is taken if the block around it then reads better, which reading the lines of
 that block tells. The deck with all of them is read, resolved and checked in the place of the one as written, once, and
@@ -8,7 +8,7 @@ what is found in it is reported at the lines that it has in the file.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain
 
@@ -18,19 +18,15 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Code, Problem, Severity, Span
 from mudline.keywords.reader import BlockReader
-from mudline.linting.corrections import (
-    Blocks,
-    Correction,
-    copies,
-    line_at,
-    missing_sections,
-    misspelt,
-    stray_laws,
-)
-from mudline.linting.line_corrections import line_corrections
+from mudline.linting.recovery import copies, lines, names, sections, undefined, values
+from mudline.linting.recovery.blocks import RECOVERIES, Blocks, Correction, line_at
+from mudline.linting.rule import LintContext
 from mudline.linting.rules.keyword_families import LEG001
 from mudline.syntax.edits import OverlapError, TextEdit, apply_edits, edited_bytes, with_line_ends
 from mudline.syntax.source import Source
+
+SUBJECTS = (names, sections, lines, values, copies)
+"""The modules of correctors, which register them."""
 
 MOST_ROUNDS = 4
 """Times that the corrected lines are looked through for faults that the ones before them hid."""
@@ -47,57 +43,89 @@ _OF_SECTIONS = (SYN007, SYN010)
 """Faults whose correction says where blocks belong, and not how they read."""
 
 
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """How a deck is read and what is reported of it.
+
+    `again` reads a text, and `block` a block of it; `told` gives those of some problems, with their places in the file,
+    that a user sees: others are not recovered from, as nobody would learn why.
+    """
+
+    again: Callable[[bytes], Deck]
+    block: BlockReader
+    told: Callable[[Sequence[Problem]], Sequence[Problem]]
+
+
 @dataclass
 class Recovered:
     """A deck with its faults corrected, and the finding of each in terms of the file; `steps` lead back to that."""
 
-    deck: Deck
+    context: LintContext
     causes: list[Problem] = field(default_factory=list)
     steps: list[tuple[TextOrigin, list[TextEdit]]] = field(default_factory=list)
 
-    def as_written(self, problem: Problem) -> Problem:
-        """A problem of the recovered deck at its place in the file; a repair that a correction touches is left out."""
+    @property
+    def deck(self) -> Deck:
+        """The deck."""
+        return self.context.deck
+
+    def take(self, corrections: Sequence[Correction], again: Callable[[bytes], Deck]) -> bool:
+        """Read the deck with some corrections; whether these could be made."""
+        text = self.context.text
+        if text is None or not corrections:
+            return False
+        edits = with_line_ends(text.source, chain.from_iterable(one.edits for one in corrections))
+        try:
+            deck = again(edited_bytes(text.source, edits))
+        except (OverlapError, UnicodeEncodeError):  # of a character that the encoding lacks
+            return False
+        self.causes += self.as_written(map(_cause, corrections))
+        self.steps.append((text, edits))
+        self.context = LintContext(deck, dialect=self.context.dialect)
+        return True
+
+    def as_written(self, problems: Iterable[Problem]) -> Iterator[Problem]:
+        """Problems of the recovered deck at their places in the file, without those of what corrections put in.
+
+        A repair that a correction touches is left out.
+        """
         origin = self.deck.origin
-        span = problem.span
-        if span is None and problem.where is not None and isinstance(origin, TextOrigin):
-            span = origin.span(problem.where)
-        # A deck is migrated as it is written, or not at all.
-        repair = None if problem.code is LEG001 else problem.repair
-        for _, edits in reversed(self.steps):
-            span = span and _before(span, edits)
-            if repair is not None and any(_touches(place, edits) for place, _ in repair.edits):
-                repair = None
-            if repair is not None:
-                repair = replace(repair, edits=tuple((_before(place, edits), text) for place, text in repair.edits))
-        return replace(problem, span=span, where=problem.where if span else None, repair=repair)
+        for problem in problems:
+            span = problem.span
+            if span is None and problem.where is not None and isinstance(origin, TextOrigin):
+                span = origin.span(problem.where)
+            # A deck is migrated as it is written, or not at all.
+            repair = None if problem.code is LEG001 else problem.repair
+            for _, edits in reversed(self.steps):
+                if span is not None and _is_put_in(span, edits):
+                    break
+                span = span and _before(span, edits)
+                if repair is not None and any(_touches(place, edits) for place, _ in repair.edits):
+                    repair = None
+                if repair is not None:
+                    repair = replace(repair, edits=tuple((_before(place, edits), text) for place, text in repair.edits))
+            else:
+                yield replace(problem, span=span, where=problem.where if span else None, repair=repair)
 
 
-def recovered(
-    deck: Deck, reported: Sequence[Problem], codes: Collection[str], reread: Callable[[bytes], Deck], read: BlockReader
-) -> Recovered | None:
+def recovered(context: LintContext, codes: Collection[str], reading: Reading) -> Recovered | None:
     """Return the deck as it was meant; None for one that was meant as it is written.
 
-    `reported` are the faults of reading that the user sees: others are not recovered from, as nobody would learn why.
-    `codes` are those of findings that are wanted at all, `reread` reads a text, and `read` a block of it.
+    `codes` are those of findings that are wanted at all.
     """
-    found = Recovered(deck)
+    found = Recovered(context)
+    reported = reading.told([one for one in context.deck.problems if one.code.code in codes])
     trials = MOST_TRIALS
-    while len(found.steps) < MOST_ROUNDS and isinstance(text := found.deck.origin, TextOrigin):
-        blocks = Blocks(found.deck, text)
-        round_ = _Round(blocks, read, codes, trials)
-        taken = round_.taken(reported)
-        trials = round_.trials
-        edits = with_line_ends(text.source, chain.from_iterable(one.edits for one in taken))
-        try:
-            next_deck = reread(edited_bytes(text.source, edits)) if edits else None
-        except (OverlapError, UnicodeEncodeError):  # of a character that the encoding lacks
-            next_deck = None
-        if next_deck is None:
+    while len(found.steps) < MOST_ROUNDS and (text := found.context.text) is not None:
+        round_ = _Round(Blocks(found.deck, text), reading.block, codes, trials)
+        if not found.take(round_.taken(reported), reading.again):
             break
-        found.causes += [found.as_written(_cause(one)) for one in taken]
-        found.steps.append((text, edits))
-        found.deck = next_deck
-        reported = [one for one in next_deck.problems if one.code.code in codes]
+        trials = round_.trials
+        reported = [one for one in found.deck.problems if one.code.code in codes]
+    if found.context.scene.lacks:
+        late = undefined.corrections(found.context)
+        told = [one for one in late if one.cause.code.code in codes and reading.told([*found.as_written([one.cause])])]
+        found.take(told, reading.again)
     return found if found.steps else None
 
 
@@ -119,16 +147,8 @@ class _Round:
 
     def taken(self, problems: Sequence[Problem]) -> list[Correction]:
         """The first one of each fault that makes its block better."""
-        blocks = self.blocks
-        made = chain(
-            misspelt(blocks, problems),
-            missing_sections(blocks, problems),
-            line_corrections(blocks, problems),
-            copies(blocks),
-            stray_laws(blocks),
-        )
         taken: list[Correction] = []
-        for one in sorted(made, key=lambda each: (each.edits[0].span.start, each.cause.code is SYN002)):
+        for one in sorted(self._made(problems), key=lambda each: (each.edits[0].span.start, each.cause.code is SYN002)):
             line = line_at(self.text, one.edits[0].span.start)
             unsaid = one.cause.code.code not in self.codes
             if (
@@ -140,6 +160,18 @@ class _Round:
             if self._is_better(one):
                 taken.append(one)
         return taken
+
+    def _made(self, problems: Sequence[Problem]) -> list[Correction]:
+        """What every corrector makes of the problems under its codes."""
+        made: list[Correction] = []
+        for recovery in sorted(RECOVERIES, key=lambda one: one.last):
+            asked = [one for one in problems if one.code in recovery.codes]
+            if recovery.last:
+                explained = {id(one.cause) for one in made}
+                asked = [one for one in asked if one.repair is None and id(one) not in explained]
+            if asked or recovery.always:
+                made += recovery.corrector(self.blocks, asked)
+        return made
 
     def _is_better(self, correction: Correction) -> bool:
         """Whether the blocks around a correction have fewer faults with it, and its own is gone."""
@@ -182,15 +214,28 @@ def _meet(one: Span, other: Span) -> bool:
     return one.start < other.end and other.start < one.end
 
 
-def _touches(place: Span, edits: Sequence[TextEdit]) -> bool:
-    """Whether an edit of the recovered text is in one of its corrections."""
+def _put_in(edits: Sequence[TextEdit]) -> Iterator[Span]:
+    """What the edits of a text put in, by its places in the edited text."""
     grown = 0
     for edit in sorted(edits, key=lambda each: each.span):
         start = edit.span.start + grown
-        if place.start < start + len(edit.text) and start < max(place.end, place.start + 1):
-            return True
+        yield Span(start, start + len(edit.text))
         grown += len(edit.text) - (edit.span.end - edit.span.start)
-    return False
+
+
+def _touches(place: Span, edits: Sequence[TextEdit]) -> bool:
+    """Whether an edit of the recovered text is in one of its corrections."""
+    return any(place.start < end and start < max(place.end, place.start + 1) for start, end in _put_in(edits))
+
+
+def _is_put_in(place: Span, edits: Sequence[TextEdit]) -> bool:
+    """Whether something stands in whole lines that a correction put in."""
+    new = (
+        span
+        for edit, span in zip(sorted(edits, key=lambda one: one.span), _put_in(edits), strict=True)
+        if edit.text.endswith("\n") and edit.span.start == edit.span.end
+    )
+    return any(start <= place.start < place.end < end for start, end in new)
 
 
 def _before(span: Span, edits: Sequence[TextEdit]) -> Span:

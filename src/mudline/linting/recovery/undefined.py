@@ -1,0 +1,114 @@
+"""Names and numbers that the resolved deck uses and nothing defines: those that were meant, where that can be told."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from mudline.codes.lines import SYN001
+from mudline.codes.references import REF001, REF008
+from mudline.deck.parameters import folded
+from mudline.deck.reading import TextOrigin
+from mudline.diagnostics import Problem, Repair, Severity, Span, Where
+from mudline.keywords.model import Part, names_given
+from mudline.keywords.values import Names
+from mudline.linting.recovery.blocks import Correction, also_in, line_at, start_of
+from mudline.linting.rule import LintContext
+from mudline.scene.checks.laws import undefined_curve
+from mudline.scene.force_curves import SceneCurve
+from mudline.scene.references import given_names
+from mudline.scene.sets import ALL, set_key
+from mudline.spelling import meant_names
+from mudline.syntax.edits import TextEdit
+
+
+def corrections(context: LintContext) -> Iterator[Correction]:
+    """The corrections of a deck, of which no trial is needed."""
+    text, scene = context.text, context.scene
+    if text is None:
+        return
+    sets = {key: one.name for key, one in scene.set_table.named.items() if key != ALL}
+    curves = {folded(one.name): one.name for one in scene.laws.curves if one.named and not one.embedment}
+    lacking = [one for one in scene.noticed if one.lacks and one.code in (REF001, REF008)]
+    nameless = [*undefined_curve(scene)]
+    yield from _names(context, text, lacking, sets, (Names.SET, Names.SUBSET))
+    yield from _names(context, text, nameless, curves, (Names.CURVE,))
+    yield from _numbers(context, text)
+    yield from _rows_without_name(context, text, [one.lacks for one in nameless if not meant_names(one.lacks, curves)])
+
+
+def _names(
+    context: LintContext, text: TextOrigin, problems: list[Problem], known: dict[str, str], kinds: tuple[Names, ...]
+) -> Iterator[Correction]:
+    """Names for which one other name alone was meant: it in all their places."""
+    alike: dict[str, list[Problem]] = {}
+    for problem in problems:
+        if problem.weight is Severity.ERROR:
+            alike.setdefault(set_key(problem.lacks), []).append(problem)
+    for key, found in alike.items():
+        near = meant_names(key, known)
+        if len(near) != 1:
+            continue
+        uses = [where for kind in kinds for _, where, name in given_names(context.deck, kind) if set_key(name) == key]
+        spans = sorted({span for where in uses if (span := text.span(where))})
+        meant = known[near[0]]
+        if not spans or any(_own_name(context, where) == near[0] for where in uses):
+            continue
+        first, *others = sorted(found, key=lambda one: start_of(text, one))
+        repair = Repair("unsafe", f"write {meant}", tuple((span, meant) for span in spans))
+        message = f"{first.message}; {also_in(text, others)}" if others else first.message
+        edits = tuple(TextEdit(span, meant) for span in spans)
+        yield Correction(replace(first, message=message, repair=repair), edits, spans[0], certain=True)
+
+
+def _own_name(context: LintContext, where: Where) -> str:
+    """The folded name of what the record around a place defines, "" where it defines nothing."""
+    record = context.scene.context.as_written(where._replace(path=where.path[:2]))
+    names = (name for _, name in names_given(record, Names.SET, "defines")) if isinstance(record, Part) else ()
+    return set_key(next(iter(names), ""))
+
+
+def _numbers(context: LintContext, text: TextOrigin) -> Iterator[Correction]:
+    """Numbers of nodes and elements that cannot be read, and may be one alone of those that are not defined."""
+    for where, given in context.scene.context.excused.items():
+        span = text.span(where)
+        cause = next((one for one in context.deck.problems if span and one.span == span), None)
+        if span is not None and cause is not None and len(given) == 1:
+            number = str(min(given))
+            repair = Repair("unsafe", f"write {number}", ((span, number),))
+            message = f"{cause.message} (did you mean {number}?)"
+            yield Correction(replace(cause, message=message, repair=repair), (TextEdit(span, number),), span)
+
+
+def _rows_without_name(context: LintContext, text: TextOrigin, curves: list[str]) -> Iterator[Correction]:
+    """Points that begin again: the line with a curve that nothing defines, or with a set that nothing uses."""
+    for curve in context.scene.laws.curves:
+        point = _begins_again(curve)
+        if not point or (curve.embedment and curve.whole):
+            continue
+        names = _unused_set(context) if curve.embedment else curves
+        span = text.span(curve.point(point)) if names else None
+        if span is None:
+            continue
+        line = f"{'SET' if curve.embedment else 'CURVE'}={names.pop(0)}"
+        place = Span(line_at(text, span.start).start, line_at(text, span.start).start)
+        message = f"the points begin again here: the line {line} seems to be missing above this one"
+        repair = Repair("unsafe", f"write {line}", ((place, f" {line}\n"),))
+        cause = Problem(SYN001, message, span, repair=repair)
+        yield Correction(cause, (TextEdit(place, f" {line}\n"),), span)
+
+
+def _unused_set(context: LintContext) -> list[str]:
+    """The name of the only set that nothing uses."""
+    used = {set_key(name) for kind in (Names.SET, Names.SUBSET) for _, _, name in given_names(context.deck, kind)}
+    named = context.scene.set_table.named
+    sets = [one.name for key, one in named.items() if key not in used and one.where is not None]
+    return sets if len(sets) == 1 else []
+
+
+def _begins_again(curve: SceneCurve) -> int:
+    """The point of a curve that goes back to its first ratio, where both parts rise; 0 for other curves."""
+    ratios = curve.points[:, 0].tolist()
+    back = [at for at in range(1, len(ratios)) if ratios[at] <= ratios[at - 1]]
+    again = len(back) == 1 and ratios[back[0]] == ratios[0] and min(back[0], len(ratios) - back[0]) > 1
+    return back[0] if again else 0

@@ -1,0 +1,68 @@
+"""Numbers and rows with a typing error."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+
+from mudline.codes.fields import SYN002, SYN003
+from mudline.codes.lines import SYN001
+from mudline.diagnostics import Problem, Severity, Span
+from mudline.keywords.model import record_schema
+from mudline.keywords.reader import schemas_of
+from mudline.keywords.values import Kind
+from mudline.linting.recovery.blocks import Blocks, Correction, line_at, recovers_from
+from mudline.syntax.edits import TextEdit
+from mudline.syntax.rows import NUMBER
+
+_MISREAD = str.maketrans({"O": "0", "o": "0", "l": "1", "I": "1"})
+_GAP = re.compile(r"(?<=[0-9.])(?:[ \t]+|[ \t]*;[ \t]*)(?=[-+.0-9])")
+_UNIT = re.compile(r"[ \t]*[A-Za-z%]")
+
+
+@recovers_from(SYN002)
+def numbers(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Numbers by which other values are known, with a wrong letter: what they were to be, where that can be seen."""
+    for problem in problems:
+        span = problem.span
+        if span is None or problem.weight is not Severity.ERROR or not _is_known_by(blocks, span):
+            continue
+        written = blocks.text.source.unified[slice(*span)]
+        for other in _read_as(written):
+            yield Correction(problem, (TextEdit(span, other),), line_at(blocks.text, span.start), certain=True)
+
+
+def _is_known_by(blocks: Blocks, span: Span) -> bool:
+    """Whether other values are known by a value: it is a whole number, or says what the units are."""
+    declared = blocks.declared_at(span.start)
+    if declared is None or declared.facts.tells_units:
+        return declared is not None
+    before = blocks.text.source.unified[line_at(blocks.text, span.start).start : span.start]
+    key = before.partition("=")[0].strip().upper() if "=" in before else ""
+    index = before.rpartition("=")[2].count(",")
+    for slot in (slot for schema in schemas_of(declared) for slot in schema.slots if slot.key == key):
+        columns = record_schema(slot.row).columns if slot.row else [slot]
+        if columns[min(index, len(columns) - 1)].kind in (Kind.WHOLE, Kind.IDENT):
+            return True
+    return False
+
+
+def _read_as(written: str) -> Iterator[str]:
+    """The numbers that a word with a wrong letter may be."""
+    translated = written.translate(_MISREAD)
+    if translated != written and NUMBER.fullmatch(translated):
+        yield translated
+    if (begun := NUMBER.match(written)) and _UNIT.match(written, begun.end()):
+        yield begun[0]
+
+
+@recovers_from(SYN001, SYN003)
+def rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Rows with blanks or semicolons between their numbers: commas there."""
+    for problem in problems:
+        if problem.span is None or problem.weight is not Severity.ERROR:
+            continue
+        line = line_at(blocks.text, problem.span.start)
+        written = blocks.text.source.unified[slice(*line)]
+        if (other := _GAP.sub(", ", written)) != written:
+            yield Correction(problem, (TextEdit(line, other),), line)
