@@ -50,10 +50,6 @@ def number_and_curve(context: LintContext) -> Iterator[Problem]:
 
     Example:
          $MODEL
-         *MOMENT-CURVATURE
-          CURVE=Bend Stiffener
-          0.0, 0.0
-          8000.0, 0.2
          *GEOMETRIC SETS
           OPTION=FLEXIBLE
           SET=ALL, EI=Bend Stiffener
@@ -64,7 +60,7 @@ def number_and_curve(context: LintContext) -> Iterator[Problem]:
           0.0, 0.0
           23.5E3, 1.0
 
-    Finds: 9:2
+    Finds: 5:2
     """
     for where, entry in entries_of_sets(context.written("GEOMETRIC SETS")):
         if entry.mooring is not None:
