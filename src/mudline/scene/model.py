@@ -20,6 +20,7 @@ from mudline.scene.restart import continued
 from mudline.scene.seabed import read_seabed
 from mudline.scene.sections import read_sections
 from mudline.scene.sets import read_sets
+from mudline.scene.unread_lines import check_unread_lines
 from mudline.short_repr import counted, cut, outline
 
 if TYPE_CHECKING:
@@ -115,6 +116,7 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     seabed = read_seabed(context)
     check_lines(context)
     check_references(context, sets, laws, with_soil=external is None)
+    check_unread_lines(context, sets)
     if external is None:  # a file of elements does not define every node and set
         check_soil(context, nodes)
         check_boundaries(context, nodes)
