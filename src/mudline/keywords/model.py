@@ -34,7 +34,7 @@ from mudline.keywords.table import (
     misfit,
     read_table,
 )
-from mudline.keywords.values import Count, Equation, Facts, Kind, Label, Names, Subject, Text
+from mudline.keywords.values import Contents, Count, Equation, Facts, Kind, Label, Names, Subject, Text
 from mudline.limits import MOST_KEYS
 from mudline.short_repr import counted, with_fields
 
@@ -59,6 +59,7 @@ class FieldInfo:
     names: Names | None = None
     also: str = ""
     defines: Names | None = None
+    holds: Contents | None = None
     heading: str = ""
     opaque: tuple[str, ...] | None = None
 
