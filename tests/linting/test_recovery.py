@@ -335,7 +335,9 @@ def test_the_decks_without_a_fault_are_clean() -> None:
 
 def test_the_same_fault_in_row_after_row_is_one_finding() -> None:
     (one,) = (each for each in found(changed((CURVE, POINTS))) if each.code == "SYN003")
-    assert one.message == ("3 fields, expected 2 (`ratio, force`); and 3 more rows of this block, the last in line 24")
+    assert one.message == (
+        "3 fields, expected 2 (`ratio, force`); and 3 more rows of this block (2, 3, 4), the last in line 24"
+    )
     assert (one.line, [each.line for each in one.following]) == (21, [22, 23, 24])
 
 
@@ -428,6 +430,14 @@ MISSPELT = {
     "a curve": (LONG, "STIFFNESS=Dense Sand", "STIFFNESS=Dense Snad", ("REF002", 32)),
     "a curve where it is defined": (LONG, "CURVE=Dense Sand", "CURVE=Dense Sad", ("REF002", 32)),
     "a subset": (LONG, "10\n*GEO", "10\n SET=Line\n SUBSET=Risr\n*GEO", ("REF008", 17)),
+    "another curve": (
+        LONG.replace("*GEO", "*MOMENT-CURVATURE\n CURVE=Pipe\n 0.0, 0.0\n 5.0E4, 0.01\n*GEO").replace(
+            " 1.0E8,", " ,", 1
+        ),
+        "*GEOMETRIC SETS\n SET=ALL",
+        "*GEOMETRIC SETS\n SET=ALL, EIYY=Pipp",
+        ("REF002", 21),
+    ),
     "a set of a legacy curve": (SURFACE, " SET=Right\n 0.0", " SET=Rigth\n 0.0", ("REF001", 25)),
 }
 

@@ -125,10 +125,16 @@ FEWEST_POINTS = 2
 
 @dataclass(frozen=True, slots=True)
 class Rows(FieldInfo):
-    """A field that is a table; `row` declares its columns. The order of `unordered` rows has no meaning."""
+    """A field that is a table; `row` declares its columns. The order of `unordered` rows has no meaning.
+
+    A table that is a curve has an `abscissa`, one of its columns; the first of the others is the ordinate. `curve` says
+    what kind of curve it is, in words. It is linear between its points, its end sections go on beyond them.
+    """
 
     row: type[Row] | None = None
     unordered: bool = False
+    curve: str = ""
+    abscissa: str = ""
 
     def columns(self) -> list[Column]:
         """The columns of the table."""
@@ -200,6 +206,11 @@ def setting(key: str, meaning: str, **details: Any) -> Setting:
 def rows(row: type[Row], meaning: str, *, unordered: bool = False, inferred: str = "") -> Rows:
     """A table field."""
     return Rows(meaning, row=row, unordered=unordered, inferred=inferred)
+
+
+def curve_points(row: type[Row], meaning: str, kind: str, *, abscissa: str, inferred: str = "") -> Rows:
+    """A table field that is a curve of a kind, over one of its columns; its points may stand in any order."""
+    return Rows(meaning, row=row, unordered=True, inferred=inferred, curve=kind, abscissa=abscissa)
 
 
 class Comment(BaseModel):

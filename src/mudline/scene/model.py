@@ -11,6 +11,7 @@ from mudline.deck.parameters import evaluated
 from mudline.diagnostics import Blocks, DeckError, Problem, Severity
 from mudline.scene.checks import checked
 from mudline.scene.context import Context
+from mudline.scene.deck_curves import check_curves
 from mudline.scene.force_curves import read_curves
 from mudline.scene.laws import read_extensions, read_laws, read_resistance
 from mudline.scene.mesh import read_elements, read_nodes
@@ -114,6 +115,7 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     resistance = read_resistance(context, laws)
     extensions = read_extensions(context, sets, count)
     seabed = read_seabed(context)
+    check_curves(context)
     check_lines(context)
     check_references(context, sets, laws, with_soil=external is None)
     check_unread_lines(context, sets)

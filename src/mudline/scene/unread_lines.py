@@ -59,9 +59,9 @@ class _Looking:
         self.parameters: Parameters | None = None
         self.vessels: dict[str, str] | None = None
         self.checks: dict[str, Callable[[Where, str, str], None]] = {
-            "SET": self._set,
-            "VESSEL": self._vessel,
-            "FILE": self._file,
+            Names.SET.name: self._set,
+            Names.VESSEL.name: self._vessel,
+            Names.FILE.name: self._file,
         }
 
     def look(self, where: Where, keyword: str, line: str) -> None:
