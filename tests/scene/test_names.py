@@ -42,7 +42,8 @@ def test_curves_of_other_kinds() -> None:
     deck = CLEAN + SECTION + BEND.format("bend")
     lines = CLEAN.count("\n")
     assert found(deck) == []
-    assert found(CLEAN + SECTION + BEND.format("Bent")) == [
+    assert found(CLEAN + SECTION + BEND.format("Bent")) == [("REF002", "error", lines + 3)]  # read as the one near it
+    assert found(CLEAN + SECTION + BEND.format("Riser")) == [
         ("REF002", "error", lines + 3),
         ("REF003", "warning", lines + 6),
     ]

@@ -59,6 +59,7 @@ def number_and_curve(context: LintContext) -> Iterator[Problem]:
           CURVE=Bend Stiffener
           0.0, 0.0
           23.5E3, 1.0
+          40.0E3, 2.5
 
     Finds: 5:2
     """
@@ -167,9 +168,10 @@ def repeated_section(context: LintContext) -> Iterator[Problem]:
     )
     if not sections or hidden or any(scene.set_table.find(section.name) is None for section in sections):
         return
-    lacking = (scene.section_table.of_element < 0) & ~_without_sections(scene)
-    sets = scene.set_table.named.values() if lacking.any() else ()
-    bare_sets = [one for one in sets if one.elements.size and not one.open and lacking[one.elements].all()]
+    lacking = scene.section_table.of_element < 0
+    needing = lacking & ~_without_sections(scene)
+    sets = scene.set_table.named.values() if needing.any() else ()
+    bare_sets = [one for one in sets if not one.open and lacking[one.elements].all() and needing[one.elements].any()]
     for section in repeated if bare_sets else ():
         message = (
             f"SET={shown(section.name)} already has a section, and SET={shown(bare_sets[0].name)} has none: correct "
