@@ -117,8 +117,8 @@ class Verdict:
 
     @property
     def short(self) -> str:
-        """The verdict without what was read."""
-        return self.verdict.partition(":")[0]
+        """The verdict without what was read, in as few words as a table has place for."""
+        return self.verdict.partition(":")[0].replace("legal as far", "as far")
 
 
 @dataclass(slots=True)
@@ -154,7 +154,8 @@ class Total:
             f"{counted(self.unreadable, 'file')} unreadable" if self.unreadable else "",
         ]
         rest = ", ".join(filter(None, others))
-        return f"{self.legal} of {counted(self.decks, 'deck')} legal" + (f": {rest}" if rest else "")
+        legal = "legal" if self.keywords.whole else "legal as far as read"
+        return f"{self.legal} of {counted(self.decks, 'deck')} {legal}" + (f": {rest}" if rest else "")
 
 
 class Judged(NamedTuple):
