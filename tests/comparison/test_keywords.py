@@ -68,9 +68,12 @@ def test_the_order_of_boundary_conditions_does_not_count() -> None:
 @pytest.mark.parametrize(
     "other",
     [
-        "$LOAD CASE\n*WAVE\n 2\n$LOAD CASE\n*WAVE\n 5\n*WIND\n 1\n",
-        "$LOAD CASE\n*WIND\n 1\n*WAVE\n 2\n*WAVE\n 5\n",
-        "$LOAD CASE\n*WIND\n 1\n*WAVE\n 2\n$LOAD CASE\n*WAVE\n 5\n$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n 1, 2\n",
+        "$LOAD CASE\n*WAVE\n 2\n$LOAD CASE\n*WAVE\n 5\n*DRILLING MUD\n 1\n",
+        "$LOAD CASE\n*DRILLING MUD\n 1\n*WAVE\n 2\n*WAVE\n 5\n",
+        (
+            "$LOAD CASE\n*DRILLING MUD\n 1\n*WAVE\n 2\n$LOAD CASE\n*WAVE\n 5\n"
+            "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n 1, 2\n"
+        ),
     ],
     ids=["current in the second", "one load case", "a third one"],
 )

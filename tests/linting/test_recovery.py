@@ -364,6 +364,25 @@ def test_values_of_a_misread_row_are_not_judged() -> None:
     assert (one.code, one.line) == ("SYN003", 19)
 
 
+def test_what_can_be_said_without_an_unknown_value_is_told() -> None:
+    wrong = STEEL.replace("0.3239, 0.2889, 7850.0", "0.3239, 0.4889, 785O.0")
+    assert told(changed((SECTION, wrong))) == [("GEO001", 19), ("SYN002", 19)]
+    forces = " CURVE=Clay\n 0.0, 0.0\n 0.5, 20000.0\n 0.5, 30000.0\n 0.7, 3OOOO.0\n"
+    assert told(changed((CURVE, forces))) == [("CRV003", 23), ("SYN002", 24)]
+
+
+def test_a_setting_that_stands_twice_lacks_the_name_of_its_set() -> None:
+    one = only(DECK.replace(" SET=Right\n STIFF", " STIFF"))
+    assert (one.code, one.line) == ("SYN001", 31)
+    assert one.message.endswith("a line SET= seems to be missing above this one")
+
+
+def test_the_one_curve_that_nothing_uses_is_named_where_one_is_not_defined() -> None:
+    one = only(changed(("STIFFNESS=Clay", "STIFFNESS=Silt")))
+    assert (one.code, one.line) == ("REF002", 29)
+    assert "(did you mean Clay, which nothing uses?)" in one.message
+
+
 ONE_CAUSE = {
     "a keyword line without its star": (("*ELEMENT\n", "ELEMENT\n"), "SYN003", 16),
     "a number used twice": ((" 7, -0.05", " 6, -0.05"), "REF007", 11),

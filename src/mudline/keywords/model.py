@@ -136,6 +136,13 @@ class Rows(FieldInfo):
     curve: str = ""
     abscissa: str = ""
 
+    @property
+    def axes(self) -> tuple[int, int]:
+        """The columns of the abscissa and the ordinate of a curve."""
+        names = [spec.json for spec in record_schema(self.row).columns] if self.row else []
+        over = names.index(self.abscissa)
+        return over, next(index for index in range(len(names)) if index != over)
+
     def columns(self) -> list[Column]:
         """The columns of the table."""
         return table_columns(self.row) if self.row else []
@@ -151,7 +158,7 @@ class Rows(FieldInfo):
         table = read_table(given, self.columns())
         if info.context == AS_TEXT:
             return table
-        if self.unordered and len(table) < FEWEST_POINTS:
+        if self.curve and len(table) < FEWEST_POINTS:
             raise ValueError(f"{counted(len(table), 'point')}: a curve needs at least {FEWEST_POINTS}")
         for index, spec in enumerate(record_schema(self.row).columns if self.row else ()):
             for number, value in enumerate(table.column(index).tolist() if spec.about.limits else ()):
@@ -180,7 +187,7 @@ class Rows(FieldInfo):
         return {
             "description": self.meaning,
             "anyOf": [
-                {"type": "array", "items": listed, **({"minItems": FEWEST_POINTS} if self.unordered else {})},
+                {"type": "array", "items": listed, **({"minItems": FEWEST_POINTS} if self.curve else {})},
                 {"type": "string", "description": "the same rows as text, one a line, fields separated by commas"},
             ],
         }

@@ -100,7 +100,7 @@ def _judged(text: TextOrigin, problems: list[Problem], rows: _Rows) -> Iterator[
     """What is said of the values of rows that were misread, by the first error of each row."""
     misread: dict[int, Problem] = {}
     for (_, line), found in rows.items():
-        if found[0].code in _MISREAD and found[0].weight is Severity.ERROR:
+        if found[0].code in _MISREAD and found[0].weight is Severity.ERROR and _may_be_moved(text, found[0]):
             misread.setdefault(line, found[0])
     about: dict[int, list[Problem]] = {}
     for problem in problems if misread else ():
@@ -108,6 +108,12 @@ def _judged(text: TextOrigin, problems: list[Problem], rows: _Rows) -> Iterator[
             about.setdefault(line, []).append(problem)
     for line, found in about.items():
         yield _Cause(misread[line]), found, left_out(len(found))
+
+
+def _may_be_moved(text: TextOrigin, problem: Problem) -> bool:
+    """Whether the values of a row may be those of other columns: one that cannot be read, but for a comma, is alone."""
+    span = problem.span
+    return problem.code is not SYN002 or span is None or len(text.source.unified[slice(*span)].split()) > 1
 
 
 def _of_all(first: Problem, others: Sequence[Problem]) -> Repair | None:

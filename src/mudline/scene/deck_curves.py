@@ -120,9 +120,7 @@ def _written(slot: FieldSpec, value: object) -> str:
 def _curve(slot: FieldSpec, table: Table, keyword: str, name: str, places: tuple[Where, Where]) -> DeckCurve:
     about = cast("Rows", slot.about)
     columns = record_schema(cast("type[Row]", about.row)).columns
-    names = [column.json for column in columns]
-    over = names.index(about.abscissa)
-    ordinate = next(index for index in range(len(names)) if index != over)
+    over, ordinate = about.axes
     both = np.column_stack([table.column(over), table.column(ordinate)])
     rows = np.flatnonzero(~np.isnan(both).any(axis=1))
     axes = (columns[over], columns[ordinate])

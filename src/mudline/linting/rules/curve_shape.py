@@ -159,7 +159,7 @@ def unsorted_points(context: LintContext) -> Iterator[Problem]:
     for other in other_curves(context.scene.deck):
         over, name = other.points[:, 0], other.axes[0]
         falls = np.flatnonzero(over[1:] < over[:-1])[:1] + 1
-        for index in falls.tolist() if (np.diff(over) > 0.0).any() else ():  # else it is written from its other end
+        for index in falls.tolist() if (over[1:] > over[:-1]).any() else ():  # else it is written from its other end
             before, value = over[index - 1 : index + 1].tolist()
             message = f"{name} {value!r} comes after {before!r}: legal, the points are sorted; put them in order"
             yield Problem(CRV002, message, where=other.point(index))
