@@ -50,6 +50,7 @@ FAULTS = [
     (114, "REF002"),
     (116, "SYN004"),
     (120, "SBD006"),
+    (120, "SBD008"),
     (125, "SBD002"),
     (132, "SYN003"),
     (132, "SYN015"),
@@ -68,9 +69,15 @@ FAULTS = [
     (167, "SYN014"),
 ]
 
-LEANING = {66: {(120, "SBD006")}, 114: {(147, "REF003")}, 150: {(147, "CRV001"), (152, "CRV007")}}
-"""Findings that go with another line: a set without elements lacks no stiffness; a block of which the STIFFNESS= may
-have been misspelt may use any curve; and points without their CURVE= line belong to the curve before them."""
+LEANING = {
+    66: {(120, "SBD006")},
+    110: {(120, "SBD008")},
+    114: {(147, "REF003")},
+    150: {(147, "CRV001"), (152, "CRV007")},
+}
+"""Findings that go with another line: a set without elements lacks no stiffness; a set named once has one law; a
+block of which the STIFFNESS= may have been misspelt may use any curve; and points without their CURVE= line belong to
+the curve before them."""
 
 
 def found(data: bytes, name: str) -> list[tuple[int, str]]:

@@ -335,7 +335,9 @@ def test_the_decks_without_a_fault_are_clean() -> None:
 
 def test_the_same_fault_in_row_after_row_is_one_finding() -> None:
     (one,) = (each for each in found(changed((CURVE, POINTS))) if each.code == "SYN003")
-    assert one.message == ("3 fields, expected 2 (`ratio, force`); and 3 more rows of this block, the last in line 24")
+    assert one.message == (
+        "3 fields, expected 2 (`ratio, force`); and 3 more rows of this block (2, 3, 4), the last in line 24"
+    )
     assert (one.line, [each.line for each in one.following]) == (21, [22, 23, 24])
 
 
@@ -360,6 +362,25 @@ def test_values_of_a_misread_row_are_not_judged() -> None:
     text = changed((SECTION, STEEL.replace("207.0E9, 79.6E9", "207.0E9 79.6E9")))
     (one,) = found(text)
     assert (one.code, one.line) == ("SYN003", 19)
+
+
+def test_what_can_be_said_without_an_unknown_value_is_told() -> None:
+    wrong = STEEL.replace("0.3239, 0.2889, 7850.0", "0.3239, 0.4889, 785O.0")
+    assert told(changed((SECTION, wrong))) == [("GEO001", 19), ("SYN002", 19)]
+    forces = " CURVE=Clay\n 0.0, 0.0\n 0.5, 20000.0\n 0.5, 30000.0\n 0.7, 3OOOO.0\n"
+    assert told(changed((CURVE, forces))) == [("CRV003", 23), ("SYN002", 24)]
+
+
+def test_a_setting_that_stands_twice_lacks_the_name_of_its_set() -> None:
+    one = only(DECK.replace(" SET=Right\n STIFF", " STIFF"))
+    assert (one.code, one.line) == ("SYN001", 31)
+    assert one.message.endswith("a line SET= seems to be missing above this one")
+
+
+def test_the_one_curve_that_nothing_uses_is_named_where_one_is_not_defined() -> None:
+    one = only(changed(("STIFFNESS=Clay", "STIFFNESS=Silt")))
+    assert (one.code, one.line) == ("REF002", 29)
+    assert "(did you mean Clay, which nothing uses?)" in one.message
 
 
 ONE_CAUSE = {
@@ -428,6 +449,14 @@ MISSPELT = {
     "a curve": (LONG, "STIFFNESS=Dense Sand", "STIFFNESS=Dense Snad", ("REF002", 32)),
     "a curve where it is defined": (LONG, "CURVE=Dense Sand", "CURVE=Dense Sad", ("REF002", 32)),
     "a subset": (LONG, "10\n*GEO", "10\n SET=Line\n SUBSET=Risr\n*GEO", ("REF008", 17)),
+    "another curve": (
+        LONG.replace("*GEO", "*MOMENT-CURVATURE\n CURVE=Pipe\n 0.0, 0.0\n 5.0E4, 0.01\n*GEO").replace(
+            " 1.0E8,", " ,", 1
+        ),
+        "*GEOMETRIC SETS\n SET=ALL",
+        "*GEOMETRIC SETS\n SET=ALL, EIYY=Pipp",
+        ("REF002", 21),
+    ),
     "a set of a legacy curve": (SURFACE, " SET=Right\n 0.0", " SET=Rigth\n 0.0", ("REF001", 25)),
 }
 

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from mudline.keywords.model import Record, Row, about, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Name, Names, Real
+from mudline.keywords.values import Contents, Name, Names, Real
 
 COEFFICIENTS = "coefficients by heading"
 TAG = "a line of this word alone: the block is that of a mooring analysis, which has one vessel"
@@ -65,9 +65,10 @@ class BodyCoefficients(Record):
 
     rule = "body_coefficients"
     body: Body
-    file: Annotated[Name | None, setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE)] = (
-        None
-    )
+    file: Annotated[
+        Name | None,
+        setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE, holds=Contents.NUMBERS),
+    ] = None
     headings: Annotated[Table | None, rows(Coefficients, COEFFICIENTS)] = None
 
 
@@ -76,9 +77,10 @@ class VesselCoefficients(Record):
 
     rule = "vessel_coefficients"
     tag: Annotated[Name, about("MOORED VESSEL; " + TAG)]
-    file: Annotated[Name | None, setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE)] = (
-        None
-    )
+    file: Annotated[
+        Name | None,
+        setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE, holds=Contents.NUMBERS),
+    ] = None
     headings: Annotated[Table | None, rows(Coefficients, COEFFICIENTS)] = None
 
     @classmethod

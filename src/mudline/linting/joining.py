@@ -15,7 +15,7 @@ from mudline.codes.fields import SYN002, SYN003, SYN015
 from mudline.codes.lines import SYN001, SYN004, SYN012, SYN014
 from mudline.codes.references import REF005, REF006, REF007
 from mudline.deck.reading import TextOrigin
-from mudline.diagnostics import MORE, Problem, Severity, Span, Where
+from mudline.diagnostics import MORE, Problem, Repair, Severity, Span, Where
 from mudline.diagnostics import Blocks as Blocking
 from mudline.linting.recovery.blocks import also_in, line_at, whole
 from mudline.short_repr import counted
@@ -26,6 +26,9 @@ from mudline.syntax.tree import RawBlock
 
 FEWEST = 3
 """Rows below each other, or fields of a row, that have one fault; two may each have a fault of their own."""
+
+MOST_NAMED = 4
+"""Rows below the first one whose numbers are named."""
 
 _OF_ROWS = frozenset({SYN001, SYN002, SYN003, SYN004, SYN014, SYN015, REF007})
 """Codes of faults of a row, which one slip gives to many rows."""
@@ -60,7 +63,8 @@ def joined_findings(text: TextOrigin, problems: list[Problem]) -> list[Problem]:
     groups = chain(
         _judged(text, problems, rows),
         _spelt_wrong(text, problems, rows),
-        _repeated(rows),
+        _on_one_line(text, problems),
+        _repeated(text, rows),
         _meant_numbers(text, problems),
         _lacking(text, problems),
         _of_curves(problems),
@@ -72,7 +76,8 @@ def joined_findings(text: TextOrigin, problems: list[Problem]) -> list[Problem]:
     for one, others, words in groups:
         if id(one.first) not in hidden:
             cause = under.get(id(one.first), one.first)
-            cause = replace(cause, message=one.message or cause.message, span=one.place or cause.span)
+            repair = one.repair or cause.repair
+            cause = replace(cause, message=one.message or cause.message, span=one.place or cause.span, repair=repair)
             under[id(one.first)] = joined(cause, [under.get(id(each), each) for each in others], words)
             hidden.update(map(id, others))
     return [under.get(id(one), one) for one in problems if id(one) not in hidden]
@@ -84,6 +89,7 @@ class _Cause(NamedTuple):
     first: Problem
     message: str = ""
     place: Span | None = None
+    repair: Repair | None = None
 
 
 _Group = tuple[_Cause, list[Problem], str]
@@ -94,7 +100,7 @@ def _judged(text: TextOrigin, problems: list[Problem], rows: _Rows) -> Iterator[
     """What is said of the values of rows that were misread, by the first error of each row."""
     misread: dict[int, Problem] = {}
     for (_, line), found in rows.items():
-        if found[0].code in _MISREAD and found[0].weight is Severity.ERROR:
+        if found[0].code in _MISREAD and found[0].weight is Severity.ERROR and _may_be_moved(text, found[0]):
             misread.setdefault(line, found[0])
     about: dict[int, list[Problem]] = {}
     for problem in problems if misread else ():
@@ -104,7 +110,25 @@ def _judged(text: TextOrigin, problems: list[Problem], rows: _Rows) -> Iterator[
         yield _Cause(misread[line]), found, left_out(len(found))
 
 
-def _repeated(rows: _Rows) -> Iterator[_Group]:
+def _may_be_moved(text: TextOrigin, problem: Problem) -> bool:
+    """Whether the values of a row may be those of other columns: one that cannot be read, but for a comma, is alone."""
+    span = problem.span
+    return problem.code is not SYN002 or span is None or len(text.source.unified[slice(*span)].split()) > 1
+
+
+def _of_all(first: Problem, others: Sequence[Problem]) -> Repair | None:
+    """The repair of a finding with the edits of those that say the same; None where one of them has none."""
+    repairs = [one.repair for one in (first, *others) if one.repair]
+    if not first.repair or len(repairs) <= len(others):
+        return None
+    return replace(first.repair, edits=tuple(sorted({edit for repair in repairs for edit in repair.edits})))
+
+
+def _line(text: TextOrigin, problem: Problem) -> str:
+    return text.source.line(text.place(problem).line)
+
+
+def _repeated(text: TextOrigin, rows: _Rows) -> Iterator[_Group]:
     """Further fields of the same row, and the rows below."""
     seen: set[tuple[str, int]] = set()
     for (code, line), found in sorted(rows.items()):
@@ -115,11 +139,18 @@ def _repeated(rows: _Rows) -> Iterator[_Group]:
             run.append(more)
         below = run[1:] if len(run) >= FEWEST else []
         seen.update((code, line + number) for number in range(1, len(below) + 1))
-        same = found[1:] if len(found) >= FEWEST or found[0].code is SYN014 else []
+        whole_row = len(found) == _line(text, found[0]).count(",") + 1
+        same = found[1:] if len(found) >= FEWEST or whole_row or found[0].code is SYN014 else []
         fields = f"{counted(len(same), 'more field')} of this row" if same else ""
-        lines = f"{len(below)} more rows of this block, the last in line {line + len(below)}" if below else ""
+        ids = [number[1] for row in below if (number := _ROW_NUMBER.match(_line(text, row[0])))]
+        named = f" ({', '.join(ids)})" if len(ids) == len(below) <= MOST_NAMED else ""
+        lines = f"{len(below)} more rows of this block{named}, the last in line {line + len(below)}" if below else ""
         if others := [*same, *(one for row in below for one in row)]:
-            yield _Cause(found[0]), others, f"and {' and '.join(filter(None, (fields, lines)))}"
+            yield (
+                _Cause(found[0], repair=_of_all(found[0], others)),
+                others,
+                f"and {' and '.join(filter(None, (fields, lines)))}",
+            )
 
 
 def _lacking(text: TextOrigin, problems: list[Problem]) -> Iterator[_Group]:
@@ -131,7 +162,7 @@ def _lacking(text: TextOrigin, problems: list[Problem]) -> Iterator[_Group]:
     for found in lacking.values():
         if len(found) > 1:
             first, *others = sorted(found, key=lambda one: text.place(one).line)
-            yield _Cause(first), others, also_in(text, others)
+            yield _Cause(first, repair=_of_all(first, others)), others, also_in(text, others)
 
 
 def _spelt_wrong(text: TextOrigin, problems: list[Problem], rows: _Rows) -> Iterator[_Group]:
@@ -144,6 +175,21 @@ def _spelt_wrong(text: TextOrigin, problems: list[Problem], rows: _Rows) -> Iter
         setting = problem.code is SYN015 and "=" in text.source.line(place.line)
         if setting or (problem.code is SYN012 and text.place(misread).column <= place.column):
             yield _Cause(misread), [problem], problem.message
+
+
+_WITH_ANOTHER = {"SYN003": "STY009", "CRV012": "CRV005"}
+"""Codes, each with the one that says more of it in the same line: why a row is wrong, where a curve falls."""
+
+
+def _on_one_line(text: TextOrigin, problems: list[Problem]) -> Iterator[_Group]:
+    """What says more of another finding in its line, under that."""
+    of_line = {
+        (one.code.code, text.place(one).line): one for one in problems if one.code.code in _WITH_ANOTHER.values()
+    }
+    for problem in problems if of_line else ():
+        more = of_line.get((_WITH_ANOTHER.get(problem.code.code, ""), text.place(problem).line))
+        if more is not None:
+            yield _Cause(problem), [more], more.message
 
 
 def _meant_numbers(text: TextOrigin, problems: list[Problem]) -> Iterator[_Group]:

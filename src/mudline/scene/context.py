@@ -257,8 +257,16 @@ class Context:
         return any(lost > line and lost in lines for lines in blocks for lost in self._unread_lines)
 
     def lacks_value(self, where: Where, key: str) -> bool:
-        """Whether the setting `key` of a record was written without a value that could be read."""
-        return where.section not in self._sound and self.deck.damaged(where) and self.deck.written(where.inside(key))
+        """Whether the setting `key` of a record was written without a value, or in a line, that could be read."""
+        if where.section in self._sound:
+            return False
+        if self.deck.written(where.inside(key)):
+            return self.deck.damaged(where)
+        return bool(where.path) and self._has_unread_line(self._lines(where._replace(path=())), self._line(where))
+
+    def _has_unread_line(self, lines: range, line: int) -> bool:
+        """Whether a line could not be used, among some lines, from their first one to the one behind another."""
+        return any(lost in lines and lost <= line + 1 for lost in self._unread_lines)
 
     def generator(self, given: ListRow, where: Where) -> tuple[int, int, int] | None:
         """The three values of a GEN=, the last one 1 unless given; None when one of them is not known."""

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple, TypeVar, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mudline.codes import RUN001
+from mudline.codes.references import REF001
 from mudline.contact.input import LawKind
 from mudline.deck.parameters import EvaluatedDeck, folded
 from mudline.diagnostics import DeckError, Problem, Where
@@ -20,6 +22,7 @@ from mudline.scene.context import Context
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.laws import Extension, LawTable, SeabedResistance, SetLaw, with_nodal_stiffness
 from mudline.scene.mesh import ElementTable
+from mudline.scene.names import CURVES, THINGS, undefined
 from mudline.scene.numbering import Floats, Ids, Indices, Mask, Numbered
 from mudline.scene.seabed import SeabedShape
 from mudline.scene.sections import SectionTable, mass_per_length, submerged_weight, surroundings
@@ -140,7 +143,8 @@ class ResolvedDeck:
         curves = {folded(one.name) for one in self.laws.curves if not one.embedment}
         clashing = any(one.curve is not None and not one.whole for one in self.laws.curves)
         missing = any(one.lacks for one in self.noticed) or not self.laws.referenced <= curves
-        return missing or clashing or bool(self.context.excused)
+        others = chain.from_iterable(undefined(self.context, kinds, REF001) for kinds in (CURVES, THINGS))
+        return missing or clashing or bool(self.context.excused) or any(True for _ in others)
 
     @property
     def source(self) -> str:

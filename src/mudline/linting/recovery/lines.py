@@ -13,7 +13,7 @@ from mudline.codes.lines import SYN001, SYN004, SYN011, SYN013
 from mudline.codes.references import REF007
 from mudline.diagnostics import Problem, Repair, Severity, Span
 from mudline.keywords import catalogue
-from mudline.keywords.model import Block, FieldSpec, record_schema
+from mudline.keywords.model import Block, FieldSpec, record_schema, set_slots
 from mudline.keywords.reader import all_keys, reads, schemas_of
 from mudline.keywords.values import Kind as Value
 from mudline.keywords.values import Names
@@ -252,6 +252,24 @@ def _passed_through(blocks: Blocks) -> Iterator[tuple[str, RawBlock, Span]]:
 @cache
 def _all_telling() -> dict[str, str]:
     return {line: keyword for keyword in catalogue.read_keywords() for line in catalogue.facts_of(keyword).telling}
+
+
+@recovers_from(SYN001, last=True)
+def lost_names(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """A setting that stands twice below the name of a set: that of another one above it, which is not known."""
+    seen: set[int] = set()
+    for problem in problems:
+        declared = blocks.declared_at(problem.span.start) if problem.span else None
+        keys = {named.key for _, named in set_slots(declared)} if declared else set()
+        if problem.span is None or len(keys) != 1 or not problem.message.endswith("= is given twice"):
+            continue
+        block = blocks.block_at(problem.span.start).start
+        line = line_at(blocks.text, problem.span.start)
+        if block not in seen:  # the settings below it are of the same set
+            message = f"{problem.message}: a line {min(keys)}= seems to be missing above this one"
+            edit = TextEdit(Span(line.start, line.start), f" {min(keys)}=\n")
+            yield Correction(problem, (edit,), line, message, certain=True)
+        seen.add(block)
 
 
 # -------------------------------------------------------------------------------------------------- the OPTION= of rows

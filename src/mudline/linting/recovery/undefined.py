@@ -14,8 +14,10 @@ from mudline.keywords.model import Part, names_given
 from mudline.keywords.values import Names
 from mudline.linting.recovery.blocks import Correction, also_in, line_at, start_of
 from mudline.linting.rule import LintContext
-from mudline.scene.checks.laws import undefined_curve
+from mudline.scene.checks.laws import REF002, undefined_curve
+from mudline.scene.checks.names import REF019
 from mudline.scene.force_curves import SceneCurve
+from mudline.scene.names import CURVES, THINGS, names_of, undefined
 from mudline.scene.references import given_names
 from mudline.scene.sets import ALL, set_key
 from mudline.spelling import meant_names
@@ -29,10 +31,15 @@ def corrections(context: LintContext) -> Iterator[Correction]:
         return
     sets = {key: one.name for key, one in scene.set_table.named.items() if key != ALL}
     curves = {folded(one.name): one.name for one in scene.laws.curves if one.named and not one.embedment}
+    used = {where for _, where, _ in given_names(context.deck, Names.CURVE)}
+    nameless = [one for one in undefined_curve(scene) if one.where in used]
     lacking = [one for one in scene.noticed if one.lacks and one.code in (REF001, REF008)]
-    nameless = [*undefined_curve(scene)]
     yield from _names(context, text, lacking, sets, (Names.SET, Names.SUBSET))
     yield from _names(context, text, nameless, curves, (Names.CURVE,))
+    for kinds, code in ((CURVES, REF002), (THINGS, REF019)):
+        for kind, names in names_of(context.deck, kinds).items():
+            known = {key: given[0].name for key, given in names.defined.items()}
+            yield from _names(context, text, [*undefined(scene.context, [kind], code)], known, (kind,))
     yield from _numbers(context, text)
     yield from _rows_without_name(context, text, [one.lacks for one in nameless if not meant_names(one.lacks, curves)])
 

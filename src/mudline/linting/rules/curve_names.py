@@ -73,7 +73,7 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
             idle[name].append(curve)
         elif not scene.context.near(name, unknown):  # else it is misspelt where it is used, which is reported there
             idle[name] = [curve]
-    if not idle:
+    if not idle or (len(idle) == 1 and len(unknown) == 1):
         return
     places = [curve.where for curves in idle.values() for curve in curves]
     repairs = removals(context.text, places) if context.text else {}

@@ -309,10 +309,13 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     if names.keys() >= scene.laws.referenced:
         return
     followed: set[Where] | None = None
+    unused = [name for key, name in names.items() if key not in scene.laws.referenced]
+    elsewhere = scene.context.possible_definition("SEABED STIFFNESS")
+    other = f" (did you mean {unused[0]}, which nothing uses?)" if len(unused) == 1 and not elsewhere else ""
     for _, where, name in given_names(scene.deck, Names.CURVE):
         if folded(name) in names:
             continue
-        hint = scene.context.hint(name, names)
+        hint = scene.context.hint(name, names) or ("" if name[:1].isdigit() else other)
         advice = advice_on(name) or "*SEABED STIFFNESS has no such curve"
         message = f"curve {shown(name)} is not defined{hint}: {advice}"
         problem = scene.context.missing(REF002, message, where, "SEABED STIFFNESS", name)
