@@ -250,7 +250,7 @@ $MODEL
  1, 1, 2
 C behind the elements
 $LOAD CASE
-*OFFSET
+*TOP TENSION
  =[Offset]
 C waves
 *WAVE-REGULAR

@@ -145,7 +145,7 @@ def table(slot: FieldSpec, fewest: int) -> st.SearchStrategy[list[list[Any]]]:
     """Rows of a table; the same few of them many times over make a long one."""
     assert slot.row is not None
     cells = line(record_schema(slot.row).columns).map(lambda given: list(given.values()))
-    curve = isinstance(slot.about, Rows) and slot.about.unordered
+    curve = isinstance(slot.about, Rows) and slot.about.curve
     rows = st.lists(cells, min_size=max(fewest, FEWEST_POINTS if curve else 0), max_size=4)
     return st.tuples(rows, st.sampled_from([1, 1, 1, 12])).map(lambda pair: pair[0] * pair[1])
 

@@ -107,6 +107,14 @@ def test_the_tables_of_the_manual() -> None:
     assert run("convert", "curves.xlsx", "--to", "json").json()["units"] == "imperial"
 
 
+def test_curves_whose_abscissa_is_their_second_column() -> None:
+    bending = [("Curve", "Moment [N m]", "Curvature"), ("Pipe", 0, 0), (None, 4e5, 0.01), (None, 6e5, 0.03)]
+    outcome = run("convert", book({"Bending": [(row[0], row[1], row[2]) for row in bending]}), "--to", "keyword", "-q")
+    assert "expected the unit Nm or lbfft, found 'N m'" not in outcome.err
+    assert outcome.out == "$MODEL\n*MOMENT-CURVATURE\n CURVE=Pipe\n 0.0, 0.0\n 400000.0, 0.01\n 600000.0, 0.03\n"
+    assert fault([*bending, (None, 7e5, 0.03)], "Bending").startswith("sheet Bending, cell B5: ")
+
+
 @pytest.mark.parametrize("separator", [",", ";", "\t"])
 def test_csv_files(separator: str) -> None:
     lines = [("Set Name", "Embedment Ratio", "Seabed Force [N/m]"), ("", "0", "0"), ("", "1", "2.5E3"), ("A", "0", "0")]

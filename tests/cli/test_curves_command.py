@@ -44,6 +44,14 @@ ratio       [m]    [m]     [N/m2]  extrapolated
   0.2       0.5    0.1      10000
 """
 
+SEABED = "force-embedment curve"
+OTHERS = (
+    "*MOMENT-CURVATURE\n CURVE=Bend\n 5.0, 2.0\n 0.0, 0.0\n 4.0, 1.0\n"
+    "*P-Y\n SET=Pipe\n DEPTH=1.0\n 0.0, 0.0\n 3.0, 2.0\n"
+    "$LOAD CASE\n*CURRENT\n TYPE=PIECEWISE LINEAR\n 300.0, 0.9, 180.0\n 0.0, 0.1, 180.0\n"
+)
+"""Curves of other kinds than those of a seabed."""
+
 
 def rows(text: str) -> list[list[str]]:
     return list(csv.reader(text.splitlines()))
@@ -71,6 +79,9 @@ def test_json(place: Place) -> None:
     assert found == [
         {
             "name": "Clay",
+            "kind": "force-embedment curve",
+            "keyword": "SEABED STIFFNESS",
+            "axes": ["ratio", "force"],
             "points": [[0.0, 0.0], [0.1, 1000.0], [0.5, 3000.0]],
             "segments": [{"from": 0.0, "to": 0.1, "slope": 10000.0}, {"from": 0.1, "to": 0.5, "slope": 5000.0}],
             "at": [
@@ -99,20 +110,20 @@ def test_static_embedment_in_json(place: Place) -> None:
 
 def test_csv_holds_the_points(place: Place) -> None:
     assert rows(run("curves", place(UNUSED), "--output-format", "csv").out) == [
-        ["curve", "ratio", "force", "slope"],
-        ["Clay", "0.0", "0.0", "10000.0"],
-        ["Clay", "0.1", "1000.0", "5000.0"],
-        ["Clay", "0.5", "3000.0", ""],
-        ["Sand", "0.0", "0.0", "10.0"],
-        ["Sand", "0.1", "1.0", ""],
+        ["curve", "ratio", "force", "slope", "kind"],
+        ["Clay", "0.0", "0.0", "10000.0", SEABED],
+        ["Clay", "0.1", "1000.0", "5000.0", SEABED],
+        ["Clay", "0.5", "3000.0", "", SEABED],
+        ["Sand", "0.0", "0.0", "10.0", SEABED],
+        ["Sand", "0.1", "1.0", "", SEABED],
     ]
 
 
 def test_csv_holds_the_values_asked_for(place: Place) -> None:
     assert rows(run("curves", place(), "--at", "0.2", "--at", "0.6", "--output-format", "csv").out) == [
-        ["curve", "ratio", "force", "slope", "segment", "extrapolated"],
-        ["Clay", "0.2", "1500.0", "5000.0", "1", ""],
-        ["Clay", "0.6", "3500.0", "5000.0", "1", "above"],
+        ["curve", "ratio", "force", "slope", "segment", "extrapolated", "kind"],
+        ["Clay", "0.2", "1500.0", "5000.0", "1", "", SEABED],
+        ["Clay", "0.6", "3500.0", "5000.0", "1", "above", SEABED],
     ]
 
 
@@ -181,7 +192,7 @@ def test_curve_without_a_diameter(place: Place) -> None:
 def test_deck_without_a_curve(place: Place) -> None:
     outcome = run("curves", place(LINEAR))
     assert (outcome.code, outcome.out) == (0, "")
-    assert outcome.err == "mudline: deck.keyxm has no force-embedment curve\n"
+    assert outcome.err == "mudline: deck.keyxm has no curve\n"
     assert run("curves", place(LINEAR), "--output-format", "json").out == "[]\n"
 
 
@@ -312,3 +323,32 @@ def test_other_forms_are_wrong_usage(place: Place, name: str) -> None:
     outcome = run("curves", place(), "--plot", name)
     assert (outcome.code, outcome.out) == (2, "")
     assert f"{name}: unknown file format: give a name ending in .png or .svg" in outcome.err
+
+
+def test_curves_of_every_kind_are_listed(place: Place) -> None:
+    name = place(CLEAN + OTHERS)
+    outcome = run("curves", name, "--at", "1.5", "--output-format", "json")
+    found = outcome.json()
+    assert_fits(found, "curves")
+    assert [(row["kind"], row["keyword"], row["name"], row["axes"]) for row in found] == [
+        (SEABED, "SEABED STIFFNESS", "Clay", ["ratio", "force"]),
+        ("current profile", "CURRENT", "PIECEWISE LINEAR", ["elevation", "velocity"]),
+        ("moment-curvature curve", "MOMENT-CURVATURE", "Bend", ["curvature", "moment"]),
+        ("soil spring curve", "P-Y", "Pipe, DEPTH=1.0", ["displacement", "resistance"]),
+    ]
+    assert found[2]["points"] == [[0.0, 0.0], [1.0, 4.0], [2.0, 5.0]]
+    assert found[2]["at"] == [{"ratio": 1.5, "force": 4.5, "slope": 1.0, "segment": 1, "extrapolated": None}]
+    text = run("curves", name, "--weight", "700").out
+    assert "moment-curvature curve Bend (*MOMENT-CURVATURE): 3 points\n" in text
+    assert text.count("static embedment") == 1
+    assert len(rows(run("curves", name, "--weight", "700", "--output-format", "csv").out)) == 2
+    assert {row[-1] for row in rows(run("curves", name, "--output-format", "csv").out)[1:]} >= {
+        "current profile",
+        SEABED,
+    }
+
+
+def test_every_kind_has_axes_of_its_own(place: Place) -> None:
+    texts = drawn(place, CLEAN + OTHERS)
+    for words in ("Force-embedment curves", "Moment-curvature curves", "curvature", "moment", "Bend", "Clay"):
+        assert words in texts

@@ -87,7 +87,7 @@ def test_many_differences_are_counted(place: Place) -> None:
 
 
 def test_text_of_a_deck_does_not_act_on_a_terminal(place: Place) -> None:
-    bad = CLEAN + "*HYDRODYNAMIC SETS\n a\x1b[31m[red]b\n"
+    bad = CLEAN + "*PROPERTIES\n a\x1b[31m[red]b\n"
     ran = run("diff", place(), place(bad, "b.keyxm"), "--color", "always", terminal=True)
     assert "\x1b[31m[red]" not in ran.out
     assert "[red]b" in ran.out

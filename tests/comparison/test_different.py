@@ -27,7 +27,7 @@ CHANGES = [
     ("0.46, 7850.0", "0.46, 7851.0", "*GEOMETRIC SETS/ALL/rigid/density"),
     ("FRICTION=0.3", "FRICTION=0.4", "*SEABED PROPERTIES/Pipe/friction/longitudinal"),
     ("1025.0", "1026.0", "*OCEAN/density"),
-    ("1.2, 0.05", "1.3, 0.05", "*HYDRODYNAMIC SETS/lines"),
+    ("1.2, 0.05", "1.3, 0.05", "*HYDRODYNAMIC SETS/ALL/constant/normal_drag"),
 ]
 
 

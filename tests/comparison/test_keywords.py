@@ -68,14 +68,17 @@ def test_the_order_of_boundary_conditions_does_not_count() -> None:
 @pytest.mark.parametrize(
     "other",
     [
-        "$LOAD CASE\n*WAVE\n 2\n$LOAD CASE\n*WAVE\n 5\n*CURRENT\n 1\n",
-        "$LOAD CASE\n*CURRENT\n 1\n*WAVE\n 2\n*WAVE\n 5\n",
-        "$LOAD CASE\n*CURRENT\n 1\n*WAVE\n 2\n$LOAD CASE\n*WAVE\n 5\n$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n 1, 2\n",
+        "$LOAD CASE\n*WAVE\n 2\n$LOAD CASE\n*WAVE\n 5\n*DRILLING MUD\n 1\n",
+        "$LOAD CASE\n*DRILLING MUD\n 1\n*WAVE\n 2\n*WAVE\n 5\n",
+        (
+            "$LOAD CASE\n*DRILLING MUD\n 1\n*WAVE\n 2\n$LOAD CASE\n*WAVE\n 5\n"
+            "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n 1, 2\n"
+        ),
     ],
     ids=["current in the second", "one load case", "a third one"],
 )
 def test_load_cases_are_apart(other: str) -> None:
-    one = "$LOAD CASE\n*CURRENT\n 1\n*WAVE\n 2\n$LOAD CASE\n*WAVE\n 5\n"
+    one = "$LOAD CASE\n*WIND\n 1\n*WAVE\n 2\n$LOAD CASE\n*WAVE\n 5\n"
     assert between(one, one) == []
     assert between(one, other) != []
 
@@ -106,11 +109,11 @@ def test_points_of_a_profile_in_a_file(tmp_path: Path, changed: bool) -> None:
 
 
 def test_blocks_without_a_model_compare_by_their_lines() -> None:
-    text = "*VESSEL\n VESSEL=FPSO\nC a comment\n INITIAL POSITION=0, 0, 0\n"
+    text = "*TAPER\n VESSEL=FPSO\nC a comment\n INITIAL POSITION=0, 0, 0\n"
     assert between(text, text.replace("C a comment\n", "\n").replace(" VESSEL", "  VESSEL")) == []
     assert between(text, text.replace("0, 0, 0", "0, 0, 5")) == [
-        ("*VESSEL/lines", "INITIAL POSITION=0, 0, 0", None),
-        ("*VESSEL/lines", None, "INITIAL POSITION=0, 0, 5"),
+        ("*TAPER/lines", "INITIAL POSITION=0, 0, 0", None),
+        ("*TAPER/lines", None, "INITIAL POSITION=0, 0, 5"),
     ]
     assert ("before the first section/lines", "TITLE", None) in brief(
         differences("TITLE\n" + ordered_deck(), ordered_deck())
@@ -120,7 +123,7 @@ def test_blocks_without_a_model_compare_by_their_lines() -> None:
 def test_long_blocks_without_a_model_are_compared_between_their_equal_ends() -> None:
     lines = [f" {number}, {number}\n" for number in range(3000)]
     changed = ["C\n", *lines[:10], " new\n", *reversed(lines[10:2990]), *lines[2990:]]
-    found = differences(ordered_deck() + "*VESSEL\n" + "".join(lines), ordered_deck() + "*VESSEL\n" + "".join(changed))
+    found = differences(ordered_deck() + "*TAPER\n" + "".join(lines), ordered_deck() + "*TAPER\n" + "".join(changed))
     assert {one.kind for one in found} == {"added", "removed"}
     assert len(found) == 2 * 2980 + 1
 

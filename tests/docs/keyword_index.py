@@ -21,8 +21,6 @@ _PAGE = """{made}
 
 mudline reads every field of these, checks it, and writes it back.
 
-| keyword | section | holds |
-| --- | --- | --- |
 {models}
 
 ## Keywords whose lines are kept
@@ -55,8 +53,25 @@ our reading of what the language leaves open; each page ends with a list.
 def keyword_index() -> str:
     """The whole page."""
     return _PAGE.format(
-        made=MADE, models=_rows(models()), kept=_rows(catalogue.opaque_keywords()), passing="\n".join(_passing())
+        made=MADE, models=_by_subject(), kept=_rows(catalogue.opaque_keywords()), passing="\n".join(_passing())
     )
+
+
+_TABLE = """### {subject}
+
+| keyword | section | holds |
+| --- | --- | --- |
+{rows}
+"""
+
+
+def _by_subject() -> str:
+    """A table for each subject, in which the keywords stand by section."""
+    found: dict[str, list[Declared]] = {}
+    for block in models():
+        found.setdefault(block.subject, []).append(block)
+    tables = (_TABLE.format(subject=subject.capitalize(), rows=_rows(own)) for subject, own in found.items())
+    return "\n".join(tables).rstrip()
 
 
 def _rows(declared: Sequence[Declared]) -> str:

@@ -19,7 +19,7 @@ _HEAD = """{made}
 
 {summary}
 
-Section: {sections}. [All keywords](../keywords.md).
+Section: {sections}. Subject: {subject}. [All keywords](../keywords.md).
 """
 
 _FORMAT = """## Format
@@ -96,7 +96,11 @@ def keyword_page(declared: Declared) -> str:
 
 def _head(declared: Declared) -> str:
     return _HEAD.format(
-        made=MADE, title=title(declared), summary=marked(declared.summary), sections=sections_of(declared)
+        made=MADE,
+        title=title(declared),
+        summary=marked(declared.summary),
+        sections=sections_of(declared),
+        subject=declared.subject,
     )
 
 

@@ -110,11 +110,11 @@ def test_the_last_definition_of_a_parameter_is_the_one_that_varies() -> None:
 
 def test_excel_variations_are_reported() -> None:
     content = varied_deck(WAVES, " DESCRIPTION=d, FILENAME=%Period%\n").replace(
-        "*VARIATION", "*EXCEL VARIATIONS\n EXCEL=a\n*VARIATION"
+        "*VARIATION", "*EXCEL VARIATIONS\n EXCEL=a, RANGE=A1:B2\n*VARIATION"
     )
     found = plan(deck_of(content))
     assert found.notes == ["*EXCEL VARIATIONS is not expanded: it is passed through unchanged"]
-    assert b"*EXCEL VARIATIONS\n EXCEL=a\n" in found.content(found.decks[0])
+    assert b"*EXCEL VARIATIONS\n EXCEL=a, RANGE=A1:B2\n" in found.content(found.decks[0])
 
 
 # ---------------------------------------------------------------------------------------------------------- refusals
@@ -248,7 +248,7 @@ def test_the_number_of_decks_is_bounded_before_any_is_made() -> None:
     assert "8000000000 decks would be written: expected no more than 100000" in found[3]
 
 
-@pytest.mark.parametrize("more", ["", "*EXCEL VARIATIONS\n EXCEL=a\n"])
+@pytest.mark.parametrize("more", ["", "*EXCEL VARIATIONS\n EXCEL=a, RANGE=A1:B2\n"])
 def test_nothing_to_expand(more: str) -> None:
     found = only(refused(f"$PREPROCESSOR\n*VARIATION\n NAME=a\n{more}"))
     assert found[:3] == ("EXP001", 1, 1)

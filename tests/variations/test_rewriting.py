@@ -153,13 +153,17 @@ BARE = f"{VARIED_PARAMETERS}C model\n{VARIED_MODEL}"
 
 
 def test_a_block_is_removed_and_its_comments_stay() -> None:
-    new = contents(plan(deck_of(acting("REMOVE, KEYWORD=OFFSET", "Remove, keyword=wave-regular, section=$load case"))))
-    assert new == [BARE.replace("*OFFSET\n =[Offset]\n", "").replace("*WAVE-REGULAR\n 1.0, =[Period], 0.0\n", "")]
+    new = contents(
+        plan(deck_of(acting("REMOVE, KEYWORD=TOP TENSION", "Remove, keyword=wave-regular, section=$load case")))
+    )
+    assert new == [BARE.replace("*TOP TENSION\n =[Offset]\n", "").replace("*WAVE-REGULAR\n 1.0, =[Period], 0.0\n", "")]
 
 
 def test_all_blocks_of_a_keyword_are_removed_once() -> None:
-    content = acting("REMOVE, KEYWORD=OFFSET", "REMOVE, KEYWORD=OFFSET") + "$LOAD CASE\n*OFFSET\n 1\nC end"
-    assert contents(plan(deck_of(content))) == [BARE.replace("*OFFSET\n =[Offset]\n", "") + "$LOAD CASE\nC end"]
+    content = (
+        acting("REMOVE, KEYWORD=TOP TENSION", "REMOVE, KEYWORD=TOP TENSION") + "$LOAD CASE\n*TOP TENSION\n 1\nC end"
+    )
+    assert contents(plan(deck_of(content))) == [BARE.replace("*TOP TENSION\n =[Offset]\n", "") + "$LOAD CASE\nC end"]
 
 
 def test_data_that_looks_like_a_comment_goes_with_its_block() -> None:
@@ -171,17 +175,20 @@ def test_data_that_looks_like_a_comment_goes_with_its_block() -> None:
 @pytest.mark.parametrize(
     ("data", "added"),
     [
-        (b" 7\n", "*OFFSET\n 7\n"),
-        (b"7", "*OFFSET\n7\n"),
-        (b"C of the file\n\n*offset\n 7\n*OFFSET\n 8", "C of the file\n\n*offset\n 7\n*OFFSET\n 8\n"),
-        (b"\xef\xbb\xbf*OFFSET\r\n 7\r\n", "*OFFSET\n 7\n"),
-        (b"C no line of data\n", "*OFFSET\nC no line of data\n"),
-        (b"", "*OFFSET\n"),
+        (b" 7\n", "*TOP TENSION\n 7\n"),
+        (b"7", "*TOP TENSION\n7\n"),
+        (
+            b"C of the file\n\n*top tension\n 7\n*TOP TENSION\n 8",
+            "C of the file\n\n*top tension\n 7\n*TOP TENSION\n 8\n",
+        ),
+        (b"\xef\xbb\xbf*TOP TENSION\r\n 7\r\n", "*TOP TENSION\n 7\n"),
+        (b"C no line of data\n", "*TOP TENSION\nC no line of data\n"),
+        (b"", "*TOP TENSION\n"),
     ],
 )
 def test_a_block_is_added_behind_the_last_of_its_section(data: bytes, added: str, tmp_path: Path) -> None:
     (tmp_path / "my block.txt").write_bytes(data)
-    found = plan(deck_of(acting('ADD, KEYWORD=OFFSET, FILE="my block.txt"'), folder=tmp_path))
+    found = plan(deck_of(acting('ADD, KEYWORD=TOP TENSION, FILE="my block.txt"'), folder=tmp_path))
     assert contents(found) == [BARE + added]
 
 
@@ -199,22 +206,22 @@ def test_a_file_without_a_last_line_end_gets_one_before_what_is_added() -> None:
 @pytest.mark.parametrize(
     ("action", "message"),
     [
-        ("REMOVE, KEYWORD=OFSET, SECTION=LOAD CASE", "$LOAD CASE has no *OFSET (did you mean OFFSET?)"),
-        ("REMOVE, KEYWORD=OFSET", "missing SECTION= for *OFSET"),
+        ("REMOVE, KEYWORD=TOP TENSON, SECTION=LOAD CASE", "$LOAD CASE has no *TOP TENSON (did you mean TOP TENSION?)"),
+        ("REMOVE, KEYWORD=TOP TENSON", "missing SECTION= for *TOP TENSON"),
         ("REMOVE, KEYWORD=FRICTION", "missing SECTION= for *FRICTION: $LOAD CASE or $MODES"),
         ("REMOVE, KEYWORD=OCEAN, SECTION=MODELL", "the deck has no section $MODELL (did you mean MODEL?)"),
         ("REMOVE, KEYWORD=PARAMETERS", "*PARAMETERS describes the decks"),
-        ("ADD, KEYWORD=OFFSET, FILE=none.txt", "file 'none.txt' was not found beside the deck"),
-        ("ADD, KEYWORD=OFFSET, FILE=other.txt", "other.txt holds *OCEAN, expected *OFFSET only"),
-        ("ADD, KEYWORD=OFFSET, FILE=section.txt", "section.txt opens the section $MODEL"),
-        ("ADD, KEYWORD=OFFSET, FILE=utf16.txt", "utf16.txt: the file is UTF-16"),
+        ("ADD, KEYWORD=TOP TENSION, FILE=none.txt", "file 'none.txt' was not found beside the deck"),
+        ("ADD, KEYWORD=TOP TENSION, FILE=other.txt", "other.txt holds *OCEAN, expected *TOP TENSION only"),
+        ("ADD, KEYWORD=TOP TENSION, FILE=section.txt", "section.txt opens the section $MODEL"),
+        ("ADD, KEYWORD=TOP TENSION, FILE=utf16.txt", "utf16.txt: the file is UTF-16"),
         ("ADD, KEYWORD=OCEAN, FILE=bad.txt", "the new deck 'a.keyxm' cannot be read: line 20: 'x' is not a number"),
     ],
 )
 def test_actions_that_cannot_be_done(action: str, message: str, tmp_path: Path) -> None:
-    (tmp_path / "other.txt").write_text("*OFFSET\n*OCEAN\n")
-    (tmp_path / "section.txt").write_text("*OFFSET\n$MODEL\n")
-    (tmp_path / "utf16.txt").write_bytes("*OFFSET\n".encode("utf-16"))
+    (tmp_path / "other.txt").write_text("*TOP TENSION\n*OCEAN\n")
+    (tmp_path / "section.txt").write_text("*TOP TENSION\n$MODEL\n")
+    (tmp_path / "utf16.txt").write_bytes("*TOP TENSION\n".encode("utf-16"))
     (tmp_path / "bad.txt").write_text(" x\n")
     found = only(refused(acting(action), folder=tmp_path))
     assert message in found[3]
@@ -222,7 +229,7 @@ def test_actions_that_cannot_be_done(action: str, message: str, tmp_path: Path) 
 
 
 def test_a_deck_from_nowhere_has_no_files_beside_it() -> None:
-    found = only(refused(acting("ADD, KEYWORD=OFFSET, FILE=a.txt")))
+    found = only(refused(acting("ADD, KEYWORD=TOP TENSION, FILE=a.txt")))
     assert "which came from standard input" in found[3]
 
 

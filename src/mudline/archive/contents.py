@@ -28,6 +28,7 @@ from mudline.linting.engine import LintSettings, lint_context, problems_in
 from mudline.linting.fixing import with_severities
 from mudline.linting.registry import rules
 from mudline.linting.rule import LintContext, Noticed
+from mudline.scene.deck_curves import OF_SEABED, other_curves
 from mudline.scene.deck_values import bare, number
 from mudline.scene.model import Scene
 from mudline.scene.references import given_names
@@ -169,7 +170,20 @@ class _Deck:
             shape = number_of(ratios.tobytes() + forces.tobytes())
             points = (ratios.tolist(), forces.tolist())
             row = (*points, *ends, steepest, followers, shape, self._line(entry.title))
-            self.made["curves"].append((place, entry.name, entry.embedment, *row))
+            keyword = self.scene.deck.sections[entry.where.section].blocks[entry.where.block].keyword
+            self.made["curves"].append((place, entry.name, OF_SEABED, keyword, entry.embedment, *row))
+        self._other_curves()
+
+    def _other_curves(self) -> None:
+        """The curves that are none of a seabed: no element follows them."""
+        for place, one in enumerate(other_curves(self.scene.deck), len(self.scene.laws.curves) + 1):
+            made = one.made()
+            over, values = (made.ratios, made.forces) if made else np.ascontiguousarray(one.points.T)
+            ends = (float(over[0]), float(over[-1]), float(values.max())) if len(over) else (None, None, None)
+            steepest = float(made.slopes.max()) if made else None
+            shape = number_of(over.tobytes() + values.tobytes())
+            row = (over.tolist(), values.tolist(), *ends, steepest, 0, shape, self._line(one.title))
+            self.made["curves"].append((place, one.name, one.kind, one.keyword, False, *row))
 
     def _laws(self) -> None:
         scene = self.scene

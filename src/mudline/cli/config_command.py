@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 import click
 
 from mudline.cli import DONE, options
-from mudline.cli.inputs import is_deck
+from mudline.cli.inputs import is_deck, is_document
 from mudline.cli.streams import emit, reason
 from mudline.linting.configuration import (
     EXTEND,
@@ -106,9 +106,10 @@ class Configured:
         found = self.of(path)
         include, exclude = found.words("include"), found.words("exclude")
         if not (include or exclude):
-            return is_deck(path)
+            return is_deck(path) or is_document(path)
         relative = found.relative(path)
-        return (is_deck(path) or matches(relative, include)) and not matches(relative, exclude)
+        taken = is_deck(path) or matches(relative, include) or is_document(path)
+        return taken and not matches(relative, exclude)
 
 
 def _read(read: Callable[[], T]) -> T:

@@ -1,4 +1,4 @@
-"""`mudline curves`: the force-embedment curves as evaluated, as rows, tables and texts."""
+"""`mudline curves`: the curves of a deck by kind, as evaluated, as rows, tables and texts."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from mudline.linting.engine import naming_causes
 from mudline.linting.output import visible
 from mudline.quantities import UnitNames, csv_lines, finite, headed, shown, unit_names
 from mudline.results.summary import CURVE_SIDES, followers
+from mudline.scene.deck_curves import OF_SEABED, other_curves
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene, resolve
 
@@ -39,7 +40,7 @@ _SOFTENS = "unstable: the curve softens there, and a pipe that is pushed deeper 
     type=float,
     multiple=True,
     metavar="RATIO",
-    help="Evaluate the curves at this embedment ratio. Repeatable.",
+    help="Evaluate the curves at this embedment ratio, or at this value of what is their abscissa. Repeatable.",
 )
 @options.option(
     "--weight",
@@ -59,9 +60,10 @@ def command(
     output_format: str,
     view: View,
 ) -> int:
-    """Show each force-embedment curve as evaluated: sorted, with slope and stiffness of every segment.
+    """Show each curve of a deck as evaluated: sorted, with the slope of every segment; of a seabed with its stiffness.
 
-    CSV holds one table: the points, or the values for --at or --weight.
+    Force-embedment curves come first, then moment-curvature curves, soil springs, current profiles and so on. --weight
+    is about force-embedment curves. CSV holds one table: the points, or the values for --at or --weight.
     """
     if weight is not None and weight <= 0.0:
         raise click.UsageError(f"--weight {weight:g}: a line that lies on the seabed has a submerged weight above 0")
@@ -84,7 +86,7 @@ def command(
     elif rows:
         _print_curves(scene, rows, view)
     else:
-        notify(f"{scene.deck.file} has no force-embedment curve")
+        notify(f"{scene.deck.file} has no curve")
     return DONE
 
 
@@ -96,10 +98,22 @@ def _curve_rows(scene: Scene, ratios: tuple[float, ...], weight: float | None) -
 
     Raises ValueError for a ratio at which a force overflows, and for a ratio or a weight that is not finite.
     """
-    return [
+    seabed = [
         _curve_row(entry.name, curve, _diameters(scene, index), ratios, weight)
+        | {"kind": OF_SEABED, "keyword": _keyword(scene, entry), "axes": ["ratio", "force"]}
         for index, entry, curve in _used_curves(scene)
     ]
+    others = [
+        _curve_row(one.name, made, [], ratios, None)
+        | {"kind": one.kind, "keyword": one.keyword, "axes": list(one.axes)}
+        for one in sorted(other_curves(scene.deck), key=lambda one: one.kind)
+        if (made := one.made())
+    ]
+    return seabed + others
+
+
+def _keyword(scene: Scene, entry: SceneCurve) -> str:
+    return scene.deck.sections[entry.where.section].blocks[entry.where.block].keyword
 
 
 def _used_curves(scene: Scene) -> list[tuple[int, SceneCurve, ForceCurve]]:
@@ -172,19 +186,20 @@ def _csv_rows(
 ) -> Iterator[Sequence[object]]:
     """One table of all curves under its heading: values at ratios, static embedments by diameter, or points."""
     if ratios:
-        yield ("curve", *_AT)
-        yield from ((row["name"], *value.values()) for row in rows for value in row["at"])
+        yield ("curve", *_AT, "kind")
+        yield from ((row["name"], *value.values(), row["kind"]) for row in rows for value in row["at"])
     elif weight is not None:
         yield ("curve", *_AT, "stable", *_OF_DIAMETER)
         for row in rows:
-            for static in row["static"]:
+            for static in row.get("static", ()):
                 *values, sizes = static.values()
                 yield from ((row["name"], *values, *each.values()) for each in sizes or [dict.fromkeys(_OF_DIAMETER)])
     else:
-        yield ("curve", "ratio", "force", "slope")
+        yield ("curve", "ratio", "force", "slope", "kind")
         for row in rows:
             slopes = [*(segment["slope"] for segment in row["segments"]), None]
-            yield from ((row["name"], *point, slope) for point, slope in zip(row["points"], slopes, strict=True))
+            points = zip(row["points"], slopes, strict=True)
+            yield from ((row["name"], *point, slope, row["kind"]) for point, slope in points)
 
 
 # ---------------------------------------------------------------------------------------------------------- output
@@ -208,7 +223,7 @@ def _print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
     names = unit_names(scene.units)
     force, slope = headed("force", names.line_force), headed("slope", names.line_force)
     ends = ("from\nratio", "to\nratio", *(headed(f"{end}\nforce", names.line_force) for end in ("from", "to")))
-    for (index, entry, _), row in zip(_used_curves(scene), rows, strict=True):
+    for (index, entry, _), row in zip(_used_curves(scene), rows, strict=False):
         sizes = _diameters(scene, index)
         drawn = sizes if view.verbose or len(sizes) <= _SHOWN_DIAMETERS else [sizes[0], sizes[-1]]
         stiffnesses = (headed(f"stiffness\nD={shown(size)}", names.stiffness) for size in drawn)
@@ -221,7 +236,21 @@ def _print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
             printer.table(f"{row['name']} at", ("ratio", force, slope, "segment", "extrapolated"), values)
         if "static" in row:
             _print_static(printer, row, names)
+    for row in rows:
+        if row["kind"] != OF_SEABED:
+            _print_other(printer, row)
     printer.line((_GOES_ON, "dim"))
+
+
+def _print_other(printer: Printer, row: dict[str, Any]) -> None:
+    """Print a curve that is none of a seabed: its segments, and the values for --at."""
+    over, value = row["axes"]
+    title = f"{row['kind']} {row['name']} (*{row['keyword']}): {len(row['points'])} points"
+    heads = (f"from\n{over}", f"to\n{over}", f"from\n{value}", f"to\n{value}", "slope")
+    printer.table(title, heads, _segments(row, []))
+    if row["at"]:
+        values = [[each[key] for key in _AT] for each in row["at"]]
+        printer.table(f"{row['name']} at", (over, value, "slope", "segment", "extrapolated"), values)
 
 
 def _title(row: dict[str, Any], sizes: list[float], *, embedment: bool, of_sections: bool) -> str:

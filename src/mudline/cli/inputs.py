@@ -121,6 +121,11 @@ def is_deck(path: str) -> bool:
     return os.path.splitext(path)[1].lower() in SUFFIXES  # noqa: PTH122 - asked for each of many files
 
 
+def is_document(path: str) -> bool:
+    """Whether a file is a deck in JSON or YAML, by the format that its beginning names."""
+    return not is_deck(path) and form_of(path) != "keyword" and _is_deck_in_any_form(path)
+
+
 def collect(
     paths: Sequence[str],
     stdin_name: str = "<stdin>",
@@ -128,14 +133,19 @@ def collect(
     *,
     gitignore: bool = True,
     urls: bool = False,
+    skipped: list[str] | None = None,
 ) -> Inputs:
     """Files as given; directories searched for wanted files, in sorted order; `-` for standard input.
 
     `gitignore` leaves out of a search what `.gitignore` files hide. With `urls` those of files and folders are taken.
+    `skipped` gets a line, with the reason, for each file of a searched directory that is not taken.
     """
 
     def taken(path: str) -> bool:
-        return wanted(path) and (is_url(path) or os.path.isfile(path))  # noqa: PTH113 - Path raises for long names
+        found = wanted(path) and (is_url(path) or os.path.isfile(path))  # noqa: PTH113 - Path raises for long names
+        if not found and skipped is not None:
+            skipped.append(f"{_slashed(path)}: skipped, {_why_skipped(path)}")
+        return found
 
     return _collect(paths, stdin_name, taken, gitignore=gitignore, urls=urls)
 
@@ -148,6 +158,14 @@ def collect_any_form(
     A directory without a deck is a fault unless it `may_be_empty`.
     """
     return _collect(paths, stdin_name, _is_deck_in_any_form, gitignore=gitignore, urls=urls, may_be_empty=may_be_empty)
+
+
+def _why_skipped(path: str) -> str:
+    if form_of(path) != "keyword":
+        return f"it does not begin as a deck in JSON or YAML does, with the format {MARK}..."
+    if is_deck(path):
+        return "the configuration excludes it, or it is no file"
+    return f"its name does not end as that of a deck ({', '.join(sorted(SUFFIXES))}), and no include names it"
 
 
 def _is_deck_in_any_form(path: str) -> bool:

@@ -11,6 +11,7 @@ from mudline.cli.config_command import Configured
 from mudline.cli.inputs import collect
 from mudline.cli.known_findings import known_findings
 from mudline.cli.lint_report import Report, complete, outputs
+from mudline.cli.streams import notify
 from mudline.cli.view import View
 from mudline.diagnostics import Severity
 from mudline.linting.configuration import Given
@@ -117,8 +118,8 @@ def command(
 ) -> int:
     """Find faults in decks: all findings of every file in one run.
 
-    PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi and *.das), URLs of either, or - for standard
-    input.
+    PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that begin
+    as decks do), URLs of either, or - for standard input. With -v the files of directories that are skipped are named.
     """
     if scheduler is not None and (fix or diff or watch):
         raise click.UsageError("--fix, --diff and --watch do not go with --scheduler: leave one of them out")
@@ -129,7 +130,11 @@ def command(
 
     def once() -> int:
         configured = Configured(config, isolated)
-        inputs = collect(paths, stdin_name, configured.wanted, gitignore=not every_file, urls=not (fix or diff))
+        skipped: list[str] | None = [] if view.verbose else None
+        searched = {"gitignore": not every_file, "urls": not (fix or diff)}
+        inputs = collect(paths, stdin_name, configured.wanted, skipped=skipped, **searched)
+        for line in sorted(skipped or ()):
+            notify(line)
         aside = diff or (fix and any(file.path is None for file in inputs.files))
         report = Report(wanted, view, statistics=statistics, aside=aside, fixing=fix or diff)
         known = None if uncached or fix or diff else known_findings(inputs, given, configured)

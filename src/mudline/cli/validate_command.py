@@ -33,6 +33,7 @@ from mudline.short_repr import counted
 from mudline.syntax.source import Source
 
 _COUNTS = ("errors", "warnings", "sections", "keywords", "curves", "elements")
+_HEADINGS = ("errors", "warn-\nings", "sec-\ntions", "keywords\nread", "curves", "ele-\nments")
 _FAIL_ON = ("error", "warning", "unread")
 
 
@@ -116,8 +117,8 @@ class Verdict:
 
     @property
     def short(self) -> str:
-        """The verdict without what was read."""
-        return self.verdict.partition(":")[0]
+        """The verdict without what was read, in as few words as a table has place for."""
+        return self.verdict.partition(":")[0].replace("legal as far", "as far")
 
 
 @dataclass(slots=True)
@@ -153,7 +154,8 @@ class Total:
             f"{counted(self.unreadable, 'file')} unreadable" if self.unreadable else "",
         ]
         rest = ", ".join(filter(None, others))
-        return f"{self.legal} of {counted(self.decks, 'deck')} legal" + (f": {rest}" if rest else "")
+        legal = "legal" if self.keywords.whole else "legal as far as read"
+        return f"{self.legal} of {counted(self.decks, 'deck')} {legal}" + (f": {rest}" if rest else "")
 
 
 class Judged(NamedTuple):
@@ -283,7 +285,7 @@ def _print_text(judged: Iterable[Judged], total: Total, view: View) -> None:
             [(each.short, _style(good=each.legal)), *(_shown(getattr(each, name)) for name in _COUNTS), each.file]
             for each in verdicts
         ]
-        printer.table("Decks", ("verdict", *_COUNTS, "file"), rows, left=("verdict", "file"))
+        printer.table("Decks", ("verdict", *_HEADINGS, "file"), rows, left=("verdict", "file"), whole=("file",))
         printer.line((str(total), _style(good=total.legal == total.decks and not total.unreadable)))
         if not total.keywords.whole:
             printer.line(printer.visible(total.keywords.sentence()))

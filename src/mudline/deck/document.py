@@ -69,7 +69,12 @@ class DocumentOrigin(Origin):
 
     def place(self, problem: Problem) -> Range:
         """Lines and columns of a problem."""
-        return self.locate(document_path(problem.where)) if problem.where else START
+        if problem.where is None:
+            return START
+        section, block, path = problem.where
+        if path[:1] == ("lines",):  # a piece of a line has no place of its own
+            path = path[:2]
+        return self.locate(document_path(Where(section, block, path)))
 
 
 def decoded(data: bytes, file: str, form: str) -> str:

@@ -34,6 +34,9 @@ _DATA = re.compile(r"[-+.,\d\s]+(?:[eEdD][-+]?\d+[-+.,\d\s]*)*$|\s*[A-Z][A-Z ]*=
 """A line of numbers, or a setting: no title."""
 
 
+_NOT_READ = ("lines", "unread")
+"""The first step to a line that is not read: of a block without a model, or one that a model keeps."""
+_ENDS = 2
 _OF_EVERY_BLOCK = {"keyword", "comments"}
 
 
@@ -147,9 +150,37 @@ class TextOrigin(Origin):
     def span(self, where: Where) -> Span | None:
         """The span of a value, of its block or section where it has none."""
         block = self.read.get((where.section, where.block))
+        if where.path and where.path[0] in _NOT_READ:
+            return self._not_read(where)
         if block is not None and where.path:
             return block.places.find(where.path)
         return self.heads.get(where._replace(path=()))
+
+    def kept_lines(self, section: int, block: int) -> list[str]:
+        """The lines that a block keeps as they are, in the order of the file."""
+        text = self.source.unified
+        return [text[slice(*span)].rstrip("\r\n") for span in self._kept_spans(section, block)]
+
+    def _kept_spans(self, section: int, block: int) -> list[Span]:
+        return [self._line_at(start) for start in sorted(self.read[section, block].places.kept)]
+
+    def _line_at(self, start: int) -> Span:
+        end = self.source.unified.find("\n", start)
+        return Span(start, len(self.source.unified) if end < 0 else end)
+
+    def _not_read(self, where: Where) -> Span:
+        """The place of a line that is not read, by its number, or of a piece of it, by where that begins and ends."""
+        part, number, *piece = where.path
+        at = int(number)
+        if part == "unread":
+            line = self._kept_spans(where.section, where.block)[at]
+        else:
+            line = self._line_at(self.tree.sections[where.section].blocks[where.block].leaves[0].span.start)
+            for _ in range(at):
+                line = self._line_at(line.end + 1)
+        if len(piece) == _ENDS:
+            return Span(line.start + int(piece[0]), line.start + int(piece[1]))
+        return trimmed(self.source.unified, *line)
 
     def place(self, problem: Problem) -> Range:
         """Lines and columns of a problem."""

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from mudline.keywords.model import Record, Row, about, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Name, Names, Real
+from mudline.keywords.values import Contents, Name, Names, Real
 from mudline.keywords.vessels import Body
 
 _LINES = "a matrix is six lines of six numbers"
@@ -55,5 +55,8 @@ class BodyMatrices(Record):
 
     rule = "body_matrices"
     body: Body
-    file: Annotated[Name | None, setting("FILE", "file with the matrices, instead of them", names=Names.FILE)] = None
+    file: Annotated[
+        Name | None,
+        setting("FILE", "file with the matrices, instead of them", names=Names.FILE, holds=Contents.NUMBERS),
+    ] = None
     types: list[MatrixType] = []

@@ -34,7 +34,7 @@ from mudline.keywords.table import (
     misfit,
     read_table,
 )
-from mudline.keywords.values import Count, Equation, Facts, Kind, Label, Names, Subject, Text
+from mudline.keywords.values import Contents, Count, Equation, Facts, Kind, Label, Names, Subject, Text
 from mudline.limits import MOST_KEYS
 from mudline.short_repr import counted, with_fields
 
@@ -59,6 +59,7 @@ class FieldInfo:
     names: Names | None = None
     also: str = ""
     defines: Names | None = None
+    holds: Contents | None = None
     heading: str = ""
     opaque: tuple[str, ...] | None = None
 
@@ -124,10 +125,23 @@ FEWEST_POINTS = 2
 
 @dataclass(frozen=True, slots=True)
 class Rows(FieldInfo):
-    """A field that is a table; `row` declares its columns. The order of `unordered` rows has no meaning."""
+    """A field that is a table; `row` declares its columns. The order of `unordered` rows has no meaning.
+
+    A table that is a curve has an `abscissa`, one of its columns; the first of the others is the ordinate. `curve` says
+    what kind of curve it is, in words. It is linear between its points, its end sections go on beyond them.
+    """
 
     row: type[Row] | None = None
     unordered: bool = False
+    curve: str = ""
+    abscissa: str = ""
+
+    @property
+    def axes(self) -> tuple[int, int]:
+        """The columns of the abscissa and the ordinate of a curve."""
+        names = [spec.json for spec in record_schema(self.row).columns] if self.row else []
+        over = names.index(self.abscissa)
+        return over, next(index for index in range(len(names)) if index != over)
 
     def columns(self) -> list[Column]:
         """The columns of the table."""
@@ -144,7 +158,7 @@ class Rows(FieldInfo):
         table = read_table(given, self.columns())
         if info.context == AS_TEXT:
             return table
-        if self.unordered and len(table) < FEWEST_POINTS:
+        if self.curve and len(table) < FEWEST_POINTS:
             raise ValueError(f"{counted(len(table), 'point')}: a curve needs at least {FEWEST_POINTS}")
         for index, spec in enumerate(record_schema(self.row).columns if self.row else ()):
             for number, value in enumerate(table.column(index).tolist() if spec.about.limits else ()):
@@ -173,7 +187,7 @@ class Rows(FieldInfo):
         return {
             "description": self.meaning,
             "anyOf": [
-                {"type": "array", "items": listed, **({"minItems": FEWEST_POINTS} if self.unordered else {})},
+                {"type": "array", "items": listed, **({"minItems": FEWEST_POINTS} if self.curve else {})},
                 {"type": "string", "description": "the same rows as text, one a line, fields separated by commas"},
             ],
         }
@@ -199,6 +213,11 @@ def setting(key: str, meaning: str, **details: Any) -> Setting:
 def rows(row: type[Row], meaning: str, *, unordered: bool = False, inferred: str = "") -> Rows:
     """A table field."""
     return Rows(meaning, row=row, unordered=unordered, inferred=inferred)
+
+
+def curve_points(row: type[Row], meaning: str, kind: str, *, abscissa: str, inferred: str = "") -> Rows:
+    """A table field that is a curve of a kind, over one of its columns; its points may stand in any order."""
+    return Rows(meaning, row=row, unordered=True, inferred=inferred, curve=kind, abscissa=abscissa)
 
 
 class Comment(BaseModel):

@@ -82,7 +82,7 @@ def _table_faults(table: Table, slot: FieldSpec) -> Iterator[tuple[tuple[int, in
 def _has_short_curve(part: Part) -> bool:
     schema = record_schema(type(part))
     table = schema.table
-    if table is not None and isinstance(table.about, Rows) and table.about.unordered:
+    if table is not None and isinstance(table.about, Rows) and table.about.curve:
         points = getattr(part, table.name)
         if isinstance(points, Table) and len(points) < FEWEST_POINTS:
             return True

@@ -176,7 +176,7 @@ class _Reader:
         trailing = attach(self.comments, self.kept, built) if self.comments or self.kept else []
         self.lost += builder.lost + len(self.kept)
         model = self._model(built, builder)
-        places.kept = frozenset(line.span.start for line in self.kept)
+        places.kept = frozenset(line.start for kept in self.kept for line in line_spans(self.text, kept.span))
         problems = merge_per_line(self.text, self.problems)
         may_keep = "unread" in self.declared.model_fields
         if self.kept and may_keep and any(problem.code in (SYN001, SYN014) for problem in problems):

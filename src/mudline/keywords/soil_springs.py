@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated
 
 from mudline.keywords.keeping import OpenRecord
-from mudline.keywords.model import Row, about, rows, setting
+from mudline.keywords.model import Row, about, curve_points, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Ident, Name, Names, Real
 
@@ -26,7 +26,7 @@ class DepthCurve(OpenRecord):
 
     rule = "depth_curve"
     depth: Annotated[Real, setting("DEPTH", "depth below the mudline, negative above it", unit="L")]
-    points: Annotated[Table, rows(SoilPoint, _SOIL_POINTS, unordered=True)]
+    points: Annotated[Table, curve_points(SoilPoint, _SOIL_POINTS, "soil spring curve", abscissa="displacement")]
 
 
 class NodeCurve(OpenRecord):
@@ -36,7 +36,7 @@ class NodeCurve(OpenRecord):
     node: Annotated[
         Ident, setting("NODE", "node that the curve belongs to", inferred="in place of DEPTH=", names=Names.NODE)
     ]
-    points: Annotated[Table, rows(SoilPoint, _SOIL_POINTS, unordered=True)]
+    points: Annotated[Table, curve_points(SoilPoint, _SOIL_POINTS, "soil spring curve", abscissa="displacement")]
 
 
 SoilCurves = list[DepthCurve | NodeCurve]

@@ -201,6 +201,15 @@ class Names(Enum):
     S_N_CURVE = "an S-N curve"
 
 
+class Contents(Enum):
+    """What a file that a deck names holds; the words are for a reader."""
+
+    OPERATORS = "response amplitude operators"
+    MOTIONS = "time and six displacements"
+    ELEVATIONS = "time and elevation"
+    NUMBERS = "numbers"
+
+
 LINE_SETS: Mapping[str, Names] = {
     "LINE": Names.SET,
     "NAME": Names.SET,

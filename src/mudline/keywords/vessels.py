@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from mudline.keywords.model import Record, Row, about, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Name, Names, Real
+from mudline.keywords.values import Contents, Name, Names, Real
 
 COEFFICIENTS = "coefficients by heading"
 TAG = "a line of this word alone: the block is that of a mooring analysis, which has one vessel"
@@ -65,9 +65,10 @@ class BodyCoefficients(Record):
 
     rule = "body_coefficients"
     body: Body
-    file: Annotated[Name | None, setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE)] = (
-        None
-    )
+    file: Annotated[
+        Name | None,
+        setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE, holds=Contents.NUMBERS),
+    ] = None
     headings: Annotated[Table | None, rows(Coefficients, COEFFICIENTS)] = None
 
 
@@ -75,10 +76,11 @@ class VesselCoefficients(Record):
     """The coefficients of the moored vessel."""
 
     rule = "vessel_coefficients"
-    tag: Annotated[Name, about("MOORED VESSEL; " + TAG)]
-    file: Annotated[Name | None, setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE)] = (
-        None
-    )
+    tag: Annotated[Literal["MOORED VESSEL"], about(TAG)]
+    file: Annotated[
+        Name | None,
+        setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE, holds=Contents.NUMBERS),
+    ] = None
     headings: Annotated[Table | None, rows(Coefficients, COEFFICIENTS)] = None
 
     @classmethod

@@ -19,9 +19,11 @@ from mudline.lsp.names import Occurrence, equation_spans
 from mudline.lsp.sites import Site
 from mudline.quantities import unit_names
 from mudline.results.summary import followers
+from mudline.scene.deck_curves import DeckCurve, other_curves
 from mudline.scene.deck_values import bare, find_file
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene
+from mudline.scene.names import CURVES
 from mudline.scene.restart import find_deck
 from mudline.scene.sets import NamedSet
 from mudline.short_repr import counted
@@ -64,6 +66,8 @@ def named_help(analysis: Analysis, found: Site, name: str) -> str:
     if kind is Names.CURVE:
         entry = next((each for each in scene.laws.curves if not each.embedment and _same(each.name, name)), None)
         return curve_help(scene, entry) if entry else ""
+    if kind in CURVES:
+        return "\n\n".join(other_curve_help(one) for one in other_curves(scene.deck) if _same(one.name, name))
     if kind in (Names.FILE, Names.DECK):
         path = find_deck(analysis.deck, name) if kind is Names.DECK else find_file(analysis.deck.folder, name)
         return path.as_posix() if path else "this file was not found"
@@ -161,6 +165,17 @@ def _slope_text(scene: Scene, slope: float, sizes: np.ndarray[tuple[int, ...], n
 
 def _title(entry: SceneCurve) -> str:
     return f"the curve of set {entry.name}" if entry.embedment else f"curve {entry.name}"
+
+
+def other_curve_help(entry: DeckCurve) -> str:
+    """Points and range of a curve that is none of a seabed."""
+    curve = entry.made()
+    head = f"{entry.kind} **{entry.name}** of `*{entry.keyword}`"
+    if curve is None:
+        return f"{head}: no curve, see its findings"
+    (first, last), (over, value) = (curve.ratios[[0, -1]].tolist(), entry.axes)
+    reach = f"{over} from {first:g} to {last:g}, {value} from {curve.forces[0]:g} to {curve.forces[-1]:g}"
+    return f"{head}: {len(curve.ratios)} points, {reach}; its end sections go on beyond them"
 
 
 def curve_help(scene: Scene, entry: SceneCurve) -> str:

@@ -18,7 +18,7 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import read_source
 from mudline.diagnostics import Severity
 from mudline.keywords import catalogue
-from mudline.keywords.model import record_schema
+from mudline.keywords.model import Rows, record_schema
 from mudline.keywords.table import Table
 from mudline.keywords.values import Equation, Kind
 from mudline.quantities import UNIT_SYSTEMS
@@ -100,7 +100,7 @@ def _head(sheet: Sheet) -> _Head | None:
     forms = [form for form in table_forms() if any(column.headings & given.keys() for column in form.columns)]
     titled = [form for form in forms if plain(form.keyword) == plain(sheet.title)]
     fitting = [form for form in titled or forms if all(column.headings & given.keys() for column in form.required)]
-    fitting = [form for form in fitting if form.name is None or form.is_curve or form.name.headings & given.keys()]
+    fitting = [form for form in fitting if form.name is None or form.curve or form.name.headings & given.keys()]
     if not fitting:
         _refuse(sheet, given, titled or forms)
         return None
@@ -117,10 +117,11 @@ def _head(sheet: Sheet) -> _Head | None:
 def _refuse(sheet: Sheet, given: Mapping[str, tuple[Cell, str]], forms: Sequence[TableForm]) -> None:
     """Raise DeckError for a sheet that has most of the headings of a keyword, or half of those of a curve."""
     titled = [form for form in forms if plain(form.keyword) == plain(sheet.title)]
-    for form in titled or [form for form in forms if not catalogue.is_superseded(form.keyword)]:
+    newer = [form for form in forms if not catalogue.is_superseded(form.keyword)]
+    for form in titled or sorted(newer, key=lambda form: form.declared.subject != "seabed"):
         there = [column for column in form.required if column.headings & given.keys()]
         lacks = [column.spec.label for column in form.required if column not in there]
-        if lacks and len(there) >= len(lacks) + (not form.is_curve):
+        if lacks and len(there) >= len(lacks) + (form.curve is None):
             cell = next(given[heading][0] for heading in there[0].headings if heading in given)
             what = f"a column {there[0].spec.label} and none headed {' or '.join(lacks)}"
             raise sheet.fault(cell.row, cell.column, f"{what}: *{form.keyword} needs both, in the first row")
@@ -322,15 +323,16 @@ def _check(deck: Deck, made: Mapping[TableForm, Sequence[_Entry]]) -> None:
             if named != entry.name:
                 what = f"{cut(entry.name, 40)!r} cannot be a name in a deck: it reads as {cut(str(named), 40)!r}"
                 raise entry.sheet.fault(*entry.cell, what)
-            if form.is_curve and isinstance(table := getattr(record, "points", None), Table):
-                _check_curve(table, entry)
+            if form.curve and isinstance(table := getattr(record, "points", None), Table):
+                _check_curve(form.curve, table, entry)
 
 
-def _check_curve(table: Table, entry: _Entry) -> None:
-    if np.isnan(table.values).any():  # an equation: the deck's own checks see its value
+def _check_curve(curve: Rows, table: Table, entry: _Entry) -> None:
+    points = np.column_stack([table.column(index) for index in curve.axes])
+    if np.isnan(points).any():  # an equation: the deck's own checks see its value
         return
     try:
-        ForceCurve(table.values)
+        ForceCurve(points)
     except CurveError as error:
         row = entry.rows[error.index] if 0 <= error.index < len(entry.rows) else entry.cell[0]
         raise entry.sheet.fault(row, entry.first, str(error)) from error

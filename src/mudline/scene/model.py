@@ -11,6 +11,7 @@ from mudline.deck.parameters import evaluated
 from mudline.diagnostics import Blocks, DeckError, Problem, Severity
 from mudline.scene.checks import checked
 from mudline.scene.context import Context
+from mudline.scene.deck_curves import check_curves
 from mudline.scene.force_curves import read_curves
 from mudline.scene.laws import read_extensions, read_laws, read_resistance
 from mudline.scene.mesh import read_elements, read_nodes
@@ -20,6 +21,7 @@ from mudline.scene.restart import continued
 from mudline.scene.seabed import read_seabed
 from mudline.scene.sections import read_sections
 from mudline.scene.sets import read_sets
+from mudline.scene.unread_lines import check_unread_lines
 from mudline.short_repr import counted, cut, outline
 
 if TYPE_CHECKING:
@@ -113,8 +115,10 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     resistance = read_resistance(context, laws)
     extensions = read_extensions(context, sets, count)
     seabed = read_seabed(context)
+    check_curves(context)
     check_lines(context)
     check_references(context, sets, laws, with_soil=external is None)
+    check_unread_lines(context, sets)
     if external is None:  # a file of elements does not define every node and set
         check_soil(context, nodes)
         check_boundaries(context, nodes)

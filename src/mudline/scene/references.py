@@ -39,11 +39,35 @@ _FREEDOMS = 6
 
 
 def check_references(context: Context, sets: Sets, laws: LawTable, *, with_soil: bool) -> None:
-    """Every name of a set or a curve; those of soil springs on demand."""
+    """Every name of a set or a curve; those of soil springs on demand.
+
+    Postprocessing has sets of its own beside those of the model.
+    """
+    own: set[str] | None = None
     for block, where, name in given_names(context.deck, Names.SET):
-        if with_soil or not block.facts.soil_springs:
-            sets.check(name, where)
+        if not with_soil and block.facts.soil_springs:
+            continue
+        if context.deck.sections[where.section].name not in _OF_THE_MODEL and sets.find(name) is None:
+            own = _sets_of_postprocessing(context.deck) if own is None else own
+            if folded(bare(name)) in own or not context.deck.keywords():
+                continue
+        sets.check(name, where)
     laws.referenced.update(folded(name) for _, _, name in given_names(context.deck, Names.CURVE))
+
+
+_OF_THE_MODEL = ("PREPROCESSOR", "MODEL", "LOAD CASE")
+
+
+def _sets_of_postprocessing(deck: Deck) -> set[str]:
+    """The sets that other sections than the model define, by their folded names."""
+    return {
+        folded(bare(name))
+        for section in deck.sections
+        if section.name not in _OF_THE_MODEL
+        for block in section.blocks
+        if type(block) is not Opaque
+        for _, name in names_given(block, Names.SET, "defines")
+    }
 
 
 def given_names(deck: Deck, what: Names) -> Iterator[tuple[type[Block], Where, str]]:

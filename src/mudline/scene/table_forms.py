@@ -38,7 +38,7 @@ class TableForm:
     name: Column | None
     values: tuple[Column, ...]
     opening: str
-    is_curve: bool
+    curve: Rows | None
 
     @property
     def keyword(self) -> str:
@@ -86,7 +86,7 @@ def _of_record(declared: type[Block], record: type[Record]) -> Iterator[TableFor
             None if name is None else Column(name, _name_headings(name)),
             tuple(Column(value, _value_headings(value)) for value in values),
             opening,
-            is_curve=isinstance(spec.about, Rows) and spec.about.unordered,
+            curve=spec.about if isinstance(spec.about, Rows) and spec.about.curve else None,
         )
 
 

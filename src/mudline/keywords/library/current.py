@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from mudline.keywords.loads import Direction
-from mudline.keywords.model import Block, Record, Row, about, rows, setting
+from mudline.keywords.model import Block, Record, Row, about, curve_points, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Name, Names, Real
 
@@ -45,7 +45,10 @@ class CurrentProfile(Record):
     ] = None
     user: Annotated[Name | None, setting("USER", "of SUBROUTINE: file with it", names=Names.FILE, inline=True)] = None
     uniform: Annotated[UniformCurrent | None, about("current of UNIFORM")] = None
-    profile: Annotated[Table | None, rows(CurrentPoint, "profile; at least two points", unordered=True)] = None
+    profile: Annotated[
+        Table | None,
+        curve_points(CurrentPoint, "at least two points", "current profile", abscissa="elevation"),
+    ] = None
 
     @classmethod
     def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:

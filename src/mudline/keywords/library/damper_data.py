@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.model import Block, Record, Row, about, rows, setting
+from mudline.keywords.model import Block, Record, Row, about, curve_points, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Name, Names, Real
 
@@ -24,7 +24,9 @@ class DamperCurve(Record):
     variable: Annotated[
         Literal["TIME", "VELOCITY"] | None, setting("VARIABLE", "what comes first", default="TIME", inline=True)
     ] = None
-    points: Annotated[Table, rows(DamperPoint, "points in any order; at least two", unordered=True)]
+    points: Annotated[
+        Table, curve_points(DamperPoint, "points in any order; at least two", "damper curve", abscissa="variable")
+    ]
 
 
 class DamperData(Block):

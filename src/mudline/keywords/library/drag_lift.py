@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.model import Block, Record, Row, about, rows, setting
+from mudline.keywords.model import Block, Record, Row, about, curve_points, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Name, Names, Real
 
@@ -21,7 +21,7 @@ class LiftCurve(Record):
 
     rule = "lift_curve"
     curve: Annotated[Name, setting("CURVE", "name of the curve, for *HYDRODYNAMIC SETS", defines=Names.DRAG_LIFT)]
-    points: Annotated[Table, rows(LiftPoint, "points in any order", unordered=True)]
+    points: Annotated[Table, curve_points(LiftPoint, "points in any order", "drag lift curve", abscissa="ratio")]
 
 
 class DragLift(Block):

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from mudline.keywords.lists import Freedom
 from mudline.keywords.model import Block, Record, Row, about, setting
-from mudline.keywords.values import Name, Names, Real
+from mudline.keywords.values import Contents, Name, Names, Real
 from mudline.keywords.vessels import Vessel
 
 _SEVERAL = "several sinusoids of a vessel: the pair of lines is repeated"
@@ -38,7 +38,12 @@ class VesselDrift(Record):
     sinusoid: Annotated[Sinusoid | None, about("of SINUSOIDAL")] = None
     file: Annotated[
         Name | None,
-        setting("FILE", "of FILE: text file of seven columns, time and six displacements", names=Names.FILE),
+        setting(
+            "FILE",
+            "of FILE: text file of seven columns, time and six displacements",
+            names=Names.FILE,
+            holds=Contents.MOTIONS,
+        ),
     ] = None
 
 

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from mudline.keywords.common import NO_SET, POINTS, CurvePoint
-from mudline.keywords.model import Block, Record, rows, setting
+from mudline.keywords.model import Block, Record, curve_points, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Facts, Name, Names, Successor
 
@@ -20,7 +20,7 @@ class EmbedmentCurve(Record):
         Name | None,
         setting("SET", "element set of the curve", default="ALL", inferred=NO_SET, names=Names.SET),
     ] = Field(default=None, alias="set")
-    points: Annotated[Table, rows(CurvePoint, POINTS, unordered=True)]
+    points: Annotated[Table, curve_points(CurvePoint, POINTS, "force-embedment curve", abscissa="ratio")]
 
 
 class Embedment(Block):

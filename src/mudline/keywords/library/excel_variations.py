@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, setting
-from mudline.keywords.values import Facts, Name, Names
+from mudline.keywords.values import Name, Names
 
 
 class ExcelVariations(Block):
@@ -15,7 +15,6 @@ class ExcelVariations(Block):
     sections = ("PREPROCESSOR",)
     subject = "deck"
     page = "kwd_preprocessor_excelvariations"
-    facts = Facts(plans_decks=True)
     summary = "Decks to be made from a table of parameters in a workbook."
     example = "*EXCEL VARIATIONS\n SUBDIRECTORY=Cases, FILENAME=Case %Number%\n EXCEL=cases.xlsx, RANGE=A1:D20\n"
 

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.keywords.model import Block, Record, Row, about, rows, setting
+from mudline.keywords.model import Block, Record, Row, about, curve_points, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Facts, Ident, Name, Names, Real, RealOrName
 
@@ -38,7 +38,10 @@ class FlexJoint(Record):
         Literal["LINEAR", "NONLINEAR"], setting("TYPE", "a stiffness, or a curve", inferred="the block may be repeated")
     ] = Field(alias="type")
     stiffness: Annotated[RealOrName | None, about("of LINEAR: rotational stiffness", unit="FL", at_least=0)] = None
-    points: Annotated[Table | None, rows(JointPoint, "of NONLINEAR: points; at least two", unordered=True)] = None
+    points: Annotated[
+        Table | None,
+        curve_points(JointPoint, "of NONLINEAR: two points or more", "moment-angle curve", abscissa="angle"),
+    ] = None
 
     @classmethod
     def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.model import Block, Record, Row, about, rows, setting
+from mudline.keywords.model import Block, Record, Row, about, curve_points, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Name, Names, Real
 
@@ -23,7 +23,10 @@ class ForceStrainCurve(Record):
     curve: Annotated[
         Name, setting("CURVE", "name of the curve, for EA= of *GEOMETRIC SETS", defines=Names.FORCE_STRAIN)
     ]
-    points: Annotated[Table, rows(ForceStrainPoint, "points in any order; at least two", unordered=True)]
+    points: Annotated[
+        Table,
+        curve_points(ForceStrainPoint, "two points or more, in any order", "force-strain curve", abscissa="strain"),
+    ]
 
 
 class ForceStrain(Block):

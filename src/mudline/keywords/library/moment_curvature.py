@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.model import Block, Record, Row, about, rows, setting
+from mudline.keywords.model import Block, Record, Row, about, curve_points, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Name, Names, Real
 
@@ -24,7 +24,12 @@ class MomentCurvatureCurve(Record):
         Name,
         setting("CURVE", "name of the curve, for EIYY= and EIZZ= of *GEOMETRIC SETS", defines=Names.MOMENT_CURVATURE),
     ]
-    points: Annotated[Table, rows(MomentCurvaturePoint, "points in any order; at least two", unordered=True)]
+    points: Annotated[
+        Table,
+        curve_points(
+            MomentCurvaturePoint, "points in any order; at least two", "moment-curvature curve", abscissa="curvature"
+        ),
+    ]
 
 
 class MomentCurvature(Block):

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.keywords.model import Block, Record, Row, about, rows, setting
+from mudline.keywords.model import Block, Record, Row, about, curve_points, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Name, Names, Real
 
@@ -45,7 +45,13 @@ class PipCurve(Record):
     ] = None
     law: Annotated[PowerLaw | None, about("of POWER LAW: its line")] = None
     points: Annotated[
-        Table | None, rows(PipPoint, "of DATA PAIRS: points in any order; at least two", unordered=True)
+        Table | None,
+        curve_points(
+            PipPoint,
+            "of DATA PAIRS: points in any order; at least two",
+            "pipe-in-pipe stiffness",
+            abscissa="deflection",
+        ),
     ] = None
 
     @classmethod

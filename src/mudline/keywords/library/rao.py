@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Name, Names, Real
+from mudline.keywords.values import Contents, Name, Names, Real
 from mudline.keywords.vessels import Vessel
 
 
@@ -72,7 +72,10 @@ class VesselRao(Record):
         Literal["MCS", "LINE"] | None,
         setting("LAYOUT", "by heading, or a line a frequency", default="MCS", inline=True, behind="FORMAT"),
     ] = None
-    file: Annotated[Name | None, setting("FILE", "file with the operators, instead of lines", names=Names.FILE)] = None
+    file: Annotated[
+        Name | None,
+        setting("FILE", "file with the operators, instead of lines", names=Names.FILE, holds=Contents.OPERATORS),
+    ] = None
     headings: list[HeadingRao] = []
     lines: Annotated[Table | None, rows(RaoLine, "of LINE: operators, in any order")] = None
 

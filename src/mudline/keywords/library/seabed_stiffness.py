@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from mudline.keywords.common import POINTS, CurvePoint
-from mudline.keywords.model import Block, Record, rows, setting
+from mudline.keywords.model import Block, Record, curve_points, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Facts, Name, Names
 
@@ -15,7 +15,7 @@ class StiffnessCurve(Record):
 
     rule = "stiffness_curve"
     name: Annotated[Name, setting("CURVE", "curve name, used by STIFFNESS= of *SEABED PROPERTIES", defines=Names.CURVE)]
-    points: Annotated[Table, rows(CurvePoint, POINTS, unordered=True)]
+    points: Annotated[Table, curve_points(CurvePoint, POINTS, "force-embedment curve", abscissa="ratio")]
 
 
 class SeabedStiffness(Block):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.model import Block, Row, about, rows, setting
+from mudline.keywords.model import Block, Row, about, curve_points, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Real, Whole
 
@@ -36,7 +36,9 @@ class ShearCurrent(Block):
         Literal["ASCEND", "DESCEND", "XL"] | None,
         setting("OPTION", "up from X = 0, down from the water line, or along the line", default="ASCEND", inline=True),
     ] = None
-    profile: Annotated[Table, rows(VelocityPoint, "profile; at least two points", unordered=True)]
+    profile: Annotated[
+        Table, curve_points(VelocityPoint, "profile; at least two points", "current profile", abscissa="elevation")
+    ]
 
 
 BLOCK = ShearCurrent

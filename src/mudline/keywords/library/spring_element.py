@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.keywords.model import Block, Record, Row, about, rows, setting
+from mudline.keywords.model import Block, Record, Row, about, curve_points, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Facts, Ident, Name, Names, Real
 
@@ -31,7 +31,10 @@ class Springs(Record):
     ] = Field(default=None, alias="set")
     type_: Annotated[Literal["LINEAR", "NONLINEAR"], setting("TYPE", "a stiffness, or a curve")] = Field(alias="type")
     stiffness: Annotated[Real | None, about("of LINEAR: stiffness", unit="F/L", at_least=0)] = None
-    points: Annotated[Table | None, rows(SpringPoint, "of NONLINEAR: points; at least two", unordered=True)] = None
+    points: Annotated[
+        Table | None,
+        curve_points(SpringPoint, "of NONLINEAR: two points or more", "spring curve", abscissa="displacement"),
+    ] = None
 
     @classmethod
     def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:

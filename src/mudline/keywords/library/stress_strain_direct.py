@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.model import Block, Record, Row, about, rows, setting
+from mudline.keywords.model import Block, Record, Row, about, curve_points, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Name, Names, Real
 
@@ -25,10 +25,11 @@ class StressStrainCurve(Record):
     ]
     points: Annotated[
         Table,
-        rows(
+        curve_points(
             StressStrainPoint,
             "points in any order; at least two; without negative strains it is taken to be symmetric",
-            unordered=True,
+            "stress-strain curve",
+            abscissa="strain",
         ),
     ]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.model import Block, Record, Row, about, rows, setting
+from mudline.keywords.model import Block, Record, Row, about, curve_points, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Name, Names, Real
 
@@ -23,7 +23,10 @@ class TorqueTwistCurve(Record):
     curve: Annotated[
         Name, setting("CURVE", "name of the curve, for GJ= of *GEOMETRIC SETS", defines=Names.TORQUE_TWIST)
     ]
-    points: Annotated[Table, rows(TorqueTwistPoint, "points in any order; at least two", unordered=True)]
+    points: Annotated[
+        Table,
+        curve_points(TorqueTwistPoint, "two points or more, in any order", "torque-twist curve", abscissa="twist"),
+    ]
 
 
 class TorqueTwist(Block):

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.keywords.keeping import OpenBlock, OpenRecord
 from mudline.keywords.model import setting
-from mudline.keywords.values import Name, Names
+from mudline.keywords.values import Contents, Name, Names
 from mudline.keywords.vessels import Dimensions, LocalDistance, Position
 
 _MORE = "more lines follow, of which the manual page was not seen: they are kept as they are"
@@ -21,7 +21,9 @@ class IntegratedVessel(OpenRecord):
         Literal["LARGE", "SMALL"] | None, setting("ANGLES", "how rotations are combined", default="LARGE")
     ] = None
     position: Annotated[Position, setting("INITIAL POSITION", "its reference point and heading")]
-    rao: Annotated[Name | None, setting("RAO", "file of response amplitude operators", names=Names.FILE)] = None
+    rao: Annotated[
+        Name | None, setting("RAO", "file of response amplitude operators", names=Names.FILE, holds=Contents.OPERATORS)
+    ] = None
     format: Annotated[
         Name | None,
         setting("FORMAT", "format of that file, as WAMIT, AQWA, MOSES or ORCAFLEX", inline=True, behind="RAO"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, Record, setting
-from mudline.keywords.values import Name, Names
+from mudline.keywords.values import Contents, Name, Names
 from mudline.keywords.vessels import Vessel
 
 
@@ -18,7 +18,12 @@ class VesselMotion(Record):
         Literal["GLOBAL", "LOCAL"] | None,
         setting("OPTION", "axes of the displacements", default="GLOBAL", inline=True),
     ] = None
-    file: Annotated[Name, setting("FILE", "text file of seven columns: time, six displacements", names=Names.FILE)]
+    file: Annotated[
+        Name,
+        setting(
+            "FILE", "text file of seven columns: time, six displacements", names=Names.FILE, holds=Contents.MOTIONS
+        ),
+    ]
 
 
 class VesselTimetrace(Block):

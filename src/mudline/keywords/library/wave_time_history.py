@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from mudline.keywords.loads import Direction
 from mudline.keywords.model import Block, about, setting
-from mudline.keywords.values import Name, Names, Real, Whole
+from mudline.keywords.values import Contents, Name, Names, Real, Whole
 
 
 class WaveTimeHistory(Block):
@@ -20,7 +20,10 @@ class WaveTimeHistory(Block):
     example = "*WAVE-TIME-HISTORY\n FILE=sea.dat\n 180.0, 0.0, 0.0, 0.25, ENSEMBLES=4\n"
 
     keyword: Literal["WAVE-TIME-HISTORY"] = "WAVE-TIME-HISTORY"
-    file: Annotated[Name, setting("FILE", "text file with a time and an elevation a line", names=Names.FILE)]
+    file: Annotated[
+        Name,
+        setting("FILE", "text file with a time and an elevation a line", names=Names.FILE, holds=Contents.ELEVATIONS),
+    ]
     direction: Direction = None
     y: Annotated[Real | None, about("Y of the point where it was measured", unit="L", default="0")] = None
     z: Annotated[Real | None, about("Z of that point", unit="L", default="0")] = None

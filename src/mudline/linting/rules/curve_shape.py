@@ -13,6 +13,7 @@ from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.keywords.text import shown
 from mudline.limits import MOST_REPORTED
 from mudline.linting.rule import LARGEST_RATIO, LintContext, rule
+from mudline.scene.deck_curves import other_curves
 from mudline.scene.force_curves import SceneCurve, clashes_and_repeats
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices
@@ -126,7 +127,7 @@ def ratio_range(context: LintContext) -> Iterator[Problem]:
 
 @rule(CRV002)
 def unsorted_points(context: LintContext) -> Iterator[Problem]:
-    """The points of a curve are not in the order of their ratios.
+    """The points of a curve are not in the order of their ratios, or of what else its abscissa is.
 
     This is legal: they are sorted before anything else. A reader of the deck sees another curve than the one that is
     used, though, and a point out of order sometimes has a wrong ratio. Put the points in order.
@@ -155,6 +156,13 @@ def unsorted_points(context: LintContext) -> Iterator[Problem]:
             message = f"ratio {ratio!r} comes after {before!r}: legal, the points are sorted; put them in order"
             repair = sorting(context.text, curve) if context.text else None
             yield Problem(CRV002, message, where=curve.point(index), repair=repair)
+    for other in other_curves(context.scene.deck):
+        over, name = other.points[:, 0], other.axes[0]
+        falls = np.flatnonzero(over[1:] < over[:-1])[:1] + 1
+        for index in falls.tolist() if (over[1:] > over[:-1]).any() else ():  # else it is written from its other end
+            before, value = over[index - 1 : index + 1].tolist()
+            message = f"{name} {value!r} comes after {before!r}: legal, the points are sorted; put them in order"
+            yield Problem(CRV002, message, where=other.point(index))
 
 
 @rule(CRV005)
@@ -297,6 +305,11 @@ def repeated_point(context: LintContext) -> Iterator[Problem]:
             message = f"the point ({ratio!r}, {force!r}) is given twice and counts once: remove it"
             repair = removal(rows, int(curve.rows[index])) if rows else None
             yield Problem(CRV004, message, where=curve.point(index), repair=repair)
+    for other in other_curves(context.scene.deck):
+        for index in clashes_and_repeats(other.points)[1][:MOST_REPORTED].tolist():
+            over, value = other.points[index].tolist()
+            message = f"the point ({over!r}, {value!r}) is given twice and counts once: remove it"
+            yield Problem(CRV004, message, where=other.point(index))
 
 
 @dataclass(frozen=True, slots=True)

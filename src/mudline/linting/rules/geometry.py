@@ -11,8 +11,11 @@ from mudline.contact.input import LawKind
 from mudline.deck.model import Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity
+from mudline.keywords.model import Part, names_given, record_schema
 from mudline.keywords.text import shown
+from mudline.keywords.values import Names
 from mudline.linting.rule import LintContext, entries_of_sets, limited, rule
+from mudline.scene.numbering import Mask
 from mudline.scene.sections import Section, format_of
 from mudline.scene.sets import set_key
 
@@ -52,6 +55,11 @@ def number_and_curve(context: LintContext) -> Iterator[Problem]:
           SET=ALL, EI=Bend Stiffener
         - 23.5E3, 23.5E3, 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3429, 0.3429, 0.3429
         + , , 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3429, 0.3429, 0.3429
+         *MOMENT-CURVATURE
+          CURVE=Bend Stiffener
+          0.0, 0.0
+          23.5E3, 1.0
+          40.0E3, 2.5
 
     Finds: 5:2
     """
@@ -161,8 +169,9 @@ def repeated_section(context: LintContext) -> Iterator[Problem]:
     if not sections or hidden or any(scene.set_table.find(section.name) is None for section in sections):
         return
     lacking = scene.section_table.of_element < 0
-    sets = scene.set_table.named.values() if lacking.any() else ()
-    bare_sets = [one for one in sets if one.elements.size and not one.open and lacking[one.elements].all()]
+    needing = lacking & ~_without_sections(scene)
+    sets = scene.set_table.named.values() if needing.any() else ()
+    bare_sets = [one for one in sets if not one.open and lacking[one.elements].all() and needing[one.elements].any()]
     for section in repeated if bare_sets else ():
         message = (
             f"SET={shown(section.name)} already has a section, and SET={shown(bare_sets[0].name)} has none: correct "
@@ -176,19 +185,33 @@ def repeated_section(context: LintContext) -> Iterator[Problem]:
             yield Problem(GEO006, message, where=one.where)
 
 
-_WITH_SECTIONS = {"HYDRODYNAMIC SETS", "PIP SECTION"}
-"""Keywords that name sets whose sections are given elsewhere."""
+def _without_sections(scene: Scene) -> Mask:
+    """Elements that take no section: springs, hinges and flex joints, by their numbers or sets."""
+    found = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    for _, block in scene.deck.blocks_that(lambda declared: declared.facts.zero_length):
+        found |= np.isin(scene.element_ids, list(_numbers(block)))
+        for _, name in names_given(block, Names.SET):
+            if set_ := scene.set_table.find(name):
+                found[set_.elements] = True
+    return found
+
+
+def _numbers(part: Part) -> Iterator[int]:
+    """The element numbers that a part gives."""
+    for slot in record_schema(type(part)).slots:
+        value = getattr(part, slot.name, None)
+        items = value if isinstance(value, list) else [value]
+        for item in items:
+            if isinstance(item, Part):
+                yield from _numbers(item)
+            elif isinstance(item, int) and slot.about.names is Names.ELEMENT:
+                yield item
 
 
 def _passed_through(scene: Scene) -> set[str]:
-    """Names after SET= and the like in blocks that are passed through, but for those that need sections."""
+    """Names after SET= and the like in blocks that are passed through."""
     blocks = (block for section in scene.deck.sections for block in section.blocks)
-    lines = (
-        line
-        for block in blocks
-        if isinstance(block, Opaque) and block.keyword not in _WITH_SECTIONS
-        for line in block.lines
-    )
+    lines = (line for block in blocks if isinstance(block, Opaque) for line in block.lines)
     return {folded(field.partition("=")[2]) for line in lines for field in line.split(",") if "=" in field}
 
 

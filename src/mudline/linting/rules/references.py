@@ -222,11 +222,18 @@ def missing_ocean(context: LintContext) -> Iterator[Problem]:
           2, 0.0, 10.0
          *ELEMENT
           1, 1, 2
+         *HYDRODYNAMIC SETS
+          SET=ALL, TYPE=CONSTANT
+          1.0
          $LOAD CASE
+         *BOUNDARY
+          TYPE=CONSTANT
+          1, 1
+          2, 1
          *WAVE-REGULAR
           3.0, 11.0, 180.0
 
-    Finds: 8:1
+    Finds: 15:1
     """
     scene = context.scene
     if "OCEAN" in context.keywords or not scene.element_ids.size or scene.context.possible_definition("OCEAN"):

@@ -260,6 +260,8 @@ def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
           TYPE=CONSTANT
         + 1, 1
           1, 2
+          2, 1
+          2, 2
 
     Finds: 17:5
     """

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
@@ -19,6 +20,9 @@ from mudline.scene.checks.laws import SBD004
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, Mask, blocks_of
 from mudline.scene.seabed import SeabedKind
+
+if TYPE_CHECKING:
+    from mudline.keywords.library.pip_section import PipSections
 
 
 @rule(SBD006)
@@ -113,8 +117,6 @@ def _zeros(scene: Scene) -> Iterator[Problem]:
             yield Problem(SBD006, message, where=grants[index].where)
 
 
-_KEYWORD = "PIP SECTION"
-_INNER = re.compile(r"\bINNER\s*=\s*([^,]+)", re.IGNORECASE)
 _SAME_PLACE = 3
 """Decimals in which the coordinates of the pipes of a pipe in a pipe agree."""
 
@@ -125,11 +127,10 @@ def _inner_pipes(scene: Scene, free: Mask) -> Mask:
     *PIP SECTION names their sets; where they are only connected, their middles are those of elements with a law.
     """
     inside = np.zeros(len(free), dtype=np.bool_)
-    blocks = (block for section in scene.deck.sections for block in section.blocks if type(block) is Opaque)
-    lines = (line for block in blocks if block.keyword == _KEYWORD for line in block.lines)
-    for name in (match[1] for line in lines if (match := _INNER.search(line))):
-        if set_ := scene.set_table.find(name.strip()):
-            inside[set_.elements] = True
+    for _, block in scene.deck.blocks("PIP SECTION"):
+        for pipe in cast("PipSections", block).pipes:
+            if set_ := scene.set_table.find(pipe.inner or ""):
+                inside[set_.elements] = True
     placed = (scene.element_nodes >= 0).all(axis=1)
     outer = set(_middles(scene, np.flatnonzero(placed & (scene.law != LawKind.NONE))))
     alone = np.flatnonzero(placed & free & ~inside)

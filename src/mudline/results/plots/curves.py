@@ -23,6 +23,7 @@ from mudline.results.plots.style import (
     style_of,
     write,
 )
+from mudline.scene.deck_curves import OF_SEABED
 from mudline.scene.numbering import Floats, Indices, Mask
 from mudline.short_repr import cut
 
@@ -44,25 +45,40 @@ def draw_curves(rows: list[dict[str, Any]], units: str, form: str, stream: Binar
 
 
 def _curves(rows: list[dict[str, Any]], units: str) -> Figure:
-    figure = Figure(figsize=(8, max(5.0, 1.5 + 0.21 * len(rows))), layout="constrained", dpi=150)
-    axes = figure.add_subplot()
-    handles = [_curve(axes, row, _MARKERS[index // _CYCLE % len(_MARKERS)]) for index, row in enumerate(rows)]
-    axes.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
-    axes.axvline(0.0, color="0.4", linewidth=0.8, zorder=1)
-    unit = unit_names(units).line_force or "force per length"
-    axes.set_xlabel(labelled(ELEMENTS["ratio"].label, "-"))
-    axes.set_ylabel(f"seabed reaction per unit length [{unit}]")
-    axes.set_title("Force-embedment curves")
-    axes.grid(visible=True, alpha=0.3)
-    _legend(figure, handles, rows)
+    kinds = list(dict.fromkeys((row["kind"], *row["axes"]) for row in rows))
+    most = max(5.0, 1.5 + 0.21 * len(rows))
+    figure = Figure(figsize=(8, max(most, 3.6 * len(kinds))), layout="constrained", dpi=150)
+    handles: list[Line2D] = []
+    ordered: list[dict[str, Any]] = []
+    for number, (kind, *names) in enumerate(kinds, 1):
+        axes = figure.add_subplot(len(kinds), 1, number)
+        own = [row for row in rows if (row["kind"], *row["axes"]) == (kind, *names)]
+        handles += [_curve(axes, row, at) for at, row in enumerate(own, len(handles))]
+        ordered += own
+        _name_axes(axes, kind, names, units)
+    _legend(figure, handles, ordered)
     return figure
 
 
-def _curve(axes: Axes, row: dict[str, Any], shape: str) -> Line2D:
-    """One curve with its marks; returns what stands for it in the legend."""
+def _name_axes(axes: Axes, kind: str, names: list[str], units: str) -> None:
+    """The title of the curves of a kind, and the words along the axes."""
+    axes.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
+    axes.axvline(0.0, color="0.4", linewidth=0.8, zorder=1)
+    axes.set_title(f"{kind[:1].upper()}{kind[1:]}s")
+    axes.grid(visible=True, alpha=0.3)
+    if kind == OF_SEABED:
+        unit = unit_names(units).line_force or "force per length"
+        names = [labelled(ELEMENTS["ratio"].label, "-"), f"seabed reaction per unit length [{unit}]"]
+    axes.set_xlabel(names[0])
+    axes.set_ylabel(names[1])
+
+
+def _curve(axes: Axes, row: dict[str, Any], number: int) -> Line2D:
+    """One curve with its marks, in the colour of its number; returns what stands for it in the legend."""
+    shape = _MARKERS[number // _CYCLE % len(_MARKERS)]
     ratios, forces = np.array(row["points"]).T
     marker = shape if len(ratios) <= MOST_MARKED else None
-    (line,) = axes.plot(ratios, forces, marker=marker, markersize=3.5)
+    (line,) = axes.plot(ratios, forces, color=f"C{number % _CYCLE}", marker=marker, markersize=3.5)
     color = line.get_color()
     static = [(each["ratio"], each["force"]) for each in row.get("static", [])]
     asked = [(each["ratio"], each["force"]) for each in row["at"]]
