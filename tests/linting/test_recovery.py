@@ -562,7 +562,7 @@ CAUSES_OF_LINES = {
 
 @pytest.mark.parametrize(("right", "wrong", "code", "line"), CAUSES_OF_LINES.values(), ids=CAUSES_OF_LINES)
 def test_a_line_of_another_keyword_is_one_finding(right: str, wrong: str, code: str, line: int) -> None:
-    one = only(DECK.replace(right, wrong, 1))
+    (one,) = (each for each in found(DECK.replace(right, wrong, 1)) if each.code != "GEO008")  # of the current itself
     assert (one.code, one.line) == (code, line)
     assert (one.fix is None) == (wrong == "")
 
