@@ -101,14 +101,16 @@ class Printer:
         rows: Iterable[Sequence[Cell]],
         *,
         left: Collection[str] = (),
+        whole: Collection[str] = (),
         optional: Collection[str] = (),
         note: str = "",
     ) -> None:
         """Print cells under their headings, with a blank line behind. None is an empty cell; a cell may have a style.
 
         Numbers are aligned right, the columns of text named in `left` left; long texts are folded, so the longest
-        belongs into the last column. A number is never cut: rather than that, a table is wider than the screen. Columns
-        named in `optional` are left out where they are empty. A heading may have several lines; `note` comes below.
+        belongs into the last column. Numbers and the columns of text named in `whole`, such as paths, are never cut:
+        rather than that, a table is wider than the screen. Columns named in `optional` are left out where they are
+        empty. A heading may have several lines; `note` comes below.
         """
         cells = [[self._cell(cell) for cell in row] for row in rows]
         filled = [i for i, name in enumerate(columns) if name not in optional or any(row[i][0] for row in cells)]
@@ -119,7 +121,8 @@ class Printer:
         texts = ([text for text, _ in row] for row in cells)
         widths = [max(map(cell_len, column)) for column in zip(*heads, *texts, strict=True)]
         to_left = [name in left for name in names]
-        layout = _Layout(_fitted(widths, to_left, self.width), to_left)
+        foldable = [name in left and name not in whole for name in names]
+        layout = _Layout(_fitted(widths, foldable, self.width), to_left)
         if title:
             self.line((self.visible(title), "bold"))
         lines: list[Iterable[_Styled]] = [layout.line([(text, "") for text in head]) for head in heads]
@@ -176,14 +179,14 @@ def _stripped(text: Text) -> Text:
     return text
 
 
-def _fitted(widths: list[int], to_left: list[bool], available: int) -> list[int]:
+def _fitted(widths: list[int], foldable: list[bool], available: int) -> list[int]:
     """Take from the widest column of text until the table fits or all of them are narrow."""
     fitted = list(widths)
     while sum(fitted) + len(_GAP) * (len(fitted) - 1) > available:
-        widest = max((width for width, text in zip(fitted, to_left, strict=True) if text), default=0)
+        widest = max((width for width, text in zip(fitted, foldable, strict=True) if text), default=0)
         if widest <= _NARROWEST:
             return fitted
-        column = next(i for i, text in reversed([*enumerate(to_left)]) if text and fitted[i] == widest)
+        column = next(i for i, text in reversed([*enumerate(foldable)]) if text and fitted[i] == widest)
         fitted[column] -= 1
     return fitted
 

@@ -33,6 +33,7 @@ from mudline.short_repr import counted
 from mudline.syntax.source import Source
 
 _COUNTS = ("errors", "warnings", "sections", "keywords", "curves", "elements")
+_HEADINGS = ("errors", "warn-\nings", "sec-\ntions", "keywords\nread", "curves", "ele-\nments")
 _FAIL_ON = ("error", "warning", "unread")
 
 
@@ -283,7 +284,7 @@ def _print_text(judged: Iterable[Judged], total: Total, view: View) -> None:
             [(each.short, _style(good=each.legal)), *(_shown(getattr(each, name)) for name in _COUNTS), each.file]
             for each in verdicts
         ]
-        printer.table("Decks", ("verdict", *_COUNTS, "file"), rows, left=("verdict", "file"))
+        printer.table("Decks", ("verdict", *_HEADINGS, "file"), rows, left=("verdict", "file"), whole=("file",))
         printer.line((str(total), _style(good=total.legal == total.decks and not total.unreadable)))
         if not total.keywords.whole:
             printer.line(printer.visible(total.keywords.sentence()))

@@ -251,6 +251,11 @@ class Builder:
         if slot is found.table:
             table = tables.setdefault(slot.json, TableBuilder(self, slot, inner))
             count = table.add(content.span)
+        elif slot.row and slot.json in built.values:
+            message = (
+                f"one line only has its place here (`{record_schema(slot.row).wanted}`): remove it, or the one above"
+            )
+            self.damage(path, Problem(SYN001, message, trimmed(self.text, *content.span)))
         elif slot.row:
             self.places.spans[inner] = trimmed(self.text, *content.span)
             built.values[slot.json] = self._row_values(slot.row, fields, inner)

@@ -10,7 +10,9 @@ _POST = ("DATABASE POSTPROCESSING", "POSTPROCESSING")
 NAMES: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(
         (
+            "PANEL SECTIONS,AUXILIARY",
             "PROPERTIES",
+            "STRESS/STRAIN",
             "TENSIONER",
         ),
         ("MODEL",),
@@ -21,6 +23,7 @@ NAMES: dict[str, tuple[str, ...]] = {
             "DRIFT-OFF LIMITS",
             "DRILLING MUD",
             "TIME,DISCONNECT",
+            "TIMETRACE",
             "TOP TENSION",
             "WAVE",
         ),
@@ -31,6 +34,7 @@ NAMES: dict[str, tuple[str, ...]] = {
         (
             "DATABASE",
             "OUTPUT FILES",
+            "RAO",
             "SNAPSHOT",
             "SPECTRUM",
             "STANDARD OUTPUT",
@@ -38,14 +42,17 @@ NAMES: dict[str, tuple[str, ...]] = {
         ),
         _POST,
     ),
+    "PARA ANGLE TENSION": ("SUMMARY POSTPROCESSING",),
     **dict.fromkeys(("COLLATE", "IDENTIFY", "PLOT"), ("SUMMARY COLLATE",)),
     **dict.fromkeys(
         (
+            "AXIS/VECTOR",
             "COATINGS",
             "COLLATE PLOT AXES",
             "DAMPER",
             "DAMPING",
             "EQUIVALENT",
+            "FATIGUE DATA",
             "FLEX JOINTS",
             "FLOATING BODY",
             "GUIDE",
@@ -53,12 +60,20 @@ NAMES: dict[str, tuple[str, ...]] = {
             "PLASTIC HARDENING",
             "POINT BUOY",
             "POISSON",
+            "RAO FORMAT",
+            "S-N CURVE",
+            "SEASTATE FILES",
+            "SLUGS",
             "TAPER",
             "TEMPERATURE",
             "TITLE",
             "TOLERANCE",
+            "VECTOR",
             "WAVE-DEAN",
+            "WAVE-OCHI-HUBBLE",
             "WAVE-PIERSON MOSKOWITZ",
+            "WAVE-PIERSON-MOSKOWITZ",
+            "WAVE-TORSETHAUGEN",
             "WAVE-USER DEFINED",
             "WINCH",
             "WIND",
@@ -68,5 +83,5 @@ NAMES: dict[str, tuple[str, ...]] = {
 }
 """The sections of each; none: known to exist, section not confirmed."""
 
-ZERO_LENGTH = ("FLEX JOINTS", "HINGE", "SPRING ELEMENT", "DAMPER")
+ZERO_LENGTH = ("FLEX JOINTS", "DAMPER")
 """Those whose elements may have no length."""

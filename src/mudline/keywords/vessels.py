@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from mudline.keywords.model import Record, Row, about, rows, setting
 from mudline.keywords.table import Table
@@ -76,7 +76,7 @@ class VesselCoefficients(Record):
     """The coefficients of the moored vessel."""
 
     rule = "vessel_coefficients"
-    tag: Annotated[Name, about("MOORED VESSEL; " + TAG)]
+    tag: Annotated[Literal["MOORED VESSEL"], about(TAG)]
     file: Annotated[
         Name | None,
         setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE, holds=Contents.NUMBERS),

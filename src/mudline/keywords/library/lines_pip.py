@@ -27,7 +27,7 @@ class _Curve(Row):
 
 
 class _Bulkhead(Row):
-    bulkhead: Annotated[Name, about("the word BULKHEAD")]
+    bulkhead: Annotated[Literal["BULKHEAD"], about("the word")]
 
 
 class StiffConnections(Spacing, _Stiffness):  # the last base's fields first
