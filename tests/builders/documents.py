@@ -11,9 +11,12 @@ from hypothesis import strategies as st
 
 from mudline.deck.document import FORMAT, json_schema
 from mudline.keywords import catalogue
+from mudline.keywords.library.database import Database
 from mudline.keywords.library.geometric_sets import GeometricSet
 from mudline.keywords.library.seabed_profile import SeabedProfile
+from mudline.keywords.library.time import TimeSpan
 from mudline.keywords.library.variation import VariedParameter
+from mudline.keywords.library.wave_jonswap import JonswapSea
 from mudline.keywords.model import FEWEST_POINTS, Block, FieldSpec, ListRow, Record, Row, Rows, record_schema
 from mudline.keywords.values import Kind
 from mudline.quantities import UNIT_SYSTEMS
@@ -95,6 +98,7 @@ BY_KIND: dict[Kind, st.SearchStrategy[object]] = {
     Kind.REAL: st.one_of(reals, reals, reals, wholes, equations),
     Kind.WHOLE: st.one_of(wholes, wholes, equations),
     Kind.IDENT: st.one_of(wholes, wholes, labels),
+    Kind.WHOLE_OR_LABEL: st.one_of(wholes, labels, equations),
     Kind.REAL_OR_NAME: st.one_of(reals, equations, names.filter(_no_number)),
     Kind.NAME: names,
     Kind.TITLE: st.lists(names, min_size=1, max_size=3).map(", = ".join),
@@ -190,9 +194,96 @@ def _trench_set(made: Values) -> st.SearchStrategy[Values]:
     return st.just(made | {"peak": "TABLE"} if "table" in made else made)
 
 
+_OF_CHOICE: dict[str, tuple[str, dict[str, str]]] = {
+    "current_profile": ("type", {"UNIFORM": "uniform", "PIECEWISE LINEAR": "profile", "SUBROUTINE": ""}),
+    "database": ("time", {"ALL": "", "SELECTED": "interval", "END": ""}),
+    "flex_joint": ("type", {"LINEAR": "stiffness", "NONLINEAR": "points"}),
+    "matrix_type": ("type", {"CONSTANT": "matrix", "FREQUENCY": "frequencies", "CUTOFF": "matrix"}),
+    "pip_curve": ("type", {"DATA PAIRS": "points", "POWER LAW": "law"}),
+    "regular_wave": ("option", {"ONE": "wave", "MANY": "directed_band"}),
+    "springs": ("type", {"LINEAR": "stiffness", "NONLINEAR": "points"}),
+    "vessel_drift": ("type", {"SINUSOIDAL": "sinusoid", "FILE": "file"}),
+}
+"""By the rule of a record: the field that chooses, and which of the others each choice has."""
+_ONE_OF: dict[str, tuple[str, ...]] = {
+    "body_coefficients": ("file", "headings"),
+    "body_matrices": ("file", "types"),
+    "criteria": ("variable", "option"),
+    "flex_joint": ("element", "set"),
+    "pip_link": ("stiffness", "curve", "bulkhead"),
+    "springs": ("element", "set"),
+    "vessel_coefficients": ("file", "headings"),
+    "vessel_rao": ("file", "headings", "lines"),
+}
+"""By the rule of a record: the fields of which it has one."""
+
+
+@st.composite
+def _of_one(draw: st.DrawFn, part: type[Record], made: Values) -> Values:
+    """What a record has of fields that exclude each other."""
+    slots = {slot.json: slot for slot in record_schema(part).slots}
+    if part.rule in _OF_CHOICE:
+        key, fields = _OF_CHOICE[part.rule]
+        choice = draw(st.sampled_from(sorted(fields)))
+        made = {name: value for name, value in made.items() if name not in ("band", *fields.values())} | {key: choice}
+        if fields[choice]:
+            made[fields[choice]] = draw(given(slots[fields[choice]]))
+    if part.rule in _ONE_OF:
+        chosen = draw(st.sampled_from(_ONE_OF[part.rule]))
+        made = {name: value for name, value in made.items() if name not in _ONE_OF[part.rule]}
+        made[chosen] = draw(given(slots[chosen]))
+    return made
+
+
+def given(slot: FieldSpec) -> st.SearchStrategy[Any]:
+    """A value of a field, a record or a row at least."""
+    if isinstance(slot.about, Rows):
+        return table(slot, 1)
+    if slot.record:
+        return st.lists(record(next(iter(slot.record.values())), 1), min_size=1, max_size=2)
+    return cell(slot)
+
+
+@st.composite
+def _time(draw: st.DrawFn, _made: Values) -> Values:
+    """The lines of the step that is chosen."""
+    slots = {slot.json: slot for slot in record_schema(TimeSpan).slots}
+    step = draw(st.sampled_from(["FIXED", "VARIABLE"]))
+    found: Values = {"step": step, step.lower(): draw(cell(slots[step.lower()]))}
+    if step == "VARIABLE":
+        limits = draw(given(slots["limits"]))
+        found["limits"] = [one | ({"length": 1.0, "since": 5.0} if index else {}) for index, one in enumerate(limits)]
+    return found
+
+
+@st.composite
+def _database(draw: st.DrawFn, made: Values) -> Values:
+    """A start for selected times only."""
+    found = draw(_of_one(Database, made))
+    return found if found["time"] == "SELECTED" else {"time": found["time"]}
+
+
+@st.composite
+def _jonswap_sea(draw: st.DrawFn, _made: Values) -> Values:
+    """The line of what is chosen."""
+    slots = {slot.json: slot for slot in record_schema(JonswapSea).slots}
+    frequency, spec = draw(st.sampled_from(["AREA", "GP"])), draw(st.sampled_from(["NORMAL", "HSTZ", "HSTP"]))
+    row_ = ("area" if frequency == "AREA" else "progression") + ("_shape" if spec == "NORMAL" else "_height")
+    return {"frequency": frequency, "spec": spec, row_: draw(cell(slots[row_]))}
+
+
+def _two_ranges(made: Values) -> st.SearchStrategy[Values]:
+    """Exactly two lines."""
+    return st.just(made | {"ranges": [{"start": 1, "end": 2}, {"start": 3, "end": "{a}"}]})
+
+
 ARRANGED: dict[str, Callable[[Values], st.SearchStrategy[Values]]] = {
+    "clear_element_sets": _two_ranges,
+    "database": _database,
     "geometric_set": _geometric_set,
+    "jonswap_sea": _jonswap_sea,
     "seabed_profile": _seabed_profile,
+    "time": _time,
     "trench_set": _trench_set,
     "varied_parameter": _varied_parameter,
 }
@@ -219,6 +310,8 @@ def record(draw: st.DrawFn, part: type[Record], index: int = 0) -> Values:
             made[slot.json] = draw(cell(slot))
     if part.rule in ARRANGED:
         made = draw(ARRANGED[part.rule](made))
+    elif part.rule in _OF_CHOICE or part.rule in _ONE_OF:
+        made = draw(_of_one(part, made))
     if all(value in (None, []) for value in made.values()) and not issubclass(part, Block):
         made[first.json] = draw(cell(first))  # a record is lines
     told = draw(st.lists(remarks, max_size=2))

@@ -15,7 +15,7 @@ def main(arguments: list[str]) -> None:
         report.write(done)
     if "--list" in arguments:
         _list(done)
-    sys.stdout.write(report.by_kind(done) + "\n" + report.summary(done) + "\n" + report.legal(done))
+    sys.stdout.write(report.by_kind(done) + "\n" + report.summary(done) + "\n" + report.legal(done) + report.mean(done))
 
 
 def _list(done: Run) -> None:

@@ -49,6 +49,12 @@ def legal(run: Run) -> str:
     )
 
 
+def mean(run: Run) -> str:
+    """How many warnings and errors a fault has, in words."""
+    told = sum(each.severity is not Severity.INFO for _, _, found in run.outcomes for each in found)
+    return f"A fault has {told / len(run.outcomes):.3f} warnings and errors, on the average.\n"
+
+
 def by_kind(run: Run) -> str:
     """A row a kind."""
     counts: dict[str, Counter[Outcome]] = {kind.slug: Counter() for kind in KINDS}

@@ -371,6 +371,17 @@ def test_what_can_be_said_without_an_unknown_value_is_told() -> None:
     assert told(changed((CURVE, forces))) == [("CRV003", 23), ("SYN002", 24)]
 
 
+def test_decimal_commas_are_recovered_from_and_the_deck_stays_illegal(tmp_path: Path) -> None:
+    law = (" FRICTION=0.3, 0.5\n SET=Right", " FRICTION=0,3, 0,5\n SET=Right")
+    text = changed((SECTION, STEEL.replace("79.6E9, 0.3239, 0.2889", "79,6E9, 0,3239, 0,2889")), law)
+    assert told(text) == [("SYN015", 19), ("SYN015", 31)]
+    deck = tmp_path / "deck.keyxm"
+    deck.write_text(text, encoding="utf-8")
+    assert "illegal" in run("validate", str(deck)).out
+    settings = LintSettings(tuple(rules()), fixing=Fixing.UNSAFE)
+    assert lint_one("deck.keyxm", text.encode(), settings).changed == changed((SECTION, STEEL)).encode()
+
+
 def test_a_setting_that_stands_twice_lacks_the_name_of_its_set() -> None:
     one = only(DECK.replace(" SET=Right\n STIFF", " STIFF"))
     assert (one.code, one.line) == ("SYN001", 31)
@@ -551,7 +562,7 @@ CAUSES_OF_LINES = {
 
 @pytest.mark.parametrize(("right", "wrong", "code", "line"), CAUSES_OF_LINES.values(), ids=CAUSES_OF_LINES)
 def test_a_line_of_another_keyword_is_one_finding(right: str, wrong: str, code: str, line: int) -> None:
-    one = only(DECK.replace(right, wrong, 1))
+    (one,) = (each for each in found(DECK.replace(right, wrong, 1)) if each.code != "GEO008")  # of the current itself
     assert (one.code, one.line) == (code, line)
     assert (one.fix is None) == (wrong == "")
 

@@ -187,6 +187,7 @@ def judge_order(order: Order) -> tuple[Verdict, list[Diagnostic]]:
     context = LintContext(deck)
     problems = joined_problems(context, rules(), suppress=False)
     wrong = [one for one in problems if one.weight is Severity.ERROR]
+    wrong = wrong or context.scene.errors()  # of the deck as it is written, and not as it was meant
     if not wrong and any(one.repair for one in deck.problems):  # a name that was meant otherwise is not what it says
         wrong = [one for one in context.scene.blocking() if one.weight is not Severity.INFO]
     errors = deck.diagnose(wrong)

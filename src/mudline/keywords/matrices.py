@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
-from mudline.keywords.model import Record, Row, about, rows, setting
+from mudline.keywords.model import Record, Row, about, require_one, rows, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Contents, Name, Names, Real
 from mudline.keywords.vessels import Body
@@ -49,6 +49,13 @@ class MatrixType(Record):
     )
     frequencies: list[FrequencyMatrix] = []
 
+    @model_validator(mode="after")
+    def _fits(self) -> MatrixType:
+        """What its type has."""
+        require_one(self, "frequencies" if self.type_ == "FREQUENCY" else "matrix")
+        require_one(self, "frequencies", "matrix")
+        return self
+
 
 class BodyMatrices(Record):
     """The matrices of a body."""
@@ -60,3 +67,9 @@ class BodyMatrices(Record):
         setting("FILE", "file with the matrices, instead of them", names=Names.FILE, holds=Contents.NUMBERS),
     ] = None
     types: list[MatrixType] = []
+
+    @model_validator(mode="after")
+    def _fits(self) -> BodyMatrices:
+        """A file, or matrices."""
+        require_one(self, "file", "types")
+        return self

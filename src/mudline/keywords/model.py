@@ -515,6 +515,19 @@ def set_slots(block: type[Block]) -> tuple[tuple[FieldSpec, FieldSpec], ...]:
     )
 
 
+def require_one(part: Part, *names: str) -> None:
+    """Raise ValueError unless a part has a value in exactly one of some fields."""
+    slots = [slot for slot in record_schema(type(part)).slots if slot.name in names]
+    given = [slot.label for slot in slots if not _is_empty(getattr(part, slot.name))]
+    if len(given) != 1:
+        wanted = " or ".join(slot.label for slot in slots)
+        raise ValueError(f"{' and '.join(given) or 'nothing'} is given: expected {wanted}")
+
+
+def _is_empty(value: object) -> bool:
+    return value is None or (isinstance(value, list | Table) and not len(value))
+
+
 def columns_of(slot: FieldSpec) -> list[Column]:
     """The columns of a field that is a table."""
     return slot.about.columns() if isinstance(slot.about, Rows) else []

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.model import Record, Row, about, rows, setting
+from pydantic import model_validator
+
+from mudline.keywords.model import Record, Row, about, require_one, rows, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Contents, Name, Names, Real
 
@@ -71,6 +73,12 @@ class BodyCoefficients(Record):
     ] = None
     headings: Annotated[Table | None, rows(Coefficients, COEFFICIENTS)] = None
 
+    @model_validator(mode="after")
+    def _fits(self) -> BodyCoefficients:
+        """A file, or rows."""
+        require_one(self, "file", "headings")
+        return self
+
 
 class VesselCoefficients(Record):
     """The coefficients of the moored vessel."""
@@ -87,3 +95,9 @@ class VesselCoefficients(Record):
     def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
         """The first line is the tag."""
         return "tag" if number == 0 else "headings"
+
+    @model_validator(mode="after")
+    def _fits(self) -> VesselCoefficients:
+        """A file, or rows."""
+        require_one(self, "file", "headings")
+        return self

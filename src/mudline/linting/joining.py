@@ -64,6 +64,8 @@ def joined_findings(text: TextOrigin, problems: list[Problem]) -> list[Problem]:
         _judged(text, problems, rows),
         _spelt_wrong(text, problems, rows),
         _on_one_line(text, problems),
+        _alike(text, problems),
+        _idle(problems),
         _repeated(text, rows),
         _meant_numbers(text, problems),
         _lacking(text, problems),
@@ -177,19 +179,43 @@ def _spelt_wrong(text: TextOrigin, problems: list[Problem], rows: _Rows) -> Iter
             yield _Cause(misread), [problem], problem.message
 
 
-_WITH_ANOTHER = {"SYN003": "STY009", "CRV012": "CRV005"}
-"""Codes, each with the one that says more of it in the same line: why a row is wrong, where a curve falls."""
+_WITH_OTHERS = {"SYN003": ("STY009",), "CRV012": ("CRV005",), "REF006": ("GEO009", "GEO010")}
+"""Codes, each with those that say more of it in the same line: why a row is wrong, where a curve falls, which nodes a
+generator would make."""
 
 
 def _on_one_line(text: TextOrigin, problems: list[Problem]) -> Iterator[_Group]:
     """What says more of another finding in its line, under that."""
-    of_line = {
-        (one.code.code, text.place(one).line): one for one in problems if one.code.code in _WITH_ANOTHER.values()
-    }
+    more = {code for codes in _WITH_OTHERS.values() for code in codes}
+    of_line = {(one.code.code, text.place(one).line): one for one in problems if one.code.code in more}
     for problem in problems if of_line else ():
-        more = of_line.get((_WITH_ANOTHER.get(problem.code.code, ""), text.place(problem).line))
-        if more is not None:
-            yield _Cause(problem), [more], more.message
+        line = text.place(problem).line
+        codes = _WITH_OTHERS.get(problem.code.code, ())
+        if others := [of_line[code, line] for code in codes if (code, line) in of_line]:
+            generated = problem.code.code == "REF006"
+            yield _Cause(problem), others, left_out(len(others)) if generated else others[0].message
+
+
+def _alike(text: TextOrigin, problems: list[Problem]) -> Iterator[_Group]:
+    """Further fields of a row of which the same is said."""
+    alike: dict[tuple[str, int, str], list[Problem]] = {}
+    for problem in problems:
+        if problem.code not in _OF_ROWS and not problem.lacks and problem.message != MORE:
+            alike.setdefault((problem.code.code, text.place(problem).line, problem.message), []).append(problem)
+    for first, *others in alike.values():
+        if others:
+            yield (
+                _Cause(first, repair=_of_all(first, others)),
+                others,
+                f"and {counted(len(others), 'more field')} of it",
+            )
+
+
+def _idle(problems: list[Problem]) -> Iterator[_Group]:
+    """The one curve that nothing uses, under the one law that lacks a stiffness."""
+    bare, idle = ([one for one in problems if one.code.code == code] for code in ("SBD006", "REF003"))
+    if len(bare) == len(idle) == 1:
+        yield _Cause(bare[0]), idle, idle[0].message
 
 
 def _meant_numbers(text: TextOrigin, problems: list[Problem]) -> Iterator[_Group]:

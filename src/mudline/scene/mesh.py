@@ -65,15 +65,17 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
                 gathered.add(line.batch)
                 if not _between(gathered, line):
                     waiting.append(line)
-    for line in waiting:
-        _late(context, gathered, line)
+    placeless = {line.batch.where for line in waiting if not _late(context, gathered, line)}
     if external is not None:
         known = gathered.resolve(3)
         extra = np.unique(external.nodes)
         extra = extra[known.indices(extra) < 0]
         gathered.add(Batch(extra, np.full((len(extra), 3), np.nan), Where()))
     nodes = gathered.resolve(3)
-    report_repeats(context, nodes, nodes.repeats, "node")
+    repeats = nodes.repeats
+    if placeless and repeats.size:  # where a line of nodes ends is not known, nor which numbers it has
+        repeats = repeats[[nodes.where_row(row) not in placeless for row in repeats.tolist()]]
+    report_repeats(context, nodes, repeats, "node")
     return nodes
 
 
@@ -126,8 +128,8 @@ def _between(gathered: Definitions, line: _NodeLine) -> bool:
     return True
 
 
-def _late(context: Context, gathered: Definitions, line: _NodeLine) -> None:
-    """A line whose ends were not defined before it: they may stand behind it, or nowhere."""
+def _late(context: Context, gathered: Definitions, line: _NodeLine) -> bool:
+    """Place a line whose ends were not defined before it, if they stand behind it; whether they do."""
     where = line.batch.where
     if _between(gathered, line):
         first, last = line.ends
@@ -136,11 +138,12 @@ def _late(context: Context, gathered: Definitions, line: _NodeLine) -> None:
             "that definition is taken (inferred); put it first"
         )
         context.report(REF006, message, where, Severity.WARNING)
-        return
+        return True
     for position, number in enumerate(line.ends):
         if gathered.find(number) is None:
             message = f"GEN= places nodes between two that exist: node {number} is not defined; define it in *NODE"
             context.report_missing(REF006, message, where.inside(position), "NODE", number)
+    return False
 
 
 @dataclass(frozen=True, slots=True)

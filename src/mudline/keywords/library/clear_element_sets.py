@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
+from pydantic import model_validator
+
 from mudline.keywords.model import Block, Record, about
 from mudline.keywords.values import Ident, Names, Real
+
+_GROUPS = 2
 
 
 class ClearRange(Record):
@@ -29,6 +33,13 @@ class ClearSets(Block):
 
     keyword: Literal["ELEMENT SETS"] = "ELEMENT SETS"
     ranges: list[ClearRange] = []
+
+    @model_validator(mode="after")
+    def _fits(self) -> ClearSets:
+        """Two groups."""
+        if len(self.ranges) != _GROUPS:
+            raise ValueError(f"{len(self.ranges)} lines are given: expected exactly {_GROUPS}")
+        return self
 
 
 BLOCK = ClearSets

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.model import Block, Record, setting
+from pydantic import model_validator
+
+from mudline.keywords.model import Block, Record, require_one, setting
 from mudline.keywords.values import Name, Names, Real, Whole
 
 
@@ -65,6 +67,12 @@ class Criteria(Block):
     largest: Annotated[
         Real | None, setting("MAX ADJUSTMENT", "largest change", inline=True, behind="MAX ITERATIONS")
     ] = None
+
+    @model_validator(mode="after")
+    def _fits(self) -> Criteria:
+        """One thing is changed."""
+        require_one(self, "variable", "option")
+        return self
 
 
 BLOCK = Criteria

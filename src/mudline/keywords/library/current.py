@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from mudline.keywords.loads import Direction
-from mudline.keywords.model import Block, Record, Row, about, curve_points, setting
+from mudline.keywords.model import Block, Record, Row, about, curve_points, require_one, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Name, Names, Real
 
@@ -54,6 +54,15 @@ class CurrentProfile(Record):
     def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
         """What TYPE= says."""
         return "uniform" if given.get("type") == "UNIFORM" else "profile"
+
+    @model_validator(mode="after")
+    def _fits(self) -> CurrentProfile:
+        """What its type has."""
+        if self.type_ != "SUBROUTINE":
+            require_one(self, "uniform" if self.type_ == "UNIFORM" else "profile")
+        if self.uniform is not None or self.profile is not None:
+            require_one(self, "uniform", "profile")
+        return self
 
 
 class Current(Block):

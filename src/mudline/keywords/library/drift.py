@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from mudline.keywords.lists import Freedom
-from mudline.keywords.model import Block, Record, Row, about, setting
+from mudline.keywords.model import Block, Record, Row, about, require_one, setting
 from mudline.keywords.values import Contents, Name, Names, Real
 from mudline.keywords.vessels import Vessel
 
@@ -45,6 +45,13 @@ class VesselDrift(Record):
             holds=Contents.MOTIONS,
         ),
     ] = None
+
+    @model_validator(mode="after")
+    def _fits(self) -> VesselDrift:
+        """A line of its type."""
+        require_one(self, "sinusoid" if self.type_ == "SINUSOIDAL" else "file")
+        require_one(self, "sinusoid", "file")
+        return self
 
 
 class Drift(Block):

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
-from mudline.keywords.model import Block, Record, Row, about, setting
+from mudline.keywords.model import Block, Record, Row, about, require_one, setting
 from mudline.keywords.values import Name, Names, Real
 
 
@@ -49,6 +49,12 @@ class PipLink(Record):
     stiffness: Annotated[StiffConnections | None, setting("STIFFNESS", "connections of a stiffness")] = None
     curve: Annotated[CurveConnections | None, setting("CURVE", "connections with a curve")] = None
     bulkhead: Annotated[Bulkheads | None, about("bulkheads")] = None
+
+    @model_validator(mode="after")
+    def _fits(self) -> PipLink:
+        """One kind of connection."""
+        require_one(self, "stiffness", "curve", "bulkhead")
+        return self
 
 
 class LinePair(Record):

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
-from mudline.keywords.model import Block, Record, Row, about, curve_points, setting
+from mudline.keywords.model import Block, Record, Row, about, curve_points, require_one, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Name, Names, Real
 
@@ -58,6 +58,13 @@ class PipCurve(Record):
     def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
         """What TYPE= says."""
         return "law" if given.get("type") == "POWER LAW" else "points"
+
+    @model_validator(mode="after")
+    def _fits(self) -> PipCurve:
+        """What its type has."""
+        require_one(self, "law" if self.type_ == "POWER LAW" else "points")
+        require_one(self, "law", "points")
+        return self
 
 
 class PipStiffness(Block):

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.model import Block, Record, Row, about, rows, setting
+from pydantic import model_validator
+
+from mudline.keywords.model import Block, Record, Row, about, require_one, rows, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Contents, Name, Names, Real
 from mudline.keywords.vessels import Vessel
@@ -78,6 +80,13 @@ class VesselRao(Record):
     ] = None
     headings: list[HeadingRao] = []
     lines: Annotated[Table | None, rows(RaoLine, "of LINE: operators, in any order")] = None
+
+    @model_validator(mode="after")
+    def _fits(self) -> VesselRao:
+        """A file, or lines of one layout."""
+        if self.file or self.headings or self.lines is not None:
+            require_one(self, "file", "headings", "lines")
+        return self
 
 
 class Raos(Block):

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
-from mudline.keywords.model import Block, Record, Row, about, curve_points, setting
+from mudline.keywords.model import Block, Record, Row, about, curve_points, require_one, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Facts, Ident, Name, Names, Real
 
@@ -40,6 +40,14 @@ class Springs(Record):
     def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
         """What TYPE= says."""
         return "points" if given.get("type") == "NONLINEAR" else "stiffness"
+
+    @model_validator(mode="after")
+    def _fits(self) -> Springs:
+        """One way to say which, and what its type has."""
+        require_one(self, "elements", "set_name")
+        require_one(self, "stiffness" if self.type_ == "LINEAR" else "points")
+        require_one(self, "stiffness", "points")
+        return self
 
 
 class SpringElements(Block):

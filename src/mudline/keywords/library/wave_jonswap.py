@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
+from pydantic import model_validator
+
 from mudline.keywords.keeping import OpenBlock, OpenRecord
 from mudline.keywords.loads import Direction
-from mudline.keywords.model import Row, about, setting
+from mudline.keywords.model import Row, about, require_one, setting
 from mudline.keywords.values import Other, Real, Whole
 
 _MORE = "more forms follow on the page, which were not seen: their lines are kept as they are"
@@ -87,6 +89,13 @@ class JonswapSea(OpenRecord):
             return str(last or "area_shape")
         chosen = "area" if given["frequency"] == "AREA" else "progression"
         return f"{chosen}_shape" if given.get("spec") in (None, "NORMAL") else f"{chosen}_height"
+
+    @model_validator(mode="after")
+    def _fits(self) -> JonswapSea:
+        """One line, where its form is known."""
+        if self.spec in (None, "NORMAL", "HSTZ", "HSTP"):
+            require_one(self, "area_shape", "progression_shape", "area_height", "progression_height")
+        return self
 
 
 class JonswapSeas(OpenBlock):

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
+from pydantic import model_validator
+
 from mudline.keywords.loads import Direction
-from mudline.keywords.model import Block, Record, Row, about, setting
+from mudline.keywords.model import Block, Record, Row, about, require_one, setting
 from mudline.keywords.values import Real, Whole
 
 _AMPLITUDE = about("wave amplitude, half of its height", unit="L", at_least=0)
@@ -61,6 +63,12 @@ class RegularWave(Record):
         if (given.get("option") or last) != "MANY":
             return "wave"
         return "band" if fields == len(Band.model_fields) else "directed_band"
+
+    @model_validator(mode="after")
+    def _fits(self) -> RegularWave:
+        """One line."""
+        require_one(self, "wave", "band", "directed_band")
+        return self
 
 
 class RegularWaves(Block):

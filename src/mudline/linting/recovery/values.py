@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
-from mudline.codes.fields import SYN002, SYN003
+from mudline.codes.fields import SYN002, SYN003, SYN015
 from mudline.codes.lines import SYN001
-from mudline.diagnostics import Problem, Severity, Span
+from mudline.diagnostics import Problem, Repair, Severity, Span
 from mudline.keywords.model import record_schema
 from mudline.keywords.reader import schemas_of
 from mudline.keywords.values import Kind
-from mudline.linting.recovery.blocks import Blocks, Correction, line_at, recovers_from
+from mudline.linting.recovery.blocks import Blocks, Correction, line_at, recovers_from, start_of
 from mudline.syntax.edits import TextEdit
 from mudline.syntax.rows import NUMBER
 
 _MISREAD = str.maketrans({"O": "0", "o": "0", "l": "1", "I": "1"})
 _GAP = re.compile(r"(?<=[0-9.])(?:[ \t]+|[ \t]*;[ \t]*)(?=[-+.0-9])")
+_HALVES = re.compile(r"([0-9]+),([0-9]+)")
 _UNIT = re.compile(r"[ \t]*[A-Za-z%]")
 
 
@@ -66,3 +68,18 @@ def rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
         written = blocks.text.source.unified[slice(*line)]
         if (other := _GAP.sub(", ", written)) != written:
             yield Correction(problem, (TextEdit(line, other),), line)
+
+
+@recovers_from(SYN015)
+def decimal_commas(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Fields that are the halves of one number, in a row that has as many as it may have: a point between them."""
+    text = blocks.text
+    errors = {line_at(text, start_of(text, one)) for one in blocks.deck.problems if one.weight is Severity.ERROR}
+    for problem in problems:
+        line = line_at(text, start_of(text, problem))
+        if problem.span is None or line in errors:
+            continue
+        place = Span(problem.span.start, line.end)
+        edit = TextEdit(place, _HALVES.sub(r"\1.\2", text.source.unified[slice(*place)]))
+        repair = problem.repair or Repair("unsafe", f"write {edit.text.strip()}", ((edit.span, edit.text),))
+        yield Correction(replace(problem, repair=repair), (edit,), line)
