@@ -119,3 +119,14 @@ def test_facts_fit_each_other() -> None:
         assert ("superseded by" in block.summary) == bool(block.facts.superseded_by)
         assert {*block.facts.carried} <= set(block.model_fields)
         assert not block.facts.later_wins or set_slots(block)
+
+
+def test_a_keyword_may_mean_other_things_in_other_sections() -> None:
+    of_load_case, of_summary = (catalogue.block_class(name, "TIME") for name in ("LOAD CASE", "SUMMARY POSTPROCESSING"))
+    assert of_load_case is not None
+    assert of_summary is not None
+    assert of_load_case is not of_summary
+    assert catalogue.declarations("TIME") == [of_load_case, of_summary]
+    assert catalogue.block_class("MODEL", "TIME") is None
+    assert catalogue.declared("TIME", "SUMMARY POSTPROCESSING") is of_summary
+    assert set(catalogue.sections_of("TIME") or ()) == {*of_load_case.sections, *of_summary.sections}
