@@ -247,8 +247,8 @@ class _Reader:
         if other := self._of_deeplines():
             place = trimmed(self.text, *other.head.span)
             message = (
-                f"this seems to be a deck of DeepLines: it has *{other.name.split()[0]} and no $SECTION, and its values "
-                "are separated by blanks; mudline does not read such decks"
+                f"this seems to be a deck of DeepLines: it has *{other.name.split()[0]} and no $SECTION, and its "
+                "values are separated by blanks; mudline does not read such decks"
             )
             self.problems.append(Problem(SYN007, message, place))
         for block in preamble.blocks if not other else ():
