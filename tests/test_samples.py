@@ -14,7 +14,7 @@ from mudline.scene.model import resolve
 from tests.samples import SAMPLES, sample
 
 DECKS = sorted(path.name for path in SAMPLES.glob("*.keyx?"))
-FAULTY = ("broken.keyxm", "scr-vessel-faulty.keyxm")
+FAULTY = ("broken.keyxm", "scr-vessel-bad.keyxm")
 CLEAN = [name for name in DECKS if name not in FAULTY]
 
 INFO = {
@@ -107,7 +107,7 @@ def test_every_sample_is_there() -> None:
         "parametric.keyxm",
         "scr-dynamic.keyxm",
         "scr-touchdown.keyxm",
-        "scr-vessel-faulty.keyxm",
+        "scr-vessel-bad.keyxm",
         "scr-vessel.keyxm",
         "slope-friction.keyxm",
         "variations.keyxm",

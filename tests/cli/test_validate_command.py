@@ -135,6 +135,6 @@ def test_samples() -> None:
     outcome = run("validate", SAMPLES, "--output-format", "json")
     assert outcome.code == 1
     verdicts = {row["file"].rpartition("/")[2]: row["verdict"] for row in outcome.json()["decks"]}
-    assert {verdicts.pop(f"{name}.keyxm") for name in ("broken", "scr-vessel-faulty")} == {"illegal"}
+    assert {verdicts.pop(f"{name}.keyxm") for name in ("broken", "scr-vessel-bad")} == {"illegal"}
     assert {verdict.partition(":")[0] for verdict in verdicts.values()} <= {"legal", "legal as far as read"}
     assert len(verdicts) >= 6

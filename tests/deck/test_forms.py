@@ -24,7 +24,7 @@ from tests.builders.scenes import deck_of
 from tests.samples import SAMPLES
 
 NAME = "deck.keyxm"
-DECKS = sorted(path for path in SAMPLES.glob("*.keyx*") if path.name != "broken.keyxm")
+DECKS = sorted(path for path in SAMPLES.glob("*.keyx*") if path.name not in ("broken.keyxm", "scr-vessel-faulty.keyxm"))
 
 
 def same(one: Deck, other: Deck) -> None:
@@ -144,7 +144,7 @@ def test_commas_behind_the_last_field(row: str) -> None:
 def test_equations_and_opaque_lines_stay_as_written() -> None:
     lines = [
         " =[ a +  B*( c ) ], 1025.0",
-        "*HYDRODYNAMIC SETS",
+        "*PROPERTIES",
         "\t 1 ,2;x  ",
         "",
         "C-- kept",
@@ -157,7 +157,7 @@ def test_equations_and_opaque_lines_stay_as_written() -> None:
     assert dump(deck, "keyword") == text
     assert json.loads(dump(deck, "json"))["sections"][0]["blocks"] == [
         {"keyword": "OCEAN", "depth": "=[ a +  B*( c ) ]", "density": 1025.0},
-        {"keyword": "HYDRODYNAMIC SETS", "lines": lines[2:]},
+        {"keyword": "PROPERTIES", "lines": lines[2:]},
     ]
 
 

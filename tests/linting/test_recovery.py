@@ -554,7 +554,12 @@ def test_a_number_that_may_be_one_of_two_is_not_guessed() -> None:
 CAUSES_OF_LINES = {
     "a star before a word that may be a label": ("*GEOMETRIC SETS\n", "GEOMETRIC SETS\n", "SYN001", 16),
     "a star in a block that is passed through": ("*BOUNDARY\n", "BOUNDARY\n", "SYN001", 37),
-    "a star before a word with C": (" TYPE=STATIC\n", " TYPE=STATIC\nCURRENT\n TYPE=UNIFORM\n", "SYN013", 37),
+    "a star before a word with C": (
+        " TYPE=STATIC\n",
+        " TYPE=STATIC\nCURRENT\n TYPE=UNIFORM\n 0.5, 180.0\n",
+        "SYN013",
+        37,
+    ),
     "a star below $MODEL": ("*OCEAN\n", "OCEAN\n", "SYN011", 2),
     "a keyword of sections": ("*GEOMETRIC SETS\n", "", "SYN002", 17),
 }

@@ -1,17 +1,11 @@
-"""What the keywords of vessels and of bodies share: positions, motions, and files of coefficients."""
+"""What the keywords of vessels and of bodies share: names, positions and motions."""
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated
 
-from pydantic import model_validator
-
-from mudline.keywords.model import Record, Row, about, require_one, rows, setting
-from mudline.keywords.table import Table
-from mudline.keywords.values import Contents, Name, Names, Real
-
-COEFFICIENTS = "coefficients by heading"
-TAG = "a line of this word alone: the block is that of a mooring analysis, which has one vessel"
+from mudline.keywords.model import Row, about, setting
+from mudline.keywords.values import Name, Names, Real
 
 Vessel = Annotated[Name, setting("VESSEL", "vessel of *VESSEL or *VESSEL,INTEGRATED", names=Names.VESSEL)]
 Body = Annotated[Name, setting("FLOATING BODY", "floating body", names=Names.BODY)]
@@ -51,53 +45,3 @@ class Dimensions(Row):
     height: Annotated[Real, about("height", unit="L", above=0)]
     length: Annotated[Real, about("length", unit="L", above=0)]
     width: Annotated[Real, about("width", unit="L", above=0)]
-
-
-class Coefficients(Row):
-    """Coefficients at a heading."""
-
-    heading: Annotated[Real, about("heading", unit="deg")]
-    surge: Annotated[Real, about("coefficient in surge")]
-    sway: Annotated[Real, about("coefficient in sway")]
-    yaw: Annotated[Real, about("coefficient in yaw")]
-
-
-class BodyCoefficients(Record):
-    """The coefficients of a floating body."""
-
-    rule = "body_coefficients"
-    body: Body
-    file: Annotated[
-        Name | None,
-        setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE, holds=Contents.NUMBERS),
-    ] = None
-    headings: Annotated[Table | None, rows(Coefficients, COEFFICIENTS)] = None
-
-    @model_validator(mode="after")
-    def _fits(self) -> BodyCoefficients:
-        """A file, or rows."""
-        require_one(self, "file", "headings")
-        return self
-
-
-class VesselCoefficients(Record):
-    """The coefficients of the moored vessel."""
-
-    rule = "vessel_coefficients"
-    tag: Annotated[Literal["MOORED VESSEL"], about(TAG)]
-    file: Annotated[
-        Name | None,
-        setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE, holds=Contents.NUMBERS),
-    ] = None
-    headings: Annotated[Table | None, rows(Coefficients, COEFFICIENTS)] = None
-
-    @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
-        """The first line is the tag."""
-        return "tag" if number == 0 else "headings"
-
-    @model_validator(mode="after")
-    def _fits(self) -> VesselCoefficients:
-        """A file, or rows."""
-        require_one(self, "file", "headings")
-        return self

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Literal
 
+from mudline.keywords.coefficients import BodyCoefficients, VesselCoefficients
 from mudline.keywords.model import Block
-from mudline.keywords.vessels import BodyCoefficients, VesselCoefficients
 
 
 class CurrentCoefficients(Block):
