@@ -34,6 +34,8 @@ _DATA = re.compile(r"[-+.,\d\s]+(?:[eEdD][-+]?\d+[-+.,\d\s]*)*$|\s*[A-Z][A-Z ]*=
 """A line of numbers, or a setting: no title."""
 
 
+_DEEPLINES = frozenset({"SOIL", "TRENCH"})
+"""Keywords of another program, whose columns are separated by blanks."""
 _NOT_READ = ("lines", "unread")
 """The first step to a line that is not read: of a block without a model, or one that a model keeps."""
 _ENDS = 2
@@ -242,11 +244,23 @@ class _Reader:
             self._stray(
                 preamble.leaves, "before the first section", title=bool(self.tree.sections) and not preamble.blocks
             )
-        for block in preamble.blocks:
+        if other := self._of_deeplines():
+            place = trimmed(self.text, *other.head.span)
+            message = (
+                f"this seems to be a deck of DeepLines: it has *{other.name.split()[0]} and no $SECTION, and its "
+                "values are separated by blanks; mudline does not read such decks"
+            )
+            self.problems.append(Problem(SYN007, message, place))
+        for block in preamble.blocks if not other else ():
             self.findings.before_sections(block.name, trimmed(self.text, *block.head.span))
         first = self.tree.sections[0].head if self.tree.sections else None
         end = first.span.start if first else len(self.text)
         self.deck.preamble = self._lines(Span(0, end)) if end else []
+
+    def _of_deeplines(self) -> RawBlock | None:
+        """The first block that only decks of DeepLines have, in a text without sections and commas."""
+        blocks = self.tree.preamble.blocks if not self.tree.sections and "," not in self.text else []
+        return next((block for block in blocks if block.name.partition(" ")[0] in _DEEPLINES), None)
 
     def _stray(self, leaves: list[Leaf], where: str, *, title: bool = False) -> None:
         """One finding for all data lines of a place; where these may be a title, they are one if none is data."""
