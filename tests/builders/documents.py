@@ -17,6 +17,7 @@ from mudline.keywords.library.seabed_profile import SeabedProfile
 from mudline.keywords.library.time import TimeSpan
 from mudline.keywords.library.variation import VariedParameter
 from mudline.keywords.library.wave_jonswap import JonswapSea
+from mudline.keywords.matrices import MatrixRow
 from mudline.keywords.model import FEWEST_POINTS, Block, FieldSpec, ListRow, Record, Row, Rows, record_schema
 from mudline.keywords.values import Kind
 from mudline.quantities import UNIT_SYSTEMS
@@ -149,6 +150,8 @@ def table(slot: FieldSpec, fewest: int) -> st.SearchStrategy[list[list[Any]]]:
     """Rows of a table; the same few of them many times over make a long one."""
     assert slot.row is not None
     cells = line(record_schema(slot.row).columns).map(lambda given: list(given.values()))
+    if slot.row is MatrixRow:
+        return st.lists(cells, min_size=6, max_size=6)
     curve = isinstance(slot.about, Rows) and slot.about.curve
     rows = st.lists(cells, min_size=max(fewest, FEWEST_POINTS if curve else 0), max_size=4)
     return st.tuples(rows, st.sampled_from([1, 1, 1, 12])).map(lambda pair: pair[0] * pair[1])
@@ -272,6 +275,12 @@ def _jonswap_sea(draw: st.DrawFn, _made: Values) -> Values:
     return {"frequency": frequency, "spec": spec, row_: draw(cell(slots[row_]))}
 
 
+def _moored_alone(made: Values) -> st.SearchStrategy[Values]:
+    """A moored vessel stands alone."""
+    bodies = made.get("bodies", [])
+    return st.just(made | {"bodies": bodies[:1] if any("tag" in body for body in bodies) else bodies})
+
+
 def _two_ranges(made: Values) -> st.SearchStrategy[Values]:
     """Exactly two lines."""
     return st.just(made | {"ranges": [{"start": 1, "end": 2}, {"start": 3, "end": "{a}"}]})
@@ -279,12 +288,14 @@ def _two_ranges(made: Values) -> st.SearchStrategy[Values]:
 
 ARRANGED: dict[str, Callable[[Values], st.SearchStrategy[Values]]] = {
     "clear_element_sets": _two_ranges,
+    "current_coeff": _moored_alone,
     "database": _database,
     "geometric_set": _geometric_set,
     "jonswap_sea": _jonswap_sea,
     "seabed_profile": _seabed_profile,
     "time": _time,
     "trench_set": _trench_set,
+    "wind_coeff": _moored_alone,
     "varied_parameter": _varied_parameter,
 }
 """By the rule of the record."""

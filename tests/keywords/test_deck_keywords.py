@@ -115,6 +115,7 @@ FAULTS = [
     ("flexjoint|*FLEXJOINT\n ELEMENT=1\n TYPE=NONLINEAR\n 1, x\n 2, 3\n", "5:5 SYN002"),
     ("drag_chain|*DRAG CHAIN\n 1, 0, 5\n", "3:5 SBD010"),
     ("added_mass|*ADDED MASS\n FLOATING BODY=a\n TYPE=CONSTANT\n 1, 2, 3\n", "5:2 SYN003"),
+    ("added_mass|*ADDED MASS\n FLOATING BODY=a\n TYPE=CONSTANT\n 1, 2, 3, 4, 5, 6\n", "4:2 SYN001"),
     ("radiation_damping|*RADIATION DAMPING\n FLOATING BODY=a\n TYPE=CONST\n", "4:7 SYN005"),
     ("pip_connection|*PIP CONNECTION\n 1, 2, STIFNESS=3\n", "3:8 SYN004"),
     ("pip_section|*PIP SECTION\n OUTER=a\n", "3:2 SYN001"),

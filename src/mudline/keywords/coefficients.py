@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import model_validator
 
-from mudline.keywords.model import Record, Row, about, require_one, rows, setting
+from mudline.keywords.model import Block, Record, Row, about, require_one, rows, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Contents, Name, Names, Real
 from mudline.keywords.vessels import Body
@@ -62,4 +62,17 @@ class VesselCoefficients(Record):
     def _fits(self) -> VesselCoefficients:
         """A file, or rows."""
         require_one(self, "file", "headings")
+        return self
+
+
+class CoefficientBlock(Block):
+    """Coefficients of floating bodies, or of the moored vessel."""
+
+    bodies: list[BodyCoefficients | VesselCoefficients] = []
+
+    @model_validator(mode="after")
+    def _alone(self) -> Self:
+        """A mooring analysis has one vessel, and nothing else."""
+        if len(self.bodies) > 1 and any(isinstance(body, VesselCoefficients) for body in self.bodies):
+            raise ValueError("MOORED VESSEL stands alone: remove the other bodies")
         return self

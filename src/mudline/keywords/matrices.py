@@ -10,8 +10,10 @@ from mudline.keywords.model import Record, Row, about, require_one, rows, settin
 from mudline.keywords.table import Table
 from mudline.keywords.values import Contents, Name, Names, Real
 from mudline.keywords.vessels import Body
+from mudline.short_repr import counted
 
 _LINES = "a matrix is six lines of six numbers"
+_SIX = 6
 
 
 class MatrixRow(Row):
@@ -28,12 +30,23 @@ class MatrixRow(Row):
 Matrix = Annotated[Table, rows(MatrixRow, "matrix of 6 lines and 6 columns", inferred=_LINES)]
 
 
+def _require_six(matrix: Table | None) -> None:
+    if matrix is not None and len(matrix) not in (0, _SIX):
+        raise ValueError(f"the matrix has {counted(len(matrix), 'line')}: expected {_SIX}")
+
+
 class FrequencyMatrix(Record):
     """The matrix at a frequency."""
 
     rule = "frequency_matrix"
     frequency: Annotated[Real, setting("FREQ", "frequency", unit="Hz", at_least=0, inferred="its unit, as of waves")]
     matrix: Matrix
+
+    @model_validator(mode="after")
+    def _whole(self) -> FrequencyMatrix:
+        """Six lines."""
+        _require_six(self.matrix)
+        return self
 
 
 class MatrixType(Record):
@@ -54,6 +67,7 @@ class MatrixType(Record):
         """What its type has."""
         require_one(self, "frequencies" if self.type_ == "FREQUENCY" else "matrix")
         require_one(self, "frequencies", "matrix")
+        _require_six(self.matrix)
         return self
 
 

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import Literal
 
-from mudline.keywords.coefficients import BodyCoefficients, VesselCoefficients
-from mudline.keywords.model import Block
+from mudline.keywords.coefficients import CoefficientBlock
 
 
-class CurrentCoefficients(Block):
+class CurrentCoefficients(CoefficientBlock):
     """Coefficients of the current."""
 
     rule = "current_coeff"
@@ -19,7 +18,6 @@ class CurrentCoefficients(Block):
     example = "*CURRENT COEFF\n FLOATING BODY=Buoy\n 0.0, 1200.0, 0.0, 0.0\n 90.0, 0.0, 1500.0, 300.0\n"
 
     keyword: Literal["CURRENT COEFF"] = "CURRENT COEFF"
-    bodies: list[BodyCoefficients | VesselCoefficients] = []
 
 
 BLOCK = CurrentCoefficients

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import Literal
 
-from mudline.keywords.coefficients import BodyCoefficients, VesselCoefficients
-from mudline.keywords.model import Block
+from mudline.keywords.coefficients import CoefficientBlock
 
 
-class WindCoefficients(Block):
+class WindCoefficients(CoefficientBlock):
     """Coefficients of the wind."""
 
     rule = "wind_coeff"
@@ -19,7 +18,6 @@ class WindCoefficients(Block):
     example = "*WIND COEFF\n FLOATING BODY=Buoy\n 0.0, 1200.0, 0.0, 0.0\n 90.0, 0.0, 1500.0, 300.0\n"
 
     keyword: Literal["WIND COEFF"] = "WIND COEFF"
-    bodies: list[BodyCoefficients | VesselCoefficients] = []
 
 
 BLOCK = WindCoefficients
