@@ -21,7 +21,7 @@ VES002 = Code("VES002", "vessel-without-rao", Severity.WARNING)
 TIM005 = Code("TIM005", "static-steps-without-effect", Severity.INFO)
 
 _DYNAMIC = ("DYNAMIC", "TIME DOMAIN", "FREQUENCY DOMAIN")
-_FREQUENCY = "FREQUENCY DOMAIN"
+_FREQUENCY = "FREQUENCY"
 _MOTIONS = ("RAO", "VESSEL TIMETRACE")
 """Keywords of the load case that move a vessel."""
 
@@ -107,7 +107,7 @@ def static_steps_without_effect(context: LintContext) -> Iterator[Problem]:
     Finds: 4:1
     """
     kinds = _analysis(context)
-    if not kinds or _FREQUENCY in kinds:
+    if not kinds or any(kind.startswith(_FREQUENCY) for kind in kinds):
         return
     for where, _ in context.written("NON LINEAR STATIC", "LOAD CASE"):
         message = f"no effect: the run is {min(kinds).lower()}, not in the frequency domain; remove *NON LINEAR STATIC"
