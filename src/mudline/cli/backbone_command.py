@@ -19,6 +19,7 @@ from mudline.keywords.library.seabed_stiffness import SeabedStiffness, Stiffness
 from mudline.keywords.model import Block, Comment
 from mudline.keywords.writer import block_lines
 from mudline.quantities import shown
+from mudline.scene.deck_curves import OF_SEABED
 
 if TYPE_CHECKING:
     from mudline.curves.points import FloatArray
@@ -209,4 +210,5 @@ def _plot(backbone: Backbone, wanted: Wanted, points: FloatArray, path: Path, fo
 def _row(name: str, points: FloatArray) -> dict[str, Any]:
     curve = ForceCurve(points, name)
     slopes = curve.slopes.tolist()
-    return {"name": name, "points": points.tolist(), "segments": [{"slope": slope} for slope in slopes], "at": []}
+    drawn = {"points": points.tolist(), "segments": [{"slope": slope} for slope in slopes], "at": []}
+    return {"name": name, "kind": OF_SEABED, "axes": ["ratio", "force"], **drawn}
