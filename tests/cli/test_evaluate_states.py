@@ -266,7 +266,7 @@ def test_deck_without_a_seabed_is_legal_with_a_warning(place: Place) -> None:
     read = "6 of 7 keywords; not read: *SEABED PROPERTEIS"
     assert rows == [(f"legal as far as read, 1 warning: {read}", 1, []), ("legal", 0, [])]
     assert outcome.json()["total"]["warnings"] == 1
-    assert run("validate", *names).out.splitlines()[3].startswith("as far as read, 1 warning ")
+    assert run("validate", *names).out.splitlines()[4].startswith("as far as read, 1 warning ")
 
 
 def test_what_evaluating_adds_is_counted_once(place: Place) -> None:

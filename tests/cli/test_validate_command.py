@@ -21,9 +21,10 @@ def test_legal_deck(place: Place) -> None:
     assert (outcome.code, outcome.err) == (0, "")
     assert outcome.out.splitlines() == [
         "Decks",
-        "verdict  errors  warnings  sections  keywords  curves  elements  file",
-        "───────────────────────────────────────────────────────────────────────────",
-        "legal         0         0         1         7       1         2  deck.keyxm",
+        "                 warn-   sec-  keywords           ele-",
+        "verdict  errors   ings  tions      read  curves  ments  file",
+        "──────────────────────────────────────────────────────────────────",
+        "legal         0      0      1         7       1      2  deck.keyxm",
         "",
         "1 of 1 deck legal",
     ]
@@ -92,9 +93,9 @@ def test_a_deck_is_legal_as_far_as_it_was_read(place: Place) -> None:
     assert row["keywords"] == {"total": 10, "read": 7, "partly": {"BOUNDARY": 1}, "unread": {"GUIDE": 2}}
     assert row["verdict"] == f"legal as far as read: {AS_FAR}"
     lines = run("validate", name).out.splitlines()
-    assert lines[3].split()[:7] == ["as", "far", "as", "read", "0", "0", "2"]
+    assert lines[4].split()[:7] == ["as", "far", "as", "read", "0", "0", "2"]
     assert lines[-2] == "1 of 1 deck legal as far as read"
-    assert " 7 of 10 " in lines[3]
+    assert " 7 of 10 " in lines[4]
     assert lines[-1] == f"Read {AS_FAR}."
     assert run("lint", name).out.splitlines()[-1] == f"Read {AS_FAR}."
 
@@ -118,7 +119,7 @@ def test_document_that_is_none(place: Place) -> None:
     outcome = run("validate", place("{", "deck.json"))
     assert outcome.code == 1
     assert outcome.out.startswith("deck.json:1:2: error DOC001 ")
-    assert "illegal       1         0         0         0       0         0  deck.json" in outcome.out
+    assert outcome.out.splitlines()[-3].split() == ["illegal", "1", *"00000", "deck.json"]
 
 
 def test_path_that_is_missing_beats_a_deck_that_is_illegal(place: Place) -> None:

@@ -22,7 +22,7 @@ from mudline.codes.contact import SBD006
 from mudline.deck.coverage import coverage_of
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Coverage, DeckError, Diagnostic, Problem, Severity
-from mudline.linting.engine import joined_problems, unsuppressed
+from mudline.linting.engine import joined_problems, of_base, unsuppressed
 from mudline.linting.output.json import as_object
 from mudline.linting.registry import rules, select
 from mudline.linting.rule import LintContext
@@ -187,7 +187,8 @@ def judge_order(order: Order) -> tuple[Verdict, list[Diagnostic]]:
     context = LintContext(deck)
     problems = joined_problems(context, rules(), suppress=False)
     wrong = [one for one in problems if one.weight is Severity.ERROR]
-    wrong = wrong or context.scene.errors()  # of the deck as it is written, and not as it was meant
+    # of the deck itself as it is written, and not as it was meant
+    wrong = wrong or [one for one in context.scene.errors() if not of_base(deck, one)]
     if not wrong and any(one.repair for one in deck.problems):  # a name that was meant otherwise is not what it says
         wrong = [one for one in context.scene.blocking() if one.weight is not Severity.INFO]
     errors = deck.diagnose(wrong)

@@ -138,14 +138,11 @@ class Facts:
     What it does: `defines` is what its records define by number or name; `makes` are the keywords of what things
     outside the deck, which its lines are about, may define; `out_of_sight` says that the deck has these things, and
     where they lie is not computed. With `later_wins` an element follows the last record whose SET= holds it, and that
-    record as a whole. `carried` are the fields that a block has from the block before it, where
-    it does not give them. `seabed_type` is the type of seabed that a legacy surface is. `soil_springs` hold elements in
-    the soil; of elements with `zero_length` the ends may lie at one place. What is computed from it is said under the
-    heading `computed_in` of the page on the contact evaluator. `instead_of` says what to write instead of a setting
-    that other keywords have.
-
-    What tells its lines from those of others, where the keyword itself is missing: a deck with it has one of those
-    `beside` it too, and `telling` are lines that no other keyword has. It `tells_units` of all other values.
+    record as a whole. `carried` are the fields that a block has from the block before it, where it does not give them.
+    `seabed_type` is the type of seabed that a legacy surface is. `soil_springs` hold elements in the soil, and what
+    `moves_vessels` lets them follow the waves or a time history; of elements with `zero_length` the ends may lie at one
+    place. What is computed from it is said under the heading `computed_in` of the page on the contact evaluator.
+    `instead_of` says what to write instead of a setting that other keywords have.
     """
 
     superseded_by: tuple[Successor, ...] = ()
@@ -159,6 +156,7 @@ class Facts:
     carried: tuple[str, ...] = ()
     seabed_type: Literal["", "RIGID", "ELASTIC"] = ""
     soil_springs: bool = False
+    moves_vessels: bool = False
     zero_length: bool = False
     computed_in: str = ""
     instead_of: Mapping[str, str] = field(default_factory=dict)

@@ -158,10 +158,10 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
         else:
             for problem in rule.check(context):
                 found.append(_advice(problem))
-    return [problem for problem in found if not _of_base(context.deck, problem)]
+    return [problem for problem in found if not of_base(context.deck, problem)]
 
 
-def _of_base(deck: Deck, problem: Problem) -> bool:
+def of_base(deck: Deck, problem: Problem) -> bool:
     """Whether a problem of a scene lies in a deck that `deck` continues, and not in `deck` itself."""
     beyond = problem.where is not None and problem.where.section >= len(deck.sections)
     return beyond or isinstance(problem, BaseProblem)

@@ -8,7 +8,7 @@ from pydantic import model_validator
 
 from mudline.keywords.model import Block, Record, Row, about, require_one, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Contents, Name, Names, Real
+from mudline.keywords.values import Contents, Facts, Name, Names, Real
 from mudline.keywords.vessels import Vessel
 
 
@@ -95,6 +95,7 @@ class Raos(Block):
     rule = "rao"
     sections = ("LOAD CASE",)
     subject = "vessels"
+    facts = Facts(moves_vessels=True)
     page = "kwd_loadcase_rao"
     summary = "Response amplitude operators of vessels, by file or lines (older than *VESSEL,INTEGRATED)."
     example = (

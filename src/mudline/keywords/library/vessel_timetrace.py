@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, Record, setting
-from mudline.keywords.values import Contents, Name, Names
+from mudline.keywords.values import Contents, Facts, Name, Names
 from mudline.keywords.vessels import Vessel
 
 
@@ -32,6 +32,7 @@ class VesselTimetrace(Block):
     rule = "vessel_timetrace"
     sections = ("LOAD CASE",)
     subject = "vessels"
+    facts = Facts(moves_vessels=True)
     page = "kwd_loadcase_vesseltimetrace"
     summary = "Motions of vessels, of low and high frequency together, from files; not with *RAO or *DRIFT."
     example = "*VESSEL TIMETRACE\n VESSEL=FPSO\n FILE=motion.dat\n"

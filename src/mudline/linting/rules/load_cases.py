@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, cast
 
 from mudline.diagnostics import Code, Problem, Severity
+from mudline.keywords import catalogue
 from mudline.keywords.model import names_given
 from mudline.keywords.text import shown
 from mudline.keywords.values import Names
@@ -22,8 +24,7 @@ TIM005 = Code("TIM005", "static-steps-without-effect", Severity.INFO)
 
 _DYNAMIC = ("DYNAMIC", "TIME DOMAIN", "FREQUENCY DOMAIN")
 _FREQUENCY = "FREQUENCY"
-_MOTIONS = ("RAO", "VESSEL TIMETRACE")
-"""Keywords of the load case that move a vessel."""
+_WAVES = re.compile("WAVE.*")
 
 
 def _analysis(context: LintContext) -> set[str]:
@@ -62,13 +63,9 @@ def vessel_without_rao(context: LintContext) -> Iterator[Problem]:
     """
     if not _analysis(context) & {*_DYNAMIC} or not _has_waves(context):
         return
-    moved = {
-        set_key(name)
-        for keyword in _MOTIONS
-        for _, block in context.blocks(keyword, "LOAD CASE")
-        for _, name in names_given(block, Names.VESSEL)
-    }
-    for keyword in ("VESSEL", "VESSEL,INTEGRATED"):
+    moving = context.scene.deck.blocks_that(lambda declared: declared.facts.moves_vessels, "LOAD CASE")
+    moved = {set_key(name) for _, block in moving for _, name in names_given(block, Names.VESSEL)}
+    for keyword in catalogue.definers(Names.VESSEL):
         for where, block in context.blocks(keyword):
             for index, vessel in enumerate(cast("Vessels | IntegratedVessels", block).vessels):
                 place = where.inside("vessels", index)
@@ -85,7 +82,7 @@ def vessel_without_rao(context: LintContext) -> Iterator[Problem]:
 def _has_waves(context: LintContext) -> bool:
     """Whether a load case has waves, of a kind that is read or not."""
     sections = (section for section in context.deck.sections if section.name == "LOAD CASE")
-    return any(block.keyword.startswith("WAVE") for section in sections for block in section.blocks)
+    return any(_WAVES.fullmatch(block.keyword) for section in sections for block in section.blocks)
 
 
 @rule(TIM005)

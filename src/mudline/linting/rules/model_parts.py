@@ -11,11 +11,14 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
+from mudline.deck.model import Opaque
 from mudline.diagnostics import Code, Problem, Severity
+from mudline.keywords.catalogue import may_have_no_length
 from mudline.keywords.keeping import kept_lines
 from mudline.keywords.model import Block, Part, idents_given, may_name
 from mudline.keywords.values import Names
 from mudline.linting.rule import LintContext, rule
+from mudline.linting.rules.references import WATER
 from mudline.linting.rules.seabed_position import first_of
 from mudline.scene.deck_values import number
 from mudline.scene.numbering import Mask
@@ -32,20 +35,23 @@ GEO010 = Code("GEO010", "end-not-held", Severity.INFO)
 GEO011 = Code("GEO011", "short-cable", Severity.WARNING)
 GEO012 = Code("GEO012", "node-beyond-cable", Severity.WARNING)
 
-_CONNECTORS = ("FLEXJOINT", "FLEX JOINTS", "HINGE", "SPRING ELEMENT", "DAMPER", "TENSIONER", "PIP SECTION", "WINCH")
-"""Keywords whose elements take no properties."""
 _ROUNDED = 1e-6
 """Share of a length by which it may be rounded."""
-_ENDS_ELSEWHERE = ("FLOATING BODY", "TENSIONER", "GUIDE", "TOP TENSION", "WINCH")
-"""Keywords that may hold a line, and whose lines are not read."""
 
 
 def _is_whole(context: LintContext) -> bool:
-    """Whether a deck shows a whole model and a load case of it."""
-    names = {section.name for section in context.scene.deck.sections}
+    """Whether a deck shows a whole model and a load case of it, all lines of which are read.
+
+    Joints, springs and the like take no properties, and a keyword that is passed through may be of one, or hold a line.
+    """
     scene = context.scene
-    complete = not scene.context.external_definers and not scene.context.restart and not scene.context.unread
-    return complete and {"MODEL", "LOAD CASE"} <= names and len(scene.element_ids) > 0
+    parts = [section for section in scene.deck.sections if section.name in ("MODEL", "LOAD CASE")]
+    blocks = [block for section in parts for block in section.blocks]
+    if len({section.name for section in parts}) < 2 or not len(scene.element_ids):
+        return False
+    if any(type(block) is Opaque or may_have_no_length(block.keyword) for block in blocks):
+        return False
+    return not (scene.context.external_definers or scene.context.restart or scene.context.unread)
 
 
 @rule(GEO007)
@@ -83,7 +89,7 @@ def element_without_section(context: LintContext) -> Iterator[Problem]:
     Finds: 8:2
     """
     scene = context.scene
-    if not _is_whole(context) or not context.blocks("GEOMETRIC SETS") or context.keywords & {*_CONNECTORS}:
+    if not _is_whole(context) or not context.blocks("GEOMETRIC SETS"):
         return
     bare = np.flatnonzero(scene.section_table.of_element < 0)
     if bare.size and bare.size < len(scene.element_ids):
@@ -129,11 +135,11 @@ def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
     Finds: 10:2
     """
     scene = context.scene
-    loads = {section.name: {block.keyword for block in section.blocks} for section in context.deck.sections}
-    flows = any(word == "CURRENT" or word.startswith("WAVE") for word in loads.get("LOAD CASE", ()))
+    cases = (section for section in context.deck.sections if section.name == "LOAD CASE")
+    flows = any(WATER.fullmatch(block.keyword) for case in cases for block in case.blocks)
     blocks = context.blocks("HYDRODYNAMIC SETS")
     kept = any(True for _, block in blocks for _ in kept_lines(block))
-    if not flows or kept or not _is_whole(context) or context.keywords & {*_CONNECTORS}:
+    if not flows or kept or not _is_whole(context):
         return
     covered = np.zeros(len(scene.element_ids), dtype=np.bool_)
     for _, block in blocks:
@@ -209,8 +215,7 @@ def end_not_held(context: LintContext) -> Iterator[Problem]:
     Finds: 4:2
     """
     scene = context.scene
-    words = {block.keyword for section in scene.deck.sections for block in section.blocks}
-    if not _is_whole(context) or words & {*_ENDS_ELSEWHERE, *_CONNECTORS} or (scene.element_nodes < 0).any():
+    if not _is_whole(context) or (scene.element_nodes < 0).any():
         return
     counts = np.bincount(scene.element_nodes.ravel(), minlength=len(scene.node_ids))
     free = np.flatnonzero((counts == 1) & ~_named(context))
@@ -231,10 +236,7 @@ def _named_nodes(context: LintContext) -> Mask:
     numbers: set[int] = set()
     for section in scene.deck.sections:
         for block in section.blocks:
-            if not isinstance(block, Block):
-                words = (word for line in getattr(block, "lines", ()) for word in line.replace("=", ",").split(","))
-                numbers.update(_whole(words))
-            elif block.facts.defines not in ("nodes", "elements"):
+            if isinstance(block, Block) and block.facts.defines not in ("nodes", "elements"):
                 numbers.update(_of_block(block))
     named = np.zeros(len(scene.node_ids), dtype=np.bool_)
     indices = scene.nodes.indices(np.array(sorted(numbers), dtype=np.int64)) if numbers else np.zeros(0, np.intp)

@@ -202,7 +202,7 @@ def _names(parameter: Parameter) -> list[str]:
     return [name]
 
 
-_WATER = re.compile(r"CURRENT|WAVE(?:-.*)?")
+WATER = re.compile(r"CURRENT|WAVE(?:-.*)?")
 
 
 @rule(REF018)
@@ -240,7 +240,7 @@ def missing_ocean(context: LintContext) -> Iterator[Problem]:
         return
     for i, section in enumerate(context.deck.own_sections):
         for j, block in enumerate(section.blocks):
-            if section.name == "LOAD CASE" and _WATER.fullmatch(block.keyword):
+            if section.name == "LOAD CASE" and WATER.fullmatch(block.keyword):
                 message = f"*{block.keyword} needs the depth of the water: give *OCEAN in $MODEL"
                 yield Problem(REF018, message, where=Where(i, j))
                 return
