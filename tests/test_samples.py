@@ -106,6 +106,7 @@ def test_every_sample_is_there() -> None:
         "lines-deck.keyxm",
         "parametric.keyxm",
         "scr-dynamic.keyxm",
+        "scr-soil.keyxm",
         "scr-touchdown.keyxm",
         "scr-vessel-bad.keyxm",
         "scr-vessel.keyxm",

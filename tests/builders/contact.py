@@ -275,10 +275,13 @@ def everything(elements: int, seed: int, seabed: Seabed | None = None) -> Contac
     rng = np.random.default_rng(seed)
     points = line(elements, seed)
     normal = rng.choice(5, elements, p=[0.35, 0.15, 0.3, 0.1, 0.1])
-    curve, linear, smoothed, rigid = (np.flatnonzero(normal == kind) for kind in range(4))
+    curve, linear, smoothed, rigid, bare = (np.flatnonzero(normal == kind) for kind in range(5))
     diameter = rng.choice([0.3, 0.5], elements)
     unloads, springs = _some(rng, elements, 0.4), _some(rng, elements, 0.2)
     lateral, nodal = _some(rng, elements, 0.3), _some(rng, elements + 1, 0.3)
+    suction_law = _random_suction(diameter, rng)
+    # a soil has its own unloading and suction
+    soil = np.setdiff1d(np.concatenate([bare, linear]), np.concatenate([unloads, suction_law.rows]))
     return ContactInput(
         node_ids=np.arange(1, elements + 2),
         coordinates=points,
@@ -288,7 +291,7 @@ def everything(elements: int, seed: int, seabed: Seabed | None = None) -> Contac
         diameter=diameter,
         laws=(
             on("curve", curve, curve=rng.integers(0, 2, len(curve))),
-            on("linear", linear, stiffness=2.0e4),
+            on("linear", np.setdiff1d(linear, soil), stiffness=2.0e4),
             on(
                 "smoothed",
                 smoothed,
@@ -297,6 +300,7 @@ def everything(elements: int, seed: int, seabed: Seabed | None = None) -> Contac
                 one_sided=rng.integers(0, 2, len(smoothed)),
             ),
             on("rigid", rigid),
+            on("soil", soil, strength=np.linspace(1e3, 8e3, len(soil)), gradient=1500.0, buoyancy=9000.0),
             on(
                 "nodal",
                 nodal,
@@ -306,7 +310,7 @@ def everything(elements: int, seed: int, seabed: Seabed | None = None) -> Contac
             ),
             on("unloading", unloads, stiffness=rng.choice([1.0e3, 4.0e5], len(unloads))),
             on("suction spring", springs, stiffness=800.0, extent=0.2),
-            _random_suction(diameter, rng),
+            suction_law,
             _random_friction(elements + 1, rng),
             on("lateral", lateral, stiffness=900.0),
             *_random_trenches(elements, rng),

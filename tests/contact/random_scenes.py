@@ -27,13 +27,13 @@ from mudline.curves import ForceCurve
 from tests.builders.contact import ALONG_Y, FRICTION, bridge_law, floats, friction, on, suction
 from tests.contact.comparison import Scene, Sizes, compare
 
-NORMAL = ("linear", "smoothed", "curve", "rigid")
+NORMAL = ("linear", "smoothed", "curve", "soil", "rigid")
 BESIDE = ("unloading", "suction spring", "suction", "lateral")
 TRENCHES = ("trench peak", "trench wall", "trench table")
 LAWS = (*NORMAL, "nodal", *BESIDE, "friction", *TRENCHES)
 """All laws; in scenes each is on some elements or nodes."""
 SUBSETS: tuple[tuple[frozenset[str], bool], ...] = (
-    (frozenset({"curve", "linear", "smoothed", "unloading", "suction spring", "suction"}), True),
+    (frozenset({"curve", "linear", "smoothed", "soil", "unloading", "suction spring", "suction"}), True),
     (frozenset({"linear", "nodal", "friction", "lateral"}), False),
 )
 """Laws of the scenes of the suite, and whether their seabed is flat: each has loops of its own, compiled once."""
@@ -117,23 +117,24 @@ def _numbered(random: _Random, places: FloatArray, nodes: IndexArray) -> _Line:
 
 
 def _with_block(line: _Line) -> _Line:
-    """The line, and four elements beside it which have all laws, see `_laws_of_block`."""
+    """The line, and five elements beside it which have all laws, see `_laws_of_block`."""
     first = len(line.points)
-    places = np.zeros((5, 3))
-    places[:, 0], places[:, 1], places[:, 2] = -0.03, 0.5 * np.arange(5), 0.7
-    ends = first + np.column_stack([np.arange(4), np.arange(1, 5)])
+    places = np.zeros((6, 3))
+    places[:, 0], places[:, 1], places[:, 2] = -0.03, 0.5 * np.arange(6), 0.7
+    ends = first + np.column_stack([np.arange(5), np.arange(1, 6)])
     return _Line(np.concatenate([line.points, places]), np.concatenate([line.ends, ends]))
 
 
 def _laws_of_block(line: _Line) -> Iterator[LawAssignment]:
-    """Laws of these names with everything that loops differ by, on the four elements and five nodes at the end."""
-    row, node = len(line.ends) - 4, len(line.points) - 5
+    """Laws of these names with everything that loops differ by, on the five elements and six nodes at the end."""
+    row, node = len(line.ends) - 5, len(line.points) - 6
     law = bridge_law(1)._replace(cyclic=floats(0.9), cyclic_floor=floats(0.5))
     widths = {"bottom": 0.02, "upper": 0.4}
     yield on("curve", [row], curve=0)
     yield on("linear", [row + 1], stiffness=2e4)
     yield on("smoothed", [row + 2], stiffness=2e4, half_width=0.01)
     yield on("rigid", [row + 3])
+    yield on("soil", [row + 4], strength=5e3, gradient=1.5e3)
     yield on("nodal", [node + 4], stiffness=1e4)
     yield on("unloading", [row, row + 1, row + 2], stiffness=1.0)
     yield on("suction spring", [row], stiffness=800.0, extent=0.2)
@@ -216,6 +217,16 @@ def _beside_parameters(random: _Random, name: str, count: int, size: float) -> d
         },
         "nodal": lambda: {
             "stiffness": random.scaled(count, 0.0, 1e5, size, 0.0), "half_width": half, "one_sided": sided,
+        },
+        "soil": lambda: {
+            "strength": np.maximum(random.scaled(count, 500.0, 1e4, size, 5e3), 5e-324),
+            "gradient": random.scaled(count, 0.0, 3e3, size, 0.0),
+            "exponent": random.values(count, 0.2, 0.3, 0.25),
+            "stiffness": random.values(count, 50.0, 500.0, 200.0, 1e6),
+            "suction": random.values(count, 0.0, 1.0, 0.0, 0.6),
+            "suction_decay": random.values(count, 0.1, 2.0, 1e12),
+            "repenetration": random.values(count, 0.0, 1.5, 0.0, 0.3),
+            "buoyancy": random.scaled(count, 0.0, 1e4, size, 0.0),
         },
         "unloading": lambda: {"stiffness": np.maximum(random.scaled(count, 1.0, 5e5, size, 1.0), 5e-324)},
         "suction spring": lambda: {
@@ -301,6 +312,10 @@ def _laws(
     for name in (*BESIDE, "nodal"):
         if name in names:
             rows = random.some(nodes if name == "nodal" else elements)
+            if name in {"unloading", "suction"}:  # a soil has its own
+                rows = rows[
+                    ~np.isin(rows, np.concatenate([np.zeros(0), *(law.rows for law in found if law.law == "soil")]))
+                ]
             found.append(on(name, rows, **_beside_parameters(random, name, len(rows), size)))
     if "friction" in names:
         found.append(_friction(random, nodes, size))
@@ -346,13 +361,13 @@ def random_scene(seed: int, names: frozenset[str] | None = None, *, flat: bool |
         line, seabed = _with_block(line), _seabed_like(random, flat=flat)
     elements, nodes = len(line.ends), len(line.points)
     diameter = random.values(elements, 0.05, 1.0, 0.3)
-    laws = _laws(random, names, line, force, block=4 if flat is not None else 0)
+    laws = _laws(random, names, line, force, block=5 if flat is not None else 0)
     if flat is not None:
         laws += tuple(law for law in _laws_of_block(line) if law.law in names)
     if random.chance(0.3):
         sized = np.zeros(elements, np.bool_)
         for law in laws:
-            if law.law == "curve":
+            if law.law in {"curve", "soil"}:
                 sized[law.rows] = True
         diameter[np.flatnonzero(~sized)[::2]] = np.nan
     if extreme and random.chance(0.2):

@@ -64,7 +64,7 @@ def test_no_force_where_there_is_no_contact(elements: int, seed: int) -> None:
 @settings(max_examples=25)
 @given(lines, seeds)
 def test_the_seabed_never_pulls_without_suction_where_tension_is_cut(elements: int, seed: int) -> None:
-    inputs = replace(without_suction(elements, seed), curves=(PULLING, SAND), tension="cut")
+    inputs = replace(without(without_suction(elements, seed), "soil"), curves=(PULLING, SAND), tension="cut")
     positions, velocities, _ = journey(elements, 12, seed)
     result = ContactModel(inputs).evaluate(positions, velocities=velocities)
     assert (result.force >= 0.0).all()
@@ -232,7 +232,8 @@ def test_a_scene_may_be_turned_and_shifted(
     assert close(two.reaction, spun(one.reaction, degrees), 1e-8)
 
 
-POWERS = {"F": (1, 0), "F/L": (1, -1), "F/L2": (1, -2), "L": (0, 1), "L/T": (0, 1), "1": (0, 0), "deg": (0, 0)}
+POWERS = {"F": (1, 0), "F/L": (1, -1), "F/L2": (1, -2), "F/L3": (1, -3), "L": (0, 1), "L/T": (0, 1)}
+POWERS |= {"1": (0, 0), "deg": (0, 0)}
 """Powers of force and length in the units of parameters; time stays in seconds."""
 
 

@@ -15,6 +15,15 @@ in [contact.md](contact.md). This page is made from the program.
 """
 
 
+_PICTURES = {
+    "soil": (
+        "![Force against penetration of an element that is pressed into the soil and lifted again: loops that "
+        "go below zero on the way up](images/soil-loop.svg)"
+    )
+}
+"""By the name of the law."""
+
+
 def law_page() -> str:
     """The page."""
     return "\n".join([_HEAD, *(_section(law_named(name)) for name in BUILT_IN)])
@@ -30,7 +39,8 @@ def _section(law: Law) -> str:
         f"| parameter | unit | range | default | meaning |\n| --- | --- | --- | --- | --- |\n{rows}\n" if rows else ""
     )
     what = law.summary[0].upper() + law.summary[1:]
-    return f"## {law.name}\n\n{what}; {', '.join(facts)}.\n\n{equation}{table}{source}"
+    picture = f"\n{_PICTURES[law.name]}\n" if law.name in _PICTURES else ""
+    return f"## {law.name}\n\n{what}; {', '.join(facts)}.\n\n{equation}{table}{source}{picture}"
 
 
 def _row(parameter: Parameter) -> str:

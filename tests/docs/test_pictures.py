@@ -6,10 +6,12 @@ import re
 from itertools import pairwise
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from mudline.contact.laws.suction import SuctionState
 from mudline.results.plot_data import Cycle
+from tests.docs import soil_loop
 from tests.docs.full_cycle import cycle
 from tests.docs.layer_picture import layer_picture
 from tests.docs.pictures import IMAGES, ROOT, write
@@ -27,6 +29,19 @@ def test_suction_begins_at_the_trench_bottom_and_ends_at_breakout(path: Cycle) -
     assert pulled.max() == pytest.approx(bottom, abs=0.5)
     assert pulled.min() == pytest.approx(bottom - 980.0 * 0.4064 * 0.01**0.26, abs=0.5)
     assert path.force.min() == pytest.approx(-1.12 * 0.4064 * 2.0 * (0.01 / 0.4064) ** 0.18, rel=1e-9)
+
+
+def test_the_loop_of_the_soil_pushes_and_pulls_within_its_bounds() -> None:
+    """Of the sample: s_u = 2 + 1.5 z kPa, f_suc = 0.6, and at most 1.5 times 6 kN/m3 of displaced soil."""
+    found = soil_loop.loop(ROOT / "samples")
+    z = np.maximum(found.penetration, 0.0) * 1e-3
+    ratio = z / 0.3239
+    factor = 6.0 * np.maximum(ratio, 0.1) ** 0.25 * np.sqrt(np.minimum(10.0 * ratio, 1.0))
+    most = factor * (2.0 + 1.5 * z) * 0.3239
+    assert (found.force <= most + 9.0 * 0.3239**2 * np.pi / 4.0).all()
+    assert (found.force >= -0.6 * most).all()
+    assert found.force.max() > 2.0
+    assert found.force.min() < -0.5
 
 
 def test_all_pictures_are_made_and_no_others(tmp_path: Path) -> None:

@@ -14,8 +14,10 @@ from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.loading import dump, load_bytes
 from mudline.diagnostics import DeckError
 from mudline.formatting.document import formatted
+from mudline.keywords.library.seabed_soil import SeabedSoil
 from mudline.keywords.library.seabed_suction import CyclicLoading, SeabedSuction, SuctionSet
 from mudline.keywords.library.seabed_trench import Centreline, SeabedTrench, TrenchSet
+from mudline.keywords.writer import block_lines
 from tests.builders.documents import validator
 
 TRENCH = "*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n"
@@ -212,3 +214,23 @@ def test_direction_stands_on_the_line_of_interpolation_only() -> None:
     ):
         text = f"$MODEL\n*SEABED PROFILE\n{lines}"
         assert to_keyword(load_bytes(text.encode(), "deck.keyxm")) == text
+
+
+def test_a_soil_with_all_of_its_settings_and_with_one() -> None:
+    text = (
+        "*SEABED SOIL\n SET=Left\n STRENGTH=5000, 1500\n BEARING=6, 0.25\n STIFFNESS=200\n SUCTION=0.6, 1\n"
+        " REPENETRATION=0.3\n BUOYANCY=1.5, 6000\n SET=Right\n STRENGTH=8000\n"
+    )
+    deck = load_bytes(f"$MODEL\n{text}".encode(), "deck.keyxm")
+    assert deck.problems == []
+    block = cast("SeabedSoil", deck.sections[0].blocks[0])
+    left, right = block.sets
+    assert left.buoyancy is not None
+    assert left.suction is not None
+    assert (left.strength.mudline, left.strength.gradient, left.stiffness) == (5000.0, 1500.0, 200.0)
+    assert (left.suction.ratio, left.suction.decay, left.buoyancy.weight) == (0.6, 1.0, 6000.0)
+    assert (right.strength.mudline, right.strength.gradient, right.bearing) == (8000.0, None, None)
+    again = load_bytes("$MODEL\n{}\n".format("\n".join(block_lines(block))).encode(), "deck.keyxm")
+    assert again.sections[0].blocks[0] == block
+    ((code, message),) = told("*SEABED SOIL\n SET=ALL\n STIFFNESS=200\n")
+    assert (code, message) == ("SYN001", "STRENGTH= is missing here")

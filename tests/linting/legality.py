@@ -212,6 +212,12 @@ def _contact(draw: random.Random) -> str:
     return _by_set(draw, "SEABED CONTACT", ["NODAL STIFFNESS=9000.0", smoothing])
 
 
+def _soil(draw: random.Random) -> str:
+    strength = draw.choice(("5000.0, 1500.0", "5000.0", "0.0", "5000.0, -1.0"))
+    beside = draw.choice(("", "", " SUCTION=0.6, 1.0\n", " BEARING=6.0, 0.0\n", " BUOYANCY=1.5, 6000.0\n"))
+    return f"*SEABED SOIL\n SET={draw.choice(_SETS[:4])}\n STRENGTH={strength}\n{beside}"
+
+
 def _unloading(draw: random.Random) -> str:
     return f"*SEABED UNLOADING\n SET={draw.choice(_SETS[:4])}\n STIFFNESS={draw.choice(_UNLOADING)}\n"
 
@@ -222,7 +228,7 @@ def _friction(draw: random.Random) -> str:
 
 
 def _extensions(draw: random.Random) -> Iterator[str]:
-    for make in (_suction, _trench, _unloading, _contact, _friction, _friction):
+    for make in (_soil, _suction, _trench, _unloading, _contact, _friction, _friction):
         if draw.random() < 0.25:
             yield make(draw)
 

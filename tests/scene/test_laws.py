@@ -260,6 +260,15 @@ def test_a_stiffness_of_the_nodes_needs_no_diameter_whatever_curve_it_replaces()
     assert [message.split(" have ")[0] for message in messages(text + nodal.format("a"))] == ["5 elements (first: 6)"]
 
 
+def test_a_soil_needs_a_diameter() -> None:
+    text = (
+        PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=5000\n*SEABED SOIL\n SET=ALL\n STRENGTH=5000\n"
+    )
+    assert [(severity, code) for severity, code, _, _ in reported(text)] == [("E", "SBD009")]
+    assert "have a soil and no external diameter" in messages(text)[0]
+    assert reported(text + STEEL) == []
+
+
 def test_a_drag_diameter_of_0_is_no_diameter() -> None:
     text = PIPE + "*GEOMETRIC SETS\n SET=ALL\n ,,,, 1, 1, 0, 0.0, 0.3\n" + CLAY
     text += "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"

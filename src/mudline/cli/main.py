@@ -33,6 +33,7 @@ COMMANDS = {
     "migrate": "Rewrite the legacy seabed keywords as the new family.",
     "show": "Summarise a deck: sections, keywords, sets, curves, diameters.",
     "curves": "Show the force-embedment curves of a deck as they are evaluated.",
+    "backbone": "Print a published backbone curve as a block for a deck.",
     "evaluate": "Evaluate the contact forces and stiffnesses of a deck.",
     "batch": "Evaluate many decks or load cases: a row and a result file each.",
     "index": "Bring decks into an archive.",

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mudline.contact.arrays import BoolArray, FloatArray, IdArray, IndexArray
-from mudline.contact.laws import Law, NormalLaw, law_named
+from mudline.contact.laws import Law, NormalLaw, PathLaw, law_named
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:  # a scene without curves does not load them, nor does a flat seabed load other shapes
@@ -69,6 +69,8 @@ class LawKind(IntEnum):
     """A constraint, not a spring."""
     NODAL = 4
     """Springs of its nodes; no force per unit length of its own."""
+    SOIL = 6
+    """A hysteretic soil, whose force follows a path."""
     OTHER = 5
     """A law that was registered."""
 
@@ -128,7 +130,7 @@ class Names(Protocol):
 
     @property
     def law_names(self) -> Sequence[str]:
-        """(m,) `curve:NAME`, `linear`, `nodal`, `rigid` or `none`."""
+        """(m,) `curve:NAME`, `linear`, `nodal`, `soil`, `rigid` or `none`."""
 
     @property
     def law_sets(self) -> Sequence[str | None]:
@@ -331,6 +333,12 @@ class ContactInput:
                 rows = np.sort(np.concatenate([given.rows for given in laws]))
                 self._refuse_first(laws[0].law, rows[1:], rows[1:] == rows[:-1], "has two normal laws")
 
+        for given in self.normal_laws:
+            for name in ("unloading", "suction") if isinstance(given.law, PathLaw) else ():
+                beside = self.assigned[name].rows if name in self.assigned else np.zeros(0, np.intp)
+                what = f"has a {given.law.name} law, which has its own {name}, and a law of {name} beside it"
+                self._refuse_first(given.law, given.rows, np.isin(given.rows, beside), what)
+
     def _require(self, holds: BoolArray, otherwise: str) -> None:
         broken = np.flatnonzero(~holds)
         if broken.size:
@@ -353,6 +361,7 @@ _KINDS = {
     "linear": LawKind.LINEAR,
     "smoothed": LawKind.LINEAR,
     "rigid": LawKind.RIGID,
+    "soil": LawKind.SOIL,
 }
 
 

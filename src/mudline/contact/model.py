@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -171,11 +172,18 @@ class ContactModel:
         return part.step(0), after
 
     def tangent(
-        self, positions: ArrayLike, velocities: ArrayLike | None, state: ContactState, dt: float | None = None
+        self,
+        positions: ArrayLike,
+        velocities: ArrayLike | None,
+        state: ContactState,
+        dt: float | None = None,
+        *,
+        back: bool = False,
     ) -> Tangent:
         """Return d reactions / d positions and d reactions / d velocities of one step behind `state`, as triples.
 
-        Over curved seabeds the normal is held. Raises what `step` does.
+        Where the force follows a path (the law "soil"), it is that of going on as the step went, and `back` that of
+        turning round. Over curved seabeds the normal is held. Raises what `step` does.
         """
         from mudline.contact.tangent import assemble  # noqa: PLC0415 - forces alone do without it
 
@@ -185,7 +193,9 @@ class ContactModel:
             rates = None if velocities is None else np.asarray(velocities, np.float64).reshape(1, -1, 3)
             spans = None if dt is None or state.positions is None else np.array([dt])
             speed = self._speed(points, rates, spans, result.normal[None], state)
-            return assemble(self._tables, points[0], None if speed is None else speed[0], result, (state, after))
+            return assemble(
+                self._tables, points[0], None if speed is None else speed[0], result, (state, after), back=back
+            )
 
     def stiffest(self, positions: ArrayLike | None = None, velocities: ArrayLike | None = None) -> Stiffest:
         """Return for each law and element the largest stiffness and the largest damping: what a time step resolves.
@@ -243,7 +253,7 @@ class ContactModel:
             _blank_absent(part)
         if not self.plan.history:
             return state
-        return ContactState(points[-1], laid, after.unloading, after.suction, after.friction, after.touchdown)
+        return replace(after, positions=points[-1], laid=laid)
 
     def _speed(
         self,

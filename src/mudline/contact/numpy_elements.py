@@ -9,6 +9,7 @@ import numpy as np
 
 from mudline.contact import vectors
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, Picked, StateArray, add_at, as_range, taken
+from mudline.contact.laws import PathLaw
 from mudline.contact.result import ContactResult
 from mudline.contact.tables import ContactState, ElementRows, NormalRows, Tables, rows_within
 from mudline.contact.vectors import in_plane, units
@@ -43,12 +44,16 @@ class Work(NamedTuple):
 
 
 class _Group(NamedTuple):
-    """Elements of a range with one normal law: their columns there, parameters and diameters, each (1, k)."""
+    """Elements of a range with one normal law: their columns there, parameters and diameters, each (1, k).
+
+    `held` are their rows in what elements on a path remember.
+    """
 
     rows: NormalRows
     at: IndexArray
     columns: tuple[FloatArray, ...]
     diameter: FloatArray
+    held: slice
 
 
 class _Subset(NamedTuple):
@@ -103,7 +108,8 @@ class Elements:
         cut = rows_within(rows.rows, self.begin, self.end)
         at = rows.rows[cut]
         columns = tuple(column[None, cut] for column in rows.columns)
-        return _Group(rows, at - self.begin, columns, self._tables.diameter[None, at]) if len(at) else None
+        held = slice(rows.path + cut.start, rows.path + cut.stop)
+        return _Group(rows, at - self.begin, columns, self._tables.diameter[None, at], held) if len(at) else None
 
     def _subset(self, given: ElementRows | None) -> _Subset | None:
         if given is None:
@@ -121,9 +127,9 @@ class Elements:
         values = part.force[:, self._here], part.slope[:, self._here], part.stiffness[:, self._here]
         trench = None
         if self._unloading is not None and state.unloading is not None:
-            trench = self._apply_unloading(self._unloading, depth, values, part, state.unloading)
+            trench = self._apply_unloading(self._unloading, depth, values, part, state.unloading, state.paths)
         else:
-            self._apply_normal_laws(depth, part.ratio[:, self._here], contact, values, part)
+            self._apply_normal_laws(depth, part.ratio[:, self._here], contact, values, part, state.paths)
         if self._unsized.size:
             values[1][:, self._unsized] = np.nan
         if self._springs is not None:
@@ -149,7 +155,13 @@ class Elements:
         return depth, contact
 
     def _apply_normal_laws(
-        self, depth: FloatArray, ratio: FloatArray | None, touches: BoolArray, values: Values, part: ContactResult
+        self,
+        depth: FloatArray,
+        ratio: FloatArray | None,
+        touches: BoolArray,
+        values: Values,
+        part: ContactResult,
+        paths: FloatArray | None,
     ) -> None:
         """Write what the normal laws give at a depth, 0 where an element does not touch.
 
@@ -157,7 +169,7 @@ class Elements:
         depth / diameter where that is at hand already.
         """
         if self._back is None and len(self._groups) == 1 and not self._bare:
-            self._apply_normal_law(self._groups[0], depth, ratio, touches, values, part)
+            self._apply_normal_law(self._groups[0], depth, ratio, touches, values, part, paths)
             _zero_outside(touches, *values)
             return
         z, on = depth.take(self._order, axis=1), touches.take(self._order, axis=1)
@@ -165,7 +177,7 @@ class Elements:
         for group in self._groups:
             some = slice(start, start + len(group.at))
             ours = found[0][:, some], found[1][:, some], found[2][:, some]
-            self._apply_normal_law(group, z[:, some], None, on[:, some], ours, part)
+            self._apply_normal_law(group, z[:, some], None, on[:, some], ours, part, paths)
             start = some.stop
         found[..., start:] = 0.0
         _zero_outside(on, found)
@@ -175,7 +187,7 @@ class Elements:
             else:
                 source.take(self._back, axis=1, out=target, mode="clip")
 
-    def _apply_normal_law(
+    def _apply_normal_law(  # noqa: PLR0913, PLR0917 - as above, for a group
         self,
         group: _Group,
         depth: FloatArray,
@@ -183,6 +195,7 @@ class Elements:
         touches: BoolArray,
         values: Values,
         part: ContactResult,
+        paths: FloatArray | None,
     ) -> None:
         """Write what one law gives on its elements, whether or not they touch."""
         force, slope, stiffness = values
@@ -197,7 +210,11 @@ class Elements:
                 force[...], slope[...] = found.reshape(2, *at.shape)
             np.divide(slope, group.diameter, out=stiffness)
         else:
-            force[...], stiffness[...] = group.rows.reaction(depth, group.diameter, *group.columns)
+            if paths is not None and isinstance(group.rows.law, PathLaw):
+                memory = paths[group.held], group.diameter[0], tuple(column[0] for column in group.columns)
+                group.rows.law.follow(depth, *memory, (force, stiffness))
+            else:
+                force[...], stiffness[...] = group.rows.reaction(depth, group.diameter, *group.columns)
             np.multiply(stiffness, group.diameter, out=slope)
         if self._tables.cuts and group.rows.curve >= 0:
             pulls = touches & (force < 0.0)
@@ -206,7 +223,13 @@ class Elements:
                 part.cut[:, self.begin + group.at] = pulls
 
     def _apply_unloading(
-        self, some: _Subset, depth: FloatArray, values: Values, part: ContactResult, history: UnloadingHistory
+        self,
+        some: _Subset,
+        depth: FloatArray,
+        values: Values,
+        part: ContactResult,
+        history: UnloadingHistory,
+        paths: FloatArray | None,
     ) -> _Trench:
         """Write the virgin path at the largest penetrations so far, or the lines to there."""
         from mudline.contact.laws.unloading import line_stiffness, on_line, trench_bottom  # noqa: PLC0415 - only now
@@ -221,7 +244,7 @@ class Elements:
         fresh, deepest = so_far[1:] > so_far[:-1], so_far[1:]
         reached = depth.copy()
         reached[:, some.at] = deepest
-        self._apply_normal_laws(reached, None, reached > self._onset, values, part)
+        self._apply_normal_laws(reached, None, reached > self._onset, values, part, paths)
         force, slope, stiffness = (taken(each, some.at) for each in values)
         force_max, steepest = np.maximum(force, 0.0), some.columns[0]
         if self._steeper:

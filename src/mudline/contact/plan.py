@@ -204,7 +204,7 @@ def _trench(given: ContactInput, tables: Tables) -> tuple[bool, str]:
 
 Backend = Literal["auto", "numpy", "fast"]
 
-MOST_PARAMETERS = 6
+MOST_PARAMETERS = 9
 """Parameters of a normal law with an equation up to which there are compiled loops for it."""
 _WORTH_COMPILING, _WORTH_COMPILING_PLAIN = 5_000_000, 50_000_000
 """Nodes times steps from which on compiled loops are worth loading, and at the first time compiling: where a law has a

@@ -125,6 +125,8 @@ def _normal(tables: Tables, rows: NormalRows, result: ContactResult | None) -> L
     if rows.curve >= 0:
         curve = tables.given.curves[rows.curve]
         slope = curve.evaluate(np.nan_to_num(depth / diameter))[1] / diameter
+    elif rows.path >= 0:  # that of turning round there, whatever came before
+        slope = np.broadcast_to(rows.steepest(depth, diameter, *rows.columns), depth.shape)
     else:
         slope = np.broadcast_to(rows.reaction(depth, diameter, *rows.columns)[1], depth.shape)
     return _law(

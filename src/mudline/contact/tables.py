@@ -10,7 +10,7 @@ import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.contact.input import AssignedLaw, ContactInput
-from mudline.contact.laws import NormalLaw, Reaction, Value
+from mudline.contact.laws import NormalLaw, PathLaw, Reaction, Value
 from mudline.contact.line import Line
 from mudline.contact.seabed import heading
 from mudline.short_repr import outline
@@ -38,6 +38,7 @@ class ContactState:
         suction: states of the elements with suction (k,).
         friction: stick points of the nodes (n,).
         touchdown: (k, 3) midpoints of the elements with lateral springs when they touched down; NaN out of contact.
+        paths: (k, c) what the elements remember whose force follows a path.
     """
 
     positions: FloatArray | None = None
@@ -46,10 +47,11 @@ class ContactState:
     suction: SuctionHistory | None = None
     friction: FrictionHistory | None = None
     touchdown: FloatArray | None = None
+    paths: FloatArray | None = None
 
     def __repr__(self) -> str:
         when = "before the first step" if self.positions is None else f"after a step of {len(self.positions)} nodes"
-        names = ("unloading", "suction", "friction", "touchdown")
+        names = ("unloading", "suction", "friction", "touchdown", "paths")
         held = ", ".join(name for name in names if getattr(self, name) is not None)
         return outline(f"ContactState {when}", held or "nothing to remember")
 
@@ -62,6 +64,7 @@ class ContactState:
             self.suction and _copied(self.suction),
             self.friction and _copied(self.friction),
             None if self.touchdown is None else self.touchdown.copy(order="K"),
+            None if self.paths is None else self.paths.copy(),
         )
 
 
@@ -86,13 +89,20 @@ class Batch(NamedTuple):
 class NormalRows(NamedTuple):
     """Elements, or nodes, with one normal law: their rows (k,) ascending, and its parameters, each (k,).
 
-    `curve` is the index of the curve of a law with curves, else -1.
+    `curve` is the index of the curve of a law with curves, else -1; `path` the first of its rows in what elements on a
+    path remember, -1 for a law without.
     """
 
     law: NormalLaw
     rows: IndexArray
     columns: tuple[FloatArray, ...]
     curve: int = -1
+    path: int = -1
+
+    @property
+    def remembered(self) -> IndexArray:
+        """Places (k,) in what elements on a path remember; -1 for a law without."""
+        return np.arange(len(self.rows)) + self.path if self.path >= 0 else np.full(len(self.rows), -1)
 
     @property
     def reaction(self) -> Reaction:
@@ -160,7 +170,7 @@ class Tables:
         self.diameter = given.diameter
         onset = given.onset()
         self.onset: FloatArray | None = onset if onset.any() else None
-        self.normal = [rows for law in given.normal_laws for rows in _normal_rows(law)]
+        self.normal, self._paths = _with_paths([rows for law in given.normal_laws for rows in _normal_rows(law)])
         self.nodal = [rows for law in given.nodal_laws for rows in _normal_rows(law)]
         self.unloading = _element_rows(given, "unloading")
         self.springs = _element_rows(given, "suction spring")
@@ -184,7 +194,7 @@ class Tables:
             self.rigid = np.zeros(len(given.node_ids), np.bool_)
             self.rigid[given.element_nodes[given.assigned["rigid"].rows]] = True
         parts = (self.unloading, self.suction, self.lateral, self.friction)
-        self.history = any(part is not None for part in parts)
+        self.history = self._paths is not None or any(part is not None for part in parts)
 
     def laid_line(self, laid: FloatArray) -> LaidCentreline:
         """Return the line as it was `laid`, prepared once: the states of a run share that array."""
@@ -216,6 +226,7 @@ class Tables:
             suction=suction,
             friction=friction,
             touchdown=None if self.lateral is None else np.full((len(self.lateral.rows), 3), np.nan, order="F"),
+            paths=None if self._paths is None else self._paths.copy(),
         )
 
 
@@ -234,6 +245,22 @@ def _normal_rows(given: AssignedLaw) -> list[NormalRows]:
         return [NormalRows(law, given.rows, given.columns)]
     index = given.columns[-1].astype(np.intp)
     return [NormalRows(law, given.rows[index == each], (), each) for each in np.unique(index).tolist()]
+
+
+def _with_paths(normal: list[NormalRows]) -> tuple[list[NormalRows], FloatArray | None]:
+    """The same with their places in what elements on a path remember, and that before the first step, (k, c)."""
+    starts = [rows.law.start for rows in normal if isinstance(rows.law, PathLaw) for _ in rows.rows]
+    if not starts:
+        return normal, None
+    found, placed, first = np.zeros((len(starts), max(map(len, starts)))), [], 0
+    for rows in normal:
+        if isinstance(rows.law, PathLaw):
+            found[first : first + len(rows.rows), : len(rows.law.start)] = rows.law.start
+            placed.append(rows._replace(path=first))
+            first += len(rows.rows)
+        else:
+            placed.append(rows)
+    return placed, found
 
 
 def _element_rows(given: ContactInput, name: str) -> ElementRows | None:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.contact.laws import PathLaw
 from mudline.contact.result import ContactResult
 from mudline.contact.tables import ContactState, Tables
 from mudline.contact.vectors import in_plane, turned_3, units
@@ -101,14 +102,16 @@ def assemble(
     speed: FloatArray | None,
     result: ContactResult,
     states: tuple[ContactState, ContactState],
+    *,
+    back: bool = False,
 ) -> Tangent:
     """Return the tangent of one step at `points` (n, 3) with velocities (n,) along the normals.
 
-    `states` are those before and behind the step, `result` what it gave.
+    `states` are those before and behind the step, `result` what it gave. `back`: elements on a path turn round.
     """
     nodes = len(points)
     step = _Step(tables, points, np.asarray(result.normal), tables.given.element_nodes, tables.half, result, *states)
-    stiffness, own = np.nan_to_num(result.stiffness), _nodal_stiffness(step)
+    stiffness, own = np.nan_to_num(_turned_round(step) if back else result.stiffness), _nodal_stiffness(step)
     by_position, by_velocity = _Blocks(nodes), _Blocks(nodes)
     _add_normal(step, stiffness, own, by_position)
     damping = np.zeros(len(stiffness))
@@ -127,6 +130,22 @@ def assemble(
         _add_compression(step, push, closed, (stiffness, own), by_position)
         _add_compression(step, push, closed, (damping, np.zeros(nodes)), by_velocity)
     return Tangent(by_position.triples(), by_velocity.triples())
+
+
+def _turned_round(step: _Step) -> FloatArray:
+    """Stiffness (m,) of an increment against the one before, for elements whose force follows a path."""
+    found, paths = step.result.stiffness.copy(), step.after.paths
+    for rows in step.tables.normal:
+        law = rows.law
+        if paths is None or not isinstance(law, PathLaw):
+            continue
+        count = len(law.start)
+        now = tuple(paths[rows.path : rows.path + len(rows.rows), :count].T)
+        turns = law.begin(np.nextafter(now[0], np.inf), now)[2] != now[2]  # deeper is the other way
+        z = np.nextafter(now[0], np.where(turns, np.inf, 0.0))
+        turned = law.advance(z, step.tables.diameter[rows.rows], law.begin(z, now), rows.columns)[1]
+        found[rows.rows] = np.where(step.result.contact[rows.rows], turned, found[rows.rows])
+    return found
 
 
 def _nodal_stiffness(step: _Step) -> FloatArray:

@@ -60,6 +60,7 @@ ENTRIES: tuple[Entry, ...] = (
     Entry("SEABED PLANES", "seabed_planes", ("MODEL",), "seabed"),
     Entry("SEABED PROFILE", "seabed_profile", ("MODEL",), "seabed", names=("FILE",)),
     Entry("SEABED PROPERTIES", "seabed_properties", ("MODEL",), "seabed", names=("CURVE", "SET")),
+    Entry("SEABED SOIL", "seabed_soil", ("MODEL",), "seabed", names=("SET",)),
     Entry("SEABED STIFFNESS", "seabed_stiffness", ("MODEL",), "seabed", defines=("CURVE",)),
     Entry("SEABED SUCTION", "seabed_suction", ("MODEL",), "seabed", names=("SET",)),
     Entry("SEABED TRENCH", "seabed_trench", ("MODEL",), "seabed", names=("SET",)),

@@ -114,6 +114,37 @@ def unloading_lines(scene: ResolvedDeck) -> LawAssignment:
     return LawAssignment("unloading", rows, {"stiffness": given_stiffness(extension)[rows]})
 
 
+SOIL_FIELDS = {
+    "strength": ("strength", "mudline"),
+    "gradient": ("strength", "gradient"),
+    "factor": ("bearing", "factor"),
+    "exponent": ("bearing", "exponent"),
+    "stiffness": ("stiffness",),
+    "suction": ("suction", "ratio"),
+    "suction_decay": ("suction", "decay"),
+    "repenetration": ("repenetration",),
+}
+"""Fields of `*SEABED SOIL` by the parameters of the law."""
+
+
+def soils(scene: ResolvedDeck) -> LawAssignment:
+    """The hysteretic soil of the elements on an elastic seabed (`*SEABED SOIL`)."""
+    rows = np.flatnonzero(scene.law == LawKind.SOIL)
+    return LawAssignment("soil", rows, soil_parameters(scene.extensions["SEABED SOIL"], rows))
+
+
+def soil_parameters(extension: Extension, elements: Indices) -> dict[str, Floats]:
+    """The parameters of some elements (k,) with a soil, by name."""
+    from mudline.contact.laws.soil import SOIL  # noqa: PLC0415 - only now is it needed
+
+    block = extension.of_element[elements]
+    default = {each.name: math.nan if each.default is None else each.default for each in SOIL.parameters}
+    found = {name: extension.values(block, *path) for name, path in SOIL_FIELDS.items()}
+    found = {name: np.where(np.isnan(values), default[name], values) for name, values in found.items()}
+    factor, weight = (extension.values(block, "buoyancy", name) for name in ("factor", "weight"))
+    return found | {"buoyancy": np.nan_to_num(factor * weight)}
+
+
 def given_stiffness(extension: Extension) -> Floats:
     """The stiffness of the block that each element (m,) follows, NaN without one."""
     return extension.values(extension.of_element, "stiffness")

@@ -62,7 +62,7 @@ def _contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> Cont
 
 def _refusals(scene: ResolvedDeck) -> Iterator[Problem]:
     """What no check covers: a problem for each kind, at the first element concerned."""
-    springs = np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR))
+    springs = np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR, LawKind.SOIL))
     unknown = scene.element_nodes.min(axis=1, initial=0) < 0
     yield from _refusal(scene, unknown, "ends at a node that is not known", "end at nodes that are not known")
     endless = springs & ~np.isfinite(scene.length) & ~unknown
@@ -105,6 +105,10 @@ def _normal_laws(scene: ResolvedDeck, arrays: LawArrays) -> list[LawAssignment]:
         from mudline.scene.assignments import nodal_springs  # noqa: PLC0415 - only now is it needed
 
         laws.append(nodal_springs(scene))
+    if "SEABED SOIL" in scene.extensions:
+        from mudline.scene.assignments import soils  # noqa: PLC0415 - only now is it needed
+
+        laws.append(soils(scene))
     if "SEABED UNLOADING" in scene.extensions:
         from mudline.scene.assignments import unloading_lines  # noqa: PLC0415 - only now is it needed
 

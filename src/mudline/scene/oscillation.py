@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from mudline.contact.input import ContactInput
     from mudline.contact.stiffest import Stiffest
 
-_NORMAL = ("curve", "linear", "smoothed")
+_NORMAL = ("curve", "linear", "smoothed", "soil")
 _RISES = np.linspace(0.02, 1.0, 50)
 """Pull-out velocities over v_r at which the mobilisation of suction is looked at."""
 _NEARLY = 0.999
@@ -139,7 +139,9 @@ def _of_elements(
         returns = by_law["unloading"].stiffness
         with np.errstate(invalid="ignore"):
             steeper = returns > normal
-    for group in _groups(~np.isnan(normal), scene.laws.of_element, sections, blocks):
+    soil = scene.extensions.get("SEABED SOIL")
+    kinds = np.full(len(sections), -1) if soil is None else np.where(scene.law == LawKind.SOIL, soil.of_element, -1)
+    for group in _groups(~np.isnan(normal), scene.laws.of_element, sections, blocks, kinds):
         name = f"{scene.law_names[group[0]]} on {scene.law_sets[group[0]]}"
         place = place_of_law(scene, int(group[0]))
         yield _of_group("normal", name, group, (normal, none), carried, place)
@@ -350,6 +352,9 @@ def place_of_suction(own: Extension, index: int) -> Where:
 
 def place_of_law(scene: ResolvedDeck, element: int) -> Where | None:
     """Where the stiffness of an element stands: the end of the steepest segment of its curve."""
+    if scene.law[element] == LawKind.SOIL:
+        soil = scene.extensions["SEABED SOIL"]
+        return soil.places[int(soil.of_element[element])].inside("strength")
     law = scene.set_law(element)
     if law is None:
         return None

@@ -231,16 +231,24 @@ class ResolvedDeck:
         return self.laws.set_laws[index] if index >= 0 else None
 
     @cached_property
-    def nodal(self) -> Mask:
-        """Elements (m,) whose law is a stiffness of their nodes: `*SEABED CONTACT` replaces what they had."""
-        contact = self.extensions.get("SEABED CONTACT")
-        if contact is None:
-            return np.zeros(len(self.element_ids), dtype=np.bool_)
-        found: Mask = with_nodal_stiffness(contact) & (self._given_kind != LawKind.RIGID)
+    def _replaced(self) -> list[tuple[LawKind, Extension, Mask]]:
+        """Kinds that extension keywords give in place of what elements (m,) had, the last one for good."""
+        found: list[tuple[LawKind, Extension, Mask]] = []
+        soft = self.laws_given != LawKind.RIGID
+        if (soil := self.extensions.get("SEABED SOIL")) is not None:
+            found.append((LawKind.SOIL, soil, (soil.of_element >= 0) & soft))
+        if (contact := self.extensions.get("SEABED CONTACT")) is not None:
+            found.append((LawKind.NODAL, contact, with_nodal_stiffness(contact) & soft))
         return found
 
     @cached_property
-    def _given_kind(self) -> NDArray[np.int8]:
+    def nodal(self) -> Mask:
+        """Elements (m,) whose law is a stiffness of their nodes: `*SEABED CONTACT` replaces what they had."""
+        found: Mask = self.law == LawKind.NODAL
+        return found
+
+    @cached_property
+    def laws_given(self) -> NDArray[np.int8]:
         """`LawKind` of what each element is granted, whatever replaces it."""
         kinds = np.array([*(set_law.kind for set_law in self.laws.set_laws), LawKind.NONE], dtype=np.int8)
         return kinds[self.laws.of_element]
@@ -248,26 +256,30 @@ class ResolvedDeck:
     @cached_property
     def law(self) -> NDArray[np.int8]:
         """`LawKind` of each element (m,)."""
-        if "SEABED CONTACT" not in self.extensions:
-            return self._given_kind
-        return np.where(self.nodal, np.int8(LawKind.NODAL), self._given_kind)
+        found = self.laws_given
+        for kind, _, elements in self._replaced:
+            found = np.where(elements, np.int8(kind), found)
+        return found
 
     @cached_property
     def law_names(self) -> list[str]:
-        """`curve:NAME`, `linear`, `nodal`, `rigid` or `none` for each element."""
-        names = [*(self.law_name(set_law) for set_law in self.laws.set_laws), "nodal", "none"]
-        index = np.where(self.nodal, len(names) - 2, self.laws.of_element)
-        return [names[position] for position in index.tolist()]
+        """`curve:NAME`, `linear`, `nodal`, `soil`, `rigid` or `none` for each element."""
+        names = [*(self.law_name(set_law) for set_law in self.laws.set_laws), "none"]
+        found = [names[position] for position in self.laws.of_element.tolist()]
+        for kind, _, elements in self._replaced:
+            for element in np.flatnonzero(elements).tolist():
+                found[element] = kind.name.lower()
+        return found
 
     @cached_property
     def law_sets(self) -> list[str | None]:
         """Name of the set through which each element got its law; None without a law."""
         names = [None if set_law.kind is LawKind.NONE else set_law.set_.name for set_law in self.laws.set_laws]
         found = [[*names, None][index] for index in self.laws.of_element.tolist()]
-        for element in np.flatnonzero(self.nodal).tolist():
-            contact = self.extensions["SEABED CONTACT"]
-            holder = contact.sets[int(contact.of_element[element])]
-            found[element] = None if holder is None else holder.name
+        for _, extension, elements in self._replaced:
+            for element in np.flatnonzero(elements).tolist():
+                holder = extension.sets[int(extension.of_element[element])]
+                found[element] = None if holder is None else holder.name
         return found
 
     def describe(self, elements: Mask | Indices, one: str = "has", many: str = "have") -> str:
@@ -284,12 +296,13 @@ class ResolvedDeck:
     def law_arrays(self) -> LawArrays:
         """The law of every element as arrays, whatever else is known of it."""
         linear = np.array([*(set_law.stiffness for set_law in self.laws.set_laws), np.nan])[self.laws.of_element]
+        replaced = self.law != self.laws_given
         usable = [index for index, entry in enumerate(self.laws.curves) if entry.curve is not None]
         number = {index: position for position, index in enumerate(usable)}
         curve_of_law = np.array([*(number.get(set_law.curve, -1) for set_law in self.laws.set_laws), -1], dtype=np.intp)
         return LawArrays(
             self.law,
-            np.where(self.nodal, -1, curve_of_law[self.laws.of_element]),
+            np.where(replaced, -1, curve_of_law[self.laws.of_element]),
             tuple(entry.curve for entry in self.laws.curves if entry.curve is not None),
-            np.where(self.nodal, np.nan, linear),
+            np.where(replaced, np.nan, linear),
         )

@@ -164,7 +164,9 @@ def _sharp(law: LawAssignment) -> LawAssignment:
 
 def with_added(given: ContactInput, stage: str) -> ContactInput | None:
     """Return the input with the law of a stage where elements have a normal law; None where none can have it."""
-    rows = np.sort(np.concatenate([np.zeros(0, np.intp), *(law.rows for law in given.normal_laws)]))
+    # a normal law with a history has unloading and suction of its own
+    fit = [law.rows for law in given.normal_laws if not (law.law.history and stage in {"unloading", "suction"})]
+    rows = np.sort(np.concatenate([np.zeros(0, np.intp), *fit]))
     if not rows.size:
         return None
     if stage == "smoothing":

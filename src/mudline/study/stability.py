@@ -120,7 +120,7 @@ def contacts_of(scene: Scene, given: ContactInput) -> tuple[list[Contact], list[
 def _row(scene: Scene, one: Oscillation) -> StabilityRow:
     kind = _TWO_KINDS.get(one.kind, one.kind)
     if kind == "normal":
-        kind = "curve" if scene.law[one.element] == LawKind.CURVE else "linear"
+        kind = {LawKind.CURVE: "curve", LawKind.SOIL: "soil"}.get(LawKind(scene.law[one.element]), "linear")
     return StabilityRow(
         one.name,
         kind,
@@ -148,6 +148,8 @@ def _law_of(scene: Scene, given: ContactInput, one: Oscillation) -> Law | None:
     if one.kind != "normal":
         return None
     arrays, element = scene.law_arrays(), one.element
+    if scene.law[element] == LawKind.SOIL:
+        return None
     index = int(arrays.curve_index[element])
     if index >= 0:
         return CurveLaw(arrays.curves[index], float(scene.diameter[element]))

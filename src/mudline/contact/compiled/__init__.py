@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 # Columns of the table of numbers of elements, before the parameters of their normal laws.
 DIAMETER, ONSET, LINE, SPRING, EXTENT, LATERAL, LAW = range(7)
 # Columns of the table of indices of elements.
-FIRST, SECOND, KIND, CURVE_START, CURVE_END, UNLOADS, PULLS, SPRINGS_BACK, INDICES = range(9)
+FIRST, SECOND, KIND, CURVE_START, CURVE_END, UNLOADS, PULLS, SPRINGS_BACK, PATH, INDICES = range(10)
 # Columns of the table of suction laws: the parameters of `SuctionLaw`, then these.
 PER_CYCLE, FLOOR, LEAST_DEPTH, SUCTION_COLUMNS = 9, 10, 11, 12
 # Columns of the table of numbers of nodes, before the parameters of their normal laws.
@@ -45,6 +45,7 @@ class Features(NamedTuple):
 
     flat: bool
     curves: bool
+    paths: bool
     cuts: bool
     unloading: bool
     steepens: bool
@@ -66,6 +67,7 @@ def features_of(tables: Tables, *, flat: bool) -> Features:
     return Features(
         flat=flat,
         curves=any(rows.curve >= 0 for rows in tables.normal),
+        paths=any(rows.path >= 0 for rows in tables.normal),
         cuts=tables.cuts,
         unloading=tables.unloading is not None,
         steepens=_steepens(tables),
@@ -106,6 +108,7 @@ def element_tables(tables: Tables) -> tuple[Any, Any, Any]:
     numbers[:, ONSET] = 0.0 if tables.onset is None else tables.onset
     for kind, rows in enumerate(formulas, FIRST_LAW):
         index[rows.rows, KIND] = kind
+        index[rows.rows, PATH] = rows.remembered
         for column, values in enumerate(rows.columns, LAW):
             numbers[rows.rows, column] = values
     knots = [np.empty((4, 0))]

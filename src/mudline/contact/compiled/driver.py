@@ -12,6 +12,7 @@ import warnings
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
+from importlib import import_module
 from inspect import isfunction
 from typing import Any, TypeVar
 
@@ -35,7 +36,7 @@ from mudline.contact.compiled import (
 )
 from mudline.contact.compiled.functions import Loop, edition, one_of
 from mudline.contact.compiled.loops import elements_loop, nodes_loop
-from mudline.contact.laws import curve, friction, linear, suction, trench, unloading, where
+from mudline.contact.laws import MODULES, PathLaw, where
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed import FlatSeabed, Seabed
 from mudline.contact.tables import Batch, ContactState, NormalRows, Tables
@@ -71,7 +72,7 @@ def callable_in_loops(function: Function) -> Function:
     return function
 
 
-for _module in (functions, vectors, curve, friction, linear, suction, trench, unloading):
+for _module in (functions, vectors, *(import_module(f"mudline.contact.laws.{name}") for name in MODULES)):
     for _function in vars(_module).values():
         if isfunction(_function) and _function.__module__ == _module.__name__:
             callable_in_loops(_function)
@@ -110,7 +111,10 @@ class CompiledDriver:
         normal = [rows for rows in tables.normal if rows.curve < 0]
         slopes = tuple((_as_reaction(rows.steepest), len(rows.law.parameters)) for rows in normal if has.steepens)
         sources = edition(tuple(rows.law for rows in (*tables.normal, *tables.nodal)))
-        self._element_loop = _loop(elements_loop, callable_in_loops, has, _equations(normal), _choice(slopes), sources)
+        paths = tuple((law if isinstance(law := rows.law, PathLaw) else None, len(law.parameters)) for rows in normal)
+        self._element_loop = _loop(
+            elements_loop, callable_in_loops, has, _equations(normal), paths, _choice(slopes), sources
+        )
         self._index, self._numbers, self._knots = element_tables(tables)
         self._pulls = suction_table(tables)
         self._node_loop = _loop(nodes_loop, callable_in_loops, has, _equations(tables.nodal), sources)
@@ -178,6 +182,7 @@ class CompiledDriver:
             np.zeros((2, 0), np.int8) if pulls is None else pulls.flags,
             np.empty((3, 0)) if pulls is None else pulls.numbers,
             by_component(np.empty((0, 3)) if after.touchdown is None else after.touchdown),
+            np.empty((0, 0)) if after.paths is None else after.paths,
         )
         sticks = (
             by_component(np.empty((0, 3)) if slides is None else slides.stick_points),

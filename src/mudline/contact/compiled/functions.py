@@ -14,7 +14,7 @@ import numpy as np
 
 from mudline.contact import vectors
 from mudline.contact.compiled import FLOOR, LEAST_DEPTH, PER_CYCLE
-from mudline.contact.laws import NormalLaw
+from mudline.contact.laws import MODULES, NormalLaw, PathLaw
 from mudline.contact.laws.friction import in_box, in_ellipse
 from mudline.contact.laws.suction import (
     BROKEN,
@@ -36,21 +36,26 @@ Array = Any
 Point = tuple[float, float, float]
 
 
+def functions_of(law: NormalLaw) -> tuple[Callable[..., Any] | None, ...]:
+    """Return the equations of a law."""
+    of_path = (law.begin, law.pending, law.locate, law.advance) if isinstance(law, PathLaw) else ()
+    return (law.reaction, law.steepest, *of_path)
+
+
 @cache
 def edition(laws: tuple[NormalLaw, ...]) -> int:
     """Return a number that changes with the source of the loops and laws, so that no cached loop outlives them."""
     texts = [path.read_text(encoding="utf-8") for path in _SOURCES]
     for law in laws:
-        texts += [inspect.getsource(function) for function in (law.reaction, law.steepest) if function is not None]
+        texts += [inspect.getsource(function) for function in functions_of(law) if function is not None]
     return int.from_bytes(hashlib.sha256("".join(texts).encode()).digest()[:4], "big")
 
 
-_LAW_MODULES = ("__init__", "curve", "friction", "linear", "suction", "trench", "unloading")
 _CONTACT = Path(__file__).parents[1]
 _SOURCES = (
     *(_CONTACT / "compiled" / f"{name}.py" for name in ("__init__", "driver", "functions", "loops")),
     _CONTACT / "vectors.py",
-    *(_CONTACT / "laws" / f"{name}.py" for name in _LAW_MODULES),
+    *(_CONTACT / "laws" / f"{name}.py" for name in ("__init__", *MODULES)),
 )
 
 
@@ -95,6 +100,54 @@ def one_of(wrap: Wrap, laws: tuple[tuple[Callable[..., Any], int], ...], first: 
         return f, k
 
     return wrap(one)  # type: ignore[no-any-return]
+
+
+def followed(wrap: Wrap, laws: tuple[tuple[PathLaw | None, int], ...], first: int) -> Callable[..., Any]:
+    """Return a function that goes on along the path of a kind, from 0: (kind, z, diameter, table, row, paths, held).
+
+    `laws` are those of `one_of`, None for one without a path. It writes what the element remembers, the row `held` of
+    `paths`, and returns force and stiffness.
+    """
+    if not any(law for law, _ in laws):
+
+        def straight(
+            _kind: int, _z: float, _diameter: float, _table: Array, _row: int, _paths: Array, _held: int
+        ) -> tuple[float, float]:
+            return 0.0, 0.0
+
+        return wrap(straight)  # type: ignore[no-any-return]
+    (law, count), others = laws[0], followed(wrap, laws[1:], first)
+    if law is None:
+
+        def skipped(  # noqa: PLR0913, PLR0917 - as above
+            kind: int, z: float, diameter: float, table: Array, row: int, paths: Array, held: int
+        ) -> tuple[float, float]:
+            f, k = others(kind - 1, z, diameter, table, row, paths, held)
+            return f, k
+
+        return wrap(skipped)  # type: ignore[no-any-return]
+    begin, pending, locate, advance = (wrap(each) for each in (law.begin, law.pending, law.locate, law.advance))
+    parameters, memory_of, rest_of = row_of(wrap, count), row_of(wrap, len(law.start)), row_of(wrap, len(law.start) - 1)
+    last = len(law.start) - 1
+
+    def follow(  # noqa: PLR0913, PLR0917 - as above
+        kind: int, z: float, diameter: float, table: Array, row: int, paths: Array, held: int
+    ) -> tuple[float, float]:
+        if kind > 0:
+            f, k = others(kind - 1, z, diameter, table, row, paths, held)
+            return f, k
+        soil = parameters(table, row, first)
+        memory = begin(z, memory_of(paths, held, 0))
+        for column in range(last + 1):
+            paths[held, column] = memory[column]
+        if pending(z, memory):
+            paths[held, last] = locate(diameter, memory, soil)
+        f, k, memory = advance(z, diameter, (*rest_of(paths, held, 0), paths[held, last]), soil)
+        for column in range(last + 1):
+            paths[held, column] = memory[column]
+        return f, k
+
+    return wrap(follow)  # type: ignore[no-any-return]
 
 
 def last_at_or_below(points: Array, begin: int, end: int, value: float) -> int:

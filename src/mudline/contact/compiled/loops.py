@@ -17,6 +17,7 @@ from mudline.contact.compiled.functions import (
     Numbers,
     Point,
     Wrap,
+    followed,
     from_laid,
     from_straight,
     in_limits,
@@ -29,6 +30,7 @@ from mudline.contact.compiled.functions import (
     table_resistance,
     unit_of_span,
 )
+from mudline.contact.laws import PathLaw
 from mudline.contact.laws.curve import on_segment
 from mudline.contact.laws.friction import slip_distance
 from mudline.contact.laws.linear import lateral_force, spring_suction
@@ -40,19 +42,20 @@ def elements_loop(
     wrap: Wrap,
     has: Features,
     laws: tuple[tuple[Callable[..., Any], int], ...],
+    paths: tuple[tuple[PathLaw | None, int], ...],
     steepest: Callable[..., Any],
     edition: int,
 ) -> Loop:
     """Make the loop over elements.
 
-    `laws` are the normal laws with equations; `steepest` is asked for (kind, z, diameter, table, e), where an
-    unloading line may be less steep than the virgin path.
+    `laws` are the normal laws with equations, `paths` those of them with a path; `steepest` is asked for (kind, z,
+    diameter, table, e), where an unloading line may be less steep than the virgin path.
     """
     curves, cuts, unloading, steepens, springs = has.curves, has.cuts, has.unloading, has.steepens, has.springs
     suction, slides, lateral, flat = has.suction, has.slides, has.lateral, has.flat
     plane = vectors.PLANES[2 if has.flat else 3]
     project, default, cross, dot = plane.project, plane.default, plane.across, plane.dot
-    normal_law = one_of(wrap, laws, col.LAW)
+    normal_law, follow, follows = one_of(wrap, laws, col.LAW), followed(wrap, paths, col.LAW), has.paths
 
     def loop(
         begin: int, end: int, index: Array, table: Array, pulls: Array, points: Array, gap: Array, speed: Array,
@@ -61,7 +64,7 @@ def elements_loop(
         depth, ratio, contact, force, slope, stiffness = out
         cut, state, regularised = extra
         tangent, sideways = work
-        lines, flags, numbers, touchdown = states
+        lines, flags, numbers, touchdown, ways = states
         wrong = min(edition, 0)
         for step in range(len(gap)):
             for e in range(begin, end):
@@ -75,7 +78,12 @@ def elements_loop(
                 f = k = 0.0
                 s = 0.0 * diameter  # NaN without a diameter
                 segment = 0
-                if touches and curves and kind == ON_CURVE:
+                if follows and index[e, col.PATH] >= 0:
+                    z = max(0.0, deep)  # of NaN 0
+                    f, k = follow(kind - FIRST_LAW, z, diameter, table, e, ways, index[e, col.PATH])
+                    f, k = (f, k) if touches else (0.0, 0.0)
+                    s = k * diameter
+                elif touches and curves and kind == ON_CURVE:
                     segment = last_at_or_below(knots[0], index[e, col.CURVE_START], index[e, col.CURVE_END], share)
                     s = knots[2, segment]
                     f = on_segment(share, knots[0, segment], knots[1, segment], s)

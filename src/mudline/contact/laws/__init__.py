@@ -129,6 +129,53 @@ class NormalLaw(Law):
     __repr__ = short_repr
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PathLaw(NormalLaw):
+    """A normal law whose force depends on the path of an element; `reaction` and `steepest` are those of its first way.
+
+    An element remembers some numbers; the last of them is an event of its present way, which is sought only when a step
+    may come to it. A step to z = max(depth, 0) is `begin`, `locate` where `pending` says so, and `advance`.
+
+    Attributes:
+        start: what an element remembers that never touched the seabed.
+        begin: (z, memory) to the memory with a reversal, where going to z is one.
+        pending: (z, memory) to whether the event has to be known.
+        locate: (D, memory, parameters) to the event.
+        advance: (z, D, memory, parameters) to force, stiffness d force / d z on going on in this direction, and memory.
+    """
+
+    start: tuple[float, ...]
+    begin: Callable[..., tuple[Value, ...]]
+    pending: Callable[..., Value]
+    locate: Callable[..., Value]
+    advance: Callable[..., tuple[Value, Value, tuple[Value, ...]]]
+
+    __repr__ = short_repr
+
+    def follow(
+        self,
+        depth: FloatArray,
+        held: FloatArray,
+        diameter: FloatArray,
+        parameters: tuple[FloatArray, ...],
+        out: tuple[FloatArray, FloatArray],
+    ) -> None:
+        """Write force and stiffness (steps, k) at depths of elements, and what they remember behind, `held` (k, c)."""
+        count = len(self.start)
+        memory = tuple(held[:, :count].T)
+        for deep, force, stiffness in zip(depth, *out, strict=True):
+            z = np.where(deep > 0.0, deep, 0.0)
+            memory = self.begin(z, memory)
+            (wanted,) = self.pending(z, memory).nonzero()
+            if wanted.size:
+                event = memory[-1].copy()
+                here = tuple(values[wanted] for values in memory), tuple(values[wanted] for values in parameters)
+                event[wanted] = self.locate(diameter[wanted], *here)
+                memory = (*memory[:-1], event)
+            force[...], stiffness[...], memory = self.advance(z, diameter, memory, parameters)
+        held[:, :count] = np.stack(memory, axis=1)
+
+
 _LAWS: dict[str, str | Law] = {
     "linear": "linear:LINEAR",
     "smoothed": "linear:SMOOTHED",
@@ -143,8 +190,11 @@ _LAWS: dict[str, str | Law] = {
     "trench peak": "trench:TRENCH_PEAK",
     "trench table": "trench:TRENCH_TABLE",
     "trench wall": "trench:TRENCH_WALL",
+    "soil": "soil:SOIL",
 }
 """Module and name of each law, or the law itself once it was asked for."""
+MODULES = tuple(dict.fromkeys(str(place).partition(":")[0] for place in _LAWS.values()))
+"""Modules of the laws of this package."""
 BUILT_IN = tuple(_LAWS)
 """Names of the laws of this package; others are added with `register`."""
 

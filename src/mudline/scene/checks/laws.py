@@ -252,12 +252,18 @@ def missing_diameter(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 23:12
     """
-    if all(set_law.kind is not LawKind.CURVE for set_law in scene.laws.set_laws):
+    soil = scene.extensions.get("SEABED SOIL")
+    if soil is None and all(set_law.kind is not LawKind.CURVE for set_law in scene.laws.set_laws):
         return
     sections = scene.section_table
     lacking = np.isnan(sections.diameter) & ~sections.faulty
     if not np.count_nonzero(lacking):
         return
+    for index, where in enumerate(soil.places) if soil else ():
+        bare = (scene.law == LawKind.SOIL) & lacking & (soil.of_element == index if soil else False)
+        if bare.any():
+            message = f"{scene.describe(bare)} a soil and no external diameter: give Do (or Dd) in *GEOMETRIC SETS"
+            yield lacks_diameter(scene, SBD009, message, where.inside("set"))
     missing = np.flatnonzero((scene.law == LawKind.CURVE) & lacking)
     if not missing.size:
         return

@@ -1,0 +1,214 @@
+"""`mudline backbone`: a force-embedment curve of a published model, as lines for a deck."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import click
+import numpy as np
+
+from mudline.cli import DONE, FOUND, options
+from mudline.cli.streams import emit, notify, notify_missing, writing
+from mudline.curves import CurveError, ForceCurve
+from mudline.curves.backbones import MODELS, Backbone, Model, Soil
+from mudline.deck.loading import load_bytes
+from mudline.keywords.library.embedment import Embedment
+from mudline.keywords.library.seabed_stiffness import SeabedStiffness, StiffnessCurve
+from mudline.keywords.model import Block, Comment
+from mudline.keywords.writer import block_lines
+from mudline.quantities import shown
+from mudline.scene.deck_curves import OF_SEABED
+
+if TYPE_CHECKING:
+    from mudline.curves.points import FloatArray
+
+_INVERT = 0.5
+"""From the ratio of a pipe's invert to that of its axis."""
+_FINEST = 1e-5
+_DRAWN = 400
+
+
+def _strength(_context: click.Context, _parameter: click.Parameter, value: str) -> tuple[float, float]:
+    """`su0` or `su0,gradient` as two numbers."""
+    try:
+        numbers = [float(field) for field in value.split(",")]
+    except ValueError:
+        numbers = []
+    strength, gradient = (*numbers, 0.0, 0.0)[:2]
+    if len(numbers) > 2 or not (0.0 < strength < math.inf and 0.0 <= gradient < math.inf):
+        raise click.BadParameter(f"{value!r}: expected su0 > 0, or su0,gradient with a gradient >= 0")
+    return strength, gradient
+
+
+class Wanted(NamedTuple):
+    """What is asked for.
+
+    Attributes:
+        name: of the curve, or of the set of `*EMBEDMENT`.
+        depth: the largest ratio z/D.
+        tolerance: share of the largest force.
+        legacy: whether to write `*EMBEDMENT`.
+        shift: what is subtracted from the ratios z/D.
+    """
+
+    name: str
+    depth: float
+    tolerance: float
+    legacy: bool
+    shift: float
+
+
+@options.command("backbone")
+@click.argument("model", type=click.Choice(list(MODELS)), metavar="MODEL")
+@options.option("--diameter", type=float, required=True, metavar="D", help="External diameter of the pipe.")
+@options.option(
+    "--strength",
+    callback=_strength,
+    required=True,
+    metavar="SU0[,GRADIENT]",
+    help="Undrained shear strength at the mudline, and its increase per depth (default 0).",
+)
+@options.option("--weight", type=float, default=0.0, metavar="W", help="Submerged weight of the soil per volume.")
+@options.option("--depth", type=float, metavar="RATIO", help="Largest ratio z/D (default: as far as published).")
+@options.option(
+    "--tolerance",
+    type=click.FloatRange(_FINEST, 0.1),
+    default=0.005,
+    show_default=True,
+    metavar="SHARE",
+    help="Largest error of the interpolation, as a share of the largest force.",
+)
+@options.option("--name", metavar="NAME", help="Name of the curve, or of the set with --legacy (default: MODEL).")
+@options.option("--legacy", is_flag=True, help="Write *EMBEDMENT in place of *SEABED STIFFNESS.")
+@options.option("--invert", is_flag=True, help="Shift the ratios by -0.5: from the invert of the model to the axis.")
+@options.option("--extend", is_flag=True, help="Go on beyond the ratios for which the model is published.")
+@options.option("--plot", "picture", metavar="FILE.png|svg", help="Draw model and curve (needs mudline[plot]).")
+@options.common
+def command(
+    *,
+    model: str,
+    diameter: float,
+    strength: tuple[float, float],
+    weight: float,
+    depth: float | None,
+    name: str | None,
+    picture: str | None,
+    invert: bool,
+    extend: bool,
+    tolerance: float,
+    legacy: bool,
+) -> int:
+    """Print the penetration resistance of a published MODEL as a *SEABED STIFFNESS block.
+
+    MODEL: f114, skempton, aubeny, aubeny-rough, merifield, merifield-rough or randolph-quiggin. Numbers are in one
+    system of units, as N and m; the points are as few as the tolerance needs.
+    """
+    chosen = MODELS[model]
+    form = options.form_of_file(picture, ("png", "svg")) if picture else ""
+    soil = _soil(chosen, diameter, strength, weight)
+    wanted = Wanted(
+        name if name is not None else model,
+        chosen.published if depth is None else depth,
+        tolerance,
+        legacy,
+        _INVERT if invert else 0.0,
+    )
+    if not 0.0 < wanted.depth < math.inf:
+        raise click.UsageError(f"--depth {wanted.depth:g}: expected a ratio z/D above 0")
+    if wanted.depth > chosen.published and not extend:
+        end = f"{model} ends at z/D = {shown(chosen.published)}: {chosen.range_note}"
+        notify(f"{end}. Give --extend to go on to {wanted.depth:g}")
+        return FOUND
+    backbone = Backbone(chosen, soil)
+    with np.errstate(all="ignore"):
+        if not 0.0 < backbone.largest(wanted.depth) < math.inf:
+            raise click.UsageError("the force is too large or too small for a float64: check the units of the numbers")
+        points = backbone.points(wanted.depth, wanted.tolerance)
+    text = _text(backbone, wanted, points)
+    if picture and not _plot(backbone, wanted, points, Path(picture), form):
+        return FOUND
+    emit([text])
+    return DONE
+
+
+def _soil(model: Model, diameter: float, strength: tuple[float, float], weight: float) -> Soil:
+    if not 0.0 < diameter < math.inf:
+        raise click.UsageError(f"--diameter {diameter:g}: expected a number above 0")
+    if not 0.0 <= weight < math.inf:
+        raise click.UsageError(f"--weight {weight:g}: expected a submerged weight per volume, 0 or more")
+    if weight and not model.weighs:
+        raise click.UsageError("--weight: this model has no term of the soil's weight: leave it out")
+    return Soil(diameter, *strength, weight)
+
+
+# ------------------------------------------------------------------------------------------------------------ block
+
+
+def _text(backbone: Backbone, wanted: Wanted, points: FloatArray) -> str:
+    """The block; raises click.UsageError for a name that a deck cannot have, and for points that are no curve."""
+    rows = np.column_stack((np.round(points[:, 0] - wanted.shift, 15) if wanted.shift else points[:, 0], points[:, 1]))
+    try:
+        ForceCurve(rows)
+    except CurveError as error:
+        raise click.UsageError(f"--tolerance {wanted.tolerance:g} is too fine for this model: {error}") from error
+    comments = [Comment(text=f" {line}", before=0) for line in _head(backbone, wanted, points)]
+    text = "".join(f"{line}\n" for line in block_lines(_block(wanted, rows.tolist(), comments)))
+    # What a name may be is known to the reader alone.
+    deck = load_bytes(f"$MODEL\n{text}".encode(), "backbone.keyxm")
+    found = [curve for section in deck.sections for block in section.blocks for curve in getattr(block, "curves", ())]
+    names = [getattr(curve, "set_name" if wanted.legacy else "name") for curve in found]
+    if deck.problems or names != [wanted.name]:
+        raise click.UsageError(f"--name {wanted.name!r}: a deck does not read this as a name: give letters and digits")
+    return text
+
+
+def _block(wanted: Wanted, rows: list[list[float]], comments: list[Comment]) -> Block:
+    if wanted.legacy:
+        return Embedment.model_validate({"curves": [{"set": wanted.name, "points": rows}], "comments": comments})
+    return SeabedStiffness(
+        curves=[StiffnessCurve.model_validate({"name": wanted.name, "points": rows})], comments=comments
+    )
+
+
+def _head(backbone: Backbone, wanted: Wanted, points: FloatArray) -> list[str]:
+    """Source, parameters, error and range, as comments."""
+    model, soil = backbone.model, backbone.soil
+    largest = backbone.largest(wanted.depth)
+    error = backbone.deviation(points) / largest
+    bound = 100.0 * wanted.tolerance
+    weight = f", submerged weight of soil w {shown(soil.weight)}" if model.weighs else ""
+    beyond = "; the last points are beyond it" if wanted.depth > model.published else ""
+    shift = "z/D - 0.5: depth of the axis" if wanted.shift else "z/D: penetration of the invert, not shifted by -0.5"
+    return [
+        f"{model.title}",
+        f"Force per unit length: {model.formula}, r = z/D",
+        f"D {shown(soil.diameter)}, s_u {shown(soil.strength)} + {shown(soil.gradient)} z{weight}",
+        f"Error of interpolation: {100.0 * error:.2g} % of the largest force {shown(largest)}, bound {bound:g} %",
+        f"Published for z/D from 0 to {shown(model.published)}: {model.range_note}{beyond}",
+        f"Ratios are {shift}",
+    ]
+
+
+# ---------------------------------------------------------------------------------------------------------- picture
+
+
+def _plot(backbone: Backbone, wanted: Wanted, points: FloatArray, path: Path, form: str) -> bool:
+    try:
+        from mudline.results.plots import draw_curves  # noqa: PLC0415 - needs the extra `plot`
+    except ImportError:
+        notify_missing("--plot", "matplotlib", "plot")
+        return False
+    smooth = np.linspace(0.0, 1.0, _DRAWN) ** 2 * wanted.depth
+    drawn = {"model": np.column_stack((smooth, backbone.force(smooth))), wanted.name: points}
+    with writing(path) as stream:
+        draw_curves([_row(name, given - [wanted.shift, 0.0]) for name, given in drawn.items()], "user", form, stream)
+    return True
+
+
+def _row(name: str, points: FloatArray) -> dict[str, Any]:
+    curve = ForceCurve(points, name)
+    slopes = curve.slopes.tolist()
+    drawn = {"points": points.tolist(), "segments": [{"slope": slope} for slope in slopes], "at": []}
+    return {"name": name, "kind": OF_SEABED, "axes": ["ratio", "force"], **drawn}

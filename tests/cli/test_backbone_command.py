@@ -1,0 +1,118 @@
+"""`mudline backbone`: what is printed is a curve of a deck, and says where it comes from."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mudline
+from mudline.curves.backbones import MODELS, Backbone, Soil
+from tests.cli.runner import run
+
+CLAY = ("--diameter", "0.3", "--strength", "5000,1500")
+DECK = """\
+$MODEL
+*NODE
+ 1, -0.03, 0
+ 2, -0.03, 1
+*ELEMENT
+ 1, 1, 2
+*GEOMETRIC SETS
+ OPTION=RIGID
+ SET=ALL
+ 207.0E9, 79.6E9, 0.3, 0.28, 7850.0
+{bed}
+"""
+NEW = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"
+OLD = "*ELASTIC SURFACE\n 5000\n"
+
+
+def curve(text: str) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+    (found,) = mudline.from_keyword(text).scene().curves.values()
+    return np.column_stack((found.ratios, found.forces))
+
+
+@pytest.mark.parametrize("model", sorted(MODELS))
+@pytest.mark.parametrize("legacy", [False, True])
+def test_a_deck_reads_the_points_of_the_model(model: str, legacy: bool) -> None:
+    name = "ALL" if legacy else "Clay"
+    outcome = run("backbone", model, *CLAY, "--name", name, *["--legacy"] * legacy)
+    assert (outcome.code, outcome.err) == (0, "")
+    points = Backbone(MODELS[model], Soil(0.3, 5000.0, 1500.0)).points(MODELS[model].published, 0.005)
+    assert curve(DECK.format(bed=(OLD if legacy else NEW) + outcome.out)).tolist() == points.tolist()
+
+
+def test_the_head_says_source_soil_error_and_range() -> None:
+    lines = run("backbone", "f114", *CLAY, "--weight", "6000", "--tolerance", "0.02").out.splitlines()
+    assert lines[:8] == [
+        "*SEABED STIFFNESS",
+        "C DNV-RP-F114, undrained penetration, model 2",
+        "C Force per unit length: min(6 r^0.25, 3.4 (10 r)^0.5) s_u D + 1.5 w A_bm, r = z/D",
+        "C D 0.3, s_u 5000 + 1500 z, submerged weight of soil w 6000",
+        "C Error of interpolation: 2 % of the largest force 8226.72, bound 2 %",
+        "C Published for z/D from 0 to 0.5: beyond half the diameter its users warn of the result",
+        "C Ratios are z/D: penetration of the invert, not shifted by -0.5",
+        " CURVE=f114",
+    ]
+
+
+def test_invert_shifts_the_ratios() -> None:
+    plain = run("backbone", "merifield", *CLAY).out.splitlines()
+    shifted = run("backbone", "merifield", *CLAY, "--invert").out.splitlines()
+    assert shifted[6] == "C Ratios are z/D - 0.5: depth of the axis"
+    pairs = [[[float(field) for field in line.split(",")] for line in lines[8:]] for lines in (plain, shifted)]
+    assert np.array(pairs[1]) == pytest.approx(np.array(pairs[0]) - [0.5, 0.0], abs=1e-15)
+
+
+def test_beyond_the_published_range() -> None:
+    outcome = run("backbone", "f114", *CLAY, "--depth", "0.7")
+    assert (outcome.code, outcome.out) == (1, "")
+    assert outcome.err == (
+        "mudline: f114 ends at z/D = 0.5: beyond half the diameter its users warn of the result. "
+        "Give --extend to go on to 0.7\n"
+    )
+    extended = run("backbone", "f114", *CLAY, "--depth", "0.7", "--extend")
+    assert extended.code == 0
+    assert "warn of the result; the last points are beyond it\n" in extended.out
+    assert extended.out.splitlines()[-1].startswith(" 0.7, ")
+    assert run("backbone", "f114", *CLAY, "--depth", "0.4").out.splitlines()[-1].startswith(" 0.4, ")
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        (("--diameter", "0", "--strength", "1"), "--diameter 0: expected a number above 0"),
+        (("--diameter", "1", "--strength", "0"), "expected su0 > 0, or su0,gradient with a gradient >= 0"),
+        (("--diameter", "1", "--strength", "1,-1"), "expected su0 > 0"),
+        (("--diameter", "1", "--strength", "1,1,1"), "expected su0 > 0"),
+        (("--diameter", "1", "--strength", "a"), "'a': expected su0 > 0"),
+        ((*CLAY, "--weight", "-1"), "--weight -1: expected a submerged weight per volume, 0 or more"),
+        ((*CLAY, "--depth", "-1"), "--depth -1: expected a ratio z/D above 0"),
+        ((*CLAY, "--name", "a, b"), "a deck does not read this as a name"),
+        ((*CLAY, "--tolerance", "1"), "1.0 is not in the range"),
+        (("--diameter", "1e200", "--strength", "1e200"), "the force is too large or too small for a float64"),
+    ],
+)
+def test_wrong_usage(given: tuple[str, ...], says: str) -> None:
+    outcome = run("backbone", "f114", *given)
+    assert (outcome.code, outcome.out) == (2, "")
+    assert says in outcome.err
+
+
+def test_models_that_cannot_have_it() -> None:
+    weighed = run("backbone", "aubeny", *CLAY, "--weight", "6000")
+    assert weighed.code == 2
+    assert "this model has no term of the soil's weight" in weighed.err
+    fine = run("backbone", "aubeny", *CLAY, "--tolerance", "1e-5", "--invert")
+    assert fine.code == 2
+    assert "--tolerance 1e-05 is too fine for this model" in fine.err
+
+
+def test_picture(folder: Path) -> None:
+    outcome = run("backbone", "f114", *CLAY, "--plot", "f114.svg")
+    assert outcome.code == 0
+    drawn = (folder / "f114.svg").read_text(encoding="utf-8")
+    assert "model" in drawn
+    assert run("backbone", "f114", *CLAY, "--plot", "f114.txt").code == 2
