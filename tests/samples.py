@@ -14,6 +14,8 @@ from mudline.keywords.library.ocean import Ocean
 from mudline.scene.model import Scene, resolve
 
 SAMPLES = Path(__file__).parents[1] / "samples"
+FAULTY = ("broken.keyxm", "scr-vessel-bad.keyxm")
+"""The samples that are illegal."""
 
 
 class Evaluated(NamedTuple):

@@ -11,10 +11,9 @@ from mudline.diagnostics import Severity
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
 from mudline.scene.model import resolve
-from tests.samples import SAMPLES, sample
+from tests.samples import FAULTY, SAMPLES, sample
 
 DECKS = sorted(path.name for path in SAMPLES.glob("*.keyx?"))
-FAULTY = ("broken.keyxm", "scr-vessel-bad.keyxm")
 CLEAN = [name for name in DECKS if name not in FAULTY]
 
 INFO = {

@@ -56,11 +56,12 @@ def meant_names(word: str, known: Iterable[str], effort: Effort | None = None) -
 
     None is so near whose numbers or short words are others, or that has, as the word may have, fewer than four letters.
     """
-    if len(word) < _FEWEST_LETTERS:
+    effort = Effort() if effort is None else effort
+    if len(word) < _FEWEST_LETTERS or effort.left < 0:
         return []
-    return equally_near(
-        word, [name for name in known if len(name) >= _FEWEST_LETTERS and same_marks(word, name)], effort
-    )
+    alike = [name for name in known if len(name) >= _FEWEST_LETTERS and same_marks(word, name)]
+    effort.left -= len(alike)
+    return equally_near(word, alike, effort)
 
 
 def equally_near(word: str, known: Collection[str], effort: Effort | None = None) -> list[str]:

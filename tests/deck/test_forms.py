@@ -21,10 +21,10 @@ from mudline.keywords.ranges import is_refused
 from tests.builders.documents import validator
 from tests.builders.keyword_texts import deck_texts, mutated
 from tests.builders.scenes import deck_of
-from tests.samples import SAMPLES
+from tests.samples import FAULTY, SAMPLES
 
 NAME = "deck.keyxm"
-DECKS = sorted(path for path in SAMPLES.glob("*.keyx*") if path.name not in ("broken.keyxm", "scr-vessel-faulty.keyxm"))
+DECKS = sorted(path for path in SAMPLES.glob("*.keyx*") if path.name not in FAULTY)
 
 
 def same(one: Deck, other: Deck) -> None:

@@ -25,12 +25,12 @@ from mudline.syntax.source import Source
 from tests.builders.keyword_texts import deck_texts, mutated
 from tests.builders.spellings import numbers
 from tests.growth import FOURFOLD, TWOFOLD, call_growth, calls, growth
-from tests.samples import SAMPLES
+from tests.samples import FAULTY, SAMPLES
 
 pytestmark = pytest.mark.slow
 
 FILES = sorted(path for path in SAMPLES.iterdir() if path.is_file())
-DECKS = [path for path in FILES if path.suffix.startswith(".key") and path.stem != "broken"]
+DECKS = [path for path in FILES if path.suffix.startswith(".key") and path.name not in FAULTY]
 BOM = b"\xef\xbb\xbf"
 FORMS = list(product([b"\n", b"\r\n", b"\r"], [b"", BOM]))
 """Line ends, and with or without a mark: each sample is tried in one of these forms, and the longest in all."""

@@ -246,7 +246,7 @@ def test_floating_pipe() -> None:
     assert brief(text) == [("RUN004", 18, 10, 1)]
     weight = np.pi / 4 * 9.81 * (7850.0 * (0.3239**2 - 0.3139**2) - 1025.0 * 0.3239**2)
     assert f"10 elements (first: 1) float: submerged weight {weight:.6g} N/m without" in message(text, "RUN004")
-    assert brief(text + "*INTERNAL FLUID\n 1\n") == []
+    assert brief(text + "$LOAD CASE\n*INTERNAL FLUID\n 30.0, 900.0\n") == []
 
 
 @pytest.mark.parametrize(("height", "found"), [("-0.02", [("RUN004", 24, 5, 6)]), ("30.0", [])])

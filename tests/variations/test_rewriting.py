@@ -264,7 +264,7 @@ def test_new_decks_of_samples_are_found_fault_with_as_little_as_their_source(nam
     found = plan(load_bytes((SAMPLES / name).read_bytes(), name))
     assert len(found.decks) == 6
     for new in found.decks:
-        assert lint_bytes(found.content(new), new.path, select()) == []
+        assert {one.code for one in lint_bytes(found.content(new), new.path, select())} <= {"TIM005"}
         read = load_bytes(found.content(new), new.path)
         assert not read.keywords("PREPROCESSOR") & {"VARIATION", "COMBINATIONS"}
 

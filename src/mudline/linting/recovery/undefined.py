@@ -20,7 +20,7 @@ from mudline.scene.force_curves import SceneCurve
 from mudline.scene.names import CURVES, THINGS, names_of, undefined
 from mudline.scene.references import given_names
 from mudline.scene.sets import ALL, set_key
-from mudline.spelling import meant_names
+from mudline.spelling import Effort, meant_names
 from mudline.syntax.edits import TextEdit
 
 
@@ -34,29 +34,38 @@ def corrections(context: LintContext) -> Iterator[Correction]:
     used = {where for _, where, _ in given_names(context.deck, Names.CURVE)}
     nameless = [one for one in undefined_curve(scene) if one.where in used]
     lacking = [one for one in scene.noticed if one.lacks and one.code in (REF001, REF008)]
-    yield from _names(context, text, lacking, sets, (Names.SET, Names.SUBSET))
-    yield from _names(context, text, nameless, curves, (Names.CURVE,))
+    effort = Effort()
+    yield from _names(context, lacking, sets, (Names.SET, Names.SUBSET), effort)
+    yield from _names(context, nameless, curves, (Names.CURVE,), effort)
     for kinds, code in ((CURVES, REF002), (THINGS, REF019)):
         for kind, names in names_of(context.deck, kinds).items():
             known = {key: given[0].name for key, given in names.defined.items()}
-            yield from _names(context, text, [*undefined(scene.context, [kind], code)], known, (kind,))
+            yield from _names(context, [*undefined(scene.context, [kind], code)], known, (kind,), effort)
     yield from _numbers(context, text)
-    yield from _rows_without_name(context, text, [one.lacks for one in nameless if not meant_names(one.lacks, curves)])
+    names = [one.lacks for one in nameless if not meant_names(one.lacks, curves, effort)]
+    yield from _rows_without_name(context, text, names)
 
 
 def _names(
-    context: LintContext, text: TextOrigin, problems: list[Problem], known: dict[str, str], kinds: tuple[Names, ...]
+    context: LintContext, problems: list[Problem], known: dict[str, str], kinds: tuple[Names, ...], effort: Effort
 ) -> Iterator[Correction]:
     """Names for which one other name alone was meant: it in all their places."""
     alike: dict[str, list[Problem]] = {}
     for problem in problems:
         if problem.weight is Severity.ERROR:
             alike.setdefault(set_key(problem.lacks), []).append(problem)
+    text = context.text
+    if not alike or text is None:
+        return
+    places: dict[str, list[Where]] = {}
+    for kind in kinds:
+        for _, where, name in given_names(context.deck, kind):
+            places.setdefault(set_key(name), []).append(where)
     for key, found in alike.items():
-        near = meant_names(key, known)
+        near = meant_names(key, known, effort)
         if len(near) != 1:
             continue
-        uses = [where for kind in kinds for _, where, name in given_names(context.deck, kind) if set_key(name) == key]
+        uses = places.get(key, [])
         spans = sorted({span for where in uses if (span := text.span(where))})
         meant = known[near[0]]
         if not spans or any(_own_name(context, where) == near[0] for where in uses):

@@ -197,7 +197,8 @@ def end_not_held(context: LintContext) -> Iterator[Problem]:
     """A line ends at a node that nothing holds.
 
     Neither *BOUNDARY nor a spring, a vessel or a body has the node, so the end is free. That is right for a pipe that
-    is laid or hangs from one end, and else a wrong number. Hold the node, or correct the number.
+    is laid or hangs from one end, and else a wrong number. Hold the node, or correct the number. A deck that holds no
+    node at all is left out.
 
     Example:
          $MODEL
@@ -218,8 +219,9 @@ def end_not_held(context: LintContext) -> Iterator[Problem]:
     if not _is_whole(context) or (scene.element_nodes < 0).any():
         return
     counts = np.bincount(scene.element_nodes.ravel(), minlength=len(scene.node_ids))
-    free = np.flatnonzero((counts == 1) & ~_named(context))
-    if free.size:
+    held = _named(context)
+    free = np.flatnonzero((counts == 1) & ~held)
+    if free.size and held.any():
         what = first_of("node", scene.node_ids[free[0]], free.size)
         message = f"{what} at the end of a line is held by nothing: add it to *BOUNDARY, or leave it if the end is free"
         yield Problem(GEO010, message, where=scene.nodes.where(int(free[0])))
