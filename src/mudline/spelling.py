@@ -51,7 +51,7 @@ def same_marks(one: str, other: str) -> bool:
     return _MARKS.findall(one.casefold()) == _MARKS.findall(other.casefold())
 
 
-def meant_names(word: str, known: Iterable[str], effort: Effort | None = None) -> list[str]:
+def meant_names(word: str, known: Collection[str], effort: Effort | None = None) -> list[str]:
     """Return the known names for one of which a name was meant, as near as each other.
 
     None is so near whose numbers or short words are others, or that has, as the word may have, fewer than four letters.
@@ -60,7 +60,7 @@ def meant_names(word: str, known: Iterable[str], effort: Effort | None = None) -
     if len(word) < _FEWEST_LETTERS or effort.left < 0:
         return []
     alike = [name for name in known if len(name) >= _FEWEST_LETTERS and same_marks(word, name)]
-    effort.left -= len(alike)
+    effort.left -= len(known)
     return equally_near(word, alike, effort)
 
 

@@ -165,7 +165,9 @@ def test_where_to_write_must_be_said(place: Place) -> None:
 
 
 def test_standard_input_and_notes() -> None:
-    text = STUDY.replace("*VARIATION", "*EXCEL VARIATIONS\n EXCEL=book\n*VARIATION").encode()
+    text = STUDY.replace(
+        "*VARIATION", "*EXCEL VARIATIONS\n FILENAME=a\n EXCEL=book.xlsx, RANGE=A1:B2\n*VARIATION"
+    ).encode()
     outcome = run("expand", "-", "--dry-run", stdin=text, terminal=True)
     assert outcome.code == 0
     assert "*EXCEL VARIATIONS is not expanded" in outcome.err

@@ -8,7 +8,7 @@ from pkgutil import iter_modules
 from typing import get_args
 
 from mudline.keywords import catalogue, library
-from mudline.keywords.model import Role, kinds_of
+from mudline.keywords.naming import Role, kinds_of
 from mudline.keywords.values import SUBJECTS, Entry
 
 _WIDE = 115

@@ -15,8 +15,8 @@ from typing import get_args
 
 import mudline
 from mudline.keywords import catalogue, index
-from mudline.keywords.model import set_slots
 from mudline.keywords.names_only import NAMES
+from mudline.keywords.naming import set_slots
 from tests.keywords.index import INDEX, index_text
 
 ROOT = Path(mudline.__file__).parent
@@ -38,6 +38,7 @@ EXCEPTIONS = {
     "results/laws_in_use.py": "inner pipes need no law of the seabed",
     "results/warnings.py": "what is not read and makes a line heavier",
     "results/summary.py": "says which of two blocks a curve came from",
+    "scene/checks/soil.py": "names the laws that it refuses beside a soil",
     "scene/checks/fields.py": "leaves the geometry of a trench to EXT003, which has words of its own for it",
     "scene/context.py": "a lost line of lines defines a set, as it names one",
     "study/pruning.py": "the blocks that give the stages of a plan, whose lines it shows",

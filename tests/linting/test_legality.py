@@ -15,6 +15,7 @@ from mudline.linting.fixing import lint_one
 from mudline.linting.registry import rules
 from mudline.linting.rule import LintContext, Noticed
 from mudline.scene.model import resolve
+from tests.builders.decks import CLAY, PIPE, STEEL
 from tests.builders.documents import Values, document
 from tests.linting.legality import Outcome, deck, outcome
 
@@ -88,7 +89,9 @@ def test_a_rule_that_advises_never_blocks() -> None:
 
 
 def test_a_section_of_a_set_that_something_else_may_define() -> None:
-    """Deck 904341 once had no finding and was refused all the same: a `*CABLE` may have defined the set."""
-    found = outcome(deck(904341).encode())
+    """Such a deck once had no finding and was refused all the same: lines may have defined the set."""
+    section = STEEL.replace("SET=ALL", "SET=Elsewhere")
+    law = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"
+    found = outcome(f"{PIPE}*LINES\n 1, 2, 3\n{section}{CLAY}{law}".encode())
     assert {code for code, _, _ in found.blocking} == {"SBD009"}
     assert found.agrees

@@ -12,7 +12,8 @@ from typing import Any
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, PlainValidator, WrapValidator
 
-from mudline.keywords.model import ListRow, Part, metadata_of, record_schema
+from mudline.keywords.annotations import metadata_of
+from mudline.keywords.model import ListRow, Part, record_schema
 
 _OF_DOCUMENTS = ("_few_keys", "_from_list")
 """Validators that all parts have, for values from JSON and YAML."""

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache, cached_property
-from types import NoneType, UnionType
-from typing import Annotated, Any, ClassVar, Literal, Union, cast, get_args, get_origin
+from typing import Any, ClassVar, cast
 
 from pydantic import (
     BaseModel,
@@ -19,12 +17,12 @@ from pydantic import (
     model_serializer,
     model_validator,
 )
-from pydantic import fields as pydantic_fields
 from pydantic_core import CoreSchema, core_schema
 
+from mudline.keywords.annotations import choices_of, is_list, kind_of, metadata_of, parts_of
+from mudline.keywords.json_schema import cell_schema, with_limits
 from mudline.keywords.table import (
     AS_TABLES,
-    LARGEST_WHOLE,
     Cell,
     Column,
     Listing,
@@ -33,8 +31,9 @@ from mudline.keywords.table import (
     fewest_fields,
     misfit,
     read_table,
+    row_format,
 )
-from mudline.keywords.values import Contents, Count, Equation, Facts, Kind, Label, Names, Subject, Text
+from mudline.keywords.values import Contents, Count, Facts, Kind, Names, Subject, Text
 from mudline.limits import MOST_KEYS
 from mudline.short_repr import counted, with_fields
 
@@ -84,7 +83,7 @@ class FieldInfo:
         return core_schema.with_info_after_validator_function(self._in_range, schema) if self.limits else schema
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return _with_limits(handler(schema), self.limits)
+        return with_limits(handler(schema), self.limits)
 
     def _in_range(self, value: object, info: ValidationInfo) -> object:
         """Refuse a number out of range; the text of a deck is read as it is, and its values are reported by checks."""
@@ -96,15 +95,6 @@ class FieldInfo:
 
 AS_TEXT = "text of a deck"
 """The context in which the values of a text are validated."""
-
-
-def _with_limits(schema: dict[str, Any], limits: dict[str, float]) -> dict[str, Any]:
-    """A JSON Schema in which the numbers have limits."""
-    if schema.get("type") in ("number", "integer"):
-        return schema | limits
-    if limits and "anyOf" in schema:
-        return schema | {"anyOf": [_with_limits(one, limits) for one in schema["anyOf"]]}
-    return schema
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,7 +168,7 @@ class Rows(FieldInfo):
         listed = {
             "type": "array",
             "prefixItems": [
-                _with_limits(_cell_schema(column), spec.about.limits)
+                with_limits(cell_schema(column), spec.about.limits)
                 for column, spec in zip(columns, record_schema(self.row).columns if self.row else (), strict=True)
             ],
             "items": False,
@@ -191,13 +181,6 @@ class Rows(FieldInfo):
                 {"type": "string", "description": "the same rows as text, one a line, fields separated by commas"},
             ],
         }
-
-
-def _cell_schema(column: Column) -> dict[str, Any]:
-    words = [Label] * (column.kind in (Kind.IDENT, Kind.WHOLE_OR_LABEL)) + [Equation] * (column.kind is not Kind.IDENT)
-    number = {"type": "integer", "minimum": -LARGEST_WHOLE, "maximum": LARGEST_WHOLE}
-    options = [number if column.whole else {"type": "number"}, *(word.json_schema() for word in words)]
-    return {"description": column.label, "anyOf": options if column.required else [*options, {"type": "null"}]}
 
 
 def about(meaning: str, **details: Any) -> FieldInfo:
@@ -286,7 +269,7 @@ class ListRow(Row):
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         found = record_schema(cls)
-        items = [_cell_schema(Column(s.label, s.kind or Kind.REAL, s.required)) for s in found.columns]
+        items = [cell_schema(Column(s.label, s.kind or Kind.REAL, s.required)) for s in found.columns]
         return {"type": "array", "prefixItems": items, "items": False, "minItems": found.fewest}
 
 
@@ -390,19 +373,6 @@ class RecordSchema:
         return row_format([slot.label for slot in self.columns], [slot.required for slot in self.columns])
 
 
-def row_format(labels: list[str], required: list[bool]) -> str:
-    """`a, b [, c]`, with empty-able fields before the last required one in brackets."""
-    fewest = fewest_fields(required)
-    text = ""
-    for index, (label, needed) in enumerate(zip(labels, required, strict=True)):
-        comma = ", " if index else ""
-        if index >= fewest:
-            text += f" [{comma.strip()} {label}]" if index else f"[{label}]"
-        else:
-            text += comma + (label if needed else f"[{label}]")
-    return text
-
-
 @cache
 def record_schema(part: type[Part]) -> RecordSchema:
     """The declared fields of a class, found once."""
@@ -416,12 +386,12 @@ def record_schema(part: type[Part]) -> RecordSchema:
             name=name,
             json=info.alias or name,
             about=meta or FieldInfo(""),
-            kind=_kind(info),
-            choices=_choices(info.annotation),
+            kind=kind_of(info),
+            choices=choices_of(info.annotation),
             row=meta.row if isinstance(meta, Rows) else _row(info.annotation),
             record={record.rule: record for record in records},
             required=info.is_required(),
-            many=_is_list(info.annotation),
+            many=is_list(info.annotation),
             order=order,
         )
         found.slots.append(slot)
@@ -434,94 +404,6 @@ def record_schema(part: type[Part]) -> RecordSchema:
         else:
             found.columns.append(slot)
     return found
-
-
-Role = Literal["names", "defines"]
-"""What a field does with a name: it uses that of another thing, or gives a thing its own."""
-
-
-@cache
-def _naming(part: type[Part], what: Names, role: Role = "names") -> tuple[FieldSpec, ...]:
-    """The fields that name or define a thing of a kind, and those with parts that have one."""
-    return tuple(
-        slot
-        for slot in record_schema(part).slots
-        if getattr(slot.about, role) is what or any(_naming(each, what, role) for each in _inside(slot))
-    )
-
-
-def _inside(slot: FieldSpec) -> list[type[Part]]:
-    return [part for part in (slot.row, *slot.record.values()) if part]
-
-
-@cache
-def kinds_of(part: type[Part], role: Role) -> frozenset[Names]:
-    """The kinds of things that the fields of a part, and of those inside it, name or define."""
-    slots = record_schema(part).slots
-    own = {kind for slot in slots if (kind := getattr(slot.about, role)) is not None}
-    return frozenset(own).union(*(kinds_of(each, role) for slot in slots for each in _inside(slot)))
-
-
-def may_name(part: type[Part], what: Names) -> bool:
-    """Whether a part has fields for names of a kind."""
-    return bool(_naming(part, what))
-
-
-def names_given(part: Part, what: Names, role: Role = "names") -> Iterator[tuple[tuple[str | int, ...], str]]:
-    """The names of things of a kind that a part gives, with their paths; what is not a text is not a name."""
-    for slot in _naming(type(part), what, role):
-        value = getattr(part, slot.name, None)
-        if isinstance(value, Part):
-            yield from (((slot.json, *path), name) for path, name in names_given(value, what, role))
-        elif isinstance(value, str) and not isinstance(value, Equation):
-            yield (slot.json,), value
-        elif isinstance(value, list):
-            for index, item in enumerate(value):
-                if isinstance(item, Part):
-                    yield from (((slot.json, index, *path), name) for path, name in names_given(item, what, role))
-
-
-def idents_given(part: Part, what: Names) -> Iterator[tuple[tuple[str | int, ...], int | Label]]:
-    """The numbers and labels of nodes or elements that a part gives, with their paths; what could not be read is none.
-
-    Those in the rows of a table are left out: a keyword with such a table looks at them itself.
-    """
-    for slot in _naming(type(part), what):
-        value = getattr(part, slot.name, None)
-        for path, item in enumerate_items(slot, value):
-            if isinstance(item, Part):
-                yield from (((*path, *inner), ident) for inner, ident in idents_given(item, what))
-            elif isinstance(item, int | Label) and slot.about.names is what:
-                yield path, item
-
-
-def enumerate_items(slot: FieldSpec, value: object) -> Iterator[tuple[tuple[str | int, ...], object]]:
-    """The value of a field, or those of its list, each with the path to it."""
-    if isinstance(value, list):
-        yield from (((slot.json, index), item) for index, item in enumerate(value))
-    else:
-        yield (slot.json,), value
-
-
-@cache
-def set_slots(block: type[Block]) -> tuple[tuple[FieldSpec, FieldSpec], ...]:
-    """The lists of a block whose records go by element set, each with the field of these that names it."""
-    return tuple(
-        (slot, named)
-        for slot in record_schema(block).slots
-        for record in slot.record.values()
-        for named in record_schema(record).slots
-        if named.about.names is Names.SET
-    )
-
-
-def require_one(part: Part, *names: str) -> None:
-    """Raise ValueError unless a part has a value in exactly one of some fields."""
-    slots = [slot for slot in record_schema(type(part)).slots if slot.name in names]
-    given = [slot.label for slot in slots if not _is_empty(getattr(part, slot.name))]
-    if len(given) != 1:
-        wanted = " or ".join(slot.label for slot in slots)
-        raise ValueError(f"{' and '.join(given) or 'nothing'} is given: expected {wanted}")
 
 
 def _is_empty(value: object) -> bool:
@@ -539,43 +421,19 @@ def table_columns(row: type[Row]) -> list[Column]:
     return [Column(slot.label, slot.kind or Kind.REAL, slot.required) for slot in record_schema(row).columns]
 
 
-def _parts(annotation: Any) -> list[Any]:
-    """A type taken apart: members of unions, items of lists, what is annotated."""
-    origin = get_origin(annotation)
-    if origin is Annotated:
-        return [*_parts(get_args(annotation)[0]), *get_args(annotation)[1:]]
-    if origin in (Union, UnionType, list):
-        return [piece for member in get_args(annotation) for piece in _parts(member)]
-    return [] if annotation is NoneType else [annotation]
-
-
-def metadata_of(info: pydantic_fields.FieldInfo) -> list[Any]:
-    """What a field is annotated with, and its types taken apart."""
-    return [*info.metadata, *_parts(info.annotation)]
-
-
-def _kind(info: pydantic_fields.FieldInfo) -> Kind | None:
-    return next((item for item in metadata_of(info) if isinstance(item, Kind)), None)
-
-
-def _choices(annotation: Any) -> tuple[str, ...]:
-    literal = (piece for piece in _parts(annotation) if get_origin(piece) is Literal)
-    return next((get_args(piece) for piece in literal), ())
-
-
 def _records(annotation: Any) -> list[type[Record]]:
-    return [piece for piece in _parts(annotation) if isinstance(piece, type) and issubclass(piece, Record)]
+    return [piece for piece in parts_of(annotation) if isinstance(piece, type) and issubclass(piece, Record)]
 
 
 def _row(annotation: Any) -> type[Row] | None:
-    found = (piece for piece in _parts(annotation) if isinstance(piece, type) and issubclass(piece, Row))
+    found = (piece for piece in parts_of(annotation) if isinstance(piece, type) and issubclass(piece, Row))
     return next(found, None)
 
 
-def _is_list(annotation: Any) -> bool:
-    origin = get_origin(annotation)
-    if origin is Annotated:
-        return _is_list(get_args(annotation)[0])
-    if origin in (Union, UnionType):
-        return any(_is_list(member) for member in get_args(annotation))
-    return origin is list
+def require_one(part: Part, *names: str) -> None:
+    """Raise ValueError unless a part has a value in exactly one of some fields."""
+    slots = [slot for slot in record_schema(type(part)).slots if slot.name in names]
+    given = [slot.label for slot in slots if not _is_empty(getattr(part, slot.name))]
+    if len(given) != 1:
+        wanted = " or ".join(slot.label for slot in slots)
+        raise ValueError(f"{' and '.join(given) or 'nothing'} is given: expected {wanted}")

@@ -419,3 +419,16 @@ def read_table(given: object, columns: Sequence[Column]) -> Table:
     if isinstance(given, str):
         return from_text(given, columns)
     raise ValueError("expected rows: a list of lists, or a text with a row a line")
+
+
+def row_format(labels: list[str], required: list[bool]) -> str:
+    """`a, b [, c]`, with empty-able fields before the last required one in brackets."""
+    fewest = fewest_fields(required)
+    text = ""
+    for index, (label, needed) in enumerate(zip(labels, required, strict=True)):
+        comma = ", " if index else ""
+        if index >= fewest:
+            text += f" [{comma.strip()} {label}]" if index else f"[{label}]"
+        else:
+            text += comma + (label if needed else f"[{label}]")
+    return text

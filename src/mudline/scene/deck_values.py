@@ -13,7 +13,8 @@ from mudline.deck.parameters import Parameters, folded
 from mudline.diagnostics import Span, Where
 from mudline.files import look
 from mudline.keywords import catalogue
-from mudline.keywords.model import Block, Part, Row, may_name, names_given, record_schema
+from mudline.keywords.model import Block, Part, Row, record_schema
+from mudline.keywords.naming import may_name, names_given
 from mudline.keywords.values import LINE_SETS, Names
 from mudline.syntax.fields import read_line
 from mudline.syntax.rows import read_number

@@ -13,7 +13,7 @@ from mudline.contact.input import LawKind
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Where
 from mudline.keywords import catalogue
-from mudline.keywords.model import set_slots
+from mudline.keywords.naming import set_slots
 from mudline.scene.context import Context
 from mudline.scene.deck_values import number, surfaces
 from mudline.scene.force_curves import SceneCurve, set_name

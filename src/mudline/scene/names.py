@@ -14,7 +14,8 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.keywords import catalogue
 from mudline.keywords.keeping import is_read, kept_lines
-from mudline.keywords.model import Block, Role, kinds_of, names_given
+from mudline.keywords.model import Block
+from mudline.keywords.naming import Role, kinds_of, names_given
 from mudline.keywords.text import shown
 from mudline.keywords.values import Names
 from mudline.scene.context import Context

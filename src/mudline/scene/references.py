@@ -16,7 +16,8 @@ from mudline.codes.references import REF001, REF005, REF006, REF010
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Severity, Where
-from mudline.keywords.model import Block, idents_given, may_name, names_given
+from mudline.keywords.model import Block
+from mudline.keywords.naming import idents_given, may_name, names_given
 from mudline.keywords.text import shown
 from mudline.keywords.values import Label, Names
 from mudline.limits import MOST_REPORTED

@@ -18,7 +18,8 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Span
 from mudline.keywords import catalogue
-from mudline.keywords.model import Block, names_given
+from mudline.keywords.model import Block
+from mudline.keywords.naming import names_given
 from mudline.keywords.reader import all_keys
 from mudline.keywords.text import shown
 from mudline.keywords.values import Names

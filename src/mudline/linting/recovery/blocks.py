@@ -11,7 +11,8 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Span
 from mudline.keywords import catalogue
-from mudline.keywords.model import Block, names_given
+from mudline.keywords.model import Block
+from mudline.keywords.naming import names_given
 from mudline.keywords.values import Names
 from mudline.scene.references import given_names
 from mudline.scene.sets import ALL, set_key

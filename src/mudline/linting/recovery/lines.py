@@ -13,7 +13,8 @@ from mudline.codes.lines import SYN001, SYN004, SYN011, SYN013
 from mudline.codes.references import REF007
 from mudline.diagnostics import Problem, Repair, Severity, Span
 from mudline.keywords import catalogue
-from mudline.keywords.model import Block, FieldSpec, record_schema, set_slots
+from mudline.keywords.model import Block, FieldSpec, record_schema
+from mudline.keywords.naming import set_slots
 from mudline.keywords.reader import all_keys, reads, schemas_of
 from mudline.keywords.values import Kind as Value
 from mudline.keywords.values import Names

@@ -10,7 +10,8 @@ from mudline.codes.references import REF001, REF008
 from mudline.deck.parameters import folded
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Problem, Repair, Severity, Span, Where
-from mudline.keywords.model import Part, names_given
+from mudline.keywords.model import Part
+from mudline.keywords.naming import names_given
 from mudline.keywords.values import Names
 from mudline.linting.recovery.blocks import Correction, also_in, line_at, start_of
 from mudline.linting.rule import LintContext
@@ -42,8 +43,8 @@ def corrections(context: LintContext) -> Iterator[Correction]:
             known = {key: given[0].name for key, given in names.defined.items()}
             yield from _names(context, [*undefined(scene.context, [kind], code)], known, (kind,), effort)
     yield from _numbers(context, text)
-    names = [one.lacks for one in nameless if not meant_names(one.lacks, curves, effort)]
-    yield from _rows_without_name(context, text, names)
+    unlike = [one.lacks for one in nameless if not meant_names(one.lacks, curves, effort)]
+    yield from _rows_without_name(context, text, unlike)
 
 
 def _names(

@@ -11,7 +11,8 @@ from mudline.contact.input import LawKind
 from mudline.deck.model import Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity
-from mudline.keywords.model import Part, names_given, record_schema
+from mudline.keywords.model import Part, record_schema
+from mudline.keywords.naming import names_given
 from mudline.keywords.text import shown
 from mudline.keywords.values import Names
 from mudline.linting.rule import LintContext, entries_of_sets, limited, rule

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, cast
 
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords import catalogue
-from mudline.keywords.model import names_given
+from mudline.keywords.naming import names_given
 from mudline.keywords.text import shown
 from mudline.keywords.values import Names
 from mudline.linting.rule import LintContext, limited, rule

@@ -15,7 +15,8 @@ from mudline.deck.model import Opaque
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.catalogue import may_have_no_length
 from mudline.keywords.keeping import kept_lines
-from mudline.keywords.model import Block, Part, idents_given, may_name
+from mudline.keywords.model import Block, Part
+from mudline.keywords.naming import idents_given, may_name
 from mudline.keywords.values import Names
 from mudline.linting.rule import LintContext, rule
 from mudline.linting.rules.references import WATER

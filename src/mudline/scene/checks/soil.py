@@ -161,7 +161,8 @@ def unusual_soil(scene: ResolvedDeck) -> Iterator[Problem]:
     for index, parameter, path, value in _fields(extension):
         low, high = _USUAL.get(parameter.name, (-np.inf, np.inf))
         if not low <= value <= high and not parameter.invalid(np.array([value]))[0]:
-            message = f"{value:g}: {_NAMES[parameter.name]} is {low:g} to {high:g} in published soils"
+            usual = f"{_NAMES[parameter.name]} is {low:g} to {high:g} in published soils"
+            message = f"{value:g}: {usual}; correct it if it is a slip"
             yield Problem(EXT012, message, where=extension.places[index].inside(*path))
     if scene.units == "user":
         message = "the deck has user units: strength, weight and diameter must be in one system"

@@ -1,0 +1,88 @@
+"""The names, numbers and labels that the fields of a part give: those of other things, or those of a new one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from typing import Literal
+
+from mudline.keywords.model import Block, FieldSpec, Part, record_schema
+from mudline.keywords.values import Equation, Label, Names
+
+Role = Literal["names", "defines"]
+"""What a field does with a name: it uses that of another thing, or gives a thing its own."""
+
+
+@cache
+def _naming(part: type[Part], what: Names, role: Role = "names") -> tuple[FieldSpec, ...]:
+    """The fields that name or define a thing of a kind, and those with parts that have one."""
+    return tuple(
+        slot
+        for slot in record_schema(part).slots
+        if getattr(slot.about, role) is what or any(_naming(each, what, role) for each in _inside(slot))
+    )
+
+
+def _inside(slot: FieldSpec) -> list[type[Part]]:
+    return [part for part in (slot.row, *slot.record.values()) if part]
+
+
+@cache
+def kinds_of(part: type[Part], role: Role) -> frozenset[Names]:
+    """The kinds of things that the fields of a part, and of those inside it, name or define."""
+    slots = record_schema(part).slots
+    own = {kind for slot in slots if (kind := getattr(slot.about, role)) is not None}
+    return frozenset(own).union(*(kinds_of(each, role) for slot in slots for each in _inside(slot)))
+
+
+def may_name(part: type[Part], what: Names) -> bool:
+    """Whether a part has fields for names of a kind."""
+    return bool(_naming(part, what))
+
+
+def names_given(part: Part, what: Names, role: Role = "names") -> Iterator[tuple[tuple[str | int, ...], str]]:
+    """The names of things of a kind that a part gives, with their paths; what is not a text is not a name."""
+    for slot in _naming(type(part), what, role):
+        value = getattr(part, slot.name, None)
+        if isinstance(value, Part):
+            yield from (((slot.json, *path), name) for path, name in names_given(value, what, role))
+        elif isinstance(value, str) and not isinstance(value, Equation):
+            yield (slot.json,), value
+        elif isinstance(value, list):
+            for index, item in enumerate(value):
+                if isinstance(item, Part):
+                    yield from (((slot.json, index, *path), name) for path, name in names_given(item, what, role))
+
+
+def idents_given(part: Part, what: Names) -> Iterator[tuple[tuple[str | int, ...], int | Label]]:
+    """The numbers and labels of nodes or elements that a part gives, with their paths; what could not be read is none.
+
+    Those in the rows of a table are left out: a keyword with such a table looks at them itself.
+    """
+    for slot in _naming(type(part), what):
+        value = getattr(part, slot.name, None)
+        for path, item in enumerate_items(slot, value):
+            if isinstance(item, Part):
+                yield from (((*path, *inner), ident) for inner, ident in idents_given(item, what))
+            elif isinstance(item, int | Label) and slot.about.names is what:
+                yield path, item
+
+
+def enumerate_items(slot: FieldSpec, value: object) -> Iterator[tuple[tuple[str | int, ...], object]]:
+    """The value of a field, or those of its list, each with the path to it."""
+    if isinstance(value, list):
+        yield from (((slot.json, index), item) for index, item in enumerate(value))
+    else:
+        yield (slot.json,), value
+
+
+@cache
+def set_slots(block: type[Block]) -> tuple[tuple[FieldSpec, FieldSpec], ...]:
+    """The lists of a block whose records go by element set, each with the field of these that names it."""
+    return tuple(
+        (slot, named)
+        for slot in record_schema(block).slots
+        for record in slot.record.values()
+        for named in record_schema(record).slots
+        if named.about.names is Names.SET
+    )
