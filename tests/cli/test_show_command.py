@@ -12,8 +12,9 @@ from tests.cli.runner import assert_fits, run
 
 TEXT = """\
 deck.keyxm: metric units, 3 nodes, 2 elements, 20.008 m long, elastic seabed
-  $MODEL: *OCEAN, *NODE, *ELEMENT, *ELEMENT SETS, *GEOMETRIC SETS, *SEABED PROPERTIES, *SEABED
-      STIFFNESS
+  $MODEL
+    model: *OCEAN, *NODE, *ELEMENT, *ELEMENT SETS, *GEOMETRIC SETS
+    seabed: *SEABED PROPERTIES, *SEABED STIFFNESS
   All 7 keywords read.
 
 Element sets

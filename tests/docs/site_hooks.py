@@ -30,6 +30,8 @@ _COMMENT = re.compile(r"\A<!--.*?-->\s*", re.DOTALL)
 _FILE_NAME = re.compile(r"(?<=\[)[\w/-]+\.(?:md|ipynb)(?=\]\(([^)\s#]+))")
 """The text of a link that only repeats the file."""
 _TITLE = re.compile(r"^# (.+)$", re.MULTILINE)
+_LISTED = re.compile(r"^##+ (.+)$|\]\(([\w-]+/[\w-]+\.md)\)", re.MULTILINE)
+"""The headings of a page, and the pages of a folder that it links to."""
 _ROW = re.compile(r"^\|.*$", re.MULTILINE)
 _CODE = re.compile(r"`[^`]+`")
 _FORMULA = re.compile(r"\$\$(.+?)\$\$|\$([^$\n]+)\$", re.DOTALL)
@@ -117,11 +119,21 @@ def _expanded(nav: Any) -> Any:  # noqa: ANN401 - lists, mappings and texts of Y
     return [each for entry in nav for each in (_pages(entry) if "*" in entry else [_expanded(entry)])]
 
 
-def _pages(pattern: str) -> list[str]:
+def _pages(pattern: str) -> list[Any]:
+    """The pages of a folder; under the headings of the page of its name, where there is one that links to them."""
     found = [path.relative_to(DOCS).as_posix() for path in sorted(DOCS.glob(pattern)) if path.stem != "README"]
     if not found:
         raise ValueError(f"no page matches {pattern!r}: correct nav in mkdocs.yml")
-    return found
+    index = (DOCS / pattern).parent.with_suffix(".md")
+    if not index.is_file():
+        return list(found)
+    groups: dict[str, list[str]] = {}
+    title = ""
+    for heading, page in _LISTED.findall(index.read_text(encoding="utf-8")):
+        title = heading or title
+        if page in found:
+            groups.setdefault(title, []).append(page)
+    return [{title: pages} for title, pages in groups.items()]
 
 
 def _linked_outside() -> set[Path]:

@@ -11,6 +11,8 @@ from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.streams import emit_json, notify
 from mudline.cli.view import View
 from mudline.diagnostics import Coverage
+from mudline.keywords import catalogue
+from mudline.keywords.values import SUBJECTS
 from mudline.limits import SHOWN_ROWS
 from mudline.quantities import UnitNames, headed, shown, unit_names
 from mudline.results.summary import summarise
@@ -103,13 +105,30 @@ def _print_head(printer: Printer, summary: dict[str, Any], names: UnitNames) -> 
             for extent in ((True, False), (True, True), (False, False))
         )
         name = "$" + printer.visible(section["name"])
-        _print_folded(printer, f"{name}: {read}" if read else name, "  ")
+        whole = [each["keyword"] for each in keywords if each["read"] and not each["partly"]]
+        subjects = _by_subject(section["name"], whole)
+        _print_folded(printer, f"{name}: {read}" if read and len(subjects) < _SEVERAL else name, "  ")
+        for subject, about in subjects.items() if len(subjects) >= _SEVERAL else ():
+            _print_folded(printer, f"{subject}: {_listed(printer, about)}", "    ")
         if partly:
             _print_folded(printer, f"read in part: {partly}", "    ")
         if kept:
             _print_folded(printer, f"passed through unchanged: {kept}", "    ")
     _print_folded(printer, printer.visible(Coverage(**summary["keywords"]).sentence()), "  ")
     printer.line()
+
+
+_SEVERAL = 2
+"""Subjects of the keywords of a section that are listed one by one."""
+
+
+def _by_subject(section: str, keywords: list[str]) -> dict[str, list[str]]:
+    """The keywords of a section by what they are about, in the order of the subjects."""
+    found: dict[str, list[str]] = {}
+    for keyword in keywords:
+        entry = next(each for each in catalogue.entries(keyword) if section in each.sections)
+        found.setdefault(entry.subject, []).append(keyword)
+    return {subject: found[subject] for subject in SUBJECTS if subject in found}
 
 
 def _bed(floor: dict[str, Any]) -> str:

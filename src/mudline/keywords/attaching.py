@@ -1,4 +1,4 @@
-"""Comments, and lines that are kept as they are, to the records among whose lines they stand."""
+"""Comments, and lines that are passed through unchanged, to the records among whose lines they stand."""
 
 from __future__ import annotations
 

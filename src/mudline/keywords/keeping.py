@@ -23,7 +23,7 @@ _INLINE = re.compile(r",[ \t]*([A-Za-z][\w \t-]*)=([^,\r\n]*)")
 
 
 class KeptLine(BaseModel):
-    """A line that is kept as it is; `before` is the index of the item that it precedes, behind the comments there."""
+    """A line that is passed through; `before` is the index of the item that it precedes, behind the comments there."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
     before: Count

@@ -304,8 +304,8 @@ class Block(Record):
     `sections` are those where it belongs; `subject` is what it is about; `page` is the page of the manual with its
     format; `facts` is what else is known of it; `tabular` keeps runs of numeric lines whole, as arrays; `slashes` says
     that /.../ is one field; `example` is a block that reads without a finding. With `open_lines` a line of a form that
-    the declaration does not know is kept as it is; with `known_forms` only one whose key or place it does not know: in
-    others a fault is a fault.
+    the declaration does not know is passed through unchanged; with `known_forms` only one whose key or place it does
+    not know: in others a fault is a fault.
     """
 
     sections: ClassVar[tuple[str, ...]] = ("MODEL",)

@@ -20,7 +20,7 @@ Path = tuple[str | int, ...]
 class Places:
     """Spans by path. Tables keep only where their runs begin: a row is looked up when somebody asks.
 
-    `kept` is where the lines begin that are kept as they are.
+    `kept` is where the lines begin that are passed through unchanged.
     """
 
     text: str

@@ -114,7 +114,7 @@ Name = Annotated[Text, Kind.NAME]
 Title = Annotated[Text, Kind.TITLE]
 """A text to the end of its line, commas included."""
 Other = Annotated[Text, Kind.OTHER]
-"""Beside the known values of a choice: there are others, which are kept as they are written."""
+"""Beside the known values of a choice: there are others, which are kept as written."""
 
 
 @dataclass(frozen=True, slots=True)

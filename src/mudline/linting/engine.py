@@ -91,12 +91,12 @@ def _meant(context: LintContext, chosen: Sequence[Rule], *, suppress: bool) -> R
     def again(data: bytes) -> Deck:
         return read_deck(data, deck.file, units=units, folder=deck.folder)
 
-    def told(problems: Sequence[Problem]) -> Sequence[Problem]:
+    def reported(problems: Sequence[Problem]) -> Sequence[Problem]:
         return hiding.split([*problems], ())[0] if hiding else problems
 
     from mudline.linting.recovery.engine import Reading, recovered  # noqa: PLC0415 - most decks do without
 
-    return recovered(context, {rule.code.code for rule in chosen}, Reading(again, _read_once, told))
+    return recovered(context, {rule.code.code for rule in chosen}, Reading(again, _read_once, reported))
 
 
 def may_recover(deck: Deck) -> bool:

@@ -11,7 +11,8 @@ from mudline.keywords.model import setting
 from mudline.keywords.values import Other
 
 _PAGE = (
-    "no page of the manual was found: the types are those of known decks, other words and lines are kept as they are"
+    "no page of the manual was found: the types are those of known decks, other words and lines are passed through "
+    "unchanged"
 )
 _TYPES = ("STATIC", "QUASI-STATIC", "DYNAMIC", "TIME DOMAIN", "FREQUENCY DOMAIN")
 

@@ -11,7 +11,7 @@ from mudline.keywords.model import Row, about, setting
 from mudline.keywords.values import Facts, Name, Names, Other, Real, RealOrName
 
 _ORDER = "the order, which is that of decks of a related program: the manual page of the keyword was not seen"
-_OTHERS = "other types (by Reynolds number, moonpools, buoys), whose lines are kept as they are"
+_OTHERS = "other types (by Reynolds number, moonpools, buoys), whose lines are passed through unchanged"
 
 
 class ConstantCoefficients(Row):

@@ -12,7 +12,7 @@ from mudline.keywords.values import Other
 
 _LINES = (
     "the lines below it, as their page was not seen: they give nodes, directions and magnitudes, or first and last "
-    "elements and components, and are kept as they are"
+    "elements and components, and are passed through unchanged"
 )
 
 

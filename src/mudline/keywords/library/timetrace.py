@@ -10,7 +10,7 @@ from mudline.keywords.keeping import OpenBlock
 from mudline.keywords.model import setting
 from mudline.keywords.values import Other
 
-_PAGE = "no page of the manual was found: one type is named by a page on theory, all lines are kept as they are"
+_PAGE = "no page of the manual was found: one type is named by a page on theory, all lines are passed through unchanged"
 
 
 class Timetrace(OpenBlock):

@@ -9,7 +9,7 @@ from mudline.keywords.model import setting
 from mudline.keywords.values import Contents, Name, Names
 from mudline.keywords.vessels import Dimensions, LocalDistance, Position
 
-_MORE = "more lines follow, of which the manual page was not seen: they are kept as they are"
+_MORE = "more lines follow, of which the manual page was not seen: they are passed through unchanged"
 
 
 class IntegratedVessel(OpenRecord):

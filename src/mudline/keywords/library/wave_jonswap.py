@@ -11,7 +11,7 @@ from mudline.keywords.loads import Direction
 from mudline.keywords.model import Row, about, require_one, setting
 from mudline.keywords.values import Other, Real, Whole
 
-_MORE = "more forms follow on the page, which were not seen: their lines are kept as they are"
+_MORE = "more forms follow on the page, which were not seen: their lines are passed through unchanged"
 _CUT = about("largest frequency", unit="Hz", above=0)
 _COUNT = about("number of directions", at_least=1)
 

@@ -47,13 +47,13 @@ _OF_SECTIONS = (SYN007, SYN010)
 class Reading:
     """How a deck is read and what is reported of it.
 
-    `again` reads a text, and `block` a block of it; `told` gives those of some problems, with their places in the file,
-    that a user sees: others are not recovered from, as nobody would learn why.
+    `again` reads a text, and `block` a block of it; `reported` gives those of some problems, with their places in the
+    file, that a user sees: others are not recovered from, as nobody would learn why.
     """
 
     again: Callable[[bytes], Deck]
     block: BlockReader
-    told: Callable[[Sequence[Problem]], Sequence[Problem]]
+    reported: Callable[[Sequence[Problem]], Sequence[Problem]]
 
 
 @dataclass
@@ -114,7 +114,7 @@ def recovered(context: LintContext, codes: Collection[str], reading: Reading) ->
     `codes` are those of findings that are wanted at all.
     """
     found = Recovered(context)
-    reported = reading.told([one for one in context.deck.problems if one.code.code in codes])
+    reported = reading.reported([one for one in context.deck.problems if one.code.code in codes])
     trials = MOST_TRIALS
     while len(found.steps) < MOST_ROUNDS and (text := found.context.text) is not None:
         round_ = _Round(Blocks(found.deck, text), reading.block, codes, trials)
@@ -124,8 +124,8 @@ def recovered(context: LintContext, codes: Collection[str], reading: Reading) ->
         reported = [one for one in found.deck.problems if one.code.code in codes]
     if found.context.scene.lacks:
         late = undefined.corrections(found.context)
-        told = [one for one in late if one.cause.code.code in codes and reading.told([*found.as_written([one.cause])])]
-        found.take(told, reading.again)
+        wanted = [one for one in late if one.cause.code.code in codes]
+        found.take([one for one in wanted if reading.reported([*found.as_written([one.cause])])], reading.again)
     return found if found.steps else None
 
 
