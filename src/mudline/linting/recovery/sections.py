@@ -17,9 +17,8 @@ def before_sections(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Cor
     text = blocks.text
     tree = text.tree
     outside = {start_of(text, one): one for one in problems}
-    heads = ((head_start(text, block), block.name) for block in tree.preamble.blocks)
-    run = [(head, name) for head, name in heads if head in outside]
-    if not run:
+    run = [(head_start(text, block), block.name) for block in tree.preamble.blocks]
+    if not run or any(head not in outside for head, _ in run):  # a deck of another program is reported once
         return
     end = tree.sections[0].head.span.start if tree.sections and tree.sections[0].head else blocks.end
     start, name = run[0]
