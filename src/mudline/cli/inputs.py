@@ -164,7 +164,7 @@ def _why_skipped(path: str) -> str:
     if form_of(path) != "keyword":
         return f"it does not begin as a deck in JSON or YAML does, with the format {MARK}..."
     if is_deck(path):
-        return "the configuration excludes it, or it is no file"
+        return "the configuration excludes it, or it is not a file"
     return f"its name does not end as that of a deck ({', '.join(sorted(SUFFIXES))}), and no include names it"
 
 
