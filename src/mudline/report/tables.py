@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 from mudline.limits import SHOWN_ROWS
-from mudline.quantities import UnitNames, headed, shown
+from mudline.quantities import UnitNames, headed, labelled, shown
 from mudline.short_repr import counted, cut
 
 MOST_CURVES = 50
@@ -18,12 +18,12 @@ Cell = str | float | None
 
 
 class Table(NamedTuple):
-    """A table: its caption, heads and rows; how many rows are left out."""
+    """A table: its caption, heads and rows; what it says of rows that are left out."""
 
     caption: str
     heads: Sequence[str]
     rows: Sequence[Sequence[Cell]]
-    left: int = 0
+    note: str = ""
     anchors: Sequence[str] = ()
 
 
@@ -32,12 +32,17 @@ def _table(
 ) -> Table:
     found = [[cut(cell, LONGEST_NAME) if isinstance(cell, str) else cell for cell in row] for row in rows]
     anchors = [f"{anchor}-{number}" for number in range(1, len(found[:most]) + 1)] if anchor else []
-    return Table(caption, [head.replace("\n", " ") for head in heads], found[:most], max(0, len(found) - most), anchors)
+    note = _more(len(found) - most, "row")
+    return Table(caption, [head.replace("\n", " ") for head in heads], found[:most], note, anchors)
+
+
+def _more(count: int, what: str) -> str:
+    return f"{counted(count, f'more {what}')}: the JSON of this report has all" if count > 0 else ""
 
 
 def _model(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
     counts = [("nodes", found["nodes"]), ("elements", found["elements"]), ("seabed", found["floor"]["kind"])]
-    counts.append((headed("length of line", names.length), found["length"]))
+    counts.append((labelled("length of line", names.length), found["length"]))
     yield _table("Size", ("what", "value"), counts)
     sets = [(one["name"], one["elements"], one["length"]) for one in found["sets"]]
     yield _table("Element sets", ("set", "elements", headed("length", names.length)), sets, MOST_CURVES)
@@ -75,6 +80,7 @@ def _curves(found: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
         caption = f"{row['kind']} {cut(row['name'], LONGEST_NAME)} (*{row['keyword']}): {counted(len(points), 'point')}"
         ends = f"; slope {shown(slopes[0])} below the first, {shown(slopes[-1])} above the last" if slopes else ""
         yield _table(caption + ends, (over, value, "slope to the next"), points)
+    yield Table("", (), (), _more(len(found["curves"]) - MOST_CURVES, "curve"))
 
 
 def _values(values: dict[str, Any]) -> str:
@@ -89,12 +95,12 @@ def _value(value: Any) -> str:  # noqa: ANN401 - whatever JSON holds
 
 def _contact(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
     figures = [
-        (headed("total reaction", names.force), found["reaction"]),
-        (headed("submerged weight of the elements in contact", names.force), found["weight"]),
+        (labelled("total reaction", names.force), found["reaction"]),
+        (labelled("submerged weight of the elements in contact", names.force), found["weight"]),
         ("reaction over weight", found["ratio"]),
     ]
     if deepest := found["deepest"]:
-        words = headed(f"largest penetration, element {deepest['element']}", names.length)
+        words = labelled(f"largest penetration, element {deepest['element']}", names.length)
         figures.append((words, deepest["depth"]))
     yield _table("Equilibrium of the deck's own coordinates", ("what", "value"), figures)
     rows = [
