@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import shutil
 import tempfile
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
@@ -37,8 +38,7 @@ def program() -> str | None:
 
 def seen(browser: Browser, path: Path, width: int, scheme: Scheme) -> Seen:
     """Open a page, once as it is and once for the checker, which is a script and needs the policy switched off."""
-    from axe_playwright_python.sync_playwright import Axe  # noqa: PLC0415 - where it is installed
-
+    axe = import_module("axe_playwright_python.sync_playwright").Axe()  # it has no types
     messages: list[str] = []
     requests: list[str] = []
     with browser.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme) as context:
@@ -51,14 +51,14 @@ def seen(browser: Browser, path: Path, width: int, scheme: Scheme) -> Seen:
     with browser.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme, bypass_csp=True) as context:
         page = context.new_page()
         page.goto(path.as_uri())
-        violations = Axe().run(page).response["violations"]
+        violations = axe.run(page).response["violations"]
     faults = [f"{one['id']}: {one['nodes'][0]['html'][:200]}" for one in violations]
     return Seen(found, messages, [one for one in requests if not one.startswith("data:")], faults)
 
 
 def take_pictures() -> None:
     """Write the pictures of the documentation."""
-    from playwright.sync_api import sync_playwright  # noqa: PLC0415 - as above
+    from playwright.sync_api import sync_playwright  # noqa: PLC0415 - where it is installed
 
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         target = Path(folder) / "scr-vessel.html"
