@@ -9,7 +9,7 @@ from contextlib import closing
 from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import click
 
@@ -22,11 +22,8 @@ from mudline.cli.view import Progress, View, wants_bar
 from mudline.files import is_url
 from mudline.linting.configuration import Given as GivenRules
 from mudline.linting.engine import LintSettings
-from mudline.report.content import SECTIONS, Given, Stamp, report_on
+from mudline.report.content import SECTIONS, Given, Look, Stamp, report_on
 from mudline.running.executors import executor, in_order
-
-if TYPE_CHECKING:
-    from mudline.report.page import Look
 
 _LEGAL = "legal"
 
@@ -91,7 +88,7 @@ def command(
         return WRONG_USAGE
     settings = checked_settings(config, GivenRules((), (), (), None, units), "none", isolated=isolated, fail_on=None)
     inputs = collect_any_form(decks, stdin_name, gitignore=not every_file)
-    look = Paths(template, logo) if html else None
+    look = Look(*(None if one is None else Path(one) for one in (template, logo))) if html else None
     several = len(inputs.files) > 1 or any(os.path.isdir(each) for each in decks)  # noqa: PTH112 - Path raises for a long name
     target = None if output is None or not html else Target(Path(output), several)
     progress = Progress(len(inputs.files), view, shown=wants_bar(view))
@@ -127,19 +124,6 @@ def _sections(text: str) -> tuple[str, ...]:
     return tuple(name for name in SECTIONS if name in names)
 
 
-class Paths(NamedTuple):
-    """The files of a company's own template and logo."""
-
-    template: str | None
-    logo: str | None
-
-    def look(self) -> Look:
-        """The same for what makes pages."""
-        from mudline.report.page import Look  # noqa: PLC0415 - needs jinja2
-
-        return Look(*(None if one is None else Path(one) for one in self))
-
-
 class Order(NamedTuple):
     """What `make_report` is given, in any process: settings without rules, with their codes; `look` None for JSON."""
 
@@ -149,7 +133,7 @@ class Order(NamedTuple):
     codes: tuple[str, ...]
     wanted: tuple[str, ...]
     date: str | None
-    look: Paths | None
+    look: Look | None
 
 
 class Made(NamedTuple):
@@ -170,13 +154,13 @@ def make_report(order: Order) -> Made:
     from mudline.report.pictures import pictures_of  # noqa: PLC0415 - needs matplotlib
 
     try:
-        return Made(report.json, page(report, *pictures_of(report), order.look.look()))
+        return Made(report.json, page(report, *pictures_of(report), order.look))
     except LookError as error:
         return Made(report.json, None, str(error))
 
 
 def _orders(
-    inputs: Inputs, settings: Settings, wanted: tuple[str, ...], date: str | None, look: Paths | None
+    inputs: Inputs, settings: Settings, wanted: tuple[str, ...], date: str | None, look: Look | None
 ) -> Iterator[tuple[Input, Order | None]]:
     for file in inputs.files:
         data = inputs.content(file)
@@ -227,11 +211,11 @@ def _row(content: dict[str, Any], page: Path | None, target: Target | None) -> d
     return {"deck": content["deck"], "page": address, "verdict": words, "kind": kind} | counts | read
 
 
-def _finish(target: Target, rows: list[dict[str, Any]], look: Paths | None, view: View) -> None:
+def _finish(target: Target, rows: list[dict[str, Any]], look: Look | None, view: View) -> None:
     if target.folder is not None and look is not None:
         from mudline.report.page import index_page  # noqa: PLC0415 - needs jinja2
 
-        write_text(target.index, [index_page(rows, __version__, look.look())])
+        write_text(target.index, [index_page(rows, __version__, look)])
     if not view.quiet:
         notify(f"report -> {target.index.as_posix()}")
 

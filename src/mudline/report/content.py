@@ -66,6 +66,13 @@ class Stamp(NamedTuple):
     date: str | None = None
 
 
+class Look(NamedTuple):
+    """What a company gives a page: a template instead of ours, and a logo."""
+
+    template: Path | None = None
+    logo: Path | None = None
+
+
 @dataclass
 class Report:
     """The content of a page.

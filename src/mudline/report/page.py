@@ -14,7 +14,7 @@ from markupsafe import Markup
 
 from mudline.linting.output import visible
 from mudline.quantities import shown, unit_names
-from mudline.report.content import Report
+from mudline.report.content import Look, Report
 from mudline.report.pictures import Picture
 from mudline.report.tables import LONGEST, TABLES, Cell
 from mudline.short_repr import cut
@@ -24,13 +24,6 @@ _LONGEST_LINE = 160
 """Characters of a line of the deck that a page shows."""
 _AROUND = 1
 """Lines of the deck above and below that of a finding."""
-
-
-class Look(NamedTuple):
-    """What a company gives a page: a template instead of ours, and a logo."""
-
-    template: Path | None = None
-    logo: Path | None = None
 
 
 class LookError(ValueError):
