@@ -153,8 +153,7 @@ def _blocks(scene: Scene, elements: Indices) -> Iterator[Problem]:
     found = np.unique(scene.laws.covered[elements], return_index=True, return_counts=True)
     for index, first, count in zip(*(part.tolist() for part in found), strict=True):
         where = grants[index].where
-        hidden = grants[index].unknown or scene.context.has_unread_line_after(where, "SEABED PROPERTIES")
-        if legacy_open or last_open > index or hidden:
+        if legacy_open or last_open > index or grants[index].unknown or scene.laws.partial:
             continue
         which = f"{first_of('element', scene.element_ids[elements[first]], count)} get{'s' * (count == 1)}"
         message = (
