@@ -120,7 +120,9 @@ def same(data: bytes) -> list[bool]:
     assert repr(found_deck.sections) == repr(deck.sections)
     late = [callable(found.found) for found in found_blocks]
     for found, block in zip(found_blocks, blocks, strict=True):
-        assert repr(found.model.model_dump(warnings=False)) == repr(block.model.model_dump(warnings=False))  # there may be NaN in it
+        assert repr(found.model.model_dump(warnings=False)) == repr(
+            block.model.model_dump(warnings=False)
+        )  # there may be NaN in it
         assert (found.lost, found.trailing) == (block.lost, block.trailing)
         assert not callable(found.found) or not is_partly_unknown(found.model)
         assert (found.places.spans, found.places.runs) == (

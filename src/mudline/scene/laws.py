@@ -14,7 +14,7 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Where
 from mudline.keywords import catalogue
 from mudline.keywords.naming import set_slots
-from mudline.keywords.unknown import UNKNOWN, is_partly_unknown, known_name
+from mudline.keywords.unknown import UNKNOWN, known_name
 from mudline.scene.context import Context
 from mudline.scene.deck_values import number, surfaces
 from mudline.scene.force_curves import SceneCurve, set_name
@@ -60,7 +60,8 @@ class LawTable:
 
     `covered` (m,) is the last set_law of the new family that holds an element, also one without stiffness. `curves` are
     the named ones, then those of `*EMBEDMENT`; `referenced` the folded names that a STIFFNESS= gives. `types` has the
-    places that say "RIGID" or "ELASTIC". Of one that is `partial` a line could not be used.
+    places that say "RIGID" or "ELASTIC". One is `partial` where a line that gives laws
+    could not be used.
     """
 
     curves: list[SceneCurve]
@@ -75,8 +76,8 @@ class LawTable:
 
     @property
     def uncertain(self) -> bool:
-        """Whether some law belongs to elements that the deck does not show: any element may have it."""
-        return any(set_law.set_.open for set_law in self.set_laws)
+        """Whether any element may have another law: one of elements that the deck does not show, or not read whole."""
+        return self.partial or any(set_law.set_.open for set_law in self.set_laws)
 
     def followers(self, curve: int) -> Indices:
         """Indices of the elements on a curve."""
@@ -90,7 +91,8 @@ def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: lis
     Of both families, a curve holds before a number, whichever gives it; of two curves or two numbers, that of the new
     family.
     """
-    laws = LawTable(curves=[*named, *by_set])
+    partial = any(keyword == "SEABED PROPERTIES" or catalogue.is_superseded(keyword) for keyword in context.unread)
+    laws = LawTable(curves=[*named, *by_set], partial=partial)
     surfaces = [*_rigid_surface(context, sets, laws), *_elastic_surface(context, sets, laws)]
     legacy = [*surfaces, *_embedment(sets, laws, len(named))]
     new = list(_properties(context, sets, laws, named))
@@ -157,7 +159,6 @@ def typed_blocks(context: Context) -> Iterator[tuple[Where, SeabedProperties, st
 def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneCurve]) -> Iterator[SetLaw]:
     curves = {folded(curve.name): index for index, curve in enumerate(named) if curve.named}
     for where, properties, type_ in typed_blocks(context):
-        laws.partial |= is_partly_unknown(properties.sets)
         if known_name(properties.type_):
             laws.types.setdefault(str(properties.type_), []).append(where.inside("type"))
         for index, entry in enumerate(properties.sets):

@@ -48,7 +48,7 @@ class SectionTable:
 
     `diameter` (m,) is the external diameter, NaN where there is none; `faulty` (m,) marks elements whose section could
     not be read: nothing more is said about them. `open` says that a section belongs to a set whose elements the deck
-    does not show, so that any element may have it.
+    does not show, or could not be read, so that any element may have it.
     """
 
     sections: tuple[Section, ...]
@@ -84,7 +84,7 @@ def read_sections(
         given = ~np.isnan(external.diameter)
         diameter[at[given]] = external.diameter[given]
         faulty[at[given]] = False
-    is_open = elsewhere or any(holder.open for holder in holders if holder)
+    is_open = elsewhere or "GEOMETRIC SETS" in context.unread or any(holder.open for holder in holders if holder)
     return SectionTable(tuple(sections), of_element, diameter, faulty, is_open)
 
 
