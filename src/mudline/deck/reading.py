@@ -193,11 +193,6 @@ class TextOrigin(Origin):
             return START
         return Range(*self.source.position(span.start), *self.source.position(max(span.start, span.end)))
 
-    def damaged(self, where: Where) -> bool:
-        """Whether something at this place could not be read."""
-        block = self.read.get((where.section, where.block))
-        return block is not None and block.damaged(where.path)
-
     def lost(self, section: int, block: int) -> int:
         """How many lines of a block could not be used at all."""
         found = self.read.get((section, block))

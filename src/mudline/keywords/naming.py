@@ -7,6 +7,7 @@ from functools import cache
 from typing import Literal
 
 from mudline.keywords.model import Block, FieldSpec, Part, record_schema
+from mudline.keywords.unknown import UNKNOWN_NAME
 from mudline.keywords.values import Equation, Label, Names
 
 Role = Literal["names", "defines"]
@@ -46,7 +47,7 @@ def names_given(part: Part, what: Names, role: Role = "names") -> Iterator[tuple
         value = getattr(part, slot.name, None)
         if isinstance(value, Part):
             yield from (((slot.json, *path), name) for path, name in names_given(value, what, role))
-        elif isinstance(value, str) and not isinstance(value, Equation):
+        elif isinstance(value, str) and value is not UNKNOWN_NAME and not isinstance(value, Equation):
             yield (slot.json,), value
         elif isinstance(value, list):
             for index, item in enumerate(value):

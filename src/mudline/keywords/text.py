@@ -329,10 +329,7 @@ class BlockReading(Protocol):
     problems: list[Problem]
     unclosed: Span | None
 
-    def damage(self, path: Path, problem: Problem) -> None:
-        """Note a value that could not be read."""
-
-    def short(self, path: Path, message: str, span: Span) -> None:
+    def short(self, message: str, span: Span) -> None:
         """Note a row that is too short."""
 
 
@@ -398,7 +395,7 @@ class TableBuilder:
                 self._fault(line(row), row, column, fault, raw)
         if reported > MOST_REPORTED:
             message = f"{reported - MOST_REPORTED} more faulty rows or fields in this table"
-            self.builder.damage(self.path[:-1], Problem(SYN002, message, line(-1)))
+            self.builder.problems.append(Problem(SYN002, message, line(-1)))
 
     def _label(self, table: Table, raw: RawRows, line: Span, row: int, column: int) -> bool:
         """A word where a node number belongs is taken for a label whose braces were forgotten."""
@@ -416,7 +413,7 @@ class TableBuilder:
         _, problems = split(self.builder.text, line)
         for problem in problems:
             if problem.span != self.builder.unclosed:
-                self.builder.damage(self.path[:-1], problem)
+                self.builder.problems.append(problem)
         return bool(problems)
 
     def _fault(self, line: Span, row: int, column: int, fault: str, raw: RawRows) -> None:
@@ -430,15 +427,15 @@ class TableBuilder:
             place = Span(fields[0].span.start, fields[-1].span.end)
             message = f"{fault} (`{wanted}`)"
             if len(fields) < sum(required):
-                self.builder.short(self.path[:-1], message, place)
+                self.builder.short(message, place)
             else:
-                self.builder.damage(self.path[:-1], Problem(SYN003, message, place))
+                self.builder.problems.append(Problem(SYN003, message, place))
             return
         place = row_fields(text, line, len(self.columns))[column].span
         word = raw.words.get((row, column))
         if word:
             fault = number_fault(word, self.columns[column].label, self.columns[column].kind)
         if word == "":
-            self.builder.short(self.path[:-1], fault, place)
+            self.builder.short(fault, place)
         else:
-            self.builder.damage(self.path[:-1], Problem(SYN002, fault, place))
+            self.builder.problems.append(Problem(SYN002, fault, place))

@@ -65,12 +65,14 @@ def force_at_zero(context: LintContext) -> Iterator[Problem]:
     """
     for _, entry in context.odd_curves:
         curve = entry.curve
-        if curve is None or not entry.whole or not (force := _at_zero(curve)):
+        if curve is None or not (force := _at_zero(curve)):
             continue
         given = np.flatnonzero(entry.points[:, 0] == 0.0)
         if given.size:
             message = f"the force at ratio 0 is {force:.6g}: contact begins with a jump; give it the force 0"
             yield Problem(CRV007, message, where=entry.point(int(given[0])))
+            continue
+        if not entry.whole:
             continue
         slope = "between the points beside it" if curve.ratios[0] < 0.0 else "with the slope of the first two points"
         advice = "correct the points about 0" if curve.ratios[0] < 0.0 else "add the point 0, 0"

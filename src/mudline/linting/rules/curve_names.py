@@ -107,11 +107,12 @@ def _chosen_elsewhere(context: LintContext) -> bool:
     if any(written is not value for written, value in own):
         return True  # an equation, whose parameters may be varied
     if any(grant.kind is LawKind.NONE and grant.unknown for grant in scene.laws.set_laws):
-        return True  # a set whose STIFFNESS= could not be read
-    laws = context.blocks("SEABED PROPERTIES")
-    if any(not cast("SeabedProperties", block).sets and scene.context.has_read_errors(where) for where, block in laws):
-        return True  # lines that could not be read may name it
-    if scene.context.misplaced("SEABED PROPERTIES") or (scene.context.restart and not scene.laws.referenced):
+        return True  # a set whose STIFFNESS= is not known
+    if (
+        scene.laws.partial
+        or scene.context.misplaced("SEABED PROPERTIES")
+        or (scene.context.restart and not scene.laws.referenced)
+    ):
         return True
     return any(
         folded(" ".join(varied.keyword or [])) == "seabed properties"  # None in a line that could not be read

@@ -123,8 +123,6 @@ def suction_incomplete(scene: ResolvedDeck) -> Iterator[Problem]:
     user = scene.units == "user"
     bare = (scene.law != LawKind.RIGID) & np.isnan(scene.diameter) & ~scene.section_table.faulty
     for index, (entry, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
-        if scene.context.has_read_errors(where):
-            continue
         lacks = {key for key in ("cohesion", "force", "depth", "regularisation") if getattr(entry, key, None) is None}
         title, cohesion = where.inside("set"), where.inside("cohesion")
         unsized = bare & (extension.of_element == index)

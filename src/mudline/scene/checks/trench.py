@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
+from mudline.keywords.unknown import is_partly_unknown
 from mudline.scene.checks import check
 from mudline.scene.deck_values import number
 from mudline.scene.numbering import Floats, Mask, marked
@@ -58,7 +59,7 @@ def bad_trench(scene: ResolvedDeck) -> Iterator[Problem]:
         return
     bare, locked = _without_spring(scene)
     for index, (entry, where) in enumerate(zip(_entries(scene), extension.places, strict=True)):
-        yield from _of_block(scene, entry, where)
+        yield from _of_block(entry, where)
         held = extension.of_element == index
         if np.any(found := held & bare):
             message = f"{scene.describe(found)} a trench and no lateral friction spring: give *SEABED FRICTION for them"
@@ -78,12 +79,12 @@ def _entries(scene: ResolvedDeck) -> list[TrenchSet]:
     return cast("list[TrenchSet]", scene.extensions[_KEYWORD].entries)
 
 
-def _of_block(scene: ResolvedDeck, entry: TrenchSet, where: Where) -> Iterator[Problem]:
+def _of_block(entry: TrenchSet, where: Where) -> Iterator[Problem]:
     """What a block says by itself: its resistance, its section, its centreline."""
     if entry.model == "WALL" and entry.peak is not None:
         message = "PEAK= has no effect under MODEL=WALL: remove it, or write MODEL=PEAK"
         yield Problem(EXT003, message, None, Severity.WARNING, where.inside("peak"))
-    if entry.model != "WALL" and not scene.context.has_read_errors(where):
+    if entry.model != "WALL":
         for path, message in _resistance_faults(entry):
             yield Problem(EXT003, message, where=where.inside(*path))
     depth, bottom, upper = (number(entry.geometry, name) for name in _SIZES)
@@ -130,7 +131,7 @@ def _unread(scene: ResolvedDeck) -> bool:
     if friction is not None and None in friction.sets and not scene.context.possible_definition("ELEMENT SETS"):
         return True
     places = [*scene.resistance.places, *(friction.places if friction else ())]
-    return any(scene.context.has_read_errors(place) for place in places)
+    return any(is_partly_unknown(scene.context.as_written(place)) for place in places)
 
 
 def _uncertain(scene: ResolvedDeck) -> bool:
