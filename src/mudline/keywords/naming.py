@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cache
-from typing import Literal
+from typing import Literal, TypeGuard
 
 from mudline.keywords.model import Block, FieldSpec, Part, record_schema
 from mudline.keywords.values import Equation, Label, Names
@@ -64,20 +64,17 @@ def _given(
 ) -> Iterator[tuple[Names, Path, str]]:
     for slot in slots:
         value = getattr(part, slot.name, None)
-        if value is None:
-            continue
-        if isinstance(value, str):
-            kind = getattr(slot.about, role)
-            if not isinstance(value, Equation) and kind is not None:
-                yield kind, (slot.json,), value
-        elif isinstance(value, list):
-            for index, item in enumerate(value):
-                if isinstance(item, Part) and (inner := _naming(type(item), what, role)):
-                    for kind, path, name in _given(item, inner, role, what):
-                        yield kind, (slot.json, index, *path), name
-        elif isinstance(value, Part):
-            for kind, path, name in _given(value, _naming(type(value), what, role), role, what):
-                yield kind, (slot.json, *path), name
+        for at, item in enumerate_items(slot, value) if value is not None else ():
+            if isinstance(item, Part):
+                inner = _naming(type(item), what, role)
+                for kind, path, name in _given(item, inner, role, what) if inner else ():
+                    yield kind, (*at, *path), name
+            elif item is value and (kind := getattr(slot.about, role)) is not None and _is_name(item):
+                yield kind, at, item
+
+
+def _is_name(item: object) -> TypeGuard[str]:
+    return isinstance(item, str) and not isinstance(item, Equation)
 
 
 def idents_given(part: Part, what: Names) -> Iterator[tuple[tuple[str | int, ...], int | Label]]:
