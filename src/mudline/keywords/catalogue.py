@@ -160,6 +160,12 @@ def users(what: Names) -> list[str]:
     return [entry.keyword for entry in index.ENTRIES if what.name in entry.names]
 
 
+@cache
+def telling_lines() -> dict[str, str]:
+    """The lines that one keyword alone has, with that keyword."""
+    return {line: entry.keyword for entry in index.ENTRIES for line in entry.telling}
+
+
 def may_have_no_length(keyword: str) -> bool:
     """Whether the elements of a keyword may have no length."""
     return keyword in ZERO_LENGTH or any(entry.zero_length for entry in entries(keyword))
