@@ -1,14 +1,15 @@
 """Fuzzing: `python -m tests.fuzz [--seconds N] [--target NAME] [--seed N] [--plain]`, or `make fuzz`.
 
-Each target is a process of its own. With atheris installed inputs are guided by coverage, else (or with `--plain`) they are
-made at random; both change decks as people do (`mutation.py`). What breaks a promise is written to `tests/fuzz/found/`, once
-for each place in the program, and stays there as a seed when it is mended.
+Each target is a process of its own. With atheris installed inputs are guided by coverage, else (or with `--plain`) they
+are made at random; both change decks as people do (`mutation.py`). What breaks a promise is written to
+`tests/fuzz/found/`, once for each place in the program, and stays there as a seed when it is mended.
 """
 
 from __future__ import annotations
 
 import argparse
 import hashlib
+import os
 import resource
 import signal
 import subprocess
@@ -17,15 +18,22 @@ import time
 import traceback
 import warnings
 from contextlib import redirect_stderr
+from importlib import import_module
 from importlib.util import find_spec
 from io import StringIO
 from pathlib import Path
 from types import FrameType
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from tests.fuzz.mutation import Mutator
 
 FOUND = Path(__file__).parent / "found"
 SECONDS_PER_100KB = 2.0
 MEMORY = 512 << 20
 """Bytes that one input may need beyond what the program has when it begins."""
+_GUIDED = 0.7
+"""Share of inputs that are made of what coverage chose; the others begin anew."""
 
 
 class Hang(BaseException):
@@ -42,7 +50,7 @@ class Watch:
         self.ends = time.monotonic() + seconds
         self.inputs = 0
         self.places: dict[str, Path] = {}
-        signal.signal(signal.SIGALRM, _too_long)
+        signal.signal(signal.SIGPROF, _too_long)
 
     @property
     def over(self) -> bool:
@@ -52,14 +60,19 @@ class Watch:
     def take(self, data: bytes) -> None:
         """Run one input."""
         self.inputs += 1
-        signal.setitimer(signal.ITIMER_REAL, SECONDS_PER_100KB * max(1.0, len(data) / 1e5))
+        signal.setitimer(signal.ITIMER_PROF, SECONDS_PER_100KB * max(1.0, len(data) / 1e5))
         try:
             self.target.check(data)
         except (Exception, Hang, RecursionError) as error:  # noqa: BLE001 - whatever breaks is what is looked for
-            signal.setitimer(signal.ITIMER_REAL, 0.0)
+            signal.setitimer(signal.ITIMER_PROF, 0.0)
             self._keep(data, error)
         finally:
-            signal.setitimer(signal.ITIMER_REAL, 0.0)
+            signal.setitimer(signal.ITIMER_PROF, 0.0)
+
+    def tell(self) -> None:
+        """Print how many inputs there were, and how many places broke."""
+        sys.stdout.write(f"{self.name:<14} {self.inputs:>9} inputs {len(self.places):>3} found\n")
+        sys.stdout.flush()
 
     def _keep(self, data: bytes, error: BaseException) -> None:
         frames = [one for one in traceback.extract_tb(error.__traceback__) if "mudline" in one.filename]
@@ -83,9 +96,7 @@ def fuzz(name: str, seconds: float, seed: int, *, plain: bool) -> None:
     warnings.simplefilter("ignore")
     guided = not plain and find_spec("atheris") is not None
     if guided:
-        import atheris  # noqa: PLC0415 - no wheel for each Python
-
-        with redirect_stderr(StringIO()), atheris.instrument_imports(include=["mudline"]):  # it names each module
+        with redirect_stderr(StringIO()), import_module("atheris").instrument_imports(include=["mudline"]):
             from tests.fuzz import targets  # noqa: PLC0415 - as above
     else:
         from tests.fuzz import targets  # noqa: PLC0415 - as above
@@ -104,32 +115,21 @@ def fuzz(name: str, seconds: float, seed: int, *, plain: bool) -> None:
     grown = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss << 10) - held
     if grown > MEMORY:
         sys.stderr.write(f"{name}: memory grew by {grown >> 20} MB\n")
-    sys.stdout.write(f"{name:<14} {watch.inputs:>9} inputs {len(watch.places):>3} found\n")
-    sys.stdout.flush()
+    watch.tell()
 
 
-def _guided(watch: Watch, mutator: object, seed: int) -> None:
+def _guided(watch: Watch, mutator: Mutator, seed: int) -> None:
     """Coverage tells which inputs are changed further; what is made of them is as without it."""
-    import atheris  # noqa: PLC0415 - as above
-
-    from tests.fuzz.mutation import Mutator  # noqa: PLC0415 - as above
-
-    assert isinstance(mutator, Mutator)
-
-    class Over(Exception):  # noqa: N818 - no error
-        pass
+    atheris = import_module("atheris")  # it has no types
 
     def one(data: bytes) -> None:
         watch.take(data)
         if watch.over:
-            sys.stdout.write(f"{watch.name:<14} {watch.inputs:>9} inputs {len(watch.places):>3} found\n")
-            sys.stdout.flush()
-            import os  # noqa: PLC0415 - libFuzzer ends the process, and does not return
-
-            os._exit(0)
+            watch.tell()
+            os._exit(0)  # libFuzzer ends the process, and does not return
 
     def change(data: bytes, most: int, _seed: int) -> bytes:
-        base = data if len(data) > 1 and mutator.random.random() < 0.7 else mutator.random.choice(mutator.seeds)  # noqa: PLR2004
+        base = data if len(data) > 1 and mutator.random.random() < _GUIDED else mutator.random.choice(mutator.seeds)
         return mutator.changed(base, mutator.random.choice((1, 1, 2, 3)))[:most]
 
     atheris.Setup([sys.argv[0], f"-seed={seed + 1}", "-max_len=40000", "-verbosity=0"], one, custom_mutator=change)

@@ -15,12 +15,12 @@ from mudline.deck.forms.json import to_json
 from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Severity
-from mudline.formatting.document import formatted, same_meaning
+from mudline.formatting.document import FormatError, formatted, same_meaning
 from mudline.keywords.values import Contents
-from mudline.linting.configuration import ConfigurationError, Configuration, Given, read_configuration
+from mudline.linting.configuration import Configuration, ConfigurationError, Given, read_configuration
 from mudline.linting.engine import Fixing, LintSettings, lint_bytes
 from mudline.linting.fixing import fix_bytes
-from mudline.linting.registry import rules
+from mudline.linting.registry import UnknownRule, rules
 from mudline.linting.settings import merged_settings
 from mudline.scene.data_files import fault_of
 from mudline.syntax.source import Source
@@ -33,7 +33,7 @@ NAME = "deck.keyxm"
 _CODES = {0, 1, 2}
 
 
-class Broken(AssertionError):
+class BrokenPromiseError(AssertionError):
     """A promise that does not hold; the message says which."""
 
 
@@ -70,7 +70,7 @@ def _documents() -> list[bytes]:
 def _read(data: bytes) -> None:
     source = Source.from_bytes(data, NAME)
     if source.to_bytes() != data:
-        raise Broken("reading a file and writing it gives other bytes")
+        raise BrokenPromiseError("reading a file and writing it gives other bytes")
     load_bytes(data, NAME)
 
 
@@ -85,38 +85,44 @@ def _fix(data: bytes) -> None:
         return
     again = fix_bytes(once.changed, NAME, settings)
     if again.changed is not None and again.changed != once.changed:
-        raise Broken("fixing a fixed deck changes it again")
+        raise BrokenPromiseError("fixing a fixed deck changes it again")
     before = {one.code for one in lint_bytes(data, NAME, rules()) if one.severity is Severity.ERROR}
     after = {one.code for one in lint_bytes(once.changed, NAME, rules()) if one.severity is Severity.ERROR}
     if not before and after:
-        raise Broken(f"a fixed deck has new errors: {', '.join(sorted(after))}")
+        raise BrokenPromiseError(f"a fixed deck has new errors: {', '.join(sorted(after))}")
 
 
 def _format(data: bytes) -> None:
     try:
         once = formatted(data, NAME)
-    except (DeckError, ValueError):
+    except (DeckError, FormatError) as error:
+        if "please report" in str(error):
+            raise
         return
     if formatted(once, NAME) != once:
-        raise Broken("formatting a formatted deck changes it again")
+        raise BrokenPromiseError("formatting a formatted deck changes it again")
     if not same_meaning(load_bytes(data, NAME), load_bytes(once, NAME)):
-        raise Broken("a formatted deck means something else")
+        raise BrokenPromiseError("a formatted deck means something else")
 
 
 def _convert(data: bytes) -> None:
-    try:
-        text = to_json(load_bytes(data, NAME))
-    except (DeckError, ValueError):
+    """There and back, for what the command converts: decks without an error of reading."""
+    deck = load_bytes(data, NAME)
+    if any(one.weight is Severity.ERROR for one in deck.problems):
         return
-    back = load_bytes(text.encode(), "deck.json")
+    try:
+        text = to_json(deck)
+        back = load_bytes(text.encode(), "deck.json")
+    except ValueError:
+        return
     if to_json(back) != text:
-        raise Broken("a deck in JSON, read and written, is another one")
+        raise BrokenPromiseError("a deck in JSON, read and written, is another one")
     try:
         keyword = to_keyword(back)
-    except (DeckError, ValueError):
+    except ValueError:
         return
     if to_json(load_bytes(keyword.encode(), NAME)) != text:
-        raise Broken("a deck in JSON, written as keyword text and read, is another one")
+        raise BrokenPromiseError("a deck in JSON, written as keyword text and read, is another one")
 
 
 def _fast(data: bytes) -> None:
@@ -145,7 +151,7 @@ def _configuration(data: bytes) -> None:
             return
         try:
             merged_settings(found or Configuration(), Given())
-        except LookupError:
+        except UnknownRule:
             return
 
 
@@ -174,9 +180,9 @@ def _command(*words: str, name: str = NAME) -> Callable[[bytes], None]:
             given = [word.format(path=path, folder=path.parent) for word in words]
             outcome = run(*given)
         if outcome.code not in _CODES:
-            raise Broken(f"exit code {outcome.code}")
+            raise BrokenPromiseError(f"exit code {outcome.code}")
         if "Traceback" in outcome.err:
-            raise Broken(outcome.err.strip().splitlines()[-1])
+            raise BrokenPromiseError(outcome.err.strip().splitlines()[-1])
         if "json" in words and outcome.code == 0 and outcome.out:
             json.loads(outcome.out)
 
@@ -201,7 +207,8 @@ def _workbooks() -> list[bytes]:
 
 def _configurations() -> list[bytes]:
     return [
-        b'select = ["SYN", "CRV003"]\nfail-on = "error"\n[severity]\nLEG = "off"\n[per-file-ignores]\n"*.das" = ["CRV"]\n'
+        b'select = ["SYN", "CRV003"]\nfail-on = "error"\nno-outside = true\n',
+        b'[severity]\nLEG = "off"\n[per-file-ignores]\n"*.das" = ["CRV"]\n',
     ]
 
 
@@ -217,7 +224,7 @@ def _positions(data: bytes) -> None:
     with _file(data, "positions.npz") as path:
         outcome = run("evaluate", str(SAMPLES / "legacy-flowline.keyxm"), "--positions", str(path), "-q")
         if outcome.code not in _CODES:
-            raise Broken(f"exit code {outcome.code}")
+            raise BrokenPromiseError(f"exit code {outcome.code}")
 
 
 def _archives() -> list[bytes]:

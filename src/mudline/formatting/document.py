@@ -190,9 +190,10 @@ class _Layout:
             self._end_blanks()
             if self.mixed or leaf.span.end == len(self.text):
                 lines = self.text[slice(*leaf.span)].replace("\r\n", "\n")
-                if not lines.strip(" \t\n") and (marks := self._marks(leaf.span)):
-                    self._put(leaf.span, marks)
-                    continue
+                if marks := self._marks(leaf.span):
+                    if not lines.strip(" \t\n"):
+                        self._put(leaf.span, marks)
+                    continue  # a line that a mark ends stays as it is
                 self._put(leaf.span, lines if lines.endswith("\n") else lines + "\n")
 
     def _stray(self, leaves: list[Leaf]) -> None:
@@ -224,11 +225,15 @@ _BLANKS = re.compile(r"[ \t]*")
 
 @dataclass(slots=True)
 class Reading:
-    """By offset: the kind of the row, or of the values of the KEY=, that begins there; the choice written there."""
+    """By offset: the kind of the row, or of the values of the KEY=, that begins there; the choice written there.
+
+    `whole` has the choices that are not known, which may hold commas.
+    """
 
     text: str
     kinds: dict[int, RowKind] = field(default_factory=dict)
     choices: dict[int, str] = field(default_factory=dict)
+    whole: dict[int, str] = field(default_factory=dict)
 
     def kind_at(self, start: int) -> RowKind | None:
         """The kind of the row that begins at an offset or after the blanks there."""
@@ -278,6 +283,8 @@ def _value(slot: FieldSpec, value: object, path: Path, places: Places, found: Re
             _value(column, getattr(value, column.name), (*path, column.json), places, found)
     elif span and slot.kind is not FieldKind.NAME and value in slot.choices:
         found.choices[span.start] = str(value)
+    elif span and slot.about.opaque is not None and isinstance(value, str):
+        found.whole[span.start] = value
 
 
 Laid = tuple[Span, str]
@@ -363,6 +370,8 @@ class _Block:
         A value that begins with a bracket keeps a blank before it: without that it would be an equation.
         """
         texts = [self.reading.choices.get(given.span.start, given.text) for given in group.fields]
+        if whole := self.reading.whole.get(group.fields[0].span.start):
+            texts = [whole]
         kind = self.reading.kinds.get(group.span.start)
         texts = cut(split_blanks(texts) if kind and len(kind.columns) > 1 else texts)
         first = group.fields[0].span.start
