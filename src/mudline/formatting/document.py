@@ -10,7 +10,7 @@ from typing import cast
 from mudline.codes.lines import SYN014
 from mudline.deck.forms import form_of
 from mudline.deck.loading import dump, load_bytes
-from mudline.deck.model import Deck, Section
+from mudline.deck.model import Deck, Opaque, Section
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Span
 from mudline.formatting.rows import RowKind, Rows, Run, Single, cut
@@ -99,11 +99,24 @@ def _same(one: object, other: object) -> bool:
         same = one.name == other.name and one.lines == other.lines
         return same and _same(one.comments, other.comments) and _same(one.blocks, other.blocks)
     if isinstance(one, Part) and isinstance(other, Part):
-        names = type(one).model_fields
-        return all(_same(getattr(one, name), getattr(other, name)) for name in names)
+        return _same_part(one, other)
     if isinstance(one, list) and isinstance(other, list):
         return len(one) == len(other) and all(map(_same, one, other))
     return bool(one == other)
+
+
+def _same_part(one: Part, other: Part) -> bool:
+    if isinstance(one, Opaque) and isinstance(other, Opaque):
+        return one.keyword == other.keyword and _without_blanks(one.lines) == _without_blanks(other.lines)
+    return all(_same(getattr(one, name), getattr(other, name)) for name in type(one).model_fields)
+
+
+def _without_blanks(lines: list[str]) -> list[str]:
+    """Lines without the blank ones at their end: behind the last one an end-of-file mark gets a line of its own."""
+    end = len(lines)
+    while end and not lines[end - 1].strip():
+        end -= 1
+    return [*lines[: end - 1], *(line.rstrip() for line in lines[max(end - 1, 0) : end])]
 
 
 # -------------------------------------------------------------------------------------------------- the lines of a file
@@ -190,10 +203,9 @@ class _Layout:
             self._end_blanks()
             if self.mixed or leaf.span.end == len(self.text):
                 lines = self.text[slice(*leaf.span)].replace("\r\n", "\n")
-                if marks := self._marks(leaf.span):
-                    if not lines.strip(" \t\n"):
-                        self._put(leaf.span, marks)
-                    continue  # a line that a mark ends stays as it is
+                if not lines.strip(" \t\n") and (marks := self._marks(leaf.span)):
+                    self._put(leaf.span, marks)
+                    continue
                 self._put(leaf.span, lines if lines.endswith("\n") else lines + "\n")
 
     def _stray(self, leaves: list[Leaf]) -> None:
