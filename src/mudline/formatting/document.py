@@ -294,7 +294,8 @@ def _value(slot: FieldSpec, value: object, path: Path, places: Places, found: Re
         for column in columns:
             _value(column, getattr(value, column.name), (*path, column.json), places, found)
     elif span and slot.kind is not FieldKind.NAME and value in slot.choices:
-        found.choices[span.start] = str(value)
+        if found.text[slice(*span)].strip(" \t").upper() == str(value).upper():  # no control character in it
+            found.choices[span.start] = str(value)
     elif span and slot.about.opaque is not None and isinstance(value, str):
         found.whole[span.start] = value
 
@@ -373,6 +374,9 @@ class _Block:
 
     def _setting(self, span: Span) -> str:
         line = read_line(self.text, span, slashes=self.declared.slashes)
+        first = line.groups[0]
+        if whole := self.reading.whole.get(first.fields[0].span.start):
+            return f" {first.key}={whole}".rstrip(" ") + "\n"
         texts = [text for group in line.groups for text in self._group(group)]
         return " " + ", ".join(texts).rstrip(" ") + "\n"
 
@@ -382,8 +386,6 @@ class _Block:
         A value that begins with a bracket keeps a blank before it: without that it would be an equation.
         """
         texts = [self.reading.choices.get(given.span.start, given.text) for given in group.fields]
-        if whole := self.reading.whole.get(group.fields[0].span.start):
-            texts = [whole]
         kind = self.reading.kinds.get(group.span.start)
         texts = cut(split_blanks(texts) if kind and len(kind.columns) > 1 else texts)
         first = group.fields[0].span.start
