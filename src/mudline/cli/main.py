@@ -40,6 +40,7 @@ COMMANDS = {
     "query": "Answer a question about an archive in SQL.",
     "study": "Measure what accuracy costs on a deck, and what is stable.",
     "rules": "List the rules, or explain one.",
+    "export": "Export the model of a deck for another program.",
     "schema": "Print the JSON Schema of decks, or of the configuration.",
     "config": "Show the configuration of a deck.",
     "lsp": "Serve an editor: findings, fixes, help and names as you type.",
