@@ -59,7 +59,9 @@ def at_rest(deck: Path, folder: Path, statics: float = 100.0) -> Rest:
     found = json.loads(output.strip().splitlines()[-1])
     parts = [part for each in moordyn.pieces(model) for part in each]
     places = [np.array(line["places"])[np.newaxis] for line in found["lines"]]
-    arcs = [np.linspace(0.0, float(part.lengths.sum()), each.shape[1]) for part, each in zip(parts, places, strict=True)]
+    arcs = [
+        np.linspace(0.0, float(part.lengths.sum()), each.shape[1]) for part, each in zip(parts, places, strict=True)
+    ]
     returned = _positions(model, list(zip(parts, arcs, places, strict=True)), None)
     position = cast("Floats", returned.values)[0]
     option = next(line for line in (folder / "model.txt").read_text().splitlines() if line.endswith(" kBot"))
@@ -122,7 +124,13 @@ def _touchdown(arc: Floats, depth: Floats) -> float:
 
 def table(rests: list[Rest]) -> str:
     """The figures as a Markdown table."""
-    head = ("deck", "MoorDyn, kN", "mudline, same stiffness, kN", "mudline, deck's laws, kN", "explained by the laws, kN")
+    head = (
+        "deck",
+        "MoorDyn, kN",
+        "mudline, same stiffness, kN",
+        "mudline, deck's laws, kN",
+        "explained by the laws, kN",
+    )
     head += ("touchdown, MoorDyn / mudline, m", "penetration, MoorDyn / mudline, mm")
     rows = [f"| {' | '.join(head)} |", f"|{' --- |' * len(head)}"]
     for each in rests:

@@ -41,7 +41,9 @@ def main() -> None:
     model, seconds, moordyn = Path(sys.argv[1]), float(sys.argv[2]), import_module("moordyn")
     text = model.read_text(encoding="ascii")
     held = ends(text)
-    lines = len([row for row in text.split("--- LINES ---")[1].split("--- OPTIONS")[0].splitlines() if row.endswith(" p")])
+    lines = len(
+        [row for row in text.split("--- LINES ---")[1].split("--- OPTIONS")[0].splitlines() if row.endswith(" p")]
+    )
     system = moordyn.Create(str(model))
     if moordyn.Init(system, held, [0.0] * len(held)):
         sys.exit("MoorDyn did not start")

@@ -35,7 +35,10 @@ def test_a_line_has_the_lengths_places_and_ends_of_the_deck() -> None:
     assert stretch.lengths.tolist() == [5.0] * 10
     assert model.places[0].tolist() == [0.0, 0.0, -100.0]
     assert model.places[1].tolist() == [50.0, 0.0, -100.0]
-    assert [(end.node, sorted(end.held), end.vessel) for end in model.ends] == [(0, [1, 2, 3], False), (1, [1, 2, 3], False)]
+    assert [(end.node, sorted(end.held), end.vessel) for end in model.ends] == [
+        (0, [1, 2, 3], False),
+        (1, [1, 2, 3], False),
+    ]
     (section,) = model.sections
     assert (section.mass, section.axial, section.bending, section.diameter) == (50.0, 1e8, 0.0, 0.1)
 
@@ -117,10 +120,19 @@ def test_springs_below_friction_are_those_of_the_mobilisation_lengths_or_of_the_
         (text(held=" 1, 1\n"), "6: node 11 ends a line, and nothing in *BOUNDARY holds it"),
         (text(held=" 1, 4\n 11, 1\n"), "5: node 1 ends a line"),
         (text().partition("$LOAD CASE")[0], "5: node 1 ends a line"),
-        (text(sections=" OPTION=FLEXIBLE\n SET=ALL\n , , , , 50.0, 0.1, 0.0, 0.1, 0.1\n"), "12: the section has no axial"),
+        (
+            text(sections=" OPTION=FLEXIBLE\n SET=ALL\n , , , , 50.0, 0.1, 0.0, 0.1, 0.1\n"),
+            "12: the section has no axial",
+        ),
         (text().replace("*OCEAN\n 100.0, 1000.0, 10.0\n", ""), "1: a model for another program needs *OCEAN"),
-        (text(sets="*ELEMENT SETS\n SET=Half\n GEN=1, 5\n", sections=PIPE.replace("ALL", "Half")), "10: the element has no section"),
-        ("$MODEL\n*OCEAN\n 100.0\n*LINES\n LINE=A\n SECTION=B, 5.0\n", "4: the deck shows no elements to export: those of *LINES"),
+        (
+            text(sets="*ELEMENT SETS\n SET=Half\n GEN=1, 5\n", sections=PIPE.replace("ALL", "Half")),
+            "10: the element has no section",
+        ),
+        (
+            "$MODEL\n*OCEAN\n 100.0\n*LINES\n LINE=A\n SECTION=B, 5.0\n",
+            "4: the deck shows no elements to export: those of *LINES",
+        ),
     ],
 )
 def test_what_no_target_can_hold_is_refused_with_its_line(deck: str, message: str) -> None:

@@ -61,7 +61,10 @@ def test_another_section_is_another_line_behind_a_free_point() -> None:
     sections = " OPTION=RIGID\n SET=First\n 2.0E11, 8.0E10, 0.1, 0.08, 7850.0\n SET=Second\n 2.0E11, 8.0E10, 0.1, 0.0, 7850.0\n"
     model = model_of(text(sets=sets, sections=sections))
     found = written(model)
-    assert [row[:6] for row in found["LINES"]] == [["1", "First", "1", "3", "20.0", "4"], ["2", "Second", "3", "2", "30.0", "6"]]
+    assert [row[:6] for row in found["LINES"]] == [
+        ["1", "First", "1", "3", "20.0", "4"],
+        ["2", "Second", "3", "2", "30.0", "6"],
+    ]
     assert found["POINTS"][2][:5] == ["3", "Free", "20.0", "0.0", "-100.0"]
     assert any(entry.keyword == "*GEOMETRIC SETS joints" for entry in model.report.lost)
 
@@ -72,7 +75,9 @@ def test_one_stiffness_stands_for_all_and_the_list_says_how_far_the_others_sink(
     assert option(written(model)["OPTIONS"], "kBot") == pytest.approx(2e5)
     entries = [entry for entry in model.report.entries if entry.keyword == "*SEABED PROPERTIES"]
     assert [entry.status for entry in entries] == [Status.CARRIED, Status.APPROXIMATED]
-    assert entries[1].effect == f"linear: 5 kN/m2; sinks {1e3 * WEIGHT / 2e4:.1f} mm here, as the target has one stiffness"
+    assert (
+        entries[1].effect == f"linear: 5 kN/m2; sinks {1e3 * WEIGHT / 2e4:.1f} mm here, as the target has one stiffness"
+    )
 
 
 def test_elements_without_a_law_get_the_one_seabed_too() -> None:
@@ -94,7 +99,9 @@ def test_an_end_on_a_vessel_is_coupled() -> None:
     assert [row[1] for row in written(model_of(text(held=held)))["POINTS"]] == ["Fixed", "Coupled"]
 
 
-@pytest.mark.parametrize("bed", ["SLOPING\n DIRECTION=30.0\n SLOPE=2.0", "2D\n FILE=bed.txt", "2D\n DIRECTION=10.0\n FILE=bed.txt"])
+@pytest.mark.parametrize(
+    "bed", ["SLOPING\n DIRECTION=30.0\n SLOPE=2.0", "2D\n FILE=bed.txt", "2D\n DIRECTION=10.0\n FILE=bed.txt"]
+)
 def test_the_grid_is_the_seabed_of_the_deck_below_the_line(bed: str, tmp_path: Path) -> None:
     (tmp_path / "bed.txt").write_text("-500, 1.0\n0, 0.0\n20, -0.5\n500, 0.5\n")
     model = model_of(text(bed=f"{ELASTIC}*SEABED PROFILE\n TYPE={bed}\n"), folder=tmp_path)

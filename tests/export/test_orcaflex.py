@@ -42,14 +42,20 @@ def test_a_line_on_a_linear_seabed() -> None:
     assert (pipe["SeabedAxialFrictionCoefficient"], pipe["SeabedLateralFrictionCoefficient"]) == (0.3, 0.5)
     assert line["LineType, Length, TargetSegmentLength"] == [["ALL", 50.0, 5.0]]
     key = next(key for key in line if key.startswith("Connection, "))
-    assert line[key] == [["Fixed", 0.0, 0.0, -100.0, 0.0, 90.0, 0.0, None], ["Fixed", 50.0, 0.0, -100.0, 0.0, 90.0, 0.0, None]]
+    assert line[key] == [
+        ["Fixed", 0.0, 0.0, -100.0, 0.0, 90.0, 0.0, None],
+        ["Fixed", 50.0, 0.0, -100.0, 0.0, 90.0, 0.0, None],
+    ]
 
 
 def test_names_and_lines_of_the_deck_stand_in_comments() -> None:
     content = orcaflex.write(sample("scr-touchdown.keyxm"), "a.yml")["a.yml"]
     assert "    # *GEOMETRIC SETS 'Bare Riser', line 275\n" in content
     assert "    # from node 1, line 37, to node 201, line 237\n" in content
-    assert "  # seabed: curve 'Flowline Clay': secant 105.8 kN/m2 at W (8.82 mm), tangent there 54.2 kN/m2, line 296\n" in content
+    assert (
+        "  # seabed: curve 'Flowline Clay': secant 105.8 kN/m2 at W (8.82 mm), tangent there 54.2 kN/m2, line 296\n"
+        in content
+    )
 
 
 def test_ends_that_are_held_against_rotation_are_clamped() -> None:
@@ -77,7 +83,10 @@ def test_one_of_two_soils_holds_for_all() -> None:
     sets = "*ELEMENT SETS\n SET=Half\n GEN=1, 4\n"
     model = model_of(text(sets=sets, bed=SOIL + " SET=Half\n STRENGTH=500.0\n"))
     assert written(model)["Environment"]["SoilShearStrengthAtMudline"] == 2.0
-    assert [entry.target for entry in model.report.entries if entry.keyword == "*SEABED SOIL"] == ["Nonlinear soil model", "one soil"]
+    assert [entry.target for entry in model.report.entries if entry.keyword == "*SEABED SOIL"] == [
+        "Nonlinear soil model",
+        "one soil",
+    ]
 
 
 @pytest.mark.parametrize(("slope", "direction"), [(2.0, 30.0), (-2.0, 210.0)])
@@ -97,7 +106,9 @@ def test_a_profile_has_the_points_of_the_deck(tmp_path: Path) -> None:
 
 
 def test_another_shape_is_the_profile_below_the_line_with_its_error() -> None:
-    planes = "*SEABED PLANES\n PLANE=A\n POINT=0.0, 0.0, 0.0\n SLOPE=1.0\n PLANE=B\n POINT=0.0, 31.0, 0.0\n SLOPE=-3.0\n"
+    planes = (
+        "*SEABED PLANES\n PLANE=A\n POINT=0.0, 0.0, 0.0\n SLOPE=1.0\n PLANE=B\n POINT=0.0, 31.0, 0.0\n SLOPE=-3.0\n"
+    )
     model = model_of(text(bed=ELASTIC + planes))
     sea = written(model)["Environment"]
     rows = sea["SeabedProfileDistanceFromSeabedOrigin, SeabedProfileDepth"]

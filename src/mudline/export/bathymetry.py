@@ -54,10 +54,11 @@ def _geotiff(path: Path) -> Floats:
                 raise ValueError("its coordinates are not in metres: project it, as to UTM")
             level = source.read(1, masked=True).astype(np.float64).filled(np.nan)
             rows, columns = np.indices(level.shape)
-            east, north = source.transform @ (columns.ravel() + 0.5, rows.ravel() + 0.5)
+            a, b, c, d, e, f = source.transform[:6]
     except RasterioError as error:
         raise ValueError(str(error)) from error
-    return np.column_stack([level.ravel(), np.asarray(east), np.asarray(north)])
+    column, row = columns.ravel() + 0.5, rows.ravel() + 0.5
+    return np.column_stack([level.ravel(), a * column + b * row + c, d * column + e * row + f])
 
 
 def _text_grid(path: Path, form: str) -> Floats:
