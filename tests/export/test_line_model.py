@@ -154,7 +154,7 @@ def test_an_inner_node_that_is_held_divides_the_line() -> None:
     assert [len(line.stretches[0].lengths) for line in model.lines] == [5, 5]
     assert [model.ends[line.begin].node for line in model.lines] == [0, 6]
     inside = [entry.effect for entry in model.report.entries if "inside" in entry.effect]
-    assert inside == ["node 3 is inside a line", "node 4 is inside a line"]
+    assert inside == ["inside of a line: free here (nodes: 2, the first 3)"]
 
 
 def test_lines_that_join_share_an_end() -> None:
@@ -206,3 +206,20 @@ def test_settings_beside_stiffness_and_friction_are_listed() -> None:
 
 def test_all_targets_are_modules_of_the_package() -> None:
     assert {import_module(f"mudline.export.{name}") for name in ("moordyn", "orcaflex", "riflex")} == set(TARGETS)
+
+
+def test_numbers_beyond_a_double_in_si_units_are_refused() -> None:
+    assert "not finite in SI units" in refused(text(sections=PIPE.replace("1.0E8", "1.0E308")), name="deck.keyxi")
+
+
+def test_a_motion_of_another_type_holds_and_is_listed() -> None:
+    model = model_of(text(held=BOTH + " TYPE=SINUSOIDAL\n 11, 1, 0.5, 10.0\n"))
+    moordyn.write(model, "a.txt")
+    assert any(entry.keyword == "*BOUNDARY TYPE=SINUSOIDAL" for entry in model.report.lost)
+
+
+@pytest.mark.parametrize("target", TARGETS, ids=lambda target: target.__name__.rpartition(".")[2])
+def test_a_deck_without_a_seabed_law_is_written(target: ModuleType) -> None:
+    model = model_of(text(bed=""))
+    assert target.write(model, "a.txt")["a.txt"]
+    assert model.soils[0].stiffness == 0.0

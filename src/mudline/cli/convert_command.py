@@ -10,7 +10,6 @@ import click
 import numpy as np
 
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.evaluate_inputs import read_file
 from mudline.cli.inputs import STDIN, GivenDeck, takes_deck
 from mudline.cli.streams import emit, notify, notify_missing, write_text
 from mudline.cli.view import View
@@ -115,7 +114,8 @@ def _bed(
         if find_spec(library) is None:
             notify_missing(f"a seabed ({form})", library, extra)
             return FOUND
-    from mudline.deck.loading import load_bytes  # noqa: PLC0415 - only a seabed needs it
+    from mudline.cli.evaluate_inputs import read_file  # noqa: PLC0415 - only a seabed needs it
+    from mudline.deck.loading import load_bytes  # noqa: PLC0415 - as above
     from mudline.export.bathymetry import bed_deck  # noqa: PLC0415 - as above
 
     path = Path(output).with_suffix(".xyz")

@@ -6,6 +6,7 @@ import os
 from dataclasses import asdict
 from importlib import import_module
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -13,7 +14,9 @@ from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDeck, takes_deck
 from mudline.cli.streams import emit_json, notify, write_text
 from mudline.cli.view import View
-from mudline.export.report import Report, Status
+
+if TYPE_CHECKING:
+    from mudline.export.report import Report
 
 _TARGETS = ("moordyn", "orcaflex", "riflex")
 
@@ -69,7 +72,7 @@ def _print(report: Report, view: View) -> None:
         )
         for entry in report.lost
     ]
-    carried = sum(entry.status is Status.CARRIED for entry in report.entries)
+    carried = len(report.entries) - len(report.lost)
     columns = ("keyword", "line", "status", "in the target", "effect")
     note = f"{carried} carried; JSON lists them too"
     if rows:

@@ -7,8 +7,9 @@ sea; the mudline of the deck's X = 0 is at z = -depth.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import astuple, dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -17,6 +18,7 @@ from mudline.codes import RUN001
 from mudline.contact.lines import lines_of
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Problem, Where
+from mudline.export.held import TRANSLATIONS, End, read_held, report_inside
 from mudline.export.report import Report, Status
 from mudline.export.soil import Soil, Units, soils_of
 from mudline.quantities import shown
@@ -24,18 +26,14 @@ from mudline.scene.contact_input import made_seabed
 from mudline.scene.deck_values import FOOT, POUND, number
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices
-from mudline.scene.references import freedom_and_step
 from mudline.scene.seabed import SeabedKind
 from mudline.scene.sections import Section, format_of, surroundings
-from mudline.syntax.rows import read_number
 
 if TYPE_CHECKING:
     from mudline.contact.seabed import Seabed
-    from mudline.keywords.library.boundary import Boundary, BoundaryType
     from mudline.keywords.table import Table
 
 _UNITS = {"metric": Units(1.0, 1.0), "imperial": Units(FOOT, POUND)}
-_TRANSLATIONS = frozenset({1, 2, 3})
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,20 +61,6 @@ class Stretch:
     lengths: Floats
 
 
-@dataclass(frozen=True, slots=True)
-class End:
-    """An end of lines: a node that is `held` (degrees of freedom of the deck), moved by a `vessel`, or joins lines."""
-
-    node: int
-    held: frozenset[int]
-    vessel: bool
-
-    @property
-    def joins(self) -> bool:
-        """Whether lines join there and nothing else holds it."""
-        return not self.held & _TRANSLATIONS
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class ExportLine:
     """A line from one end to the other; `begin` and `end` count in the ends of the model."""
@@ -101,7 +85,7 @@ class ExportLine:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LineModel:
-    """The lines of a deck. `places` (n, 3) are those of all its nodes; `depth` that of X = 0; `report` tells the rest."""
+    """The lines of a deck; `places` (n, 3) are those of all its nodes, `depth` is that of X = 0."""
 
     scene: Scene
     report: Report
@@ -123,6 +107,12 @@ class LineModel:
             return np.full(np.shape(x), -self.depth)
         size = self.units.length
         return self.seabed.elevation(np.asarray(x) / size, np.asarray(y) / size) * size - self.depth
+
+    def levels(self, x: Floats, y: Floats) -> Floats:
+        """The same for a target whose seabed has no end: where the deck has none, the lowest that is known."""
+        level = self.mudline(x, y)
+        known = level[~np.isnan(level)]
+        return np.where(np.isnan(level), known.min() if known.size else -self.depth, level)
 
     def line_of(self, where: Where) -> int:
         """The line of a place in its file."""
@@ -149,11 +139,14 @@ def build(scene: Scene) -> LineModel:
     soils, soil_of = soils_of(scene, units)
     places = scene.coordinates[:, [1, 2, 0]] * units.length - [0.0, 0.0, depth * units.length]
     ends, lines = _lines(scene, report, units, of_element, soil_of)
-    touching = _touching(scene)
+    touching = scene.contact().evaluate(scene.coordinates).depth.reshape(-1) > 0.0
     lengths = np.bincount(soil_of, scene.length * np.where(touching, 1e6, 1.0), len(soils)).astype(np.float64)
     seabed = None if scene.seabed.kind is SeabedKind.FLAT else made_seabed(scene.seabed)
     density = around.density * units.mass / units.length**3
     si = (depth * units.length, density, around.gravity * units.length)
+    values = [value for each in (*map(astuple, sections), *soils) for value in each if isinstance(value, float)]
+    if not np.isfinite([*values, *si, *places[scene.element_nodes].ravel()]).all():
+        raise scene.refusal("a number of the lines is not finite in SI units: correct the largest of the deck")
     for keyword, target in (
         ("OCEAN", "depth, density, gravity"),
         ("NODE", "end points; the shape between them follows from statics"),
@@ -168,7 +161,10 @@ def build(scene: Scene) -> LineModel:
 def _require_elements(scene: Scene) -> None:
     if not len(scene.element_ids):
         definers = scene.set_table.context.external_definers
-        where = next((at for name in definers for at in _opaque(scene, name)), None)
+        blocks = (
+            (i, j, block.keyword) for i, one in enumerate(scene.deck.sections) for j, block in enumerate(one.blocks)
+        )
+        where = next((Where(i, j) for i, j, keyword in blocks if keyword in definers), None)
         why = f": those of *{definers[0]} are not in it, as its lines have no public format" if definers else ""
         raise scene.refusal(f"the deck shows no elements to export{why}; give nodes and elements", where)
     unknown = np.flatnonzero((scene.element_nodes < 0).any(axis=1) | ~np.isfinite(scene.length))
@@ -177,25 +173,12 @@ def _require_elements(scene: Scene) -> None:
         raise scene.refusal(message, scene.table.numbered.where(int(unknown[0])))
 
 
-def _opaque(scene: Scene, keyword: str) -> Iterator[Where]:
-    for i, section in enumerate(scene.deck.sections):
-        for j, block in enumerate(section.blocks):
-            if block.keyword == keyword:
-                yield Where(i, j)
-
-
 def _depth(scene: Scene) -> float:
     oceans = [block for _, block in scene.deck.blocks("OCEAN")]
     depth = number(oceans[-1], "depth") if oceans else math.nan
     if not (depth > 0.0 and surroundings(scene.deck).gravity > 0.0):
         raise scene.refusal("a model for another program needs *OCEAN with depth, density and gravity: give it")
     return depth
-
-
-def _touching(scene: Scene) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    """Whether each element (m,) touches the seabed at the deck's coordinates."""
-    found = scene.contact().evaluate(scene.coordinates)
-    return np.asarray(found.depth > 0.0).reshape(-1)
 
 
 # ------------------------------------------------------------------------------------------------------- sections
@@ -246,11 +229,8 @@ def _pipe(scene: Scene, units: Units, section: Section, element: int) -> PipeSec
     )
 
 
-_CURVES = {
-    "ea_curve": ("FORCE-STRAIN", "strain"),
-    "e_curve": ("STRESS-STRAIN DIRECT", "strain"),
-    "gj_curve": ("TORQUE-TWIST", "twist"),
-}
+_CURVES = {"ea_curve": "FORCE-STRAIN", "e_curve": "STRESS/STRAIN DIRECT", "gj_curve": "TORQUE-TWIST"}
+_BENDING = "MOMENT-CURVATURE"
 
 
 def _modulus(scene: Scene, section: Section, given: float, *curves: str) -> float:
@@ -258,26 +238,23 @@ def _modulus(scene: Scene, section: Section, given: float, *curves: str) -> floa
     if not math.isnan(given):
         return given
     names = [name for setting in curves if (name := getattr(section.entry, setting, None))]
-    keyword = _CURVES.get(curves[0], ("MOMENT-CURVATURE", "curvature"))[0]
-    for _, block in scene.deck.blocks(keyword):
+    for _, block in scene.deck.blocks(_CURVES.get(curves[0], _BENDING)):
         for entry in block.curves:
             if names and folded(str(entry.curve)) == folded(str(names[0])):
                 points = cast("Table", entry.points)
                 order = np.argsort(points.column(1), kind="stable")
                 loads, strains = points.column(0)[order], points.column(1)[order]
                 at = int(np.clip(np.searchsorted(strains, 0.0, side="right"), 1, len(strains) - 1))
-                return float((loads[at] - loads[at - 1]) / (strains[at] - strains[at - 1]))
+                rise, run = float(loads[at] - loads[at - 1]), float(strains[at] - strains[at - 1])
+                return rise / run if run > 0.0 else math.nan
     return math.nan
 
 
 def report_sections(model: LineModel, target: str, *, names: list[str], torsion: bool) -> None:
     """Add what became of each cross-section: its name in the target, curves by their slope at 0, torsion."""
     for section, name in zip(model.sections, names, strict=True):
-        entry = model.scene.section_table.sections
-        given = next(each.entry for each in entry if each.where == section.where)
-        curved = [
-            name for name in ("eiyy_curve", "ei_curve", "ea_curve", "gj_curve", "e_curve") if getattr(given, name)
-        ]
+        given = next(each.entry for each in model.scene.section_table.sections if each.where == section.where)
+        curved = [each for each in ("eiyy_curve", "ei_curve", *_CURVES) if getattr(given, each)]
         status = Status.APPROXIMATED if curved else Status.CARRIED
         numbers = f"EA {shown(section.axial, 4)} N, EI {shown(section.bending, 4)} Nm2"
         effect = f"{numbers}: of a curve its slope at 0" if curved else numbers
@@ -285,7 +262,7 @@ def report_sections(model: LineModel, target: str, *, names: list[str], torsion:
     twisted = [section for section in model.sections if section.torsion]
     if twisted and not torsion:
         model.report.add(twisted[0].where, Status.LEFT_OUT, "none", "lines do not twist: no effect in plane", "GJ, G")
-    for keyword in ("FORCE-STRAIN", "MOMENT-CURVATURE", "TORQUE-TWIST", "STRESS-STRAIN DIRECT"):
+    for keyword in (_BENDING, *_CURVES.values()):
         for where, _ in model.scene.deck.blocks(keyword):
             model.report.add(where, Status.APPROXIMATED, "a constant stiffness", "the slope of its curves at 0")
 
@@ -296,103 +273,37 @@ def report_sections(model: LineModel, target: str, *, names: list[str], torsion:
 def _lines(
     scene: Scene, report: Report, units: Units, section_of: Indices, soil_of: Indices
 ) -> tuple[list[End], list[ExportLine]]:
-    held, moved = _held(scene, report)
+    held = read_held(scene, report)
     found = lines_of(scene.element_nodes, scene.length, len(scene.node_ids))
     degree = np.bincount(scene.element_nodes.ravel(), minlength=len(scene.node_ids))
     ends: dict[int, End] = {}
+    order: dict[int, int] = {}
     lines: list[ExportLine] = []
 
     def end_of(node: int) -> int:
         if node not in ends:
-            end = End(node, frozenset(held.get(node, ())), node in moved)
+            end = End(node, held.of(node), node in held.moved)
             if end.joins and degree[node] < 2:
                 what = f"node {int(scene.node_ids[node])} ends a line, and nothing in *BOUNDARY holds it along an axis"
                 raise scene.refusal(f"{what}: a free end cannot be exported; hold the node", scene.nodes.where(node))
             ends[node] = end
-        return list(ends).index(node)
+        return order.setdefault(node, len(order))
 
     for elements, nodes in zip(found.elements, found.nodes, strict=True):
         if nodes[0] == nodes[-1]:
             message = "the line of this node is closed, and has no end to be held by: it cannot be exported"
             raise scene.refusal(message, scene.nodes.where(int(nodes[0])))
-        inner = [at for at, node in enumerate(nodes.tolist()) if _TRANSLATIONS <= held.get(node, frozenset())]
+        inner = [at for at, node in enumerate(nodes.tolist()) if held.of(node) >= TRANSLATIONS]
         cuts = sorted({0, *inner, len(nodes) - 1})
-        for first, last in zip(cuts[:-1], cuts[1:], strict=True):
+        for first, last in pairwise(cuts):
             part, through = elements[first:last], nodes[first : last + 1]
             begin, end = end_of(int(through[0])), end_of(int(through[-1]))
             keys = np.column_stack([section_of[part], soil_of[part]])
             starts = [0, *(np.flatnonzero((np.diff(keys, axis=0) != 0).any(axis=1)) + 1).tolist(), len(part)]
             stretches = [
                 Stretch(int(keys[a, 0]), int(keys[a, 1]), through[a : b + 1], scene.length[part[a:b]] * units.length)
-                for a, b in zip(starts[:-1], starts[1:], strict=True)
+                for a, b in pairwise(starts)
             ]
             lines.append(ExportLine(f"Line{len(lines) + 1}", begin, end, stretches))
-    for node in sorted(set(held) - set(ends)):
-        freedoms = ", ".join(map(str, sorted(held[node])))
-        where = _boundary_of(scene)
-        report.add(
-            where, Status.LEFT_OUT, "none", f"node {int(scene.node_ids[node])} is inside a line", f"DOF {freedoms}"
-        )
+    report_inside(scene, report, held, set(ends))
     return list(ends.values()), lines
-
-
-def _boundary_of(scene: Scene) -> Where:
-    return [where for where, _ in scene.deck.blocks("BOUNDARY", "LOAD CASE")][-1]
-
-
-def _held(scene: Scene, report: Report) -> tuple[dict[int, frozenset[int]], set[int]]:
-    """The degrees of freedom in which `*BOUNDARY` holds nodes (indices), and those that a vessel moves."""
-    held: dict[int, frozenset[int]] = {}
-    moved: set[int] = set()
-    for where, block in scene.deck.blocks("BOUNDARY", "LOAD CASE"):
-        for each in cast("Boundary", block).types:
-            for numbers, freedoms, value in _conditions(each):
-                for node in scene.nodes.indices(np.array(list(numbers), dtype=np.int64)).tolist():
-                    if node < 0:
-                        continue
-                    held[node] = held.get(node, frozenset()) | freedoms
-                    moved |= {node} if each.type_ == "VESSEL" else set()
-                    if value:
-                        effect = f"node {int(scene.node_ids[node])} stays where its coordinates are"
-                        report.add(where, Status.LEFT_OUT, "none", effect, f"displacement {shown(value)}")
-    return held, moved
-
-
-def _conditions(given: BoundaryType) -> Iterator[tuple[range, frozenset[int], float]]:
-    """Numbers of nodes, degrees of freedom and displacement of each line; a line of a vessel without one holds all."""
-    for entry in given.entries:
-        if hasattr(entry, "generate"):
-            values = entry.generate
-            at, step = freedom_and_step(values)
-            freedom = (values.third, values.fourth)[at - 2]
-            if all(isinstance(each, int | float) for each in (values.start, values.end, step, freedom)):
-                numbers = range(int(values.start), int(values.end) + 1, max(1, int(cast("int", step))))
-                yield numbers, frozenset({int(cast("int", freedom))}), number(values, "fifth", 0.0)
-        elif isinstance(entry.node, int) and isinstance(entry.dof, int | float):
-            yield range(entry.node, entry.node + 1), frozenset({int(entry.dof)}), number(entry, "value", 0.0)
-    for line in given.unread:
-        first, *others = [read_number(word.strip()) for word in line.text.split(",")]
-        if first is not None and first == int(first):
-            freedom = next((each for each in others if each is not None), None)
-            held = _TRANSLATIONS if freedom is None else frozenset({int(freedom)})
-            yield range(int(first), int(first) + 1), held, 0.0
-
-
-def report_ends(model: LineModel, fixed: str, vessel: str, *, clamps: bool = False) -> None:
-    """Add what became of the ends: held where they may move a little, on vessels, against rotation."""
-    report, scene = model.report, model.scene
-    places = [where for where, _ in scene.deck.blocks("BOUNDARY", "LOAD CASE")]
-    for where in places:
-        report.add(where, Status.CARRIED, f"{fixed}, {vessel} ends")
-    for end in model.ends:
-        node, where = f"node {int(scene.node_ids[end.node])}", places[-1] if places else scene.nodes.where(end.node)
-        if end.vessel:
-            status = Status.CARRIED if vessel != fixed else Status.APPROXIMATED
-            report.add(where, status, vessel, f"{node} stays where the deck puts it until it is moved", "TYPE=VESSEL")
-        elif missing := sorted(_TRANSLATIONS - end.held) if not end.joins else []:
-            freedoms = ", ".join(map(str, missing))
-            effect = f"{node} is free in DOF {freedoms} in the deck: held at its coordinates"
-            report.add(where, Status.APPROXIMATED, fixed, effect, f"node {int(scene.node_ids[end.node])}")
-        if not clamps and (turned := sorted(end.held - _TRANSLATIONS)):
-            effect = f"no moment at {node}: the line turns freely there"
-            report.add(where, Status.LEFT_OUT, "a hinge", effect, f"DOF {', '.join(map(str, turned))}")

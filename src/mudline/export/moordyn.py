@@ -10,7 +10,8 @@ from math import ceil, sqrt
 
 import numpy as np
 
-from mudline.export.line_model import LineModel, PipeSection, Stretch, report_ends, report_sections
+from mudline.export.held import report_ends
+from mudline.export.line_model import LineModel, PipeSection, Stretch, report_sections
 from mudline.export.report import Names, Status
 from mudline.export.soil import governing, report_friction, report_resistance, report_stiffness
 from mudline.quantities import shown
@@ -105,13 +106,13 @@ def _line_type(section: PipeSection, name: str) -> str:
 
 def _joined(model: LineModel, types: list[str]) -> tuple[list[str], list[str]]:
     """The rows of points: the ends, then the joints; and those of lines."""
-    on_bed = model.mudline(*model.places[:, :2].T)
+    on_bed = model.levels(*model.places[:, :2].T)
     rows = []
     for number, end in enumerate(model.ends, 1):
         x, y, z = model.places[end.node].tolist()
         kind = "Coupled" if end.vessel else "Free" if end.joins else "Fixed"
         # MoorDyn lowers the whole seabed to a point that is below it.
-        rows.append(f"{number} {kind} {x!r} {y!r} {max(z, float(np.nan_to_num(on_bed[end.node], nan=z)))!r} 0 0 0 0")
+        rows.append(f"{number} {kind} {x!r} {y!r} {max(z, float(on_bed[end.node]))!r} 0 0 0 0")
     lines: list[str] = []
     for line, parts in zip(model.lines, pieces(model), strict=True):
         at = line.begin + 1
@@ -144,10 +145,10 @@ def _time_step(model: LineModel) -> float:
 def _grid(model: LineModel) -> str:
     """The file of the seabed: numbers of columns and rows, their x and y, and x, y and z of each point."""
     x, y = (_axis(model, axis) for axis in (0, 1))
-    level = _levels(model, x, y)
+    corners = np.meshgrid(x, y, indexing="ij")
+    level = model.levels(*(each.ravel() for each in corners)).reshape(len(x), len(y))
     places = model.places[model.line_nodes()]
-    error = np.abs(_bilinear(x, y, level, places) - model.mudline(places[:, 0], places[:, 1]))
-    worst = float(np.nanmax(error, initial=0.0))
+    worst = float(np.abs(_bilinear(x, y, level, places) - model.levels(places[:, 0], places[:, 1])).max())
     status = Status.CARRIED if worst < 1e-6 else Status.APPROXIMATED
     effect = f"largest difference below the nodes {shown(worst, 3)} m"
     model.report.add(model.scene.seabed.where, status, f"a grid of {len(x)} x {len(y)} points", effect)
@@ -177,12 +178,6 @@ def _axis(model: LineModel, axis: int) -> Floats:
     return np.linspace(float(ends[0]), float(ends[1]), max(2, ceil((ends[1] - ends[0]) / size) + 1))
 
 
-def _levels(model: LineModel, x: Floats, y: Floats) -> Floats:
-    """Elevations (x, y); where the deck has no seabed the lowest of them."""
-    level = model.mudline(*(each.ravel() for each in np.meshgrid(x, y, indexing="ij"))).reshape(len(x), len(y))
-    return np.where(np.isnan(level), np.nanmin(level), level)
-
-
 def _bilinear(x: Floats, y: Floats, level: Floats, places: Floats) -> Floats:
     i = np.clip(np.searchsorted(x, places[:, 0]) - 1, 0, len(x) - 2)
     j = np.clip(np.searchsorted(y, places[:, 1]) - 1, 0, len(y) - 2)
@@ -197,13 +192,13 @@ def _bilinear(x: Floats, y: Floats, level: Floats, places: Floats) -> Floats:
 def _report(model: LineModel, types: list[str], stiffness: float, width: dict[int, float], friction: float) -> None:
     report = model.report
     report_sections(model, "line type", names=types, torsion=False)
-    report_ends(model, "Fixed", "Coupled")
+    report_ends(report, model.ends, "Fixed", "Coupled")
     used = [stiffness * width[at] for at in range(len(model.soils))]
     report_stiffness(report, model.soils, f"kBot {shown(stiffness, 4)} Pa/m, here", used)
     target = "FrictionCoefficient, regularised by velocity"
     report_friction(report, model.soils, target, [(friction, friction)] * len(model.soils))
     report_resistance(report, "none")
-    bed = model.mudline(*model.places[:, :2].T)
+    bed = model.levels(*model.places[:, :2].T)
     for end in model.ends:
         if (below := float(bed[end.node] - model.places[end.node, 2])) > 0.0 and not end.vessel:
             effect = "MoorDyn lowers its seabed to a point that is below it"

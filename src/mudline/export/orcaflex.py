@@ -12,7 +12,8 @@ from math import atan2, cos, degrees, hypot, radians
 import numpy as np
 
 from mudline.contact.input import LawKind
-from mudline.export.line_model import LineModel, Stretch, report_ends, report_sections
+from mudline.export.held import report_ends
+from mudline.export.line_model import LineModel, Stretch, report_sections
 from mudline.export.report import Names, Status, one_line, short_name
 from mudline.export.soil import Soil, governing, report_friction, report_resistance, report_stiffness
 from mudline.quantities import shown
@@ -60,7 +61,8 @@ def write(model: LineModel, name: str) -> dict[str, str]:
             message = "lines join at this node, which takes a buoy in OrcaFlex: hold it, or export one line only"
             raise model.scene.refusal(message, model.scene.nodes.where(end.node))
     soil = governing(model.soils, model.soil_lengths)
-    types, taken = _types(model), Names(model.report, "A-Za-z0-9_. ()", 50)
+    types = _types(model)
+    taken = Names(model.report, "A-Za-z0-9_. ()", 50, [line.name for line in model.lines])
     names = {key: taken.take(each, model.sections[key[0]].where) for key, each in types.items()}
     environment = _environment(model, soil)
     lines = [_line(model, at, names) for at in range(len(model.lines))]
@@ -112,11 +114,9 @@ def _key(model: LineModel, piece: Stretch) -> Key:
 
 
 def _types(model: LineModel) -> dict[Key, str]:
-    """The line types by section and friction, with their names in the deck: that of the section, numbered if need be."""
-    keys = dict.fromkeys(_key(model, piece) for parts in pieces(model) for piece in parts)
-    return {
-        key: model.sections[key[0]].name for key in sorted(keys, key=lambda each: (each[0], list(keys).index(each)))
-    }
+    """The line types by section and friction, and the name of the section of each."""
+    keys = (_key(model, piece) for parts in pieces(model) for piece in parts)
+    return {key: model.sections[key[0]].name for key in keys}
 
 
 def _line_type(model: LineModel, key: Key, name: str) -> Items:
@@ -141,10 +141,7 @@ def _line_type(model: LineModel, key: Key, name: str) -> Items:
 
 def _line(model: LineModel, at: int, names: dict[Key, str]) -> Items:
     line, parts = model.lines[at], pieces(model)[at]
-    ends = [
-        _end(model, index, parts[0 if index == line.begin else -1], index == line.begin)
-        for index in (line.begin, line.end)
-    ]
+    ends = [_end(model, line.begin, parts[0]), _end(model, line.end, parts[-1])]
     nodes = [model.ends[index].node for index in (line.begin, line.end)]
     ids = [int(model.scene.node_ids[node]) for node in nodes]
     where = [model.line_of(model.scene.nodes.where(node)) for node in nodes]
@@ -160,8 +157,9 @@ def _line(model: LineModel, at: int, names: dict[Key, str]) -> Items:
     }
 
 
-def _end(model: LineModel, index: int, piece: Stretch, first: bool) -> list[object]:
+def _end(model: LineModel, index: int, piece: Stretch) -> list[object]:
     """Where an end is, and the direction of the line there, from A to B."""
+    first = piece.nodes[0] == model.ends[index].node
     inner = piece.nodes[1] if first else piece.nodes[-2]
     place = model.places[model.ends[index].node]
     x, y, z = ((model.places[inner] - place) * (1.0 if first else -1.0)).tolist()
@@ -174,7 +172,7 @@ def _end(model: LineModel, index: int, piece: Stretch, first: bool) -> list[obje
 def _environment(model: LineModel, soil: Soil) -> Items:
     shape = model.scene.seabed
     half = 0.5 * soil.diameter
-    said = f"{soil.says()}, line {model.line_of(soil.where)}" if soil.where is not None else soil.says()
+    said = soil.says() if soil.where is None else f"{soil.says()}, line {model.line_of(soil.where)}"
     items: Items = {
         "#": f"seabed: {said}",
         "Density": model.density / 1e3,
@@ -214,13 +212,13 @@ def _profile(model: LineModel, half: float) -> Items:
         return {"SeabedSlopeDirection": shape.direction % 360.0, _PROFILE: rows[np.argsort(rows[:, 0])].tolist()}
     first, last = (model.places[model.ends[index].node][:2] for index in (line.begin, line.end))
     length = float(np.hypot(*(last - first)))
-    along = (last - first) / length
-    distance = np.linspace(0.0, length, _POINTS)
-    level = model.mudline(*(first[:, None] + along[:, None] * distance))
-    level = np.where(np.isnan(level), np.nanmin(level), level)
+    along = (last - first) / length if length else np.array([1.0, 0.0])
+    distance = np.linspace(0.0, length or 1.0, _POINTS)
+    level = model.levels(*(first[:, None] + along[:, None] * distance))
     places = model.places[model.line_nodes()]
-    error = np.abs(np.interp((places[:, :2] - first) @ along, distance, level) - model.mudline(*places[:, :2].T))
-    effect = f"the seabed below {line.name}, level across it: up to {shown(float(np.nanmax(error)), 3)} m off below the nodes"
+    error = np.abs(np.interp((places[:, :2] - first) @ along, distance, level) - model.levels(*places[:, :2].T))
+    off = shown(float(error.max()), 3)
+    effect = f"the seabed below {line.name}, level across it: up to {off} m off below the nodes"
     model.report.add(shape.where, Status.APPROXIMATED, f"profile of {_POINTS} points", effect)
     return {
         "SeabedOrigin": first.tolist(),
@@ -236,7 +234,7 @@ def _report(model: LineModel, names: dict[Key, str], soil: Soil) -> None:
     report = model.report
     listed = [", ".join(name for key, name in names.items() if key[0] == at) for at in range(len(model.sections))]
     report_sections(model, "line type", names=listed, torsion=True)
-    report_ends(model, "Fixed", "Fixed", clamps=True)
+    report_ends(report, model.ends, "Fixed", "Fixed", clamps=True)
     if soil.kind is LawKind.SOIL:
         _report_soil(model, soil)
     per_area = soil.stiffness / soil.diameter
@@ -249,26 +247,19 @@ def _report(model: LineModel, names: dict[Key, str], soil: Soil) -> None:
             effect = f"its axis touches {shown(1e3 * off, 3)} mm higher than in the deck, as the diameters differ"
             report.add(section.where, Status.APPROXIMATED, "one seabed", effect, "diameter")
     for where, _ in model.scene.deck.blocks("ELEMENT"):
-        report.add(
-            where,
-            Status.APPROXIMATED,
-            "TargetSegmentLength",
-            "segments as long as the shortest of a section",
-            "lengths",
-        )
+        effect = "segments as long as the shortest of a section"
+        report.add(where, Status.APPROXIMATED, "TargetSegmentLength", effect, "lengths")
     report.finish()
 
 
 def _report_soil(model: LineModel, soil: Soil) -> None:
     numbers = dict(soil.parameters)
     other = [f"{name} {shown(numbers[name])}" for name, usual in _DEFAULTS if numbers[name] != usual]
-    assert soil.where is not None
     effect = "strength and density; the other parameters are the defaults of the program, which are those of the deck"
     model.report.add(soil.where, Status.CARRIED, "Nonlinear soil model", effect)
     if other:
         model.report.add(soil.where, Status.LEFT_OUT, "defaults", f"set by hand: {', '.join(other)}", "parameters")
     for each in model.soils:
-        if each.kind is LawKind.SOIL and each.parameters != soil.parameters and each.where is not None:
-            model.report.add(
-                each.where, Status.APPROXIMATED, "one soil", f"{each.says()}; here that of most of the pipe"
-            )
+        if each.kind is LawKind.SOIL and each.parameters != soil.parameters:
+            effect = f"{each.says()}; here that of most of the pipe"
+            model.report.add(each.where, Status.APPROXIMATED, "one soil", effect)

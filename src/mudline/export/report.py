@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from enum import StrEnum
 
@@ -27,6 +28,8 @@ _BY_SUBJECT = {
     "model": "not in the target's model of the line",
 }
 _UNKNOWN = "mudline does not read this keyword, and passes it over"
+_WORDS = ("none", "fixed", "free", "anchored", "yes", "no", "y", "n", "true", "false", "on", "off", "null", "infinity")
+"""Names that mean something else to a target or to YAML."""
 _EFFECTS = {
     "HYDRODYNAMIC SETS": "drag 1.2 and added mass 1 stand in: no effect at rest without current",
     "INTERNAL FLUID": "contents are not written, as mudline leaves them out of the submerged weight",
@@ -68,8 +71,10 @@ class Report:
     entries: list[Entry] = field(default_factory=list)
     _claimed: set[tuple[int, int]] = field(default_factory=set)
 
-    def add(self, where: Where, status: Status, target: str, effect: str = "", setting: str = "") -> None:
-        """Add what became of the block at a place, or of a `setting` in it."""
+    def add(self, where: Where | None, status: Status, target: str, effect: str = "", setting: str = "") -> None:
+        """Add what became of the block at a place, or of a `setting` in it; nothing without a place."""
+        if where is None:
+            return
         deck = self.scene.deck
         self._claimed.add((where.section, where.block))
         keyword = deck.sections[where.section].blocks[where.block].keyword
@@ -136,12 +141,15 @@ def short_name(written: str) -> str:
 
 @dataclass
 class Names:
-    """Names that a target takes: of these `letters` (the inside of a class of a pattern), unique, up to a length."""
+    """Names that a target takes: of `letters`, the inside of a class of a pattern, each once, up to a length."""
 
     report: Report
     letters: str
     longest: int
-    _taken: set[str] = field(default_factory=set)
+    reserved: Iterable[str] = ()
+
+    def __post_init__(self) -> None:
+        self._taken = {name.casefold() for name in (*_WORDS, *self.reserved)}
 
     def take(self, written: str, where: Where) -> str:
         """The name for one of the deck; a name that had to change is added to the report."""
@@ -149,7 +157,7 @@ class Names:
         if not re.match("[A-Za-z]", name):
             name = f"S{name}"[: self.longest]
         stem, count = name, 1
-        while name.casefold() in self._taken or name.casefold() in ("none", "fixed", "free", "anchored"):
+        while name.casefold() in self._taken:
             count += 1
             name = f"{stem[: self.longest - len(str(count)) - 1]}_{count}"
         self._taken.add(name.casefold())

@@ -1,7 +1,7 @@
 """Positions of a deck's nodes from what other programs write: MoorDyn's files of lines, OrcaFlex's tables of nodes.
 
-Both have x and y horizontal, those of Y and Z in the deck, and z from the surface of the sea. Where the program has other
-nodes than the deck, places between them are taken on the straight way from node to node, by arc length.
+Both have x and y horizontal, those of Y and Z in the deck, and z from the surface of the sea. Where the program has
+other nodes than the deck, places between them are taken on the straight way from node to node, by arc length.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ _HEAD = 1 << 16
 def read_returned(path: Path, scene: Scene) -> Positions | None:
     """Positions from a file of another program; None for a file that is none of those by its headings.
 
-    The other lines of MoorDyn are read too, from the files beside it. Raises OSError, or DeckError for a file with faults,
-    and for a deck that `export` refuses.
+    The other lines of MoorDyn are read too, from the files beside it. Raises OSError, or DeckError for a file with
+    faults, and for a deck that `export` refuses.
     """
     with path.open("rb") as stream:
         first, *_ = stream.read(_HEAD).decode("utf-8", "replace").lstrip("\ufeff").lower().split("\n")

@@ -9,7 +9,8 @@ from math import pi
 
 import numpy as np
 
-from mudline.export.line_model import LineModel, Stretch, report_ends, report_sections
+from mudline.export.held import report_ends
+from mudline.export.line_model import LineModel, Stretch, report_sections
 from mudline.export.report import Names, Status, one_line
 from mudline.export.soil import report_friction, report_resistance, report_stiffness
 from mudline.quantities import shown
@@ -32,7 +33,7 @@ def segments(piece: Stretch) -> int:
 
 def write(model: LineModel, name: str) -> dict[str, str]:
     """The text of the file by its name."""
-    names = Names(model.report, "A-Za-z0-9_", 8)
+    names = Names(model.report, "A-Za-z0-9_", 8, [f"SOIL{number}" for number in range(1, len(model.soils) + 1)])
     types = [names.take(section.name, section.where) for section in model.sections]
     level = _level(model)
     groups = [*_head(model), *_system(model, level), *_contacts(model), *_line_types(model, types)]
@@ -78,7 +79,7 @@ def _folded(comments: list[str]) -> list[str]:
 
 
 def _head(model: LineModel) -> list[str]:
-    title = [one_line(f"{model.scene.source}")[:60], "model only: no analysis", "written by mudline"]
+    title = [one_line(f"Deck {model.scene.source}")[:60], "model only: no analysis", "written by mudline"]
     units = ["UNIT NAMES SPECIFICATION", f"s m kg N {model.gravity!r} 1.0"]
     return ["INPMOD IDENTIFICATION TEXT 4.8", *title, *units, "NEW SINGLE RISER", "AR RISER1"]
 
@@ -137,8 +138,8 @@ def _level(model: LineModel) -> float:
     shape = model.scene.seabed
     if shape.kind is SeabedKind.FLAT:
         return -model.depth
-    below = model.mudline(*model.places[model.line_nodes()][:, :2].T)
-    low, high = float(np.nanmin(below)), float(np.nanmax(below))
+    below = model.levels(*model.places[model.line_nodes()][:, :2].T)
+    low, high = float(below.min()), float(below.max())
     middle = 0.5 * (low + high)
     effect = f"up to {shown(high - middle, 3)} m off below the lines: give a file of the seabed to STAMOD"
     model.report.add(shape.where, Status.APPROXIMATED, f"a flat seabed at {shown(middle)} m", effect)
@@ -148,7 +149,7 @@ def _level(model: LineModel) -> float:
 def _report(model: LineModel, types: list[str]) -> None:
     report = model.report
     report_sections(model, "CRS1", names=types, torsion=True)
-    report_ends(model, "fixed supernodes", "fixed supernodes", clamps=True)
+    report_ends(report, model.ends, "fixed supernodes", "fixed supernodes", clamps=True)
     report_stiffness(report, model.soils, "STFBOT", [each.stiffness for each in model.soils])
     report_friction(report, model.soils, "springs and friction", [(each.axial, each.lateral) for each in model.soils])
     report_resistance(report, "none")

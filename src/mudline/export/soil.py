@@ -110,7 +110,8 @@ def _friction(scene: ResolvedDeck) -> Floats:
     longest = np.fmin(table.column("characteristic"), LARGEST_MOBILISATION.get(scene.units, np.inf))
     length = np.where(given > 0.0, given, np.fmin(scene.length[:, None], longest))
     weight = np.nan_to_num(scene.submerged_weight)[:, None]
-    spring = coefficient * weight / length
+    with np.errstate(all="ignore"):
+        spring = np.nan_to_num(coefficient * weight / length)
     coefficient[:, 1] = np.where(table.column("lateral") > 0.0, 0.0, coefficient[:, 1])
     if (keyword := scene.extensions.get("SEABED FRICTION")) is not None:
         at = keyword.of_element
@@ -213,8 +214,7 @@ def report_stiffness(report: Report, soils: list[Soil], name: str, used: list[fl
             effect = "no law in the deck: the one seabed of the target acts here too"
         elif not same and soil.weight > 0.0 and stiffness > 0.0:
             effect += f"; sinks {shown(1e3 * soil.weight / stiffness, 3)} mm here, as the target has one stiffness"
-        if soil.where is not None:
-            report.add(soil.where, status, target, effect)
+        report.add(soil.where, status, target, effect)
         curve = soil.law.partition(":")[2]
         for entry in report.scene.laws.curves if curve else ():
             if entry.name == curve:
@@ -224,8 +224,6 @@ def report_stiffness(report: Report, soils: list[Soil], name: str, used: list[fl
 def report_friction(report: Report, soils: list[Soil], target: str, used: list[tuple[float, float]]) -> None:
     """Add what became of the friction of each seabed: the coefficients along and across that the target has."""
     for soil, (axial, lateral) in zip(soils, used, strict=True):
-        if soil.friction_at is None:
-            continue
         given = f"{shown(soil.axial)} along, {shown(soil.lateral)} across"
         same = (axial, lateral) == (soil.axial, soil.lateral)
         effect = given if same else f"{given} in the deck; here {shown(axial)} along, {shown(lateral)} across"
