@@ -223,3 +223,22 @@ def test_a_deck_without_a_seabed_law_is_written(target: ModuleType) -> None:
     model = model_of(text(bed=""))
     assert target.write(model, "a.txt")["a.txt"]
     assert model.soils[0].stiffness == 0.0
+
+
+def test_laws_and_curves_that_no_element_follows_are_listed() -> None:
+    bed = CURVE.replace("*SEABED PROPERTIES", " CURVE=Spare\n 0.0, 0.0\n 0.1, 90.0\n*SEABED PROPERTIES")
+    model = model_of(text(bed=bed.replace(" SET=ALL\n", " SET=ALL\n STIFFNESS=9000.0\n SET=ALL\n")))
+    riflex.write(model, "a.inp")
+    unused = [
+        (entry.keyword, entry.line) for entry in model.report.lost if entry.effect.startswith("no element follows")
+    ]
+    assert [keyword for keyword, _ in unused] == ["*SEABED STIFFNESS", "*SEABED PROPERTIES"]
+
+
+def test_settings_of_the_extension_keywords_are_listed() -> None:
+    bed = ELASTIC + "*SEABED FRICTION\n SET=ALL\n COEFFICIENTS=0.2, 0.4\n STIFFNESS=1.0E4\n CRITERION=ELLIPSE\n"
+    bed += "*SEABED CONTACT\n SET=ALL\n SMOOTHING=0.001\n"
+    model = model_of(text(bed=bed))
+    orcaflex.write(model, "a.yml")
+    lost = {entry.keyword for entry in model.report.lost}
+    assert {"*SEABED FRICTION CRITERION=", "*SEABED CONTACT SMOOTHING="} <= lost

@@ -6,6 +6,7 @@ begins where the section changes; there lines are joined by points, which carry 
 
 from __future__ import annotations
 
+import re
 from math import ceil, sqrt
 
 import numpy as np
@@ -19,7 +20,6 @@ from mudline.scene.numbering import Floats
 from mudline.scene.seabed import SeabedKind
 
 TITLE = "MoorDyn v2"
-SUMMARY = "MoorDyn v2 input file"
 _FINEST = 2
 """Segments are not more than this times the elements."""
 _GRID = 200
@@ -52,22 +52,14 @@ def write(model: LineModel, name: str) -> dict[str, str]:
     points, lines = _joined(model, types)
     soil = governing(model.soils, model.soil_lengths)
     width = {part.soil: model.sections[part.section].buoyancy for line in model.lines for part in line.stretches}
-    stiffness = soil.stiffness / width[model.soils.index(soil)]
-    friction = soil.axial
-    floor = "".join(
-        letter if letter.isascii() and letter.isalnum() else "_" for letter in name.rpartition(".")[0] or name
-    )
-    grid = "" if model.seabed is None else _grid(model)
-    files = {f"{floor}-seabed.txt": grid} if grid else {}
+    own, heaviest = width[model.soils.index(soil)], max(each.mass for each in model.sections)
+    stiffness, friction = soil.stiffness / own, soil.axial
+    floor = re.sub("[^A-Za-z0-9]", "_", name.rpartition(".")[0] or name)
+    files = {} if model.seabed is None else {f"{floor}-seabed.txt": _grid(model)}
     options = [
         (f"{_time_step(model):.2g}", "dtM"),
         (repr(stiffness), "kBot"),
-        (
-            repr(
-                2.0 * sqrt(soil.stiffness * max(each.mass for each in model.sections)) / width[model.soils.index(soil)]
-            ),
-            "cBot",
-        ),
+        (repr(2.0 * sqrt(soil.stiffness * heaviest) / own), "cBot"),
         (repr(friction), "FrictionCoefficient"),
         (repr(model.density), "WtrDnsty"),
         (repr(model.depth), "WtrDpth"),
@@ -208,10 +200,8 @@ def _report(model: LineModel, types: list[str], stiffness: float, width: dict[in
     for part in (part for parts in pieces(model) for part in parts):
         lengths, count = part.lengths, segments(part)
         if np.ptp(lengths) > 1e-3 * lengths.max():
-            size = f"{shown(float(lengths.min()), 3)} to {shown(float(lengths.max()), 3)} m"
-            effect = (
-                f"{len(lengths)} elements of {size}: {count} segments of {shown(float(lengths.sum()) / count, 3)} m"
-            )
+            least, most, own = (shown(float(each), 3) for each in (lengths.min(), lengths.max(), lengths.sum() / count))
+            effect = f"{len(lengths)} elements of {least} to {most} m: {count} segments of {own} m"
             report.add(blocks[-1], Status.APPROXIMATED, "equal segments", effect, "lengths")
     joints = sum(len(parts) - 1 for parts in pieces(model))
     if joints and any(section.bending for section in model.sections):

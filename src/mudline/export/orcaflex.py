@@ -20,7 +20,6 @@ from mudline.quantities import shown
 from mudline.scene.seabed import SeabedKind
 
 TITLE = "OrcaFlex text data"
-SUMMARY = "OrcaFlex text data file (YAML)"
 _CONNECTION = (
     "Connection, ConnectionX, ConnectionY, ConnectionZ, ConnectionAzimuth, ConnectionDeclination, ConnectionGamma, "
     "ConnectionReleaseStage"

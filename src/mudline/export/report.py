@@ -35,7 +35,6 @@ _EFFECTS = {
     "INTERNAL FLUID": "contents are not written, as mudline leaves them out of the submerged weight",
     "SEABED SUCTION": "nothing holds the pipe back on the way up: no effect under its own weight",
     "SEABED UNLOADING": "the way up is the way down: no effect at first penetration",
-    "SEABED CONTACT": "smoothing and damping are left out: no effect beyond the quadratic zone at rest",
     "SEABED TRENCH": "the walls are left out: friction alone holds the pipe sideways",
     "MASS": "a point mass is not written: its weight is missing",
     "RESTART": "the model of the deck that is continued is written; its load case is not",

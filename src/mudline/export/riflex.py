@@ -17,7 +17,6 @@ from mudline.quantities import shown
 from mudline.scene.seabed import SeabedKind
 
 TITLE = "RIFLEX INPMOD"
-SUMMARY = "RIFLEX input text for INPMOD"
 _DRAG = "0.0 1.2 0.0 1.0 0.0 0.0 2"
 
 

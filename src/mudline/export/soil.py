@@ -24,6 +24,15 @@ from mudline.scene.resolved import LawArrays, ResolvedDeck
 _RIGID_SHARE = 1e-3
 """Of the diameter: how far a pipe sinks that stands in for one on a rigid seabed."""
 _HALVINGS = 80
+_SETTINGS = {
+    "SEABED CONTACT": {"smoothing": "no effect at rest beyond its zone", "damping": "no effect at rest"},
+    "SEABED FRICTION": {
+        "directions": "along and across the line instead",
+        "criterion": "each direction by itself, or both on a circle, as the target has it",
+        "lateral": "one coefficient before and after breakout",
+    },
+}
+_PLAIN = ("AXIAL", "BOX", "COULOMB", "NONE")
 
 
 class Units(NamedTuple):
@@ -71,11 +80,8 @@ class Soil(NamedTuple):
         law = f"{kind} {short_name(name)}" if name else self.law
         if self.kind is LawKind.LINEAR:
             return f"{law}: {kilo(self.stiffness)}"
-        at = (
-            f"at W ({shown(1e3 * self.penetration, 3)} mm)"
-            if self.weight > 0.0
-            else "of its first point, as W is not above 0"
-        )
+        at = f"at W ({shown(1e3 * self.penetration, 3)} mm)"
+        at = at if self.weight > 0.0 else "of its first point, as W is not above 0"
         return f"{law}: secant {kilo(self.stiffness)} {at}, tangent there {kilo(self.tangent)}"
 
 
@@ -219,6 +225,19 @@ def report_stiffness(report: Report, soils: list[Soil], name: str, used: list[fl
         for entry in report.scene.laws.curves if curve else ():
             if entry.name == curve:
                 report.add(entry.where, status, target, effect)
+    _report_unfollowed(report, {soil.where for soil in soils})
+
+
+def _report_unfollowed(report: Report, told: set[Where | None]) -> None:
+    """Add the laws and curves that no element follows."""
+    laws = report.scene.laws
+    for law in laws.set_laws:
+        if law.where not in told:
+            report.add(law.where, Status.LEFT_OUT, "none", "no element follows this law")
+    followed = {law.curve for law in laws.set_laws if law.where in told}
+    for number, entry in enumerate(laws.curves):
+        if number not in followed:
+            report.add(entry.where, Status.LEFT_OUT, "none", "no element follows this curve")
 
 
 def report_friction(report: Report, soils: list[Soil], target: str, used: list[tuple[float, float]]) -> None:
@@ -241,3 +260,9 @@ def report_resistance(report: Report, target: str) -> None:
         ):
             if value > 0.0:
                 report.add(where, Status.LEFT_OUT, target, effect, setting)
+    for keyword, names in _SETTINGS.items():
+        extension = report.scene.extensions.get(keyword)
+        for entry, where in zip(extension.entries, extension.places, strict=True) if extension else ():
+            for name, effect in names.items():
+                if (given := getattr(entry, name, None)) is not None and given not in _PLAIN:
+                    report.add(where, Status.LEFT_OUT, target, effect, f"{name.upper()}=")
