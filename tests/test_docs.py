@@ -49,6 +49,7 @@ JSON = {
         "export -q samples/imperial-riser.keyxi --to orcaflex -o model.yml",
         "export -q samples/scr-vessel.keyxm --to riflex -o model.inp",
     ),
+    "report": ("report samples/scr-vessel.keyxm samples/broken.keyxm",),
     "expand": ("expand samples/variations.keyxm --dry-run", "expand -q samples/parametric.keyxm -o study"),
     "rules": ("rules",),
 }

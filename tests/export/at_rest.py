@@ -130,8 +130,9 @@ def table(rests: list[Rest]) -> str:
         "mudline, same stiffness, kN",
         "mudline, deck's laws, kN",
         "explained by the laws, kN",
+        "touchdown, MoorDyn / mudline, m",
+        "penetration, MoorDyn / mudline, mm",
     )
-    head += ("touchdown, MoorDyn / mudline, m", "penetration, MoorDyn / mudline, mm")
     rows = [f"| {' | '.join(head)} |", f"|{' --- |' * len(head)}"]
     for each in rests:
         forces = (each.reaction, each.same_law, each.deck_law, each.explained)

@@ -9,8 +9,15 @@ from mudline.export.line_model import LineModel, build
 from mudline.scene.model import resolve
 
 SAMPLES = Path(__file__).parents[2] / "samples"
-EXPORTABLE = ("flowline-gen.keyxm", "imperial-riser.keyxi", "legacy-flowline.keyxm", "parametric.keyxm")
-EXPORTABLE += ("scr-touchdown.keyxm", "scr-vessel.keyxm", "variations.keyxm")
+EXPORTABLE = (
+    "flowline-gen.keyxm",
+    "imperial-riser.keyxi",
+    "legacy-flowline.keyxm",
+    "parametric.keyxm",
+    "scr-touchdown.keyxm",
+    "scr-vessel.keyxm",
+    "variations.keyxm",
+)
 
 DECK = """\
 $MODEL

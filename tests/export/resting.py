@@ -55,7 +55,9 @@ def main() -> None:
     found = state(moordyn, system, lines)
     moordyn.Close(system)
     change = max(abs(total / totals[-1] - 1.0) for total in totals[-3:])
-    print("\n" + json.dumps({"program": f"MoorDyn {version('moordyn')}", "lines": found, "change": change}))
+    sys.stdout.write(
+        "\n" + json.dumps({"program": f"MoorDyn {version('moordyn')}", "lines": found, "change": change}) + "\n"
+    )
 
 
 if __name__ == "__main__":

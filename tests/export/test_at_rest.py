@@ -1,4 +1,4 @@
-"""Three samples exported to MoorDyn and brought to rest: it and mudline agree within what the difference of laws explains.
+"""Three samples at rest in MoorDyn: it and mudline agree within what the difference of laws explains.
 
 `docs/export.md` has the figures of longer statics.
 """

@@ -111,8 +111,9 @@ def test_a_geotiff_becomes_a_deck_that_is_evaluated(tmp_path: Path) -> None:
     line = "*NODE\n 1, 0.0, 20.0, 20.0\n 2, 0.0, 180.0, 120.0\n*ELEMENT\n 1, 1, 2\n*ELASTIC SURFACE\n 5000.0\n"
     (tmp_path / "line.keyxm").write_text(out.read_text() + line)
     seabed = mudline.read(tmp_path / "line.keyxm").scene().contact().input.seabed
-    row, column = np.indices(level.shape)
+    row, column = np.indices(level.shape).astype(np.float64)
     inside = level > -9999.0
+    assert seabed is not None
     found = seabed.elevation((2.5 + 5.0 * column)[inside], (147.5 - 5.0 * row)[inside])
     assert np.abs(found - (level[inside].astype(np.float64) + 300.0)).max() <= 0.1
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from mudline.contact.input import LawKind
-from mudline.diagnostics import DeckError
-from mudline.export import line_model, moordyn, orcaflex, riflex
+from mudline.diagnostics import DeckError, Where
+from mudline.export import moordyn, orcaflex, riflex
 from mudline.export.report import Status
 from tests.export.decks import BOTH, ELASTIC, EXPORTABLE, PIPE, WEIGHT, model_of, sample, text
 
@@ -21,9 +21,9 @@ CURVE = (
 )
 
 
-def refused(deck: str, **others: str) -> str:
+def refused(deck: str, name: str = "deck.keyxm") -> str:
     with pytest.raises(DeckError) as caught:
-        model_of(deck, **others)
+        model_of(deck, name)
     (found,) = caught.value.diagnostics
     return f"{found.line}: {found.message}"
 
@@ -179,7 +179,7 @@ def test_every_block_of_every_sample_is_in_the_report(name: str, target: ModuleT
     said = {(entry.keyword.split()[0], entry.line) for entry in model.report.entries}
     for i, section in enumerate(model.scene.deck.sections):
         for j, block in enumerate(section.blocks):
-            line = model.line_of(line_model.Where(i, j))
+            line = model.line_of(Where(i, j))
             assert any(at >= line and keyword == f"*{block.keyword}".split()[0] for keyword, at in said), block.keyword
     assert all(entry.effect for entry in model.report.lost)
     assert not model.report.is_exact
@@ -190,7 +190,7 @@ def test_what_is_carried_whole_is_exact(target: ModuleType) -> None:
     frictionless = ELASTIC.replace(" FRICTION=0.3, 0.5, 0.01, 0.02\n", "")
     model = model_of(text(bed=frictionless))
     target.write(model, "out.txt")
-    assert [entry for entry in model.report.lost if entry.keyword not in ("*ELEMENT lengths",)] == []
+    assert [entry for entry in model.report.lost if entry.keyword != "*ELEMENT lengths"] == []
 
 
 def test_settings_beside_stiffness_and_friction_are_listed() -> None:

@@ -58,7 +58,8 @@ def test_sections_of_the_same_numbers_are_one_line_type() -> None:
 
 def test_another_section_is_another_line_behind_a_free_point() -> None:
     sets = "*ELEMENT SETS\n SET=First\n GEN=1, 4\n SET=Second\n GEN=5, 10\n"
-    sections = " OPTION=RIGID\n SET=First\n 2.0E11, 8.0E10, 0.1, 0.08, 7850.0\n SET=Second\n 2.0E11, 8.0E10, 0.1, 0.0, 7850.0\n"
+    sections = " OPTION=RIGID\n SET=First\n 2.0E11, 8.0E10, 0.1, 0.08, 7850.0\n"
+    sections += " SET=Second\n 2.0E11, 8.0E10, 0.1, 0.0, 7850.0\n"
     model = model_of(text(sets=sets, sections=sections))
     found = written(model)
     assert [row[:6] for row in found["LINES"]] == [

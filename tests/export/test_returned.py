@@ -22,13 +22,15 @@ TWO = text(
 )
 
 
+def lowered(places: Floats, by: float) -> Floats:
+    return places - np.array([0.0, 0.0, by])
+
+
 def line_file(path: Path, places: Floats, times: tuple[float, ...] = (0.0, 0.5)) -> None:
     """A file as MoorDyn writes it, with tensions behind the places."""
     names = [f"Node{node}p{axis}" for node in range(len(places)) for axis in "xyz"]
     rows = ["  ".join(["Time", *names, "Seg1Te"]), "  ".join(["(s)", *["(m)"] * len(names), "(N)"])]
-    rows += [
-        "  ".join(f"{value:.7e}" for value in (time, *(places + [0.0, 0.0, -time]).ravel(), 1e3)) for time in times
-    ]
+    rows += ["  ".join(f"{value:.7e}" for value in (time, *lowered(places, time).ravel(), 1e3)) for time in times]
     path.write_text("\n".join(rows) + "\n")
 
 
@@ -57,7 +59,7 @@ def test_a_line_of_moordyn_in_the_axes_of_the_deck(tmp_path: Path) -> None:
 
 def test_other_nodes_are_taken_by_arc_length_in_feet(tmp_path: Path) -> None:
     model = model_of(text(), "deck.keyxi")
-    line_file(tmp_path / "a_Line1.out", straight(50.0 * 0.3048, 4) + [0.0, 0.0, 100.01 - 30.48])
+    line_file(tmp_path / "a_Line1.out", lowered(straight(50.0 * 0.3048, 4), 30.48 - 100.01))
     found = read(tmp_path / "a_Line1.out", model).whole[0]
     assert found[np.argsort(model.scene.node_ids), 1] == pytest.approx(np.linspace(0.0, 50.0, 11), abs=1e-5)
     assert found[:, 0] == pytest.approx(np.zeros(11), abs=1e-5)

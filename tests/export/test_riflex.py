@@ -81,7 +81,7 @@ def test_a_bending_section_without_torsion_gets_some() -> None:
     sections = " OPTION=FLEXIBLE\n SET=ALL\n 1000.0, 1000.0, , 1.0E8, 50.0, 0.1, 0.0, 0.1, 0.1\n"
     model = model_of(text(sections=sections))
     found = groups(riflex.write(model, "a.inp")["a.inp"])
-    assert [["1000.0"], ["1000.0"]] == found["NEW COMPONENT CRS1"][4:6]
+    assert found["NEW COMPONENT CRS1"][4:6] == [["1000.0"], ["1000.0"]]
     assert any(entry.keyword == "*GEOMETRIC SETS GJ" for entry in model.report.lost)
 
 
