@@ -69,7 +69,8 @@ def test_a_deck_that_goes_on_from_another_needs_ends_of_its_own(tmp_path: Path) 
 
 def test_entries_of_another_file_have_its_name(tmp_path: Path) -> None:
     (tmp_path / "model.keyxm").write_text(PLAIN.partition("$LOAD CASE")[0])
-    case = "$LOAD CASE\n*RESTART\n LAST=model, TYPE=DYNAMIC\n*ANALYSIS TYPE\n TYPE=TIME DOMAIN\n*BOUNDARY\n TYPE=CONSTANT\n"
+    case = "$LOAD CASE\n*RESTART\n LAST=model, TYPE=DYNAMIC\n*ANALYSIS TYPE\n TYPE=TIME DOMAIN\n"
+    case += "*BOUNDARY\n TYPE=CONSTANT\n"
     case += "".join(f" {node}, {freedom}\n" for node in (1, 11) for freedom in (1, 2))
     (tmp_path / "case.keyxm").write_text(case)
     arguments = ("--to", "moordyn", "-o", str(tmp_path / "a.txt"))

@@ -20,7 +20,7 @@ _STEP = 0.5
 
 def ends(text: str) -> list[float]:
     """Where the coupled points are, one behind the other."""
-    rows = (line.split() for line in text.split("--- POINTS")[1].split("--- LINES ---")[0].splitlines())
+    rows = (line.split() for line in text.split("--- POINTS")[1].split("--- LINES ---", maxsplit=1)[0].splitlines())
     return [float(word) for row in rows if row[1:2] == ["Coupled"] for word in row[2:5]]
 
 

@@ -23,7 +23,8 @@ TWO = text(
 
 
 def lowered(places: Floats, by: float) -> Floats:
-    return places - np.array([0.0, 0.0, by])
+    found: Floats = places - np.array([0.0, 0.0, by])
+    return found
 
 
 def line_file(path: Path, places: Floats, times: tuple[float, ...] = (0.0, 0.5)) -> None:
