@@ -11,7 +11,7 @@ import sys
 import tempfile
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import cast
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 
@@ -24,6 +24,8 @@ from mudline.export.line_model import LineModel, build
 from mudline.export.returned import _positions
 from mudline.scene.model import resolve
 from mudline.scene.numbering import Floats
+
+Json: TypeAlias = Any
 
 ROOT = Path(__file__).parents[2]
 DECKS = ("legacy-flowline.keyxm", "imperial-riser.keyxi", "scr-touchdown.keyxm")
@@ -52,11 +54,7 @@ def at_rest(deck: Path, folder: Path, statics: float = 100.0) -> Rest:
     """Export a deck, run it with so many seconds of statics at most, and evaluate the shape."""
     scene = resolve(load_path(deck)).require_evaluable()
     model = build(scene)
-    for name, text in moordyn.write(model, "model.txt").items():
-        (folder / name).write_text(text.replace("100.0 TmaxIC", f"{statics} TmaxIC"), encoding="ascii")
-    child = [sys.executable, str(ROOT / "tests" / "export" / "resting.py"), str(folder / "model.txt"), str(SECONDS)]
-    output = subprocess.run(child, check=True, capture_output=True, text=True, timeout=280).stdout
-    found = json.loads(output.strip().splitlines()[-1])
+    found = run(model, folder, statics)
     parts = [part for each in moordyn.pieces(model) for part in each]
     places = [np.array(line["places"])[np.newaxis] for line in found["lines"]]
     arcs = [
@@ -80,6 +78,15 @@ def at_rest(deck: Path, folder: Path, statics: float = 100.0) -> Rest:
         (_touchdown(parts_arcs(arcs), depth), float(line_summaries(deck_law)[0].touchdown[-1].arc_length) * length),
         (float(depth.max()), float(np.max(deck_law.depth)) * length),
     )
+
+
+def run(model: LineModel, folder: Path, statics: float) -> Json:
+    """What MoorDyn has at rest: places and forces of the nodes of each line."""
+    for name, text in moordyn.write(model, "model.txt").items():
+        (folder / name).write_text(text.replace("100.0 TmaxIC", f"{statics} TmaxIC"), encoding="ascii")
+    child = [sys.executable, str(ROOT / "tests" / "export" / "resting.py"), str(folder / "model.txt"), str(SECONDS)]
+    output = subprocess.run(child, check=True, capture_output=True, text=True, timeout=280).stdout
+    return json.loads(output.strip().splitlines()[-1])
 
 
 def parts_arcs(arcs: list[Floats]) -> Floats:

@@ -7,6 +7,7 @@ with the ends held; `change` is the largest change of the total reaction in the 
 from __future__ import annotations
 
 import json
+import os
 import sys
 from importlib import import_module
 from importlib.metadata import version
@@ -44,7 +45,8 @@ def main() -> None:
     lines = len(
         [row for row in text.split("--- LINES ---")[1].split("--- OPTIONS")[0].splitlines() if row.endswith(" p")]
     )
-    system = moordyn.Create(str(model))
+    os.chdir(model.parent)  # it looks for the file of the seabed in the working folder
+    system = moordyn.Create(model.name)
     if moordyn.Init(system, held, [0.0] * len(held)):
         sys.exit("MoorDyn did not start")
     totals, time = [], 0.0

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 import yaml
 
+from mudline.diagnostics import DeckError
 from mudline.export import orcaflex
 from mudline.export.line_model import LineModel
 from mudline.export.report import Status
@@ -18,7 +19,12 @@ SOIL = ELASTIC + "*SEABED SOIL\n SET=ALL\n STRENGTH=2000.0, 1000.0\n BUOYANCY=1.
 
 
 def written(model: LineModel) -> dict[str, Any]:
-    found: dict[str, Any] = yaml.safe_load(orcaflex.write(model, "deck.yml")["deck.yml"])
+    return checked(orcaflex.write(model, "deck.yml")["deck.yml"])
+
+
+def checked(content: str) -> dict[str, Any]:
+    """A file that keeps to the schema of what is written."""
+    found: dict[str, Any] = yaml.safe_load(content)
     schema = json.loads(Path(__file__).with_name("orcaflex-schema.json").read_text(encoding="utf-8"))
     pytest.importorskip("jsonschema").Draft202012Validator(schema).validate(found)
     return found
@@ -124,3 +130,8 @@ def test_diameters_that_differ_are_listed() -> None:
     written(model)
     (entry,) = (entry for entry in model.report.entries if entry.keyword == "*GEOMETRIC SETS diameter")
     assert entry.effect.startswith("its axis touches 20 mm higher")
+
+
+def test_a_slope_that_is_too_steep_is_refused() -> None:
+    with pytest.raises(DeckError, match="slopes up to 45 degrees"):
+        written(model_of(text(bed=ELASTIC + "*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=50.0\n")))

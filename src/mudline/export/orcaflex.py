@@ -27,7 +27,7 @@ _CONNECTION = (
 _BENDING = "ConnectionxBendingStiffness, ConnectionyBendingStiffness"
 _SECTIONS = "LineType, Length, TargetSegmentLength"
 _PROFILE = "SeabedProfileDistanceFromSeabedOrigin, SeabedProfileDepth"
-_POINTS = 201
+_POINTS, _STEEPEST = 201, 45.0
 _DEFAULTS = (
     ("factor", 6.0),
     ("exponent", 0.25),
@@ -54,7 +54,7 @@ def segments(piece: Stretch) -> int:
 
 
 def write(model: LineModel, name: str) -> dict[str, str]:
-    """The text of the file by its name. Raises DeckError: lines join at a node that nothing holds."""
+    """The text of the file by its name. Raises DeckError: lines join at a node that nothing holds, a slope above 45."""
     for end in model.ends:
         if end.joins:
             message = "lines join at this node, which takes a buoy in OrcaFlex: hold it, or export one line only"
@@ -178,6 +178,8 @@ def _environment(model: LineModel, soil: Soil) -> Items:
         "SeabedType": "Flat",
         "SeabedOrigin": [0.0, 0.0],
     }
+    if abs(shape.slope) > _STEEPEST:
+        raise model.scene.refusal(f"OrcaFlex takes slopes up to {_STEEPEST:g} degrees: give a profile", shape.where)
     if shape.kind in (SeabedKind.FLAT, SeabedKind.SLOPING):
         slope, direction = abs(shape.slope), shape.direction + (180.0 if shape.slope < 0.0 else 0.0)
         depth = model.depth + half / cos(radians(slope))
