@@ -69,6 +69,7 @@ class Report:
     scene: ResolvedDeck
     entries: list[Entry] = field(default_factory=list)
     _claimed: set[tuple[int, int]] = field(default_factory=set)
+    _seen: set[Entry] = field(default_factory=set)
 
     def add(self, where: Where | None, status: Status, target: str, effect: str = "", setting: str = "") -> None:
         """Add what became of the block at a place, or of a `setting` in it; nothing without a place."""
@@ -81,7 +82,8 @@ class Report:
         line = deck.place(Problem(RUN001, "", where=where)).line
         name = f"*{one_line(keyword)}{f' {setting}' if setting else ''}"
         entry = Entry(name, base[0].file if base else deck.file, line, status, target, effect)
-        if entry not in self.entries:
+        if entry not in self._seen:
+            self._seen.add(entry)
             self.entries.append(entry)
 
     def claim(self, keyword: str, target: str) -> None:

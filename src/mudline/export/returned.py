@@ -8,15 +8,17 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mudline.export import moordyn, orcaflex
-from mudline.export.line_model import LineModel, Stretch, build
 from mudline.scene.csv_file import data_error, read_numeric_csv
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats
 from mudline.scene.positions import Positions
+
+if TYPE_CHECKING:
+    from mudline.export.line_model import LineModel, Stretch
 
 _LINE_FILE = re.compile(r"(.*_Line)(\d+)(\.\w+)", re.IGNORECASE)
 _NODE = re.compile(r"node(\d+)p([xyz])")
@@ -33,15 +35,20 @@ def read_returned(path: Path, scene: Scene) -> Positions | None:
     """
     with path.open("rb") as stream:
         first, *_ = stream.read(_HEAD).decode("utf-8", "replace").lstrip("\ufeff").lower().split("\n")
-    if first.split()[:2] == ["time", "node0px"]:
-        return _moordyn(path, build(scene))
     headings = {field.strip().strip('"') for field in re.split("[,;\t]", first)}
-    if set(_PLACE.values()) <= headings and headings & {_OTHERS["node"], _OTHERS["arc"]}:
-        return _orcaflex(path, build(scene), {name: text for name, text in _OTHERS.items() if text in headings})
-    return None
+    of_moordyn = first.split()[:2] == ["time", "node0px"]
+    if not of_moordyn and not (set(_PLACE.values()) <= headings and headings & {_OTHERS["node"], _OTHERS["arc"]}):
+        return None
+    from mudline.export.line_model import build  # noqa: PLC0415 - files of our own form do without it
+
+    if of_moordyn:
+        return _moordyn(path, build(scene))
+    return _orcaflex(path, build(scene), {name: text for name, text in _OTHERS.items() if text in headings})
 
 
 def _moordyn(path: Path, model: LineModel) -> Positions:
+    from mudline.export import moordyn  # noqa: PLC0415 - as above
+
     named = _LINE_FILE.fullmatch(path.name)
     if named is None:
         raise data_error(path.as_posix(), "the name of a file of a line ends in _Line and its number, as run_Line1.out")
@@ -83,6 +90,8 @@ def _line_file(path: Path) -> tuple[Floats, Floats]:
 
 
 def _orcaflex(path: Path, model: LineModel, headings: dict[str, str]) -> Positions:
+    from mudline.export import orcaflex  # noqa: PLC0415 - as above
+
     known = (*headings, *_PLACE)
     table = read_numeric_csv(path, known, known, headings | _PLACE)
     file, columns = path.as_posix(), table.columns
@@ -96,22 +105,13 @@ def _orcaflex(path: Path, model: LineModel, headings: dict[str, str]) -> Positio
     order = np.lexsort((columns["arc" if "arc" in columns else "node"], step))
     places = np.column_stack([columns[name] for name in _PLACE])[order].reshape(len(times), nodes, 3)
     parts = orcaflex.pieces(model)[0]
-    arcs = columns["arc"][order][:nodes] if "arc" in columns else _arcs(parts)
+    sizes = [np.full(count := orcaflex.segments(part), float(part.lengths.sum()) / count) for part in parts]
+    arcs = columns["arc"][order][:nodes] if "arc" in columns else np.append(0.0, np.cumsum(np.concatenate(sizes)))
     if len(arcs) != nodes:
         message = f"{nodes} nodes, the exported line has {len(arcs)}: give a table with the column Arc length (m)"
         raise data_error(file, message)
-    whole = Stretch(0, 0, _along(parts), np.concatenate([part.lengths for part in parts]))
+    (whole,) = model.lines[0].pieces(lambda _: None)
     return _positions(model, [(whole, arcs, places)], times if "time" in columns else None)
-
-
-def _arcs(parts: list[Stretch]) -> Floats:
-    """Arc length of each node of an exported line: equal segments in each section."""
-    sizes = [np.full(count := orcaflex.segments(part), float(part.lengths.sum()) / count) for part in parts]
-    return np.append(0.0, np.cumsum(np.concatenate(sizes)))
-
-
-def _along(parts: list[Stretch]) -> np.ndarray[tuple[int], np.dtype[np.intp]]:
-    return np.concatenate([parts[0].nodes[:1], *(part.nodes[1:] for part in parts)])
 
 
 def _positions(model: LineModel, found: list[tuple[Stretch, Floats, Floats]], time: Floats | None) -> Positions:
