@@ -30,11 +30,11 @@ from tests.contact.comparison import Scene, Sizes, compare
 NORMAL = ("linear", "smoothed", "curve", "soil", "rigid")
 BESIDE = ("unloading", "suction spring", "suction", "lateral")
 TRENCHES = ("trench peak", "trench wall", "trench table")
-LAWS = (*NORMAL, "nodal", *BESIDE, "friction", *TRENCHES)
+LAWS = (*NORMAL, "nodal", *BESIDE, "friction", "breakout", *TRENCHES)
 """All laws; in scenes each is on some elements or nodes."""
 SUBSETS: tuple[tuple[frozenset[str], bool], ...] = (
     (frozenset({"curve", "linear", "smoothed", "soil", "unloading", "suction spring", "suction"}), True),
-    (frozenset({"linear", "nodal", "friction", "lateral"}), False),
+    (frozenset({"linear", "nodal", "friction", "breakout", "lateral"}), False),
 )
 """Laws of the scenes of the suite, and whether their seabed is flat: each has loops of its own, compiled once."""
 SIZES = (1e-300, 1e-160, 1e-100, 1e-12, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e12, 1e100, 1e160, 1e300)
@@ -142,6 +142,7 @@ def _laws_of_block(line: _Line) -> Iterator[LawAssignment]:
     yield on("lateral", [row], stiffness=900.0)
     yield friction([node], ellipse=True, angle=30.0)
     yield friction([node + 1, node + 2], stiffness=np.nan, mobilisation=0.02)
+    yield on("breakout", [node + 2], peak_displacement=0.02, peak_growth=0.1, residual=0.4, residual_displacement=0.2)
     yield on("trench peak", [row], peak=300.0, **widths)
     yield on("trench wall", [row + 1], depth=0.05, **widths)
     yield on("trench table", [row + 2], table=0, **widths)
@@ -266,6 +267,22 @@ def _friction(random: _Random, nodes: int, size: float) -> LawAssignment:
     return on("friction", rows, **dict(zip(FRICTION, columns, strict=True)))
 
 
+def _breakout(random: _Random, friction: LawAssignment, elements: IndexArray) -> LawAssignment:
+    """On nodes without an ellipse or a trench, some with a growth with z/D; `elements` are those in trenches."""
+    rows = friction.rows[(np.asarray(friction.parameters["elliptic"]) == 0.0) & ~np.isin(friction.rows, elements)]
+    count = len(rows)
+    peak, growth = random.values(count, 1e-3, 0.05, 1e-300), random.values(count, 0.0, 0.1, 0.0)
+    return on(
+        "breakout",
+        rows,
+        peak_displacement=peak,
+        peak_growth=growth * random.pick((0.0, 1.0)),
+        residual=random.values(count, 0.0, 1.2, 0.0, 1.0),
+        residual_growth=random.values(count, 0.0, 0.5, 0.0),
+        residual_displacement=peak + growth + random.values(count, 1e-3, 0.2),
+    )
+
+
 def _trench(random: _Random, name: str, elements: int, size: float) -> LawAssignment:
     rows = random.some(elements, 0.7)
     count = len(rows)
@@ -320,6 +337,10 @@ def _laws(
     if "friction" in names:
         found.append(_friction(random, nodes, size))
     found += [_trench(random, name, elements, size) for name in TRENCHES if name in names]
+    if {"friction", "breakout"} <= names:
+        dug = [line.ends[law.rows].ravel() for law in found if law.law in TRENCHES]
+        sliding = next(law for law in found if law.law == "friction")
+        found.append(_breakout(random, sliding, np.concatenate([np.zeros(0, np.intp), *dug])))
     return tuple(found)
 
 

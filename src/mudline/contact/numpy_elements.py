@@ -35,12 +35,14 @@ class Work(NamedTuple):
         tangent: (c, steps, m + 2) components of the unit direction of each element, those in the plane of a horizontal
             seabed alone.
         lateral: the same of the lateral force on each of its nodes.
+        ratio: z/D of each element; none where no node asks for it.
     """
 
     planes: FloatArray
     load: FloatArray
     tangent: FloatArray
     lateral: FloatArray
+    ratio: FloatArray
 
 
 class _Group(NamedTuple):
@@ -137,6 +139,8 @@ class Elements:
         if self._suction is not None and batch.speed is not None and state.suction is not None:
             self._apply_suction(self._suction, batch.speed, (depth, contact, trench), values, part, state.suction)
         np.multiply(values[0], self._half, out=work.load[:, self._inner])
+        if len(work.ratio):
+            work.ratio[:, self._inner] = part.ratio[:, self._here]
         if not len(work.tangent):
             return
         along = self._write_directions(work)

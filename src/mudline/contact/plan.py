@@ -175,6 +175,9 @@ def _friction(given: ContactInput) -> str:
         parts.append(f"{counted(int(constant.sum()), 'node')} with a constant spring{criterion}")
     if lengths := int((~constant).sum()):
         parts.append(f"{counted(lengths, 'node')} with a mobilisation length, Kt = mu N / length (inferred)")
+    if (breaks := given.assigned.get("breakout")) is not None:
+        count = counted(len(breaks.rows), "node")
+        parts.append(f"{count} with {breaks.law.summary}, where mu2 and Kt2 have no effect")
     return "; ".join(parts)
 
 

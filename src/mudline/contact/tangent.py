@@ -8,6 +8,7 @@ seabed the normal is held too. Friction makes A unsymmetric. B holds the velocit
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -20,7 +21,7 @@ from mudline.contact.vectors import in_plane, turned_3, units
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
-    from mudline.contact.laws.friction import FrictionForce
+    from mudline.contact.laws.friction import ExtraLimit, FrictionForce, FrictionHistory, FrictionLaw
     from mudline.contact.trenches import AddedLimit
 
 
@@ -261,7 +262,49 @@ def _friction_of(step: _Step) -> _Sliding:
         pressed, forward = np.maximum(compression, 0.0), trial > 0.0
         added = added_limit(tables.trench, line, places, directions.axes, pressed, forward)
         extra = ExtraLimit(added.force, np.ones(len(places)), added.by_normal_force, np.where(trial > 0.0, 1.0, -1.0))
+    if tables.breakout is not None:
+        law, extra, added = _breaking_out(step, law, history, directions, places, compression, extra, added)
     return _Sliding(directions, slide(law, history, places, directions.axes, compression, extra), added)
+
+
+def _breaking_out(  # noqa: PLR0913, PLR0917 - as above
+    step: _Step,
+    law: FrictionLaw,
+    history: FrictionHistory,
+    directions: Directions,
+    places: FloatArray,
+    compression: FloatArray,
+    extra: ExtraLimit | None,
+    added: AddedLimit | None,
+) -> tuple[FrictionLaw, ExtraLimit, AddedLimit]:
+    """What a breakout leaves of springs and limits, as less of a limit; embedments are held."""
+    from mudline.contact.laws.breakout import shares  # noqa: PLC0415 - most friction has no breakout
+    from mudline.contact.laws.friction import ExtraLimit, slide  # noqa: PLC0415 - only now is it needed
+    from mudline.contact.trenches import AddedLimit  # noqa: PLC0415 - as above
+
+    rows = step.tables.breakout
+    if rows is None or step.before.breakout is None or step.after.breakout is None:
+        raise TypeError("the state has no breakout: it belongs to another model")
+    count, nodes, numbers = len(places), rows.rows, rows.columns[:-1]
+    extra = extra or ExtraLimit(*(np.zeros(count) for _ in range(4)))
+    added = added or AddedLimit(np.zeros(count), np.zeros(count), np.zeros((count, 3)), np.zeros(count))
+    far, deep = step.after.breakout[3:]
+    share, fall, softer = shares(far, deep, numbers)
+    away = places[nodes] - step.after.breakout[:3].T
+    distance = (away * directions.axes[1][nodes]).sum(axis=1)
+    grows = np.isfinite(distance) & (far > step.before.breakout[3])
+    coefficient = law.coefficients[nodes, 1]
+    pressed = coefficient * np.maximum(compression[nodes], 0.0)
+    extra.force[nodes], extra.by_normal_force[nodes] = pressed * (share - 1.0), coefficient * (share - 1.0)
+    extra.by_offset[nodes] = np.where(grows, 0.0 - pressed * fall * np.sign(distance), 0.0)
+    mobilisation = law.mobilisation.copy()
+    mobilisation[nodes, 1] /= softer
+    law = replace(law, mobilisation=mobilisation)
+    trial = slide(law, history, places, directions.axes, compression).trial
+    extra.outward[nodes] = np.sign(trial[nodes, 1])
+    added.gradient[nodes] = directions.axes[1][nodes]
+    added.by_angle[nodes] = np.where(grows, -(away * directions.axes[0][nodes]).sum(axis=1), 0.0)
+    return law, extra, added
 
 
 def _add_springs(axes: FloatArray, sliding: _Sliding, closed: IndexArray, blocks: _Blocks) -> None:

@@ -100,11 +100,16 @@ def _static_at_nodes(scene: ResolvedDeck, stiffness: Floats) -> tuple[Floats, Fl
     W L_t is half of the weight of each of a node's elements, its diameter the mean of theirs.
     """
     ends, count = scene.element_nodes, len(scene.node_ids)
-    known = ~np.isnan(scene.diameter)
     with np.errstate(all="ignore"):
-        carried = summed(0.5 * scene.submerged_weight * scene.length, ends, count)
+        return summed(0.5 * scene.submerged_weight * scene.length, ends, count) / stiffness, _sizes(scene)
+
+
+def _sizes(scene: ResolvedDeck) -> Floats:
+    """Mean diameters (n,) of the elements at the nodes; NaN where none is known."""
+    ends, count, known = scene.element_nodes, len(scene.node_ids), ~np.isnan(scene.diameter)
+    with np.errstate(all="ignore"):
         sizes = summed(np.where(known, scene.diameter, 0.0), ends, count)
-        return carried / stiffness, sizes / summed(known.astype(np.float64), ends, count)
+        return sizes / summed(known.astype(np.float64), ends, count)
 
 
 def unloading_lines(scene: ResolvedDeck) -> LawAssignment:
@@ -190,7 +195,7 @@ def _cyclic(entry: object) -> tuple[float, float]:
 
 
 def node_friction(scene: ResolvedDeck, lateral: Indices) -> LawAssignment:
-    """The friction of the nodes that have any.
+    """The friction of the nodes that have any; that across the line up to the breakout, where they have one.
 
     Nodes of elements with a lateral spring (`lateral` (k,)) have no transverse coefficient; nodes of a rigid seabed
     have no friction, as their normal reaction is that of a constraint.
@@ -201,9 +206,9 @@ def node_friction(scene: ResolvedDeck, lateral: Indices) -> LawAssignment:
     ellipse, angle = np.zeros(count, dtype=np.bool_), np.full(count, np.nan)
     extension = scene.extensions.get("SEABED FRICTION")
     if extension is not None:
-        block = at_nodes(extension.of_element, ends, count)
+        block = _friction_blocks(scene, extension)
         here = block >= 0
-        springs = np.where(here[:, None], _of_keyword(extension, block), springs)
+        springs = np.where(here[:, None], _of_keyword(scene, extension, block), springs)
         active = active | here
         ellipse = marked((getattr(entry, "criterion", None) == "ELLIPSE" for entry in extension.entries), block)
         angle = extension.values(block, "directions")
@@ -257,14 +262,56 @@ def _shortest(scene: ResolvedDeck) -> Floats:
     return shortest
 
 
-def _of_keyword(extension: Extension, block: Indices) -> Floats:
-    """As `_of_properties`, by `*SEABED FRICTION`: springs are given, and have no mobilisation length."""
+def _of_keyword(scene: ResolvedDeck, extension: Extension, block: Indices) -> Floats:
+    """As `_of_properties`, by `*SEABED FRICTION`: springs are given, and have no length but that of a breakout."""
     coefficients, stiffness = (
         np.column_stack([extension.values(block, part, name) for name in ("first", "second")])
         for part in ("coefficients", "stiffness")
     )
     stiffness[:, 1] = np.where(np.isnan(stiffness[:, 1]), stiffness[:, 0], stiffness[:, 1])
-    return np.stack([coefficients, stiffness, np.full(stiffness.shape, np.nan)])
+    lengths, out = np.full(stiffness.shape, np.nan), marked(map(breaks_out, extension.entries), block)
+    if out.any():
+        coefficients[out, 1], stiffness[out, 1] = extension.values(block, "peak", "factor")[out], np.nan
+        lengths[out, 1] = _breakouts(scene)["peak_displacement"][out]
+    return np.stack([coefficients, stiffness, lengths])
+
+
+def breaks_out(entry: object) -> bool:
+    """Whether a block of `*SEABED FRICTION` gives a breakout."""
+    return getattr(entry, "lateral", None) in {"PEAK-RESIDUAL", "F114"}
+
+
+def node_breakouts(scene: ResolvedDeck, friction: LawAssignment) -> list[LawAssignment]:
+    """The breakout of the nodes with friction that have one (`LATERAL=` of `*SEABED FRICTION`)."""
+    extension = scene.extensions.get("SEABED FRICTION")
+    if extension is None or not any(map(breaks_out, extension.entries)):
+        return []
+    out = marked(map(breaks_out, extension.entries), _friction_blocks(scene, extension))[friction.rows]
+    rows = friction.rows[out & (np.asarray(friction.parameters["lateral_coefficient"]) > 0.0)]
+    return [LawAssignment("breakout", rows, {name: values[rows] for name, values in _breakouts(scene).items()})]
+
+
+def _friction_blocks(scene: ResolvedDeck, extension: Extension) -> Indices:
+    """The block of `*SEABED FRICTION` that each node (n,) follows, -1 for none."""
+    return at_nodes(extension.of_element, scene.element_nodes, len(scene.node_ids))
+
+
+def _breakouts(scene: ResolvedDeck) -> dict[str, Floats]:
+    """The parameters of the breakout of all nodes (n,); NaN where there is none."""
+    from mudline.contact.laws.breakout import F114_DISPLACEMENTS, F114_RESIDUAL  # noqa: PLC0415 - only now
+
+    extension = scene.extensions["SEABED FRICTION"]
+    block = _friction_blocks(scene, extension)
+    published = marked((getattr(entry, "lateral", None) == "F114" for entry in extension.entries), block)
+    peak, residual, size = extension.values(block, "peak", "factor"), F114_RESIDUAL, _sizes(scene)
+    given: dict[str, tuple[Floats | float, Floats]] = {
+        "peak_displacement": (extension.values(block, "peak", "displacement"), F114_DISPLACEMENTS[0] * size),
+        "peak_growth": (0.0, F114_DISPLACEMENTS[1] * size),
+        "residual": (extension.values(block, "residual", "factor") / peak, residual[0] / peak),
+        "residual_growth": (0.0, residual[1] / peak),
+        "residual_displacement": (extension.values(block, "residual", "displacement"), F114_DISPLACEMENTS[2] * size),
+    }
+    return {name: np.where(published, theirs, ours) for name, (ours, theirs) in given.items()}
 
 
 def trenches(scene: ResolvedDeck) -> list[LawAssignment]:

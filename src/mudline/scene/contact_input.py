@@ -139,6 +139,9 @@ def _lateral_laws(scene: ResolvedDeck) -> list[LawAssignment]:
     friction = friction_of(scene)
     if friction is not None:
         laws.append(friction)
+        from mudline.scene.assignments import node_breakouts  # noqa: PLC0415 - only now is it needed
+
+        laws += node_breakouts(scene, friction)
     if "SEABED TRENCH" in scene.extensions:
         from mudline.scene.assignments import trenches  # noqa: PLC0415 - only now is it needed
 

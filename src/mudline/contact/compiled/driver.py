@@ -25,6 +25,7 @@ from mudline.contact.arrays import FloatArray
 from mudline.contact.compiled import (
     LAW,
     NO_LINE,
+    breakout_table,
     by_component,
     element_tables,
     features_of,
@@ -119,7 +120,7 @@ class CompiledDriver:
         self._pulls = suction_table(tables)
         self._node_loop = _loop(nodes_loop, callable_in_loops, has, _equations(tables.nodal), sources)
         self._node_index, self._node_numbers = node_tables(tables)
-        self._trenches = trench_tables(tables)
+        self._trenches, self._breaks = trench_tables(tables), breakout_table(tables)
         line = tables.line
         self._line = tuple(
             read_only(array) for array in (line.start.astype(np.int32), line.elements, line.senses, tables.half)
@@ -187,6 +188,7 @@ class CompiledDriver:
         sticks = (
             by_component(np.empty((0, 3)) if slides is None else slides.stick_points),
             by_component(np.zeros((0, 2), np.int8) if slides is None else slides.states),
+            np.empty((5, 0)) if after.breakout is None else after.breakout,
         )
         extra = (
             part.cut if part.cut.flags.writeable else none > 0,
@@ -206,7 +208,8 @@ class CompiledDriver:
         )  # fmt: skip
         nodes = (
             *self._line, self._node_index, self._node_numbers, points, part.gap, normals, part.force, work,
-            (*self._trenches, *self._laid_tables(batch.laid)), sticks, (part.normal_force, part.reaction), slips,
+            (*self._trenches, *self._laid_tables(batch.laid)), (self._breaks, part.ratio), sticks,
+            (part.normal_force, part.reaction), slips,
         )  # fmt: skip
         return elements, nodes
 

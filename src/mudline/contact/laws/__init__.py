@@ -81,6 +81,7 @@ class Law:
     Attributes:
         name: how assignments, plans and tables call it.
         summary: what it is, in a few words.
+        stage: the stage of the plan that evaluates it.
         acts_on: whether its rows are elements or nodes.
         parameters: what each row needs.
         needs_diameter: whether an element needs an external diameter.
@@ -95,6 +96,7 @@ class Law:
     summary: str
     acts_on: Literal["elements", "nodes"]
     parameters: tuple[Parameter, ...]
+    stage: str = "normal law"
     needs_diameter: bool = False
     history: bool = False
     tables: bool = False
@@ -186,6 +188,7 @@ _LAWS: dict[str, str | Law] = {
     "suction spring": "linear:SUCTION_SPRING",
     "suction": "suction:SUCTION_LAW",
     "friction": "friction:FRICTION",
+    "breakout": "breakout:BREAKOUT",
     "lateral": "linear:LATERAL",
     "trench peak": "trench:TRENCH_PEAK",
     "trench table": "trench:TRENCH_TABLE",

@@ -106,6 +106,7 @@ def _trench(name: str, summary: str, own: Parameter, equation: str, *, tables: b
     return Law(
         name=name,
         summary=summary,
+        stage="trench",
         acts_on="elements",
         parameters=(*_WIDTHS, own, *_CENTRELINE),
         tables=tables,

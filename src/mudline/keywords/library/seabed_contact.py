@@ -39,6 +39,16 @@ class ContactSet(Record):
         Literal["CENTRED", "ONE-SIDED"] | None,
         setting("FORM", "place of the quadratic zone: about the seabed, or below it", default="CENTRED"),
     ] = None
+    damping: Annotated[
+        Real | None,
+        setting(
+            "DAMPING",
+            "damping per unit length, of inward motion in contact only; alone in a block it is all that this gives",
+            unit="FT/L2",
+            at_least=0,
+            default="0",
+        ),
+    ] = None
 
 
 class SeabedContact(Block):
