@@ -17,6 +17,7 @@ import numpy as np
 from mudline.codes import RUN001
 from mudline.contact.input import LawKind
 from mudline.diagnostics import Problem, Where
+from mudline.quantities import time_unit, unit_names
 from mudline.scene.laws import Extension
 from mudline.scene.numbering import Floats, Indices, Mask, at_nodes, summed
 from mudline.scene.resolved import ResolvedDeck
@@ -29,13 +30,15 @@ _NORMAL = ("curve", "linear", "smoothed", "soil")
 _RISES = np.linspace(0.02, 1.0, 50)
 """Pull-out velocities over v_r at which the mobilisation of suction is looked at."""
 _NEARLY = 0.999
+SOFTENING = "softening"
+"""Kind of what falls as it moves on."""
 
 
 class Oscillation(NamedTuple):
     """One kind of contact, at its node that asks for the smallest step.
 
-    kind: "normal", "nodal", "unloading", "friction", "lateral", "suction spring", "suction mobilisation" or "suction
-        damping".
+    kind: "normal", "nodal", "unloading", "friction", "softening", "lateral", "suction spring", "suction mobilisation"
+        or "suction damping".
     name: its law, and the set through which its elements have it.
     element: index of its element, or of one element of its node.
     node: index of its node.
@@ -74,10 +77,14 @@ class Oscillation(NamedTuple):
 
 
 class Oscillations(NamedTuple):
-    """What oscillates, the fastest first, and (name, reason) of contacts of which nothing is known."""
+    """What oscillates, the fastest first, and (name, reason) of contacts of which nothing is known.
+
+    softening: what falls as it moves on: its `omega` is the rate at which a motion grows.
+    """
 
     found: list[Oscillation]
     unknown: list[tuple[str, str]]
+    softening: list[Oscillation]
 
 
 def oscillations(scene: ResolvedDeck, given: ContactInput) -> Oscillations:
@@ -88,12 +95,23 @@ def oscillations(scene: ResolvedDeck, given: ContactInput) -> Oscillations:
     every = [*_of_elements(scene, given, ContactModel(given).stiffest(), carried)]
     found = [one for one in every if isinstance(one, Oscillation)]
     unknown = [one for one in every if not isinstance(one, Oscillation)]
-    return Oscillations(sorted(found, key=lambda one: one.critical_step("central-difference")), unknown)
+    softening = [one for one in found if one.kind == SOFTENING]
+    springs = sorted(set(found) - set(softening), key=lambda one: one.critical_step("central-difference"))
+    return Oscillations(springs, unknown, softening)
 
 
 def line_of(scene: ResolvedDeck, where: Where | None) -> int:
     """Line of a place in the file that it stands in; 0 for none."""
     return 0 if where is None else scene.deck.place(Problem(RUN001, "", where=where)).line
+
+
+def softening_needs(scene: ResolvedDeck, one: Oscillation) -> str:
+    """What a structure and a motion need where a resistance falls: " = stiffness, and a step"."""
+    from mudline.contact.stiffest import ADVISED_OMEGA_DT, rounded_down  # noqa: PLC0415 - loaded when it is needed
+
+    unit, time = unit_names(scene.units).behind("stiffness"), f" {time_unit(scene.units)}".rstrip()
+    step = rounded_down(ADVISED_OMEGA_DT / one.omega)
+    return f" = {one.stiffness:.6g}{unit} (node {scene.node_ids[one.node]}), and a motion a step up to {step:.3g}{time}"
 
 
 class _Carried:
@@ -159,6 +177,8 @@ def _of_elements(
         yield from _of_suction(scene, given, carried)
     if "friction" in by_law:
         yield from _of_friction(scene, given, by_law["friction"].at_nodes, carried)
+    if "breakout" in by_law:
+        yield from _of_springs(scene, SOFTENING, "peak", by_law["breakout"].at_nodes, carried)
 
 
 def _groups(having: Mask, *keys: Indices) -> list[Indices]:
@@ -253,7 +273,22 @@ def _of_node(
 def _of_friction(
     scene: ResolvedDeck, given: ContactInput, stiffness: Floats | None, carried: _Carried
 ) -> Iterator[Oscillation | tuple[str, str]]:
-    """Nodes that stick, by the place that gives them their springs."""
+    """Nodes that stick, and why some have no springs."""
+    if stiffness is None:
+        return
+    yield from _of_springs(scene, "friction", "stiffness", stiffness, carried)
+    ends, sliding = carried.ends, given.assigned["friction"].rows
+    unknown = sliding[np.isnan(stiffness[sliding])]
+    if unknown.size:
+        around = scene.submerged_weight[np.isin(ends, unknown).any(axis=1)]
+        why = "which is not known" if np.isnan(around).any() else "and the pipe floats"
+        yield "friction", f"no springs at {len(unknown)} nodes: they follow the submerged weight, {why}"
+
+
+def _of_springs(
+    scene: ResolvedDeck, kind: str, field: str, stiffness: Floats | None, carried: _Carried
+) -> Iterator[Oscillation | tuple[str, str]]:
+    """Nodes (n,) with a spring of friction, by the place that gives it: `field` of its block, or FRICTION=."""
     if stiffness is None:
         return
     own = scene.extensions.get("SEABED FRICTION")
@@ -264,20 +299,14 @@ def _of_friction(
     for group in _groups(having, of_keyword, of_properties):
         keyword, index = int(of_keyword[group[0]]), int(of_properties[group[0]])
         if own is not None and keyword >= 0:
-            holder, place = own.sets[keyword], own.places[keyword].inside("stiffness")
-            name = f"friction on {'?' if holder is None else holder.name}"
+            holder, place = own.sets[keyword], own.places[keyword].inside(field)
+            name = f"{kind} on {'?' if holder is None else holder.name}"
         else:
             place = scene.resistance.places[index].inside("friction")
             on = np.flatnonzero(scene.resistance.of_element == index)[0]
             name = f"friction on {_set_of_resistance(scene, int(on))}"
-        found = _of_node("friction", name, group, stiffness, carried)
+        found = _of_node(kind, name, group, stiffness, carried)
         yield found._replace(where=place) if isinstance(found, Oscillation) else found
-    sliding = given.assigned["friction"].rows
-    unknown = sliding[np.isnan(stiffness[sliding])]
-    if unknown.size:
-        around = scene.submerged_weight[np.isin(ends, unknown).any(axis=1)]
-        why = "which is not known" if np.isnan(around).any() else "and the pipe floats"
-        yield "friction", f"no springs at {len(unknown)} nodes: they follow the submerged weight, {why}"
 
 
 def _of_suction(scene: ResolvedDeck, given: ContactInput, carried: _Carried) -> Iterator[Oscillation | tuple[str, str]]:
