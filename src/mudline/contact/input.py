@@ -151,7 +151,7 @@ class ContactInput:
         laws: which elements and nodes have which laws, with which parameters; an element has one normal law at most.
         curves: what the parameter of the law "curve" points to.
         tables: what that of the law "trench table" points to: (rows, 2) distance from the centreline, ascending, and
-            lateral resistance per unit length.
+            lateral resistance per unit length; maybe a third column, see `laws.trench`.
         tension: what happens where a curve pulls: "keep" its negative force, or "cut" force and stiffness to 0.
         seabed: its shape; None for a flat one at X = 0.
         weight: (m,) submerged weights per unit length, NaN where unknown; None when none is. Forces do without them.
@@ -235,6 +235,11 @@ class ContactInput:
     def has(self, *names: str) -> bool:
         """Whether some element or node has one of these laws."""
         return any(name in self.assigned for name in names)
+
+    @property
+    def needs_velocities(self) -> bool:
+        """Whether a law asks for velocities along the normals."""
+        return any(given.law.velocities for given in self.assigned.values())
 
     @property
     def normal_laws(self) -> list[AssignedLaw]:

@@ -13,6 +13,7 @@ import numpy as np
 
 from mudline.contact import vectors
 from mudline.contact.arrays import BoolArray, FloatArray, Picked, add_at, as_range, taken
+from mudline.contact.laws.damping import damping_force
 from mudline.contact.numpy_elements import Elements, Work
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed import FlatSeabed, Seabed
@@ -73,7 +74,7 @@ class NumpyDriver:
             some.run(batch, part, state, work)
         laid = None if self._tables.trench is None else self._tables.laid_line(batch.laid)
         for some_nodes in self._nodes:
-            some_nodes.run(part, state, work, laid)
+            some_nodes.run(batch.speed, part, state, work, laid)
 
 
 def _keep_freed_memory() -> None:
@@ -141,6 +142,7 @@ class Nodes:
             columns = tuple(column[None, cut] for column in rows.columns)
             if cut.start < cut.stop:
                 self._nodal.append((rows.reaction, as_range(rows.rows[cut] - begin), columns, rows.law.onset(*columns)))
+        self._damping = None if tables.nodal_damping is None else tables.nodal_damping[None, here]
         friction = tables.friction
         if friction is not None:
             self._active, self._elliptic = friction.active[here], friction.elliptic[here]
@@ -163,13 +165,22 @@ class Nodes:
             nodes = self._trench.nodes - begin
             self._in_trench, self._ranks = as_range(nodes), [(rows, as_range(nodes[rows])) for rows in ranks(nodes)]
 
-    def run(self, part: ContactResult, state: ContactState, work: Work, laid: LaidCentreline | None) -> None:
+    def run(
+        self,
+        speed: FloatArray | None,
+        part: ContactResult,
+        state: ContactState,
+        work: Work,
+        laid: LaidCentreline | None,
+    ) -> None:
         """Write the nodes of a batch."""
         line, here = self._tables.line, self._here
         total = line.sums(work.load, self.begin, self.end)
         for reaction, at, columns, onset in self._nodal:
             z = 0.0 - taken(part.gap[:, here], at)
             add_at(total, at, np.where(z > onset, reaction(z, 0.0, *columns)[0], 0.0))
+        if self._damping is not None and speed is not None:
+            total += damping_force(0.0 - part.gap[:, here], speed[:, here], self._damping)
         part.normal_force[:, here] = total
         if part.normal.strides[1] == 0:  # one for all nodes
             normal = tuple(part.normal[:1, :1, axis] for axis in range(3))

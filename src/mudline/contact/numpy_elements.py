@@ -10,6 +10,7 @@ import numpy as np
 from mudline.contact import vectors
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, Picked, StateArray, add_at, as_range, taken
 from mudline.contact.laws import PathLaw
+from mudline.contact.laws.damping import damping_force
 from mudline.contact.result import ContactResult
 from mudline.contact.tables import ContactState, ElementRows, NormalRows, Tables, rows_within
 from mudline.contact.vectors import in_plane, units
@@ -91,6 +92,7 @@ class Elements:
         bare = np.setdiff1d(np.arange(end - begin), np.concatenate(held))
         self._order, self._bare = np.concatenate([*held, bare]), len(bare)
         self._back = np.argsort(self._order) if (np.diff(self._order) != 1).any() else None
+        self._damping = None if tables.damping is None else tables.damping[None, here]
         self._unloading = self._subset(tables.unloading)
         self._steeper = [] if self._unloading is None else self._may_steepen(self._unloading)
         self._springs, self._suction = self._subset(tables.springs), self._subset(tables.suction)
@@ -136,6 +138,9 @@ class Elements:
             values[1][:, self._unsized] = np.nan
         if self._springs is not None:
             self._apply_springs(self._springs, depth, values)
+        if self._damping is not None and batch.speed is not None:
+            first, second = self._tables.line.at(batch.speed, self.begin, self.end)
+            values[0][...] += damping_force(depth, 0.5 * first + 0.5 * second, self._damping)
         if self._suction is not None and batch.speed is not None and state.suction is not None:
             self._apply_suction(self._suction, batch.speed, (depth, contact, trench), values, part, state.suction)
         np.multiply(values[0], self._half, out=work.load[:, self._inner])

@@ -82,6 +82,7 @@ def stiffest(tables: Tables, result: ContactResult | None, speed: FloatArray | N
             parts = [_normal(tables, rows, result).stiffness for rows in curves]
             found.append(_law("curve", np.fmax.reduce(parts)))
         found += [_nodal(tables, rows, result) for rows in tables.nodal]
+        found += _damping(tables)
         if tables.unloading is not None:
             found.append(_unloading(tables, tables.unloading))
         if tables.springs is not None:
@@ -95,6 +96,20 @@ def stiffest(tables: Tables, result: ContactResult | None, speed: FloatArray | N
             given = tables.given.assigned["lateral"]
             found.append(_law("lateral", _spread(tables, given.rows, given["stiffness"])))
     return Stiffest(tuple(found))
+
+
+def _damping(tables: Tables) -> list[LawStiffness]:
+    """Damping of inward motion, of elements and of the nodes of elements, without a stiffness."""
+    found = []
+    if (own := tables.damping) is not None:
+        damping = np.where(own > 0.0, own, np.nan)
+        found.append(LawStiffness("damping", 0.0 * damping, damping, "length"))
+    if (at_nodes := tables.nodal_damping) is not None:
+        ends = tables.given.element_nodes
+        damping = np.maximum(at_nodes[ends[:, 0]], at_nodes[ends[:, 1]])
+        damping = np.where(damping > 0.0, damping, np.nan)
+        found.append(LawStiffness("nodal damping", 0.0 * damping, damping, "node"))
+    return found
 
 
 def _law(name: str, stiffness: FloatArray) -> LawStiffness:

@@ -160,7 +160,9 @@ class Tables:
         unloading: stiffness. springs: stiffness and extent of suction springs. lateral: stiffness times half length.
         friction: its springs and limits as the drivers want them. friction_law: the same by node, for tangents.
         breakout: nodes with it, its parameters and 1 over their numbers of elements. embeds: whether it asks for z/D.
+        damping, nodal_damping: coefficients of elements (m,), of nodes (n,), 0 where there is none; None without any.
         suction: parameters of `suction.SuctionLaw`, in its order.
+        level: trenches in which the seabed is lowered.
         pulling: elements with suction whose curve pulls somewhere; None when there are none.
         cuts: whether curves that pull are cut to 0.
         rigid: (n,) nodes of elements on a rigid seabed; None when there are none.
@@ -179,6 +181,8 @@ class Tables:
         self.unloading = _element_rows(given, "unloading")
         self.springs = _element_rows(given, "suction spring")
         self.suction = _element_rows(given, "suction")
+        self.damping = _coefficients(given, "damping", len(self.half))
+        self.nodal_damping = _coefficients(given, "nodal damping", len(given.node_ids))
         self.lateral = _lateral(given)
         self.friction_law: FrictionLaw | None = None
         self.friction: FrictionRows | None = None
@@ -192,6 +196,12 @@ class Tables:
             self.trench = trench_rows(given, self.friction.coefficients[1])
         self.breakout = _breakout(given, self)
         self.embeds = self.breakout is not None and any(self.breakout.columns[at].any() for at in (1, 3))
+        self.level = None
+        if given.has("trench level"):
+            from mudline.contact.laws.trench import LEVEL  # noqa: PLC0415 - as above
+            from mudline.contact.trenches import trench_rows  # noqa: PLC0415 - as above
+
+            self.level = trench_rows(given, np.zeros(len(given.node_ids)), (LEVEL,))
         self._laid: tuple[FloatArray, LaidCentreline] | None = None
         self.pulling = _pulling(given)
         self.cuts = given.tension == "cut"
@@ -199,8 +209,9 @@ class Tables:
         if "rigid" in given.assigned:
             self.rigid = np.zeros(len(given.node_ids), np.bool_)
             self.rigid[given.element_nodes[given.assigned["rigid"].rows]] = True
-        parts = (self.unloading, self.suction, self.lateral, self.friction)
-        self.history = self._paths is not None or any(part is not None for part in parts)
+        parts = (self.unloading, self.suction, self.lateral, self.friction, self.level)
+        # velocities are differences to the step before where none are given
+        self.history = self._paths is not None or given.needs_velocities or any(part is not None for part in parts)
 
     def laid_line(self, laid: FloatArray) -> LaidCentreline:
         """Return the line as it was `laid`, prepared once: the states of a run share that array."""
@@ -278,6 +289,12 @@ def _with_paths(normal: list[NormalRows]) -> tuple[list[NormalRows], FloatArray 
 def _element_rows(given: ContactInput, name: str) -> ElementRows | None:
     found = given.assigned.get(name)
     return None if found is None else ElementRows(found.rows, found.columns)
+
+
+def _coefficients(given: ContactInput, name: str, count: int) -> FloatArray | None:
+    """The damping of all of `count` elements or nodes."""
+    found = given.assigned.get(name)
+    return None if found is None else found.spread("damping", count, 0.0)
 
 
 def _lateral(given: ContactInput) -> ElementRows | None:

@@ -54,8 +54,29 @@ def _half_width(extension: Extension, block: Indices, penetration: Floats, diame
 
 
 def _is_auto(extension: Extension, block: Indices) -> Mask:
-    """Whether each block leaves the width to the static penetration; that is the default."""
-    return marked((getattr(entry, "smoothing", None) in (None, "AUTO") for entry in extension.entries), block)
+    """Whether each block leaves the width to the static penetration; that is the default but beside DAMPING= alone."""
+
+    def auto(entry: object) -> bool:
+        names = ("form", "nodal_stiffness") if getattr(entry, "damping", None) is not None else ()
+        given: object = getattr(entry, "smoothing", None)
+        asked = not names or any(getattr(entry, name, None) is not None for name in names)
+        return given == "AUTO" or (given is None and asked)
+
+    return marked(map(auto, extension.entries), block)
+
+
+def damping(scene: ResolvedDeck) -> list[LawAssignment]:
+    """Damping of elements with a law per unit length, and of the nodes of those with a stiffness of their nodes."""
+    extension = scene.extensions["SEABED CONTACT"]
+    given = np.nan_to_num(extension.values(extension.of_element, "damping"))
+    rows = np.flatnonzero((given > 0.0) & ~np.isin(scene.law, (LawKind.NONE, LawKind.RIGID, LawKind.NODAL)))
+    length = np.where(scene.nodal & np.isfinite(scene.length), scene.length, 0.0)
+    of_nodes = summed(0.5 * given * length, scene.element_nodes, len(scene.node_ids))
+    nodes = np.flatnonzero(of_nodes > 0.0)
+    return [
+        LawAssignment("damping", rows, {"damping": given[rows]}),
+        LawAssignment("nodal damping", nodes, {"damping": of_nodes[nodes]}),
+    ]
 
 
 def _one_sided(extension: Extension, block: Indices) -> Mask:
@@ -315,12 +336,12 @@ def _breakouts(scene: ResolvedDeck) -> dict[str, Floats]:
 
 
 def trenches(scene: ResolvedDeck) -> list[LawAssignment]:
-    """The elements in trenches with a peak resistance, a tabulated one, or sloped walls."""
+    """The elements in trenches with a peak resistance, a tabulated one, or sloped walls; and where these lower it."""
     extension = scene.extensions["SEABED TRENCH"]
     entries = _trench_sets(scene)
     if not (extension.of_element >= 0).any():
         return []
-    walls = np.array([entry.model == "WALL" for entry in entries])
+    walls, lower = (np.array([getattr(entry, name) == text for entry in entries]) for name, text in _KINDS_OF_TRENCH)
     tabulated = np.array([_has_table(entry) for entry in entries])
     table = np.cumsum(tabulated) - 1.0
     found = []
@@ -328,6 +349,7 @@ def trenches(scene: ResolvedDeck) -> list[LawAssignment]:
         ("trench peak", ~walls & ~tabulated, "peak"),
         ("trench table", tabulated, "table"),
         ("trench wall", walls, "depth"),
+        ("trench level", lower, "depth"),
     ):
         rows = np.flatnonzero((extension.of_element >= 0) & blocks[extension.of_element])
         block = extension.of_element[rows]
@@ -342,13 +364,33 @@ def trenches(scene: ResolvedDeck) -> list[LawAssignment]:
     return found
 
 
+_KINDS_OF_TRENCH = (("model", "WALL"), ("level", "LOWERED"))
+
+
 def resistance_tables(scene: ResolvedDeck) -> list[Floats]:
-    """The tables (k, 2) of the blocks that have one, in their order."""
-    return [entry.table.values for entry in _trench_sets(scene) if _has_table(entry) and entry.table is not None]
+    """The tables (k, 3) of the blocks that have one, in their order."""
+    from mudline.contact.laws.trench import rounded  # noqa: PLC0415 - only now is it needed
+
+    entries = [entry for entry in _trench_sets(scene) if _has_table(entry)]
+    return [rounded(resistance_diagram(entry), number(entry, "smoothing", 0.0)) for entry in entries]
+
+
+def resistance_diagram(entry: TrenchSet) -> Floats:
+    """The corners (k, 2) of the resistance over the distance from the centreline."""
+    from mudline.contact.laws.trench import diagram  # noqa: PLC0415 - only now is it needed
+
+    if entry.table is not None:
+        return entry.table.values
+    inner, outer = (0.5 * number(entry.geometry, name) for name in ("bottom_width", "upper_width"))
+    held, given = entry.residual, entry.residual is not None
+    residual = (number(held, "resistance"), number(held, "displacement")) if given else None
+    return diagram(inner, outer, number(entry, "peak"), residual)
 
 
 def _has_table(entry: TrenchSet) -> bool:
-    return entry.model != "WALL" and entry.peak == "TABLE"
+    """Whether its resistance is no plain peak, and none of walls."""
+    rounds = entry.residual is not None or number(entry, "smoothing", 0.0) > 0.0
+    return entry.model != "WALL" and (entry.peak == "TABLE" or rounds)
 
 
 def _trench_sets(scene: ResolvedDeck) -> list[TrenchSet]:

@@ -105,6 +105,10 @@ def _normal_laws(scene: ResolvedDeck, arrays: LawArrays) -> list[LawAssignment]:
         from mudline.scene.assignments import nodal_springs  # noqa: PLC0415 - only now is it needed
 
         laws.append(nodal_springs(scene))
+    if "SEABED CONTACT" in scene.extensions:
+        from mudline.scene.assignments import damping  # noqa: PLC0415 - only now is it needed
+
+        laws += damping(scene)
     if "SEABED SOIL" in scene.extensions:
         from mudline.scene.assignments import soils  # noqa: PLC0415 - only now is it needed
 

@@ -147,6 +147,7 @@ def _of_elements(
     """Every kind of contact, or its name and why its frequency is not known."""
     by_law = {law.law: law for law in facts.laws}
     none = np.zeros(len(given.element_ids))
+    inward = np.nan_to_num(by_law["damping"].damping) if "damping" in by_law else none
     sections = scene.section_table.of_element
     springs = [by_law[name].stiffness for name in _NORMAL if name in by_law]
     normal = np.fmax.reduce(springs) if springs else np.full(len(sections), np.nan)
@@ -162,11 +163,13 @@ def _of_elements(
     for group in _groups(~np.isnan(normal), scene.laws.of_element, sections, blocks, kinds):
         name = f"{scene.law_names[group[0]]} on {scene.law_sets[group[0]]}"
         place = place_of_law(scene, int(group[0]))
-        yield _of_group("normal", name, group, (normal, none), carried, place)
+        yield _of_group("normal", name, group, (normal, inward), carried, place)
         if back is not None and steeper[group].any():
             place = back.places[int(back.of_element[group[0]])].inside("stiffness")
-            yield _of_group("unloading", f"unloading of {name}", group, (returns, none), carried, place)
-    yield from _of_nodes(scene, by_law["nodal"].at_nodes if "nodal" in by_law else None, carried)
+            yield _of_group("unloading", f"unloading of {name}", group, (returns, inward), carried, place)
+    damped = given.assigned.get("nodal damping")
+    own = np.zeros(carried.nodes) if damped is None else damped.spread("damping", carried.nodes, 0.0)
+    yield from _of_nodes(scene, by_law["nodal"].at_nodes if "nodal" in by_law else None, own, carried)
     for law, field in (("suction spring", "suction"), ("lateral", "lateral")):
         if law in by_law:
             for group in _groups(~np.isnan(by_law[law].stiffness), scene.resistance.of_element, sections):
@@ -238,9 +241,9 @@ def _checked(one: Oscillation) -> Oscillation | tuple[str, str]:
 
 
 def _of_nodes(
-    scene: ResolvedDeck, stiffness: Floats | None, carried: _Carried
+    scene: ResolvedDeck, stiffness: Floats | None, damping: Floats, carried: _Carried
 ) -> Iterator[Oscillation | tuple[str, str]]:
-    """Nodes with a stiffness of their own: of each stiffness the fastest node."""
+    """Nodes with a stiffness of their own, and maybe a damping: of each stiffness the fastest node."""
     if stiffness is None:
         return
     contact = scene.extensions["SEABED CONTACT"]
@@ -250,7 +253,8 @@ def _of_nodes(
         found = _of_node("nodal", f"nodal {value:.6g}", nodes, stiffness, carried)
         if isinstance(found, Oscillation):
             place = contact.places[int(blocks[found.node])].inside("nodal_stiffness")
-            yield found._replace(name=f"{found.name} at node {scene.node_ids[found.node]}", where=place)
+            name, rate = f"{found.name} at node {scene.node_ids[found.node]}", damping[found.node]
+            yield found._replace(name=name, where=place, damping=float(rate / carried.length[found.node]))
         else:
             yield (f"nodal stiffness {value:.6g}", "no frequency: the mass of its nodes is not known")
 

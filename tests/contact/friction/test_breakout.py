@@ -16,6 +16,8 @@ from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.breakout import F114_DISPLACEMENTS, F114_RESIDUAL
 from mudline.contact.plan import Backend
 from tests.builders.contact import LINEAR, chain, drawn, friction, law_of, on, trench
+from tests.builders.scenes import legal_scene, reported
+from tests.contact.test_damping import DECK
 
 N = 1000.0
 """Normal force of each node at the depth of `drawn`."""
@@ -191,3 +193,49 @@ def test_what_it_does_not_go_with(beside: tuple[LawAssignment, ...]) -> None:
     law = on("breakout", 2, peak_displacement=0.01, residual=0.5, residual_displacement=0.1)
     with pytest.raises(ValueError, match="friction in a box and no trench"):
         ContactModel(chain([LINEAR], *beside, law))
+
+
+BLOCK = """\
+*SEABED FRICTION
+ SET=ALL
+ COEFFICIENTS=0.3, 0.6
+ STIFFNESS=20000.0, 40000.0
+ LATERAL={}
+"""
+
+
+@pytest.mark.parametrize(
+    ("lines", "coefficient", "numbers"),
+    [
+        ("PEAK-RESIDUAL\n PEAK=1.2, 0.03\n RESIDUAL=0.6, 0.3", 1.2, (0.03, 0.0, 0.5, 0.0, 0.3)),
+        ("F114\n PEAK=0.8", 0.8, (0.006, 0.075, 0.4, 1.0, 0.45)),
+    ],
+)
+def test_in_a_deck(lines: str, coefficient: float, numbers: tuple[float, ...]) -> None:
+    assigned = (
+        legal_scene(DECK.replace("*SEABED CONTACT\n SET=ALL\n", BLOCK.format(lines))).contact_input("keep").assigned
+    )
+    assert np.ravel(assigned["breakout"].columns).reshape(5, -1)[:, 2] == pytest.approx(numbers, rel=1e-12)
+    sliding = assigned["friction"]
+    assert sliding["lateral_coefficient"] == pytest.approx([coefficient] * 5)
+    assert sliding["lateral_mobilisation"] == pytest.approx([numbers[0]] * 5)
+    assert sliding["axial_stiffness"] == pytest.approx([20000.0] * 5)
+
+
+@pytest.mark.parametrize(
+    ("lines", "places"),
+    [
+        ("PEAK-RESIDUAL\n PEAK=1.2, 0.03", [(23, 10)]),
+        ("PEAK-RESIDUAL\n PEAK=1.2\n RESIDUAL=0.6, 0.3", [(23, 10)]),
+        ("PEAK-RESIDUAL\n PEAK=1.2, 0.03\n RESIDUAL=1.3, 0.3", [(25, 2)]),
+        ("F114", [(23, 10)]),
+        ("F114\n PEAK=0.8\n RESIDUAL=0.6, 0.3", [(25, 2)]),
+        ("F114\n PEAK=0.8, 0.03", [(24, 2)]),
+        ("COULOMB\n PEAK=0.8, 0.03", [(24, 2)]),
+        ("F114\n PEAK=0.8\n CRITERION=ELLIPSE", [(25, 12)]),
+        ("F114\n PEAK=0.8\n*SEABED TRENCH\n SET=ALL\n GEOMETRY=0.5, 1.0, 3.0\n PEAK=2000.0", [(23, 10)]),
+    ],
+)
+def test_what_a_deck_may_not_say(lines: str, places: list[tuple[int, int]]) -> None:
+    found = reported(DECK.replace("*SEABED CONTACT\n SET=ALL\n", BLOCK.format(lines)))
+    assert [(line, column) for _, code, line, column in found if code == "EXT013"] == places

@@ -50,6 +50,8 @@ class Features(NamedTuple):
     unloading: bool
     steepens: bool
     springs: bool
+    damping: bool
+    nodal_damping: bool
     suction: bool
     slides: bool
     lateral: bool
@@ -74,6 +76,8 @@ def features_of(tables: Tables, *, flat: bool) -> Features:
         unloading=tables.unloading is not None,
         steepens=_steepens(tables),
         springs=tables.springs is not None,
+        damping=tables.damping is not None,
+        nodal_damping=tables.nodal_damping is not None,
         suction=suction is not None,
         slides=friction is not None or tables.lateral is not None,
         lateral=tables.lateral is not None,
@@ -190,7 +194,7 @@ def trench_tables(tables: Tables) -> tuple[Any, ...]:
             read_only(array)
             for array in (
                 np.zeros(0, np.int32), np.zeros((0, TRENCH_INDICES), np.int32),
-                np.empty((0, TRENCH_NUMBERS)), np.empty((0, 4)), np.empty((3, 0)),
+                np.empty((0, TRENCH_NUMBERS)), np.empty((0, 4)), np.empty((4, 0)),
             )
         )  # fmt: skip
     from mudline.contact.laws.trench import table_rows  # noqa: PLC0415 - most friction has no trench
@@ -203,7 +207,7 @@ def trench_tables(tables: Tables) -> tuple[Any, ...]:
     index[tabled, TABLE_START] = starts[trench.table[tabled]]
     index[tabled, TABLE_END] = starts[trench.table[tabled] + 1]
     numbers = np.column_stack([trench.inner, trench.outer, trench.steepness, trench.amount])
-    every = np.concatenate([np.empty((3, 0)), *rows], axis=1)
+    every = np.concatenate([np.empty((4, 0)), *rows], axis=1)
     return tuple(read_only(array) for array in (trench.start.astype(np.int32), index, numbers, trench.lines, every))
 
 

@@ -121,6 +121,8 @@ class CompiledDriver:
         self._node_loop = _loop(nodes_loop, callable_in_loops, has, _equations(tables.nodal), sources)
         self._node_index, self._node_numbers = node_tables(tables)
         self._trenches, self._breaks = trench_tables(tables), breakout_table(tables)
+        given_damping = tables.damping, tables.nodal_damping
+        self._damping = [read_only(np.empty(0) if each is None else each) for each in given_damping]
         line = tables.line
         self._line = tuple(
             read_only(array) for array in (line.start.astype(np.int32), line.elements, line.senses, tables.half)
@@ -203,13 +205,13 @@ class CompiledDriver:
         normals = read_only(part.normal) if self._normal is None else self._normal
         written = part.depth, part.ratio, part.contact, part.force, part.slope, part.stiffness
         elements = (
-            self._index, self._numbers, self._pulls, points, part.gap, speed, normals, self._knots, states, written,
-            extra, work,
+            self._index, self._numbers, self._pulls, points, part.gap, speed, normals, self._knots, self._damping[0],
+            states, written, extra, work,
         )  # fmt: skip
         nodes = (
-            *self._line, self._node_index, self._node_numbers, points, part.gap, normals, part.force, work,
-            (*self._trenches, *self._laid_tables(batch.laid)), (self._breaks, part.ratio), sticks,
-            (part.normal_force, part.reaction), slips,
+            *self._line, self._node_index, self._node_numbers, points, part.gap, normals, part.force, speed,
+            self._damping[1], work, (*self._trenches, *self._laid_tables(batch.laid)),
+            (self._breaks, part.ratio), sticks, (part.normal_force, part.reaction), slips,
         )  # fmt: skip
         return elements, nodes
 

@@ -292,7 +292,7 @@ def table_resistance(rows: Array, begin: int, end: int, distance: float) -> floa
     if distance > rows[0, end - 1]:
         row = end - 1
     held = np.minimum(np.maximum(distance, rows[0, begin]), rows[0, end - 1])
-    value: float = in_table(held, rows[0, row], rows[1, row], rows[2, row])
+    value: float = in_table(held, rows[0, row], rows[1, row], rows[2, row], rows[3, row])
     return value
 
 

@@ -33,6 +33,7 @@ from mudline.contact.compiled.functions import (
 from mudline.contact.laws import PathLaw
 from mudline.contact.laws.breakout import reached, shares
 from mudline.contact.laws.curve import on_segment
+from mudline.contact.laws.damping import damping_force
 from mudline.contact.laws.friction import slip_distance
 from mudline.contact.laws.linear import lateral_force, spring_suction
 from mudline.contact.laws.suction import SUCTION
@@ -53,14 +54,14 @@ def elements_loop(
     diameter, table, e), where an unloading line may be less steep than the virgin path.
     """
     curves, cuts, unloading, steepens, springs = has.curves, has.cuts, has.unloading, has.steepens, has.springs
-    suction, slides, lateral, flat = has.suction, has.slides, has.lateral, has.flat
+    suction, slides, lateral, flat, damps = has.suction, has.slides, has.lateral, has.flat, has.damping
     plane = vectors.PLANES[2 if has.flat else 3]
     project, default, cross, dot = plane.project, plane.default, plane.across, plane.dot
     normal_law, follow, follows = one_of(wrap, laws, col.LAW), followed(wrap, paths, col.LAW), has.paths
 
     def loop(
         begin: int, end: int, index: Array, table: Array, pulls: Array, points: Array, gap: Array, speed: Array,
-        normals: Array, knots: Array, states: Array, out: Array, extra: Array, work: Array,
+        normals: Array, knots: Array, damping: Array, states: Array, out: Array, extra: Array, work: Array,
     ) -> int:  # fmt: skip
         depth, ratio, contact, force, slope, stiffness = out
         cut, state, regularised = extra
@@ -117,6 +118,9 @@ def elements_loop(
                 if springs and table[e, col.SPRING] > 0.0:
                     g, h = spring_suction(onset - deep, table[e, col.SPRING], table[e, col.EXTENT])
                     f, s, k = f + g, s + h * diameter, k + h
+
+                if damps:
+                    f = f + damping_force(deep, 0.5 * speed[step, a] + 0.5 * speed[step, b], damping[e])
 
                 if suction and index[e, col.PULLS] >= 0:
                     held, v = index[e, col.PULLS], 0.5 * speed[step, a] + 0.5 * speed[step, b]
@@ -219,7 +223,7 @@ def _softened(has: Features) -> Callable[..., Any]:
 def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], int], ...], edition: int) -> Loop:
     """Make the loop over nodes: sums of element forces, nodal springs, friction, lateral springs and reactions."""
     friction, turned, lateral, nodal, slides = has.friction, has.turned, has.lateral, has.nodal, has.slides
-    flat, elliptic, trench, breakout = has.flat, has.elliptic, has.trench, has.breakout
+    flat, elliptic, trench, breakout, damps = has.flat, has.elliptic, has.trench, has.breakout, has.nodal_damping
     plane = vectors.PLANES[2 if has.flat else 3]
     project, default, cross, dot, turn = plane.project, plane.default, plane.across, plane.dot, plane.turned
     blend, added, reacts = plane.blend, plane.added, plane.reaction
@@ -228,8 +232,8 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
 
     def loop(
         begin: int, end: int, start: Array, elements: Array, senses: Array, half: Array, index: Array, table: Array,
-        points: Array, gap: Array, normals: Array, force: Array, work: Array, trenches: Array, breaks: Array,
-        states: Array, out: Array, extra: Array,
+        points: Array, gap: Array, normals: Array, force: Array, speed: Array, damping: Array, work: Array,
+        trenches: Array, breaks: Array, states: Array, out: Array, extra: Array,
     ) -> int:  # fmt: skip
         totals, reaction = out
         friction_force, slipping = extra
@@ -259,6 +263,8 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                         f, k = normal_law(index[i, col.NODE_KIND], z, 0.0, table, i)
                         wrong += not math.isfinite(f + k)
                         total += f
+                if damps:
+                    total += damping_force(0.0 - gap[step, i], speed[step, i], damping[i])
                 totals[step, i] = total
                 n = (normals[0, 0, 0], normals[0, 0, 1], normals[0, 0, 2])
                 if normals.shape[1] > 1:

@@ -85,6 +85,7 @@ class Law:
         acts_on: whether its rows are elements or nodes.
         parameters: what each row needs.
         needs_diameter: whether an element needs an external diameter.
+        velocities: whether a step asks for velocities along the normals.
         history: whether a step's result depends on the steps before it.
         tables: whether it takes tables besides numbers; `parameters` then has the index of one.
         check: what the parameters, by name, must be to each other: where it does not hold, and what it is.
@@ -98,6 +99,7 @@ class Law:
     parameters: tuple[Parameter, ...]
     stage: str = "normal law"
     needs_diameter: bool = False
+    velocities: bool = False
     history: bool = False
     tables: bool = False
     check: Callable[[dict[str, FloatArray]], tuple[BoolArray, str]] | None = None
@@ -188,12 +190,15 @@ _LAWS: dict[str, str | Law] = {
     "suction spring": "linear:SUCTION_SPRING",
     "suction": "suction:SUCTION_LAW",
     "friction": "friction:FRICTION",
-    "breakout": "breakout:BREAKOUT",
     "lateral": "linear:LATERAL",
     "trench peak": "trench:TRENCH_PEAK",
     "trench table": "trench:TRENCH_TABLE",
     "trench wall": "trench:TRENCH_WALL",
     "soil": "soil:SOIL",
+    "breakout": "breakout:BREAKOUT",
+    "damping": "damping:DAMPING",
+    "nodal damping": "damping:NODAL_DAMPING",
+    "trench level": "trench:TRENCH_LEVEL",
 }
 """Module and name of each law, or the law itself once it was asked for."""
 MODULES = tuple(dict.fromkeys(str(place).partition(":")[0] for place in _LAWS.values()))

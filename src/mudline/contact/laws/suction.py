@@ -349,6 +349,7 @@ SUCTION_LAW = Law(
             optional=True,
         ),
     ),
+    velocities=True,
     history=True,
     check=_crossed,
     equation="F = -cyclic alpha_f v^n_f trapezoid(x / (alpha_D v_max^n_D))",
