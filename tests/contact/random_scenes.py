@@ -272,9 +272,10 @@ def _friction(random: _Random, nodes: int, size: float) -> LawAssignment:
     return on("friction", rows, **dict(zip(FRICTION, columns, strict=True)))
 
 
-def _breakout(random: _Random, friction: LawAssignment, elements: IndexArray) -> LawAssignment:
-    """On nodes without an ellipse or a trench, some with a growth with z/D; `elements` are those in trenches."""
-    rows = friction.rows[(np.asarray(friction.parameters["elliptic"]) == 0.0) & ~np.isin(friction.rows, elements)]
+def _breakout(random: _Random, friction: LawAssignment) -> LawAssignment:
+    """On some nodes without an ellipse, some with a growth with z/D."""
+    rows = friction.rows[np.asarray(friction.parameters["elliptic"]) == 0.0]
+    rows = rows[random.some(len(rows))]
     count = len(rows)
     peak, growth = random.values(count, 1e-3, 0.05, 1e-300), random.values(count, 0.0, 0.1, 0.0)
     return on(
@@ -343,9 +344,7 @@ def _laws(
         found.append(_friction(random, nodes, size))
     found += [_trench(random, name, elements, size) for name in TRENCHES if name in names]
     if {"friction", "breakout"} <= names:
-        dug = [line.ends[law.rows].ravel() for law in found if law.law in TRENCHES]
-        sliding = next(law for law in found if law.law == "friction")
-        found.append(_breakout(random, sliding, np.concatenate([np.zeros(0, np.intp), *dug])))
+        found.append(_breakout(random, next(law for law in found if law.law == "friction")))
     return tuple(found)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mudline.contact.arrays import BoolArray, FloatArray, IdArray, IndexArray
-from mudline.contact.laws import Law, NormalLaw, PathLaw, law_named
+from mudline.contact.laws import BUILT_IN, Law, NormalLaw, PathLaw, law_named
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:  # a scene without curves does not load them, nor does a flat seabed load other shapes
@@ -262,7 +262,7 @@ class ContactInput:
         found = np.zeros(len(self.element_ids), np.int8)
         found[self._nodal_elements()] = LawKind.NODAL
         for given in self._restrained:
-            found[given.rows] = _KINDS.get(given.law.name, LawKind.OTHER)
+            found[given.rows] = _kind(given.law.name)
         return found
 
     @property
@@ -361,13 +361,9 @@ class ContactInput:
         raise ElementError(f"element {element} {what}", element)
 
 
-_KINDS = {
-    "curve": LawKind.CURVE,
-    "linear": LawKind.LINEAR,
-    "smoothed": LawKind.LINEAR,
-    "rigid": LawKind.RIGID,
-    "soil": LawKind.SOIL,
-}
+def _kind(name: str) -> LawKind:
+    known = LawKind.__members__ if name in BUILT_IN else {}
+    return LawKind.LINEAR if name == "smoothed" else known.get(name.upper(), LawKind.OTHER)
 
 
 def _is_normal(given: AssignedLaw, acts_on: str) -> bool:

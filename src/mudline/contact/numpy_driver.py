@@ -13,7 +13,6 @@ import numpy as np
 
 from mudline.contact import vectors
 from mudline.contact.arrays import BoolArray, FloatArray, Picked, add_at, as_range, taken
-from mudline.contact.laws.damping import damping_force
 from mudline.contact.numpy_elements import Elements, Work
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed import FlatSeabed, Seabed
@@ -180,6 +179,8 @@ class Nodes:
             z = 0.0 - taken(part.gap[:, here], at)
             add_at(total, at, np.where(z > onset, reaction(z, 0.0, *columns)[0], 0.0))
         if self._damping is not None and speed is not None:
+            from mudline.contact.laws.damping import damping_force  # noqa: PLC0415 - only now is it needed
+
             total += damping_force(0.0 - part.gap[:, here], speed[:, here], self._damping)
         part.normal_force[:, here] = total
         if part.normal.strides[1] == 0:  # one for all nodes

@@ -10,7 +10,6 @@ import numpy as np
 from mudline.contact import vectors
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, Picked, StateArray, add_at, as_range, taken
 from mudline.contact.laws import PathLaw
-from mudline.contact.laws.damping import damping_force
 from mudline.contact.result import ContactResult
 from mudline.contact.tables import ContactState, ElementRows, NormalRows, Tables, rows_within
 from mudline.contact.vectors import in_plane, units
@@ -139,6 +138,8 @@ class Elements:
         if self._springs is not None:
             self._apply_springs(self._springs, depth, values)
         if self._damping is not None and batch.speed is not None:
+            from mudline.contact.laws.damping import damping_force  # noqa: PLC0415 - only now is it needed
+
             first, second = self._tables.line.at(batch.speed, self.begin, self.end)
             values[0][...] += damping_force(depth, 0.5 * first + 0.5 * second, self._damping)
         if self._suction is not None and batch.speed is not None and state.suction is not None:

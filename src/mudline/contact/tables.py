@@ -306,18 +306,16 @@ def _lateral(given: ContactInput) -> ElementRows | None:
 
 
 def _breakout(given: ContactInput, tables: Tables) -> ElementRows | None:
-    """The breakout of nodes that have it; ValueError for a node without friction in a box of its own."""
+    """The breakout of nodes that have it; ValueError for a node without friction in a box."""
     found = given.assigned.get("breakout")
     if found is None:
         return None
     able = np.zeros(len(given.node_ids), np.bool_)
     if tables.friction is not None:
         able = tables.friction.active & ~tables.friction.elliptic
-    if tables.trench is not None:
-        able[tables.trench.nodes] = False
     if not able[found.rows].all():
         node = given.node_ids[found.rows[~able[found.rows]][0]]
-        raise ValueError(f"node {node} has a breakout law, which needs friction in a box and no trench")
+        raise ValueError(f"node {node} has a breakout law, which needs friction in a box")
     return ElementRows(found.rows, (*found.columns, 1.0 / np.diff(tables.line.start)[found.rows]))
 
 

@@ -65,7 +65,8 @@ class TrenchRows(NamedTuple):
 def trench_rows(given: ContactInput, friction: FloatArray, kinds: tuple[int, ...] = (PEAK, WALL, TABLE)) -> TrenchRows:
     """The trenches of the nodes; `friction` (n,) are the lateral coefficients. LEVEL has depths as amounts.
 
-    Each end of an element counts with half of its length; equal trenches of the elements at a node are one row.
+    Each end of an element counts with half of its length; equal trenches of the elements at a node are one row. A node
+    with a breakout, which is a limit of its own, has none.
 
     Raises:
         ValueError: the wall of a trench locks itself: mu2 tan(theta) >= 1.
@@ -73,6 +74,9 @@ def trench_rows(given: ContactInput, friction: FloatArray, kinds: tuple[int, ...
     """
     columns = [_of_law(given, kind, friction) for kind in kinds]
     nodes, keys, ends, amounts = (np.concatenate(parts) for parts in zip(*columns, strict=True))
+    if "breakout" in given.assigned and LEVEL not in kinds:
+        held = ~np.isin(nodes, given.assigned["breakout"].rows)
+        nodes, keys, ends, amounts = nodes[held], keys[held], ends[held], amounts[held]
     straight = ~np.isnan(ends[:, 0])
     lines, line = _distinct(ends[straight])
     of_line = np.full(len(ends), -1.0)

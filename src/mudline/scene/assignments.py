@@ -15,6 +15,7 @@ from mudline.scene.resolved import ResolvedDeck
 
 if TYPE_CHECKING:
     from mudline.contact.laws.suction import SuctionLaw
+    from mudline.keywords.library.seabed_friction import FrictionSet
     from mudline.keywords.library.seabed_suction import SuctionSet
     from mudline.keywords.library.seabed_trench import TrenchSet
 
@@ -300,6 +301,15 @@ def _of_keyword(scene: ResolvedDeck, extension: Extension, block: Indices) -> Fl
 def breaks_out(entry: object) -> bool:
     """Whether a block of `*SEABED FRICTION` gives a breakout."""
     return getattr(entry, "lateral", None) in {"PEAK-RESIDUAL", "F114"}
+
+
+def softens(entry: object) -> bool:
+    """Whether a block of `*SEABED FRICTION` gives a breakout with less behind it."""
+    from mudline.contact.laws.breakout import F114_RESIDUAL  # noqa: PLC0415 - only now
+
+    given = cast("FrictionSet", entry)
+    residual = F114_RESIDUAL[0] if given.lateral == "F114" else number(given.residual, "factor")
+    return breaks_out(given) and number(given.peak, "factor") > residual
 
 
 def node_breakouts(scene: ResolvedDeck, friction: LawAssignment) -> list[LawAssignment]:

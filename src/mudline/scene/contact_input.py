@@ -62,7 +62,7 @@ def _contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> Cont
 
 def _refusals(scene: ResolvedDeck) -> Iterator[Problem]:
     """What no check covers: a problem for each kind, at the first element concerned."""
-    springs = np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR, LawKind.SOIL))
+    springs = ~np.isin(scene.law, (LawKind.NONE, LawKind.RIGID, LawKind.NODAL))
     unknown = scene.element_nodes.min(axis=1, initial=0) < 0
     yield from _refusal(scene, unknown, "ends at a node that is not known", "end at nodes that are not known")
     endless = springs & ~np.isfinite(scene.length) & ~unknown

@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from mudline.contact.input import ContactInput
     from mudline.contact.stiffest import Stiffest
 
-_NORMAL = ("curve", "linear", "smoothed", "soil")
 _RISES = np.linspace(0.02, 1.0, 50)
 """Pull-out velocities over v_r at which the mobilisation of suction is looked at."""
 _NEARLY = 0.999
@@ -145,11 +144,13 @@ def _of_elements(
     scene: ResolvedDeck, given: ContactInput, facts: Stiffest, carried: _Carried
 ) -> Iterator[Oscillation | tuple[str, str]]:
     """Every kind of contact, or its name and why its frequency is not known."""
+    from mudline.contact.laws import is_normal  # noqa: PLC0415 - loaded when it is needed
+
     by_law = {law.law: law for law in facts.laws}
     none = np.zeros(len(given.element_ids))
     inward = np.nan_to_num(by_law["damping"].damping) if "damping" in by_law else none
     sections = scene.section_table.of_element
-    springs = [by_law[name].stiffness for name in _NORMAL if name in by_law]
+    springs = [law.stiffness for name, law in by_law.items() if law.per == "length" and is_normal(name)]
     normal = np.fmax.reduce(springs) if springs else np.full(len(sections), np.nan)
     back = scene.extensions.get("SEABED UNLOADING")
     blocks = np.full(len(sections), -1) if back is None else back.of_element
@@ -158,9 +159,7 @@ def _of_elements(
         returns = by_law["unloading"].stiffness
         with np.errstate(invalid="ignore"):
             steeper = returns > normal
-    soil = scene.extensions.get("SEABED SOIL")
-    kinds = np.full(len(sections), -1) if soil is None else np.where(scene.law == LawKind.SOIL, soil.of_element, -1)
-    for group in _groups(~np.isnan(normal), scene.laws.of_element, sections, blocks, kinds):
+    for group in _groups(~np.isnan(normal), scene.laws.of_element, sections, blocks, scene.replacing):
         name = f"{scene.law_names[group[0]]} on {scene.law_sets[group[0]]}"
         place = place_of_law(scene, int(group[0]))
         yield _of_group("normal", name, group, (normal, inward), carried, place)
@@ -385,9 +384,9 @@ def place_of_suction(own: Extension, index: int) -> Where:
 
 def place_of_law(scene: ResolvedDeck, element: int) -> Where | None:
     """Where the stiffness of an element stands: the end of the steepest segment of its curve."""
-    if scene.law[element] == LawKind.SOIL:
-        soil = scene.extensions["SEABED SOIL"]
-        return soil.places[int(soil.of_element[element])].inside("strength")
+    for _, field, extension, elements in reversed(scene.replaced):
+        if elements[element]:
+            return extension.places[int(extension.of_element[element])].inside(field)
     law = scene.set_law(element)
     if law is None:
         return None

@@ -130,7 +130,7 @@ def _line(scene: Scene, one: Oscillation) -> str:
 def _row(scene: Scene, one: Oscillation) -> StabilityRow:
     kind = _TWO_KINDS.get(one.kind, one.kind)
     if kind == "normal":
-        kind = {LawKind.CURVE: "curve", LawKind.SOIL: "soil"}.get(LawKind(scene.law[one.element]), "linear")
+        kind = LawKind(scene.law[one.element]).name.lower()
     return StabilityRow(
         one.name,
         kind,
@@ -158,7 +158,7 @@ def _law_of(scene: Scene, given: ContactInput, one: Oscillation) -> Law | None:
     if one.kind != "normal":
         return None
     arrays, element = scene.law_arrays(), one.element
-    if scene.law[element] == LawKind.SOIL:
+    if scene.law[element] not in {LawKind.CURVE, LawKind.LINEAR}:  # its force depends on its path
         return None
     index = int(arrays.curve_index[element])
     if index >= 0:

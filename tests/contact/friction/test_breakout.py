@@ -186,12 +186,20 @@ def test_critical_step_has_the_spring_below_the_peak() -> None:
     assert stiffness == pytest.approx([max(PEAK * N / AT, 1e5)])
 
 
-@pytest.mark.parametrize(
-    "beside", [(friction(2, (0.5, 1.0), ellipse=True),), (friction(2), trench(1, 0.1, 0.5, 1e3)), ()]
-)
+def test_a_node_between_it_and_a_trench_has_the_breakout() -> None:
+    lateral_law = on("breakout", [1], peak_displacement=AT, residual=RESIDUAL / PEAK, residual_displacement=END)
+    sliding = friction(3, (0.5, PEAK), (1e5, np.nan), mobilisation=AT)
+    inputs = chain([LINEAR] * 2, sliding, lateral_law, trench([1], 0.2, 2.0, 300.0))
+    result = ContactModel(inputs).evaluate(drawn([(0.0, 0.0), (0.0, 0.55)], 0.02, 3))
+    assert result.friction is not None
+    expected = [PEAK * N, RESIDUAL * 2.0 * N, PEAK * N + 300.0]
+    assert_allclose(-result.friction[1, :, 1], expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize("beside", [(friction(2, (0.5, 1.0), ellipse=True),), ()])
 def test_what_it_does_not_go_with(beside: tuple[LawAssignment, ...]) -> None:
     law = on("breakout", 2, peak_displacement=0.01, residual=0.5, residual_displacement=0.1)
-    with pytest.raises(ValueError, match="friction in a box and no trench"):
+    with pytest.raises(ValueError, match="friction in a box"):
         ContactModel(chain([LINEAR], *beside, law))
 
 

@@ -228,6 +228,11 @@ def law_named(name: str) -> Law:
     return found
 
 
+def is_normal(name: str) -> bool:
+    """Whether the law of a name is one of the reaction along the normal."""
+    return isinstance(law_named(name), NormalLaw)
+
+
 def register(law: Law) -> NormalLaw:
     """Add a normal law of elements or nodes, and return it.
 

@@ -56,7 +56,7 @@ class SeabedContact(Block):
 
     rule = "seabed_contact"
     subject = "seabed"
-    facts = Facts(extension=True, later_wins=True, computed_in="smoothing")
+    facts = Facts(extension=True, later_wins=True, gives_law=("nodal", "nodal_stiffness"), computed_in="smoothing")
     summary = "Nodal normal stiffness, and smoothing of linear contact laws, by element set (extension)."
     example = "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=50000.0\n SMOOTHING=0.005\n FORM=CENTRED\n"
 

@@ -23,7 +23,7 @@ from mudline.limits import MOST_REPORTED
 from mudline.linting.rule import LintContext, rule
 from mudline.linting.rules.seabed_position import bounds_of
 from mudline.quantities import unit_names
-from mudline.scene.assignments import breaks_out, suction_law
+from mudline.scene.assignments import softens, suction_law
 from mudline.scene.deck_values import number
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene
@@ -224,13 +224,13 @@ def lateral_softening(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     extension = scene.extensions.get("SEABED FRICTION")
-    if extension is None or not any(map(breaks_out, extension.entries)) or scene.blocking("cut"):
+    if extension is None or not any(map(softens, extension.entries)) or scene.blocking("cut"):
         return
     known = {one.where: one for one in oscillations(scene, scene.contact_input("cut")).softening}
     needs = "equilibrium needs a structural stiffness per unit length above (peak - residual) N / distance"
     for entry, place in zip(extension.entries, extension.places, strict=True):
         where = place.inside("peak")
-        if breaks_out(entry):
+        if softens(entry):
             numbers = softening_needs(scene, known[where]) if where in known else ", with N and mass as they will be"
             yield Problem(STB004, f"the lateral resistance falls behind its peak: {needs}{numbers}", where=where)
 

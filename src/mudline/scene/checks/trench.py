@@ -139,7 +139,7 @@ def _excess_faults(entry: TrenchSet) -> Iterator[tuple[tuple[str | int, ...], st
             ("residual",),
             f"the residual is reached no later than the peak, at {middle:g}: give a larger displacement",
         )
-    elif number(entry, "smoothing", 0.0) > 0.5 * (side := shortest_side(resistance_diagram(entry))):
+    elif number(entry, "smoothing", 0.0) > max(0.5 * (side := shortest_side(resistance_diagram(entry))), 0.0):
         yield ("smoothing",), f"SMOOTHING= is above half of the shortest side of the resistance, {side:g}: give less"
 
 
