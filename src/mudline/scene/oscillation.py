@@ -95,7 +95,8 @@ def oscillations(scene: ResolvedDeck, given: ContactInput) -> Oscillations:
     found = [one for one in every if isinstance(one, Oscillation)]
     unknown = [one for one in every if not isinstance(one, Oscillation)]
     softening = [one for one in found if one.kind == SOFTENING]
-    springs = sorted(set(found) - set(softening), key=lambda one: one.critical_step("central-difference"))
+    springs = [one for one in found if one.kind != SOFTENING]
+    springs.sort(key=lambda one: one.critical_step("central-difference"))
     return Oscillations(springs, unknown, softening)
 
 

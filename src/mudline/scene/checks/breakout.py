@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.diagnostics import Code, Problem, Severity, Where
-from mudline.scene.assignments import breaks_out
 from mudline.scene.checks import check
 from mudline.scene.checks.laws import lacks_diameter
 from mudline.scene.deck_values import number
@@ -49,6 +48,8 @@ def bad_breakout(scene: ResolvedDeck) -> Iterator[Problem]:
     extension = scene.extensions.get("SEABED FRICTION")
     if extension is None:
         return
+    from mudline.scene.assignments import breaks_out  # noqa: PLC0415 - most decks have no such friction
+
     trench = scene.extensions.get("SEABED TRENCH")
     for index, (entry, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
         given = cast("FrictionSet", entry)

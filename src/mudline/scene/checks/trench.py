@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
-from mudline.scene.assignments import resistance_diagram
 from mudline.scene.checks import check
 from mudline.scene.deck_values import number
 from mudline.scene.numbering import Floats, Mask, marked
@@ -118,6 +117,7 @@ def _resistance_faults(entry: TrenchSet) -> Iterator[tuple[tuple[str | int, ...]
 def _excess_faults(entry: TrenchSet) -> Iterator[tuple[tuple[str | int, ...], str]]:
     """Path and message of a level, a residual or rounded corners that go with no other value, or with no geometry."""
     from mudline.contact.laws.trench import shortest_side  # noqa: PLC0415 - a deck without trenches does without it
+    from mudline.scene.assignments import resistance_diagram  # noqa: PLC0415 - as above
 
     if entry.model == "WALL":
         for name, given in (
