@@ -37,7 +37,7 @@ from mudline.contact.compiled import (
 )
 from mudline.contact.compiled.functions import Loop, edition, one_of
 from mudline.contact.compiled.loops import elements_loop, nodes_loop
-from mudline.contact.laws import MODULES, PathLaw, where
+from mudline.contact.laws import MODULES, PathLaw, every, where
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed import FlatSeabed, Seabed
 from mudline.contact.tables import Batch, ContactState, NormalRows, Tables
@@ -64,6 +64,7 @@ _INNER: Any = {"error_model": "numpy", "no_cpython_wrapper": True, "no_cfunc_wra
 """For what only loops call: no contraction of products and sums, divisions as numpy does them."""
 
 overload(where, jit_options=_INNER, strict=False)(lambda *_: _pick)
+overload(every, jit_options=_INNER, strict=False)(lambda _: lambda condition: condition)
 
 
 @cache

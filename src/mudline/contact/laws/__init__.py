@@ -6,7 +6,7 @@ is evaluated, stepped, planned and differentiated like the others, with numpy an
 The functions of a law are expressions: they take floats (in compiled loops) and arrays (in numpy) alike and give the
 same bits for both, as long as they use `+ - * /`, comparisons, `&`, `|`, `np.maximum`, `np.minimum`, `np.abs`,
 `np.sqrt`, `np.nextafter`, `np.float_power` (not `**`, which numpy computes with code of its own) and `where` (not
-`np.where`).
+`np.where`); a loop may end where `every` number would stay as it is.
 """
 
 from __future__ import annotations
@@ -29,6 +29,11 @@ Reaction = Callable[..., tuple[Value, Value]]
 def where(condition: Value, one: Value, other: Value) -> Value:
     """Return `one` where the condition holds, else `other`; for numbers and for arrays."""
     return np.where(condition, one, other)
+
+
+def every(condition: Value) -> bool:
+    """Return whether a condition holds, for all of an array."""
+    return bool(np.all(condition))
 
 
 class Parameter(NamedTuple):
@@ -143,15 +148,15 @@ class PathLaw(NormalLaw):
     Attributes:
         start: what an element remembers that never touched the seabed.
         begin: (z, memory) to the memory with a reversal, where going to z is one.
-        pending: (z, memory) to whether the event has to be known.
-        locate: (D, memory, parameters) to the event.
+        pending: (z, memory) to which event has to be known, from 1 on, 0 for none.
+        locate: of each event (D, memory, parameters) to where it is.
         advance: (z, D, memory, parameters) to force, stiffness d force / d z on going on in this direction, and memory.
     """
 
     start: tuple[float, ...]
     begin: Callable[..., tuple[Value, ...]]
     pending: Callable[..., Value]
-    locate: Callable[..., Value]
+    locate: tuple[Callable[..., Value], ...]
     advance: Callable[..., tuple[Value, Value, tuple[Value, ...]]]
 
     __repr__ = short_repr
@@ -170,11 +175,13 @@ class PathLaw(NormalLaw):
         for deep, force, stiffness in zip(depth, *out, strict=True):
             z = np.where(deep > 0.0, deep, 0.0)
             memory = self.begin(z, memory)
-            (wanted,) = self.pending(z, memory).nonzero()
-            if wanted.size:
+            pending = self.pending(z, memory)
+            if pending.any():
                 event = memory[-1].copy()
-                here = tuple(values[wanted] for values in memory), tuple(values[wanted] for values in parameters)
-                event[wanted] = self.locate(diameter[wanted], *here)
+                for kind, locate in enumerate(self.locate, 1):
+                    (wanted,) = (pending == kind).nonzero()
+                    here = tuple(values[wanted] for values in memory), tuple(values[wanted] for values in parameters)
+                    event[wanted] = locate(diameter[wanted], *here)
                 memory = (*memory[:-1], event)
             force[...], stiffness[...], memory = self.advance(z, diameter, memory, parameters)
         held[:, :count] = np.stack(memory, axis=1)
