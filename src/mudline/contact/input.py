@@ -237,9 +237,9 @@ class ContactInput:
         return any(name in self.assigned for name in names)
 
     @property
-    def needs_velocities(self) -> bool:
-        """Whether a law asks for velocities along the normals."""
-        return any(given.law.velocities for given in self.assigned.values())
+    def needs_velocities(self) -> list[str]:
+        """Names of the laws that ask for velocities along the normals."""
+        return [name for name, given in self.assigned.items() if given.law.velocities]
 
     @property
     def normal_laws(self) -> list[AssignedLaw]:

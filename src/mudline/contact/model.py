@@ -115,7 +115,8 @@ class ContactModel:
         motion = _as_velocities(velocities, series.shape)
         clock = _as_times(times, len(series))
         if self.input.needs_velocities and motion is None and clock is None and len(series) > 1:
-            raise ValueError("a series with suction or damping needs velocities, or the times of its steps")
+            law = self.input.needs_velocities[0]
+            raise ValueError(f"a series with {law} needs velocities, or the times of its steps")
         driver, state = self._driver(len(series)), self._tables.initial_state()
         rows = self._numpy.steps if driver is None else driver.steps
         whole = self._blank(series[:], mask, clock) if together else None

@@ -211,7 +211,9 @@ class Tables:
             self.rigid[given.element_nodes[given.assigned["rigid"].rows]] = True
         parts = (self.unloading, self.suction, self.lateral, self.friction, self.level)
         # velocities are differences to the step before where none are given
-        self.history = self._paths is not None or given.needs_velocities or any(part is not None for part in parts)
+        self.history = (
+            self._paths is not None or bool(given.needs_velocities) or any(part is not None for part in parts)
+        )
 
     def laid_line(self, laid: FloatArray) -> LaidCentreline:
         """Return the line as it was `laid`, prepared once: the states of a run share that array."""
