@@ -180,7 +180,7 @@ class _Looking:
         if keyword in definers or self.context.restart or self.context.deck.keywords().isdisjoint(definers):
             return
         if self.vessels is None:
-            found = names_of(self.context.deck, {Names.VESSEL}).get(Names.VESSEL)
+            found = names_of(self.context, {Names.VESSEL}).get(Names.VESSEL)
             self.vessels = {key: given[0].name for key, given in found.defined.items()} if found else {}
         if self.vessels and folded(bare(name)) not in self.vessels:
             from mudline.scene.checks.names import REF019  # noqa: PLC0415 - only for a finding
@@ -193,7 +193,7 @@ class _Looking:
         if not self._is_of_model(where, keyword):
             return
         if self.curves is None:
-            found = names_of(self.context.deck, CURVES | {Names.CURVE}).values()
+            found = names_of(self.context, CURVES | {Names.CURVE}).values()
             self.curves = {key: given[0].name for names in found for key, given in names.defined.items()}
         key = folded(bare(name))
         if key not in self.curves and key not in self._other_words and not self._may_lack_curves:
