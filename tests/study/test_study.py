@@ -63,7 +63,7 @@ def test_damping_lowers_the_critical_step_of_velocity_verlet(whole: Study) -> No
 
 
 def test_landings_keep_their_speed_up_to_the_landing_step_and_not_above(everything: Scene) -> None:
-    contacts, _ = contacts_of(everything, everything.contact_input("cut"))
+    contacts, *_ = contacts_of(everything, everything.contact_input("cut"))
     rows = {one.row.contact: one.row for one in judged(everything, contacts, None)}
     landed = [one for one in contacts if one.law is not None]
     assert {one.row.kind for one in landed} == {"curve", "linear"}
