@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import mudline
+from mudline.diagnostics import DeckError
 from mudline.export.bathymetry import bed_deck, differences, read_bed, thinned
 from mudline.scene.numbering import Floats
 from tests.cli.runner import run
@@ -149,3 +150,31 @@ def test_wrong_usage(arguments: tuple[str, ...], message: str, tmp_path: Path, m
     assert outcome.code == 2
     assert message in outcome.err
     assert [path.name for path in tmp_path.iterdir()] == ["bed.asc"]
+
+
+def test_a_picture_that_is_too_large_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    rasterio = pytest.importorskip("rasterio", reason="rasterio is not installed")
+    form = {"driver": "GTiff", "width": 4, "height": 3, "count": 1, "dtype": "float32", "crs": "EPSG:32631"}
+    place = rasterio.Affine(5.0, 0.0, 0.0, 0.0, -5.0, 0.0)
+    with rasterio.open(tmp_path / "bed.tif", "w", transform=place, **form) as target:
+        target.write(np.ones((3, 4), dtype=np.float32), 1)
+    monkeypatch.setattr("mudline.export.bathymetry.MOST_CELLS", 11)
+    with pytest.raises(DeckError, match="cut out what lies around the line"):
+        read_bed(tmp_path / "bed.tif", "geotiff")
+
+
+def test_a_text_that_is_too_large_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "bed.asc").write_text(ASC)
+    monkeypatch.setattr("mudline.export.bathymetry.LARGEST_FILE", 10)
+    with pytest.raises(DeckError, match="million bytes"):
+        read_bed(tmp_path / "bed.asc", "esri-asc")
+
+
+@pytest.mark.parametrize(("missing", "extra"), [("scipy", "surface"), ("rasterio", "bathymetry")])
+def test_a_missing_library_is_named_with_its_extra(
+    missing: str, extra: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("mudline.cli.convert_command.find_spec", lambda name: None if name == missing else object())
+    outcome = run("convert", str(tmp_path / "bed.tif"), "-o", str(tmp_path / "bed.keyxm"), "--within", "1")
+    assert outcome.code == 1
+    assert f"a seabed (geotiff) needs {missing}: pip install 'mudline[{extra}]'" in outcome.err

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from mudline.diagnostics import DeckError
 from mudline.export import riflex
 from mudline.export.report import Status
 from tests.export.decks import BOTH, ELASTIC, EXPORTABLE, WEIGHT, model_of, sample, text
@@ -92,3 +93,9 @@ def test_an_uneven_seabed_is_flat_with_the_error_in_the_list(tmp_path: Path) -> 
     assert found["ARBITRARY SYSTEM AR"][1] == ["3", "-101.0", "0"]
     (entry,) = (entry for entry in model.report.entries if entry.keyword == "*SEABED PROFILE")
     assert (entry.status, entry.effect[:14]) == (Status.APPROXIMATED, "up to 1 m off ")
+
+
+def test_more_than_the_program_takes_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(riflex, "_MOST", 1)
+    with pytest.raises(DeckError, match="RIFLEX takes 1 line types and components"):
+        riflex.write(model_of(text()), "a.inp")

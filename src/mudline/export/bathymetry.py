@@ -9,13 +9,12 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
 from mudline.contact.seabed.scattered import ScatteredSeabed
-from mudline.limits import LARGEST_FILE
+from mudline.limits import LARGEST_FILE, MOST_CELLS
 from mudline.quantities import shown
 from mudline.scene.csv_file import data_error
 from mudline.scene.numbering import Floats, Indices
 from mudline.scene.seabed import parse_profile
 
-_MOST_CELLS = 25_000_000
 _METRE = ("metre", "meter", "m")
 
 
@@ -54,8 +53,8 @@ def _geotiff(path: Path) -> Floats:
         with rasterio.open(path) as source:
             if source.crs is not None and (source.crs.is_geographic or source.crs.linear_units not in _METRE):
                 raise ValueError("its coordinates are not in metres: project it, as to UTM")
-            if source.width * source.height > _MOST_CELLS:
-                raise ValueError(f"more than {_MOST_CELLS // 10**6} million cells: cut out what lies around the line")
+            if source.width * source.height > MOST_CELLS:
+                raise ValueError(f"more than {MOST_CELLS // 10**6} million cells: cut out what lies around the line")
             level = source.read(1, masked=True).astype(np.float64).filled(np.nan)
             rows, columns = np.indices(level.shape)
             a, b, c, d, e, f = source.transform[:6]

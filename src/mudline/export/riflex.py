@@ -17,6 +17,7 @@ from mudline.quantities import shown
 from mudline.scene.seabed import SeabedKind
 
 TITLE = "RIFLEX INPMOD"
+_MOST = 500
 _DRAG = "0.0 1.2 0.0 1.0 0.0 0.0 2"
 
 
@@ -31,7 +32,9 @@ def segments(piece: Stretch) -> int:
 
 
 def write(model: LineModel, name: str) -> dict[str, str]:
-    """The text of the file by its name."""
+    """The text of the file by its name. Raises DeckError: more of something than the program takes."""
+    if max(len(model.lines), len(model.sections) + len(model.soils)) > _MOST:
+        raise model.scene.refusal(f"RIFLEX takes {_MOST} line types and components: export a part of the deck")
     names = Names(model.report, "A-Za-z0-9_", 8, [f"SOIL{number}" for number in range(1, len(model.soils) + 1)])
     types = [names.take(section.name, section.where) for section in model.sections]
     level = _level(model)

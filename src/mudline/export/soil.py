@@ -29,7 +29,7 @@ _SETTINGS = {
     "SEABED FRICTION": {
         "directions": "along and across the line instead",
         "criterion": "each direction by itself, or both on a circle, as the target has it",
-        "lateral": "one coefficient before and after breakout",
+        "lateral": "the coefficient across, before and after breakout",
     },
 }
 _PLAIN = ("AXIAL", "BOX", "COULOMB", "NONE")
