@@ -243,7 +243,7 @@ class ContactModel:
         laid = points[0] if state.laid is None else state.laid
         self._numpy.locate(points, part)
         if self._tables.level is not None:
-            from mudline.contact.tangent import lower  # noqa: PLC0415 - few trenches do
+            from mudline.contact.directions import lower  # noqa: PLC0415 - few trenches do
 
             lower(self._tables, points, laid, part.normal, part.gap)
         batch = Batch(points, self._speed(points, rates, spans, part.normal, state), laid)

@@ -14,15 +14,15 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.contact.directions import Directions, directions_of, level, projected
 from mudline.contact.laws import PathLaw
 from mudline.contact.result import ContactResult
 from mudline.contact.tables import ContactState, Tables
-from mudline.contact.vectors import in_plane, turned_3, units
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
     from mudline.contact.laws.friction import ExtraLimit, FrictionForce, FrictionHistory, FrictionLaw
-    from mudline.contact.trenches import AddedLimit, Lowered
+    from mudline.contact.trenches import AddedLimit
 
 
 class Triples(NamedTuple):
@@ -116,7 +116,7 @@ def assemble(
     normal = np.asarray(result.normal)
     slope, laid = normal, points if states[0].laid is None else states[0].laid
     if tables.level is not None:
-        slope = normal + _level(tables, points, laid, normal).gradient
+        slope = normal + level(tables, points, laid, normal).gradient
     step = _Step(tables, points, normal, slope, tables.given.element_nodes, tables.half, result, *states)
     stiffness, own = np.nan_to_num(_turned_round(step) if back else result.stiffness), _nodal_stiffness(step)
     by_position, by_velocity = _Blocks(nodes), _Blocks(nodes)
@@ -222,7 +222,7 @@ def _add_lateral(step: _Step, blocks: _Blocks) -> None:
     mean = step.normal[first] + step.normal[second]
     mean = mean / _size(mean)[:, None]
     span = step.points[second] - step.points[first]
-    across = np.cross(mean, _projected(_unit(span)[0], mean))
+    across = np.cross(mean, projected(_unit(span)[0], mean))
     arm = 0.5 * step.points[first] + 0.5 * step.points[second] - after[rows]
     turn = _turning(span, mean)  # of n x t by the second end, minus that by the first
     force = -stiffness * np.einsum("ki,ki->k", across, arm)
@@ -232,11 +232,6 @@ def _add_lateral(step: _Step, blocks: _Blocks) -> None:
         block = _outer(across, slope) + force[:, None, None] * sign * turn
         for at in (first, second):
             blocks.add(at, by, block)
-
-
-def _projected(wanted: FloatArray, normal: FloatArray) -> FloatArray:
-    """Unit vectors (k, 3) along the projections of others; the default direction for one along the normal."""
-    return np.stack(in_plane(tuple(wanted.T), tuple(normal.T)), axis=1)
 
 
 def _turning(span: FloatArray, normal: FloatArray) -> FloatArray:
@@ -401,57 +396,3 @@ def _unit(vectors: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Unit vectors, 0 for those without length, and the lengths (k,)."""
     size = _size(vectors)
     return np.divide(vectors, size[:, None], out=np.zeros_like(vectors), where=size[:, None] > 0.0), size
-
-
-class Directions(NamedTuple):
-    """Directions of nodes (n,) in one step.
-
-    axes: u1 and u2, each (n, 3).
-    follows: (n,) nodes whose directions turn with the line.
-    senses: (m, 2) how the direction of each element counts at its ends.
-    size: (n,) length of the projection of the sum of the elements' directions.
-    """
-
-    axes: tuple[FloatArray, FloatArray]
-    follows: BoolArray
-    senses: FloatArray
-    size: FloatArray
-
-
-def directions_of(tables: Tables, points: FloatArray, normals: FloatArray) -> Directions:
-    """Return the directions of nodes at `points` (n, 3) with unit normals (n, 3)."""
-    line, nodes = tables.line, len(points)
-    with np.errstate(all="ignore"):
-        spans = (points[line.second] - points[line.first]).T
-        unit = units(spans)
-        total = np.stack([line.sums(_padded(axis), 0, nodes, directed=True)[0] for axis in unit], axis=1)
-        flat = total - (total * normals).sum(axis=1)[:, None] * normals
-        along = _projected(total, normals)
-        follows = np.ones(nodes, np.bool_)
-        friction = tables.friction
-        if friction is not None and friction.turned.size:
-            there = tuple(normals[friction.turned].T)
-            along[friction.turned] = np.stack(turned_3(friction.cosine, friction.sine, there), axis=1)
-            follows[friction.turned] = False
-        senses = np.ones((len(line.first), 2))
-        senses[line.elements, line.sides] = line.senses
-    return Directions((along, np.cross(normals, along)), follows, senses, np.sqrt((flat * flat).sum(axis=1)))
-
-
-def lower(tables: Tables, points: FloatArray, laid: FloatArray, normal: FloatArray, gap: FloatArray) -> None:
-    """Add the depth of trenches in which the seabed is lowered to gaps (steps, n) of `points` (steps, n, 3)."""
-    for place, normals, height in zip(points, normal, gap, strict=True):
-        np.add(height, _level(tables, place, laid, normals).depth, out=height)
-
-
-def _level(tables: Tables, points: FloatArray, laid: FloatArray, normal: FloatArray) -> Lowered:
-    from mudline.contact.trenches import level_at  # noqa: PLC0415 - few trenches do
-
-    if tables.level is None:
-        raise TypeError("no trench lowers the seabed")
-    lateral = directions_of(tables, points, normal).axes[1]
-    return level_at(tables.level, tables.laid_line(laid), points, lateral)
-
-
-def _padded(values: FloatArray) -> FloatArray:
-    return np.concatenate([[0.0], values, [0.0]])[None]

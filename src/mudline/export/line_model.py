@@ -152,7 +152,6 @@ def build(scene: Scene) -> LineModel:
         ("NODE", "end points; the shape between them follows from statics"),
         ("ELEMENT", "lengths and segments"),
         ("ELEMENT SETS", "sections of the lines"),
-        ("PARAMETERS", "their values"),
     ):
         report.claim(keyword, target)
     return LineModel(scene, report, places, *si, sections, soils, lengths, ends, lines, seabed, units)
