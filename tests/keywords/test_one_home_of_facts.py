@@ -32,7 +32,6 @@ CONSTANTS = frozenset({"KEYWORD", "_KEYWORD"})
 
 EXCEPTIONS = {
     "comparison/comparing.py": "asks for the labels in the blocks of nodes and of elements",
-    "linting/joining.py": "the density of the water and the type of the seabed, which it names as causes",
     "migration/refusals.py": "what a seabed or a deck before has instead, and whose laws a migrated surface would meet",
     "migration/rewriting.py": "writes these blocks",
     "results/laws_in_use.py": "inner pipes need no law of the seabed",

@@ -217,10 +217,11 @@ def test_numbers_that_fit_another_keyword_of_the_deck_are_not_taken_for_its_line
     assert not any("seems to be missing" in one.message for one in found(text))
 
 
-def test_a_row_that_stays_wrong_is_no_cause() -> None:
-    codes = [one.code for one in found(changed((" 0.5, 20000.0\n", " 0,5, 20000,5\n")))]
-    assert "SYN015" in codes
-    assert "SYN003" in codes
+def test_decimal_commas_of_a_row_with_too_many_fields_are_an_error() -> None:
+    (one,) = found(changed((" 0.5, 20000.0\n", " 0,5, 20000,5\n")))
+    assert (one.code, one.severity) == ("SYN015", Severity.ERROR)
+    assert one.fix is not None
+    assert [edit.text for edit in one.fix.edits] == ["0.5, 20000.5"]
 
 
 def test_the_severity_of_the_configuration_holds_for_the_cause() -> None:

@@ -210,10 +210,9 @@ class Builder:
         while len(fields) > 1 and not fields[-1].text:
             fields.pop()
         if len(fields) > 1:
-            if problem := decimal_comma(fields, [slot.kind], 1):
-                self.problems.append(problem)
             message = f"{slot.label} takes one value, found {len(fields)}"
-            self.report(SYN003, message, Span(fields[0].span.start, fields[-1].span.end))
+            place = Span(fields[0].span.start, fields[-1].span.end)
+            self.problems.append(decimal_comma(fields, [slot.kind], 1) or Problem(SYN003, message, place))
         if not fields[0].text:
             built.values[slot.json] = UNKNOWN
             self.report(SYN003, f"{slot.label} has no value{_value_of(slot)}", group.span)
@@ -313,6 +312,7 @@ class Builder:
     def _fields(self, columns: Sequence[FieldSpec], fields: list[Field], path: Path) -> dict[str, Value]:
         before = len(self.problems)
         fields = self._counted(columns, fields, path)
+        # Of a wrong count any value may be that of another column, but for the number or name that begins the row.
         wrong = any(one.weight is Severity.ERROR for one in self.problems[before:])
         miscounted = wrong or bool(self.unclosed)
         values: dict[str, Value] = dict.fromkeys((slot.json for slot in columns), UNKNOWN) if miscounted else {}
@@ -324,10 +324,12 @@ class Builder:
                 values[slot.json] = UNKNOWN if slot.required else None
                 continue
             try:
-                values[slot.json] = read_value(given, slot, self.problems)
+                value = read_value(given, slot, self.problems)
             except UnreadableError as fault:
                 self._unreadable(fault.problem)
-                values[slot.json] = UNKNOWN
+                value = UNKNOWN
+            if not wrong or (slot is columns[0] and (slot.is_text or slot.kind is Kind.IDENT)):
+                values[slot.json] = value
         return values
 
     def _counted(self, columns: Sequence[FieldSpec], fields: list[Field], path: Path) -> list[Field]:
@@ -346,6 +348,7 @@ class Builder:
             return fields[: len(columns)]
         if problem := decimal_comma(fields, [slot.kind for slot in columns], fewest):
             self.problems.append(problem)
+            return fields[: len(columns)]
         wanted = row_format([slot.label for slot in columns], required)
         count = f"{fewest}" if fewest == len(columns) else f"{fewest} to {len(columns)}"
         message = f"{count} fields expected (`{wanted}`), found {len(fields)}"

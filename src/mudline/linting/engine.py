@@ -77,7 +77,7 @@ def joined_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: b
         return found
     from mudline.linting.joining import joined_findings  # noqa: PLC0415 - most decks are without a finding
 
-    return joined_findings(context.text, found)
+    return joined_findings(context, found)
 
 
 def _meant(context: LintContext, chosen: Sequence[Rule], *, suppress: bool) -> Recovered | None:

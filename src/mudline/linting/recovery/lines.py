@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from functools import cache, lru_cache
 from typing import NamedTuple
@@ -19,6 +18,7 @@ from mudline.keywords.reader import all_keys, reads, schemas_of
 from mudline.keywords.values import Kind as Value
 from mudline.keywords.values import Names
 from mudline.linting.recovery.blocks import (
+    ROW_NUMBER,
     Blocks,
     Correction,
     data_of,
@@ -41,7 +41,6 @@ MOST_NAMED = 5
 
 _OF_FOREIGN_LINES = (SYN001, SYN002, SYN003, SYN004)
 """What the lines of another keyword give in a block."""
-_ROW_NUMBER = re.compile(r"[ \t]*([0-9]{1,10})[ \t]*(?=,)")
 
 # ------------------------------------------------------------------------------------------------------------- the star
 
@@ -153,7 +152,7 @@ def elements_among_nodes(blocks: Blocks, problems: Sequence[Problem]) -> Iterato
         rows = bool(catalogue.facts_of(lacking[0]).defines) if lacking and declared.facts.defines else False
         given: set[str] = set()
         for line in lines_of(text, block) if rows and block.leaves else ():
-            number = _ROW_NUMBER.match(text.source.unified, *line)
+            number = ROW_NUMBER.match(text.source.unified, *line)
             if number and number[1] in given:
                 lines = Span(line.start, block.leaves[-1].span.end)
                 thing = declared.facts.defines.removesuffix("s")

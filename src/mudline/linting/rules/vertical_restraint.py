@@ -68,7 +68,7 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
     if context.problems_of(SBD004):
         return  # that there is no stiffness is reported there
     yield from _zeros(scene)
-    if scene.laws.partial:
+    if scene.may_have_more_laws:
         return  # a law that was not read may hold
     free = scene.law == LawKind.NONE
     if np.count_nonzero(free) and ("PIP SECTION" in context.keywords or "PIP CONNECTION" in context.keywords):

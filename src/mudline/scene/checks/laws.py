@@ -33,6 +33,12 @@ SBD005 = Code("SBD005", "embedment-needs-elastic", Severity.ERROR)
 SBD009 = Code("SBD009", "missing-diameter", Severity.ERROR)
 
 
+def extends_rigid(scene: ResolvedDeck) -> bool:
+    """Whether EXT001 says that the seabed is rigid: what is wrong with laws that have no effect then is not told."""
+    extension = any(True for _ in scene.deck.blocks_that(lambda declared: declared.facts.extension))
+    return extension and "RIGID" in scene.laws.types and "ELASTIC" not in scene.laws.types
+
+
 @check(SBD001)
 def rigid_with_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     """A rigid seabed has a force-embedment curve, or a value that only an elastic one has.
@@ -55,7 +61,7 @@ def rigid_with_curve(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 9:12
     """
-    blocks = typed_blocks(scene.context) if "RIGID" in scene.laws.types else ()
+    blocks = typed_blocks(scene.context) if "RIGID" in scene.laws.types and not extends_rigid(scene) else ()
     for where, properties, type_ in blocks:
         for index, entry in enumerate(properties.sets if type_ == "RIGID" else ()):
             place = where.inside("sets", index)

@@ -10,6 +10,7 @@ import numpy as np
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.keywords.unknown import is_partly_unknown
 from mudline.scene.checks import check
+from mudline.scene.checks.laws import extends_rigid
 from mudline.scene.deck_values import number
 from mudline.scene.numbering import Floats, Mask, marked
 
@@ -55,7 +56,7 @@ def bad_trench(scene: ResolvedDeck) -> Iterator[Problem]:
     Finds: 9:2
     """
     extension = scene.extensions.get(_KEYWORD)
-    if extension is None:
+    if extension is None or extends_rigid(scene):
         return
     bare, locked = _without_spring(scene)
     for index, (entry, where) in enumerate(zip(_entries(scene), extension.places, strict=True)):
