@@ -60,7 +60,7 @@ class LawTable:
 
     `covered` (m,) is the last set_law of the new family that holds an element, also one without stiffness. `curves` are
     the named ones, then those of `*EMBEDMENT`; `referenced` the folded names that a STIFFNESS= gives. `types` has the
-    places that say "RIGID" or "ELASTIC".
+    places that say "RIGID" or "ELASTIC", and `gaps` those behind which lines may give more laws.
     """
 
     curves: list[SceneCurve]
@@ -69,6 +69,7 @@ class LawTable:
     covered: Indices = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
     referenced: set[str] = field(default_factory=set)
     types: dict[str, list[Where]] = field(default_factory=dict)
+    gaps: list[Where] = field(default_factory=list)
 
     __repr__ = short_repr
 
@@ -90,6 +91,8 @@ def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: lis
     family.
     """
     laws = LawTable(curves=[*named, *by_set])
+    if any(map(catalogue.is_superseded, context.unread)):
+        laws.gaps.append(Where(len(context.deck.sections)))
     surfaces = [*_rigid_surface(context, sets, laws), *_elastic_surface(context, sets, laws)]
     legacy = [*surfaces, *_embedment(sets, laws, len(named))]
     new = list(_properties(context, sets, laws, named))
@@ -160,6 +163,8 @@ def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneC
             laws.types.setdefault(str(properties.type_), []).append(where.inside("type"))
         if not properties.sets and is_partly_unknown(properties.sets):
             yield SetLaw(LawKind.NONE, _unknown(None), where, "new", unknown=True)
+        gaps = [where.inside("sets", index) for index, entry in enumerate(properties.sets) if _has_gap(entry)]
+        laws.gaps += gaps
         for index, entry in enumerate(properties.sets):
             place = where.inside("sets", index)
             name = set_name(entry.set_name)
@@ -177,6 +182,12 @@ def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneC
             else:
                 value = float(stiffness)
                 yield SetLaw(LawKind.LINEAR, holder, written, "new", value, unknown=not value >= 0)
+
+
+def _has_gap(entry: SeabedSet) -> bool:
+    """Whether a line below a SET= could not be used, which may be the SET= of another one."""
+    values = (entry.stiffness, entry.friction, entry.lateral, entry.suction)
+    return UNKNOWN in values and None not in values
 
 
 class ResistanceValues(NamedTuple):
