@@ -217,6 +217,14 @@ def test_numbers_that_fit_another_keyword_of_the_deck_are_not_taken_for_its_line
     assert not any("seems to be missing" in one.message for one in found(text))
 
 
+def test_a_warning_is_an_error_where_the_deck_as_written_is_illegal() -> None:
+    row = " 1.0E8, 1.0E8, 8.0E7, 3.5E9, 130.0, 0.0, 0.2889, 0.3239, 0.3239, 0.3239\n"
+    text = changed((" SET=ALL\n" + row, " OPTION=RIGID\n SET=ALL\n 207.0E9, 79.6E9, 0,3239, 0.2889, 7850.0\n"))
+    assert not load_bytes(text.encode(), "deck.keyxm").errors()
+    (one,) = found(text)
+    assert (one.code, one.severity, one.blocks) == ("SYN015", Severity.ERROR, True)
+
+
 def test_decimal_commas_of_a_row_with_too_many_fields_are_an_error() -> None:
     (one,) = found(changed((" 0.5, 20000.0\n", " 0,5, 20000,5\n")))
     assert (one.code, one.severity) == ("SYN015", Severity.ERROR)

@@ -71,7 +71,8 @@ def joined_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: b
     meant = _meant(context, chosen, suppress=suppress)
     found = problems_in(meant.context if meant else context, chosen)
     if meant is not None:
-        found = [*meant.causes, *meant.as_written(found)]
+        found = [*meant.as_written(found)]
+        found = [*_as_severe(context, meant.causes, found), *found]
     found = unsuppressed(context, found, chosen) if suppress else found
     if not found or context.text is None:
         return found
@@ -97,6 +98,15 @@ def _meant(context: LintContext, chosen: Sequence[Rule], *, suppress: bool) -> R
     from mudline.linting.recovery.engine import Reading, recovered  # noqa: PLC0415 - most decks do without
 
     return recovered(context, {rule.code.code for rule in chosen}, Reading(again, _read_once, reported))
+
+
+def _as_severe(context: LintContext, causes: list[Problem], others: list[Problem]) -> list[Problem]:
+    """The causes of a deck; warnings become errors where nothing else says that it is illegal as it is written."""
+    if any(one.blocking is Blocks.ALWAYS for one in (*causes, *others)):
+        return causes
+    if not any(one.blocking is Blocks.ALWAYS for one in context.scene.findings):
+        return causes
+    return [replace(one, severity=Severity.ERROR) if one.weight is Severity.WARNING else one for one in causes]
 
 
 def may_recover(deck: Deck) -> bool:
