@@ -318,3 +318,26 @@ def test_what_follows_is_in_no_output(form: str) -> None:
     written = "".join(form_module(form).write(found(text), LintRun(["deck.keyxm"], "1.0")))
     assert "SYN009" in written
     assert "REF006" not in written
+
+
+@pytest.mark.parametrize(
+    "above",
+    [
+        "*MOMENT-CURVATURE\n CURVE=Bend\n 0.0, 0.0\n 0.01, 5000.0\n",
+        "*LINES\n LINE=abc\n 1.0, 2.0\n",
+    ],
+)
+def test_curves_that_the_block_above_can_have_are_those_that_the_deck_lacks(above: str) -> None:
+    text = changed(("*SEABED STIFFNESS\n", above))
+    errors = [one for one in found(text) if one.severity is Severity.ERROR]
+    line = text[: text.index(" CURVE=Clay")].count("\n") + 1
+    assert [(one.line, one.code) for one in errors] == [(line, "SYN001")]
+    assert "*SEABED STIFFNESS" in errors[0].message
+
+
+def test_a_curve_that_its_own_kind_uses_stays_where_it_is() -> None:
+    text = changed(
+        ("*SEABED STIFFNESS\n", "*MOMENT-CURVATURE\n"),
+        (" SET=ALL\n 1.0E8, 1.0E8,", " SET=ALL, EIYY=Clay, EIZZ=Sand\n , ,"),
+    )
+    assert {"REF002"} <= {one.code for one in found(text)}

@@ -101,12 +101,13 @@ def _meant(context: LintContext, chosen: Sequence[Rule], *, suppress: bool) -> R
 
 
 def _as_severe(context: LintContext, causes: list[Problem], others: list[Problem]) -> list[Problem]:
-    """The causes of a deck; warnings become errors where nothing else says that it is illegal as it is written."""
+    """The causes of a deck, as errors that block it where nothing else says that it is illegal as it is written."""
     if any(one.blocking is Blocks.ALWAYS for one in (*causes, *others)):
         return causes
     if not any(one.blocking is Blocks.ALWAYS for one in context.scene.findings):
         return causes
-    return [replace(one, severity=Severity.ERROR) if one.weight is Severity.WARNING else one for one in causes]
+    raised = [replace(one, severity=Severity.ERROR, blocks=Blocks.ALWAYS) for one in causes]
+    return [one if one.weight is Severity.INFO else error for one, error in zip(causes, raised, strict=True)]
 
 
 def may_recover(deck: Deck) -> bool:

@@ -28,6 +28,9 @@ from mudline.linting.recovery.blocks import (
     start_of,
     whole,
 )
+from mudline.scene.names import CURVES
+from mudline.scene.references import given_names
+from mudline.scene.sets import set_key
 from mudline.syntax.edits import TextEdit
 from mudline.syntax.fields import first_key, trimmed
 from mudline.syntax.source import Source
@@ -141,6 +144,24 @@ def _keyword_line(
         names = " or ".join(f"*{keyword}" for keyword in found[:MOST_NAMED])
         message = f"{which} are of another keyword, {names}: its line seems to be missing above them"
         yield Correction(cause, (TextEdit(lines, ""),), lines, message)
+
+
+@recovers_from(SYN001, always=True)
+def swallowed_curves(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:  # noqa: ARG001 - of text
+    """Curves that the deck lacks, in a block that takes them for others, which nothing uses, or passes them through."""
+    lacked = {set_key(name) for name in blocks.missing[Names.CURVE]}
+    if lacked:
+        lacked -= {set_key(name) for kind in CURVES for _, _, name in given_names(blocks.deck, kind)}
+    unified = blocks.text.source.unified
+    for section, block in blocks.blocks if lacked else ():
+        if block.name in catalogue.definers(Names.CURVE) or not catalogue.sections_of(block.name):
+            continue
+        for line in lines_of(blocks.text, block):
+            _, _, name = unified[slice(*line)].partition("=")
+            if name and set_key(name) in lacked:
+                cause = Problem(SYN001, "", trimmed(unified, *line))
+                yield from _keyword_line(blocks, section, block.name, cause, Span(line.start, whole(block).end))
+                break
 
 
 @recovers_from(REF007, always=True)
