@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mudline.deck.coverage import coverage_of
+from mudline.deck.faults import MisspeltDeckError
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import BaseProblem, Deck, Opaque
 from mudline.deck.reading import TextOrigin, units_of
@@ -267,6 +268,9 @@ def covered_findings(
     """What `lint_bytes` finds, and how many keywords were read."""
     try:
         deck = read_deck(data, name, units=units, folder=folder)
+    except MisspeltDeckError as error:
+        found = lint_context(LintContext(error.meant, dialect=dialect), chosen)
+        return [*error.diagnostics, *found], coverage_of(error.meant)
     except DeckError as error:
         return list(error.diagnostics), Coverage()
     return lint_context(LintContext(deck, dialect=dialect), chosen), coverage_of(deck)

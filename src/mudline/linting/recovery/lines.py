@@ -146,15 +146,18 @@ def _keyword_line(
         yield Correction(cause, (TextEdit(lines, ""),), lines, message)
 
 
-@recovers_from(SYN001, always=True)
-def swallowed_curves(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:  # noqa: ARG001 - of text
+@recovers_from(*_OF_FOREIGN_LINES, always=True)
+def swallowed_curves(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Curves that the deck lacks, in a block that takes them for others, which nothing uses, or passes them through."""
     lacked = {set_key(name) for name in blocks.missing[Names.CURVE]}
     if lacked:
         lacked -= {set_key(name) for kind in CURVES for _, _, name in given_names(blocks.deck, kind)}
     unified = blocks.text.source.unified
+    wrong = {blocks.block_at(start_of(blocks.text, one)).start for one in problems}
     for section, block in blocks.blocks if lacked else ():
         if block.name in catalogue.definers(Names.CURVE) or not catalogue.sections_of(block.name):
+            continue
+        if block.head.span.start in wrong:  # its lines are looked at for that
             continue
         for line in lines_of(blocks.text, block):
             _, _, name = unified[slice(*line)].partition("=")
