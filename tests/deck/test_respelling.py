@@ -38,7 +38,7 @@ def found(old: str, new: str, form: str) -> list[tuple[str, str]]:
     [
         ("stiffness", "stifness", "stiffness"),
         ("ELASTIC", "ELASTC", "ELASTIC"),
-        ("SEABED PROPERTIES", "SEABED PROPERTEIS", "*SEABED PROPERTIES"),
+        ("SEABED PROPERTIES", "SEABED PROPERTEIS", "SEABED PROPERTIES"),
         ("longitudinal", "longitudnal", "longitudinal"),
     ],
 )
