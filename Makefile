@@ -100,6 +100,7 @@ tutorials: $(VENV)/.developer ## execute the notebooks of docs/tutorials again
 
 pictures: $(VENV)/.developer ## redraw the pictures of docs/images
 	$(BIN)/python -m tests.docs.pictures
+	$(BIN)/python -m tests.report.browser
 
 studies: $(VENV)/.developer ## measure the tables and pictures of docs/studies/ again (3 minutes)
 	$(BIN)/python -m tests.benchmarks.studies $(ARGS)

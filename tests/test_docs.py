@@ -44,6 +44,7 @@ JSON = {
         "diff samples/variations.keyxm samples/variations.keyxm",
         "diff samples docs/examples",
     ),
+    "report": ("report samples/scr-vessel.keyxm samples/broken.keyxm",),
     "expand": ("expand samples/variations.keyxm --dry-run", "expand -q samples/parametric.keyxm -o study"),
     "rules": ("rules",),
 }

@@ -62,8 +62,9 @@ def test_findings_for_programs_need_no_rich(place: Place) -> None:
     assert "rich" not in modules("lint", place(BAD_NUMBER), "--output-format", "json", code=1)
 
 
-def test_keywords_that_a_deck_lacks_are_not_loaded(place: Place) -> None:
-    names = modules("lint", place("$MODEL\n*OCEAN\n 100.0, 1025.0, 9.81\n"), "--output-format", "json")
+@pytest.mark.parametrize("other", ["", "*COATINGS\n SET=ALL\n 0.05, 900.0\n"])
+def test_keywords_that_a_deck_lacks_are_not_loaded(place: Place, other: str) -> None:
+    names = modules("lint", place(f"$MODEL\n*OCEAN\n 100.0, 1025.0, 9.81\n{other}"), "--output-format", "json")
     assert {name for name in names if name.startswith("mudline.keywords.library.")} == {
         "mudline.keywords.library.ocean"
     }

@@ -7,8 +7,11 @@ import pickle
 
 import numpy as np
 import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+from numpy.typing import ArrayLike
 
-from mudline.curves import ForceCurve
+from mudline.curves import CurveError, ForceCurve
 
 POINTS = [(0.3, 4500.0), (0.0, 0.0), (0.1, 2000.0)]
 
@@ -26,6 +29,25 @@ def test_points_may_be_an_array_of_any_real_kind() -> None:
     whole = np.array([[0, 0], [2, 8]])
     for kind in (np.int32, np.float32, np.float64, np.longdouble):
         assert ForceCurve(whole.astype(kind)) == ForceCurve([(0, 0), (2, 8)])
+
+
+_VALUES = st.sampled_from([0.0, -0.0, 5e-324, 1e-308, 1e308, -1e308, np.inf, np.nan]) | st.floats(-5.0, 5.0)
+
+
+@given(st.lists(st.tuples(_VALUES, _VALUES), max_size=5), st.booleans())
+@example([(-0.0, -0.0), (1.0, 2.0)], True)
+@settings(max_examples=200)
+def test_a_short_curve_has_the_bits_of_any_other(points: list[tuple[float, float]], ascending: bool) -> None:
+    array = np.array(sorted(points) if ascending else points).reshape(-1, 2)
+
+    def made(given: ArrayLike) -> object:
+        try:
+            curve = ForceCurve(given, "clay")
+        except CurveError as error:
+            return str(error), error.code, error.index
+        return [values.tobytes() for values in (curve.ratios, curve.forces, curve.slopes)]
+
+    assert made(array) == made(array.tolist() or np.empty((0, 2)))
 
 
 def test_a_curve_does_not_change() -> None:

@@ -44,9 +44,15 @@ def _entries(module: str) -> list[Entry]:
         block = catalogue.load(module)
         keyword = block.model_fields["keyword"].default
         names, defines = (tuple(sorted(kind.name for kind in kinds_of(block, role))) for role in ROLES)
-        short = block.facts.zero_length
+        short, telling = block.facts.zero_length, block.facts.telling
         found.append(
-            Entry(keyword, module, block.sections, block.subject, zero_length=short, names=names, defines=defines)
+            Entry(
+                *(keyword, module, block.sections, block.subject),
+                zero_length=short,
+                names=names,
+                defines=defines,
+                telling=telling,
+            )
         )
     if hasattr(declared, "OPAQUE"):
         kept = catalogue.load_opaque(module)

@@ -103,7 +103,7 @@ def _here(site: Site, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[...,
 
     def command(name: str, *arguments: str, deck: str = NO_FRICTION) -> Outcome:
         monkeypatch.setattr(registry, "_collected", loaded)
-        lint_run._named.cache_clear()
+        lint_run.rules_named.cache_clear()
         (site.folder / "deck.keyxm").write_text(deck)
         return run(name, *arguments)
 
@@ -115,7 +115,7 @@ def _here(site: Site, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[...,
     yield command
     RULES.clear()
     RULES.update(own)
-    lint_run._named.cache_clear()
+    lint_run.rules_named.cache_clear()
     for name in sys.modules.keys() - modules:
         if name.startswith(("corp_", "acme_mudline")):
             del sys.modules[name]

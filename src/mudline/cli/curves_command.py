@@ -7,20 +7,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
-import numpy as np
 
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.streams import emit, emit_json, notify, notify_missing, writing
 from mudline.cli.view import View
-from mudline.curves import ForceCurve
-from mudline.deck.parameters import folded
 from mudline.linting.engine import naming_causes
 from mudline.linting.output import visible
-from mudline.quantities import UnitNames, csv_lines, finite, headed, shown, unit_names
-from mudline.results.summary import CURVE_SIDES, followers
-from mudline.scene.deck_curves import OF_SEABED, other_curves
-from mudline.scene.force_curves import SceneCurve
+from mudline.quantities import UnitNames, csv_lines, headed, shown, unit_names
+from mudline.results.curve_rows import curve_rows, diameters_on, used_curves
+from mudline.results.summary import followers
+from mudline.scene.deck_curves import OF_SEABED
 from mudline.scene.model import Scene, resolve
 
 if TYPE_CHECKING:
@@ -74,7 +71,7 @@ def command(
     with naming_causes(given):
         scene = resolve(given).require()
     try:
-        rows = _curve_rows(scene, ratios, weight)
+        rows = curve_rows(scene, ratios, weight)
     except ValueError as error:
         raise click.UsageError(str(error)) from error
     if picture and not _plot(scene, rows, Path(picture), form):
@@ -90,95 +87,7 @@ def command(
     return DONE
 
 
-# ------------------------------------------------------------------------------------------------------------ rows
-
-
-def _curve_rows(scene: Scene, ratios: tuple[float, ...], weight: float | None) -> list[dict[str, Any]]:
-    """Each usable curve with the keys of the contract; `static` only when a weight per unit length is given.
-
-    Raises ValueError for a ratio at which a force overflows, and for a ratio or a weight that is not finite.
-    """
-    seabed = [
-        _curve_row(entry.name, curve, _diameters(scene, index), ratios, weight)
-        | {"kind": OF_SEABED, "keyword": _keyword(scene, entry), "axes": ["ratio", "force"]}
-        for index, entry, curve in _used_curves(scene)
-    ]
-    others = [
-        _curve_row(one.name, made, [], ratios, None)
-        | {"kind": one.kind, "keyword": one.keyword, "axes": list(one.axes)}
-        for one in sorted(other_curves(scene.deck), key=lambda one: one.kind)
-        if (made := one.made())
-    ]
-    return seabed + others
-
-
-def _keyword(scene: Scene, entry: SceneCurve) -> str:
-    return scene.deck.sections[entry.where.section].blocks[entry.where.block].keyword
-
-
-def _used_curves(scene: Scene) -> list[tuple[int, SceneCurve, ForceCurve]]:
-    """The curves that can be evaluated, with their indices."""
-    return [(index, entry, entry.curve) for index, entry in enumerate(scene.laws.curves) if entry.curve is not None]
-
-
-def _diameters(scene: Scene, curve: int) -> list[float]:
-    """The different external diameters of the elements that follow a curve.
-
-    Where the deck does not show its elements, as those of `*LINES`, these are the diameters of the sections of the sets
-    that follow the curve, or of all sections, if none has the name of such a set.
-    """
-    follow = followers(scene, curve)
-    found = scene.diameter[follow]
-    if not follow.any() and scene.context.external_definers:
-        sets = {folded(grant.set_.name) for grant in scene.laws.set_laws if grant.curve == curve}
-        sections = scene.section_table.sections if sets else ()
-        of_sets = [section.diameter for section in sections if folded(section.name) in sets]
-        found = np.array(of_sets or [section.diameter for section in sections])
-    return [float(value) for value in np.unique(found[~np.isnan(found)])]
-
-
-def _curve_row(
-    name: str, curve: ForceCurve, sizes: list[float], ratios: tuple[float, ...], weight: float | None
-) -> dict[str, Any]:
-    points = np.column_stack([curve.ratios, curve.forces]).tolist()
-    slopes = curve.slopes.tolist()
-    row: dict[str, Any] = {
-        "name": name,
-        "points": points,
-        "segments": [{"from": points[i][0], "to": points[i + 1][0], "slope": slope} for i, slope in enumerate(slopes)],
-        "at": [_value_at(curve, ratio) for ratio in ratios],
-    }
-    if weight is not None:
-        row["static"] = [_static(curve, ratio, sizes) for ratio in curve.ratios_at_force(weight)]
-    return row
-
-
-def _value_at(curve: ForceCurve, ratio: float) -> dict[str, Any]:
-    """Force, slope, segment and whether the curve is extrapolated at a ratio."""
-    force, slope = curve.evaluate(ratio)
-    return {
-        "ratio": ratio,
-        "force": float(force),
-        "slope": float(slope),
-        "segment": int(curve.segment(ratio)),
-        "extrapolated": CURVE_SIDES[int(curve.extrapolated(ratio))],
-    }
-
-
-def _static(curve: ForceCurve, ratio: float, sizes: list[float]) -> dict[str, Any]:
-    """Static embedment: where the curve carries the weight; depth and stiffness there for each diameter.
-
-    It is stable where the force rises with the depth: where it falls, the pipe sinks on.
-    """
-    values = _value_at(curve, ratio)
-    slope = values["slope"]
-    return {
-        **values,
-        "stable": slope > 0.0,
-        "stiffness": [
-            {"diameter": size, "depth": finite(ratio * size), "stiffness": finite(slope / size)} for size in sizes
-        ],
-    }
+# ------------------------------------------------------------------------------------------------------------- CSV
 
 
 def _csv_rows(
@@ -223,8 +132,8 @@ def _print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
     names = unit_names(scene.units)
     force, slope = headed("force", names.line_force), headed("slope", names.line_force)
     ends = ("from\nratio", "to\nratio", *(headed(f"{end}\nforce", names.line_force) for end in ("from", "to")))
-    for (index, entry, _), row in zip(_used_curves(scene), rows, strict=False):
-        sizes = _diameters(scene, index)
+    for (index, entry, _), row in zip(used_curves(scene), rows, strict=False):
+        sizes = diameters_on(scene, index)
         drawn = sizes if view.verbose or len(sizes) <= _SHOWN_DIAMETERS else [sizes[0], sizes[-1]]
         stiffnesses = (headed(f"stiffness\nD={shown(size)}", names.stiffness) for size in drawn)
         note = "" if drawn == sizes else f"{len(sizes)} diameters follow this curve: -v shows all"

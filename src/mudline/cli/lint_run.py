@@ -241,12 +241,12 @@ def _orders(
 
 def lint_order(order: Order) -> FileReport:
     """Lint a file, in any process."""
-    settings = replace(order.settings, rules=_named(order.codes))
+    settings = replace(order.settings, rules=rules_named(order.codes))
     return lint_one(order.file.name, order.data, settings, order.file.seen_from(order.here).folder)
 
 
 @cache
-def _named(codes: tuple[str, ...]) -> tuple[Rule, ...]:
+def rules_named(codes: tuple[str, ...]) -> tuple[Rule, ...]:
     """The rules of these codes; raises ImportError where a package that has some of them is not installed here."""
     found = tuple(rule for rule in rules() if rule.code.code in codes)
     if missing := sorted(set(codes) - {rule.code.code for rule in found}):

@@ -39,6 +39,7 @@ COMMANDS = {
     "index": "Bring decks into an archive.",
     "query": "Answer a question about an archive in SQL.",
     "study": "Measure what accuracy costs on a deck, and what is stable.",
+    "report": "Write a page about a deck for a checker to sign.",
     "rules": "List the rules, or explain one.",
     "schema": "Print the JSON Schema of decks, or of the configuration.",
     "config": "Show the configuration of a deck.",

@@ -8,7 +8,6 @@ import sys
 from collections.abc import Generator, Iterable, Iterator
 from contextlib import closing
 from dataclasses import asdict, dataclass, field, fields
-from functools import cache
 from textwrap import indent
 from typing import NamedTuple
 
@@ -18,16 +17,12 @@ from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import Input, Inputs, collect_any_form
 from mudline.cli.streams import emit, reason
 from mudline.cli.view import Progress, View, wants_bar
-from mudline.codes.contact import SBD006
-from mudline.deck.coverage import coverage_of
 from mudline.deck.loading import load_bytes
-from mudline.diagnostics import Coverage, DeckError, Diagnostic, Problem, Severity
-from mudline.linting.engine import joined_problems, of_base, unsuppressed
+from mudline.diagnostics import Coverage, DeckError, Diagnostic
 from mudline.linting.output.json import as_object
-from mudline.linting.registry import rules, select
 from mudline.linting.rule import LintContext
+from mudline.linting.verdict import Verdict, judge, refused
 from mudline.quantities import csv_lines
-from mudline.results.warnings import seabed_warnings
 from mudline.running.executors import Pool, executor, in_order
 from mudline.short_repr import counted
 from mudline.syntax.source import Source
@@ -94,33 +89,6 @@ def command(
 # -------------------------------------------------------------------------------------------------------- verdicts
 
 
-@dataclass(frozen=True, slots=True)
-class Verdict:
-    """Counts of a deck, and "legal", "legal, 3 warnings", "illegal" or, for a file without any section, "empty".
-
-    A deck that was not read as a whole is "legal as far as read: 31 of 38 keywords, 5 in part; not read: *GUIDE (2)".
-    """
-
-    file: str
-    sections: int
-    keywords: Coverage
-    curves: int
-    elements: int
-    errors: int
-    warnings: int
-    verdict: str
-
-    @property
-    def legal(self) -> bool:
-        """Whether the deck is legal, with warnings or without, as far as it was read."""
-        return self.verdict.startswith("legal")
-
-    @property
-    def short(self) -> str:
-        """The verdict without what was read, in as few words as a table has place for."""
-        return self.verdict.partition(":")[0].replace("legal as far", "as far")
-
-
 @dataclass(slots=True)
 class Total:
     """Decks by verdict, their errors and warnings, and the files that could not be read, which are not counted."""
@@ -182,45 +150,10 @@ def judge_order(order: Order) -> tuple[Verdict, list[Diagnostic]]:
     try:
         deck = load_bytes(order.data, file.name, units=order.units, folder=file.folder)
     except DeckError as error:
-        none = Verdict(file.name, 0, Coverage(), 0, 0, len(error.diagnostics), 0, "illegal")
-        return none, list(error.diagnostics)
-    context = LintContext(deck)
-    problems = joined_problems(context, rules(), suppress=False)
-    wrong = [one for one in problems if one.weight is Severity.ERROR]
-    # of the deck itself as it is written, and not as it was meant
-    wrong = wrong or [one for one in context.scene.errors() if not of_base(deck, one)]
-    if not wrong and any(one.repair for one in deck.problems):  # a name that was meant otherwise is not what it says
-        wrong = [one for one in context.scene.blocking() if one.weight is not Severity.INFO]
-    errors = deck.diagnose(wrong)
-    warnings = _warnings(context, problems, legal=not errors)
-    keywords = coverage_of(deck)
-    curves, elements = len(context.scene.laws.curves), len(context.scene.element_ids)
-    verdict = "illegal" if errors else _legal(len(warnings), keywords) if deck.sections else "empty"
-    counts = (len(deck.sections), keywords, curves, elements, len(errors), len(warnings))
+        return refused(file.name, error), list(error.diagnostics)
+    verdict, errors, warnings = judge(LintContext(deck))
     found = sorted([*errors, *warnings], key=lambda one: one.sort_key) if order.verbose else errors
-    return Verdict(deck.file, *counts, verdict), found
-
-
-def _legal(warnings: int, keywords: Coverage) -> str:
-    """The verdict on a deck without errors."""
-    behind = f", {counted(warnings, 'warning')}" if warnings else ""
-    return f"legal{behind}" if keywords.whole else f"legal as far as read{behind}: {keywords}"
-
-
-def _warnings(context: LintContext, problems: list[Problem], *, legal: bool) -> list[Diagnostic]:
-    """What lint warns of, and of a legal deck what evaluating it at its own coordinates adds to that."""
-    codes = _default_codes()
-    kept = unsuppressed(context, problems, rules())
-    found = [one for one in kept if one.weight is Severity.WARNING and one.code.code in codes]
-    reported = {one.code.code for one in problems if one.weight is Severity.WARNING}
-    more = seabed_warnings(context.scene) if legal and SBD006.code not in reported else []
-    return [*context.deck.diagnose(found), *(one.diagnostic for one in more if one.diagnostic.code not in reported)]
-
-
-@cache
-def _default_codes() -> frozenset[str]:
-    """The codes of the rules that lint runs unless it is asked for others."""
-    return frozenset(rule.code.code for rule in select())
+    return verdict, found
 
 
 # ------------------------------------------------------------------------------------------------------- all files

@@ -76,6 +76,8 @@ class DocumentOrigin(Origin):
         section, block, path = problem.where
         if path[:1] == ("lines",):  # a piece of a line has no place of its own
             path = path[:2]
+        elif path[-3:-2] == ("text",):
+            path = path[:-2]
         return self.locate(document_path(Where(section, block, path)))
 
 

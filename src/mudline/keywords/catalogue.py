@@ -7,7 +7,7 @@ says the index, which is made of the declarations: one that a deck does not use 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
-from functools import cache
+from functools import cache, lru_cache
 from importlib import import_module
 from itertools import takewhile
 from typing import cast
@@ -44,6 +44,8 @@ SECTIONS = (
 CERTAIN_SECTIONS = ("PREPROCESSOR", "MODEL", "LOAD CASE")
 """Sections of which it is certain which keywords belong there."""
 
+_ASKED = 1024
+"""Names of which is remembered what is known of them: decks may hold any."""
 _LIBRARY = "mudline.keywords.library"
 
 
@@ -65,11 +67,13 @@ def _read(keyword: str) -> list[Entry]:
     return [entry for entry in entries(keyword) if not entry.kept]
 
 
+@lru_cache(_ASKED)
 def block_class(section: str, keyword: str) -> type[Block] | None:
     """The declaration of a keyword in a section, or None when it is passed through."""
     return next((load(entry.module) for entry in _read(keyword) if section in entry.sections), None)
 
 
+@lru_cache(_ASKED)
 def declared(keyword: str, section: str = "") -> type[Block] | None:
     """The declaration of a keyword, or None when its lines are not read.
 
@@ -156,6 +160,12 @@ def users(what: Names) -> list[str]:
     return [entry.keyword for entry in index.ENTRIES if what.name in entry.names]
 
 
+@cache
+def telling_lines() -> dict[str, str]:
+    """The lines that one keyword alone has, with that keyword."""
+    return {line: entry.keyword for entry in index.ENTRIES for line in entry.telling}
+
+
 def may_have_no_length(keyword: str) -> bool:
     """Whether the elements of a keyword may have no length."""
     return keyword in ZERO_LENGTH or any(entry.zero_length for entry in entries(keyword))
@@ -183,6 +193,7 @@ def supersedes(keyword: str) -> bool:
     return _of_seabed(keyword) and facts_of(keyword, "MODEL").supersedes
 
 
+@lru_cache(_ASKED)
 def _of_seabed(keyword: str) -> bool:
     """Whether a keyword is one of the two families of the seabed, which exclude each other."""
     return any(entry.subject == "seabed" for entry in entries(keyword))

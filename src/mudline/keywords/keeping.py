@@ -15,6 +15,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from mudline.keywords import grammar
 from mudline.keywords.model import Block, FieldSpec, Part, Record, record_schema
+from mudline.keywords.naming import enumerate_items
 from mudline.keywords.values import Count, Kind, Text
 from mudline.short_repr import with_fields
 from mudline.syntax.fields import canonical_key
@@ -68,10 +69,18 @@ def _is_open(slot: FieldSpec) -> bool:
 
 def kept_lines(part: Part) -> Iterator[str]:
     """The lines that a part and those inside it keep."""
-    if can_keep(type(part)):
-        yield from (line.text for line in getattr(part, "unread", ()))
-        for inner in _inner(part):
-            yield from kept_lines(inner)
+    return (line for _, line in kept_places(part))
+
+
+def kept_places(part: Part) -> Iterator[tuple[tuple[str | int, ...], str]]:
+    """The lines that a part and those inside it keep, with their paths."""
+    if not can_keep(type(part)):
+        return
+    yield from ((("unread", number, "text"), line.text) for number, line in enumerate(getattr(part, "unread", ())))
+    for slot in record_schema(type(part)).slots:
+        for path, item in enumerate_items(slot, getattr(part, slot.name, None)):
+            if isinstance(item, Part):
+                yield from (((*path, *inner), line) for inner, line in kept_places(item))
 
 
 def is_read(part: Part) -> bool:
@@ -100,31 +109,38 @@ def _inner(part: Part) -> Iterator[Part]:
 
 @dataclass
 class _Opener:
-    """A setting whose value may say that the lines behind it are not public, and the keys that end these."""
+    """A setting whose value may say that the lines behind it are not public, and the keys that end these.
+
+    Where it begins its line, other lines of its own record may follow: only keys of `far` end the lines then.
+    """
 
     known: set[str] = field(default_factory=set)
     ends: set[str] = field(default_factory=set)
+    far: set[str] = field(default_factory=set)
 
 
 @cache
 def openers(block: type[Block]) -> dict[str, _Opener]:
     """The settings of a block behind which lines may be kept, by their keys."""
     found: dict[str, _Opener] = {}
-    _add_openers(block, (), found)
+    _add_openers(block, (), (), found)
     return found
 
 
-def _add_openers(part: type[Part], ends: Sequence[str], found: dict[str, _Opener]) -> None:
+def _add_openers(part: type[Part], near: Sequence[str], far: Sequence[str], found: dict[str, _Opener]) -> None:
+    """`near` are the keys that begin a record of this kind, `far` those that begin others."""
     schema = record_schema(part)
     for key, slot in schema.keys.items():
         if slot.about.opaque is not None:
             opener = found.setdefault(key, _Opener())
             opener.known.update(set(slot.choices) - set(slot.about.opaque))
-            opener.ends.update([key, *ends])
+            opener.far.update([key, *far])
+            opener.ends.update([key, *far, *near])
     for slot in schema.slots:
-        firsts = [key for record in slot.record.values() for key in _first_keys(record)]
-        for record in slot.record.values():
-            _add_openers(record, [*ends, *firsts], found)
+        firsts = {record: [*_first_keys(record)] for record in slot.record.values()}
+        for record, own in firsts.items():
+            others = [key for other, keys in firsts.items() if other is not record for key in keys]
+            _add_openers(record, own, [*near, *far, *others], found)
 
 
 def _first_keys(record: type[Record]) -> Iterable[str]:
@@ -140,8 +156,8 @@ def opened(block: type[Block], key: str, fields: str) -> frozenset[str]:
         return frozenset()
     given = [(key, fields.partition(",")[0]), *_INLINE.findall(fields)]
     ends: set[str] = set()
-    for name, text in given:
+    for index, (name, text) in enumerate(given):
         opener, value = known.get(canonical_key(name)), " ".join(text.upper().split())
         if opener and value and value not in opener.known:
-            ends |= opener.ends
+            ends |= opener.ends if index else opener.far
     return frozenset(ends)

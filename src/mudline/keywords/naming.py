@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cache
-from typing import Literal
+from typing import Literal, TypeGuard
 
 from mudline.keywords.model import Block, FieldSpec, Part, record_schema
 from mudline.keywords.unknown import UNKNOWN_NAME
@@ -15,12 +15,17 @@ Role = Literal["names", "defines"]
 
 
 @cache
-def _naming(part: type[Part], what: Names, role: Role = "names") -> tuple[FieldSpec, ...]:
-    """The fields that name or define a thing of a kind, and those with parts that have one."""
+def _naming(part: type[Part], what: Names | None, role: Role = "names") -> tuple[FieldSpec, ...]:
+    """The fields that name or define a thing of a kind, None for any, and those with parts that have one."""
+
+    def names(slot: FieldSpec) -> bool:
+        kind = getattr(slot.about, role)
+        return kind is what if what else kind is not None
+
     return tuple(
         slot
         for slot in record_schema(part).slots
-        if getattr(slot.about, role) is what or any(_naming(each, what, role) for each in _inside(slot))
+        if names(slot) or any(_naming(each, what, role) for each in _inside(slot))
     )
 
 
@@ -41,18 +46,36 @@ def may_name(part: type[Part], what: Names) -> bool:
     return bool(_naming(part, what))
 
 
-def names_given(part: Part, what: Names, role: Role = "names") -> Iterator[tuple[tuple[str | int, ...], str]]:
+Path = tuple[str | int, ...]
+
+
+def names_given(part: Part, what: Names, role: Role = "names") -> Iterator[tuple[Path, str]]:
     """The names of things of a kind that a part gives, with their paths; what is not a text is not a name."""
-    for slot in _naming(type(part), what, role):
+    slots = _naming(type(part), what, role)
+    return ((path, name) for _, path, name in _given(part, slots, role, what)) if slots else iter(())
+
+
+def all_names_given(part: Part, role: Role) -> Iterator[tuple[Names, Path, str]]:
+    """The names of things of every kind that a part gives, with their kinds and paths."""
+    return _given(part, _naming(type(part), None, role), role, None)
+
+
+def _given(
+    part: Part, slots: tuple[FieldSpec, ...], role: Role, what: Names | None
+) -> Iterator[tuple[Names, Path, str]]:
+    for slot in slots:
         value = getattr(part, slot.name, None)
-        if isinstance(value, Part):
-            yield from (((slot.json, *path), name) for path, name in names_given(value, what, role))
-        elif isinstance(value, str) and value is not UNKNOWN_NAME and not isinstance(value, Equation):
-            yield (slot.json,), value
-        elif isinstance(value, list):
-            for index, item in enumerate(value):
-                if isinstance(item, Part):
-                    yield from (((slot.json, index, *path), name) for path, name in names_given(item, what, role))
+        for at, item in enumerate_items(slot, value) if value is not None else ():
+            if isinstance(item, Part):
+                inner = _naming(type(item), what, role)
+                for kind, path, name in _given(item, inner, role, what) if inner else ():
+                    yield kind, (*at, *path), name
+            elif item is value and (kind := getattr(slot.about, role)) is not None and _is_name(item):
+                yield kind, at, item
+
+
+def _is_name(item: object) -> TypeGuard[str]:
+    return isinstance(item, str) and item is not UNKNOWN_NAME and not isinstance(item, Equation)
 
 
 def idents_given(part: Part, what: Names) -> Iterator[tuple[tuple[str | int, ...], int | Label]]:

@@ -226,7 +226,8 @@ class Entry(NamedTuple):
     """A declaration in the index: which module has it, and what has to be known of it before it is imported.
 
     The lines of a keyword that is `kept` are passed through. With `sections_inferred` it is not confirmed where it
-    belongs. `names` and `defines` are the kinds of things, as members of `Names`, that its fields name and define.
+    belongs. `names` and `defines` are the kinds of things, as members of `Names`, that its fields name and define;
+    `telling` are lines that it alone has.
     """
 
     keyword: str
@@ -238,6 +239,7 @@ class Entry(NamedTuple):
     zero_length: bool = False
     names: tuple[str, ...] = ()
     defines: tuple[str, ...] = ()
+    telling: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -55,7 +55,10 @@ class Word:
 
 @dataclass(slots=True)
 class Directive:
-    """One comment. `scope` is what it applies to: a line, a block or the file; nothing after the last line."""
+    """One comment. `scope` is what it applies to: a line, a block or the file; nothing after the last line.
+
+    `reason` is the text behind `--`, "" without one.
+    """
 
     order: str
     leaf: Span
@@ -63,6 +66,7 @@ class Directive:
     words: list[Word]
     where: Where
     scope: Hashable = _NOTHING
+    reason: str = ""
 
 
 @dataclass(slots=True)
@@ -96,6 +100,11 @@ class Suppressions:
             codes = (hidden_by.get(scope, set()) for scope in self._scopes(problem))
             (hidden if any(_covers(found, problem.code.code) for found in codes) else reported).append(problem)
         return reported, hidden
+
+    def hiding(self, problem: Problem) -> Directive | None:
+        """The comment that hides a problem."""
+        scopes, code = self._scopes(problem), problem.code.code
+        return next((one for one in self.directives if one.scope in scopes and _covers(_named(one), code)), None)
 
     def unknown(self) -> Iterator[Problem]:
         """Names that no rule has and unknown instructions in comments; the first of them if there are many."""
@@ -245,6 +254,7 @@ def _directive(text: str, leaf: Span, where: Where, found: Suppressions) -> Dire
     names = _WORD.finditer(text, order.end(), order.end() + reason.start() if reason else end)
     words = [_word(match) for match in names]
     directive = Directive(name, leaf, Span(leaf.start, end), words, where)
+    directive.reason = text[order.end() + reason.end() : end].strip() if reason else ""
     if name == "ignore-file":
         directive.scope = ("file",)
     elif name == "ignore-block" and where.block >= 0:

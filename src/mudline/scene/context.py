@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 from mudline.codes.fields import SYN016
 from mudline.deck.model import Deck, Opaque
@@ -30,6 +30,7 @@ from mudline.short_repr import counted, short_repr
 from mudline.spelling import Effort, edits, equally_near, nearest
 from mudline.syntax.tree import canonical_name, mark_of
 
+T = TypeVar("T")
 MOST_NAMED = 3
 """Names of which each may be the one that was meant."""
 
@@ -68,6 +69,7 @@ class Context:
     _placeless: set[tuple[int, int]] = field(default_factory=set)
     _out_of_sight: dict[tuple[str, str], _Uses] = field(default_factory=dict)
     _effort: Effort = field(default_factory=Effort)
+    _made: dict[Callable[[Context], Any], Any] = field(default_factory=dict)
     _sound: range = range(0)
     """Sections of which every line could be used: all of its own, in a deck without problems."""
 
@@ -79,6 +81,13 @@ class Context:
             for j, block in enumerate(section.blocks):
                 if self.deck.lost(Where(i, j)):
                     self.unread.add(block.keyword)
+
+    def once(self, make: Callable[[Context], T]) -> T:
+        """What a function makes of this deck, made once for all that ask."""
+        if make not in self._made:
+            self._made[make] = make(self)
+        found: T = self._made[make]
+        return found
 
     def report(self, code: Code, message: str, where: Where, severity: Severity | None = None) -> None:
         """Note a problem."""

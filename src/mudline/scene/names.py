@@ -15,7 +15,7 @@ from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.keywords import catalogue
 from mudline.keywords.keeping import is_read, kept_lines
 from mudline.keywords.model import Block
-from mudline.keywords.naming import Role, kinds_of, names_given
+from mudline.keywords.naming import Role, all_names_given, kinds_of
 from mudline.keywords.text import shown
 from mudline.keywords.values import Names
 from mudline.scene.context import Context
@@ -35,6 +35,7 @@ THINGS = frozenset(
     }
 )
 """Kinds of things that have names and are no curves."""
+_LOOKED_UP = CURVES | THINGS | {Names.CURVE}
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,36 +54,40 @@ class NamesOfKind:
     defined: dict[str, list[GivenName]] = field(default_factory=dict)
 
 
-def names_of(deck: Deck, kinds: Collection[Names]) -> dict[Names, NamesOfKind]:
+def names_of(context: Context, kinds: Collection[Names]) -> dict[Names, NamesOfKind]:
     """The names of some kinds that the fields of a deck give."""
+    return {kind: names for kind, names in context.once(_every_name).items() if kind in kinds}
+
+
+def _every_name(context: Context) -> dict[Names, NamesOfKind]:
     found: dict[Names, NamesOfKind] = {}
-    for role in ("names", "defines"):
-        for kind, where, name in _given(deck, role, kinds):
-            names = found.setdefault(kind, NamesOfKind())
-            one = GivenName(name, where)
-            if role == "names":
-                names.used.append(one)
-            else:
-                names.defined.setdefault(folded(bare(name)), []).append(one)
+    for i, section in enumerate(context.deck.sections):
+        for j, block in enumerate(section.blocks):
+            if type(block) is Opaque:
+                continue
+            for role in _roles(type(block)):
+                for kind, path, name in all_names_given(block, role):
+                    if kind not in _LOOKED_UP:
+                        continue
+                    names = found.setdefault(kind, NamesOfKind())
+                    one = GivenName(name, Where(i, j, path))
+                    if role == "names":
+                        names.used.append(one)
+                    else:
+                        names.defined.setdefault(folded(bare(name)), []).append(one)
     return found
 
 
-def _given(deck: Deck, role: Role, kinds: Collection[Names]) -> Iterator[tuple[Names, Where, str]]:
-    for i, section in enumerate(deck.sections):
-        for j, block in enumerate(section.blocks):
-            if type(block) is not Opaque:
-                for kind in _kinds(type(block), role).intersection(kinds):
-                    yield from ((kind, Where(i, j, path), name) for path, name in names_given(block, kind, role))
-
-
 @cache
-def _kinds(block: type[Block], role: Role) -> frozenset[Names]:
-    return kinds_of(block, role)
+def _roles(block: type[Block]) -> tuple[Role, ...]:
+    """What the fields of a block do with names of the kinds that are looked up here."""
+    roles: tuple[Role, ...] = ("names", "defines")
+    return tuple(role for role in roles if not _LOOKED_UP.isdisjoint(kinds_of(block, role)))
 
 
 def undefined(context: Context, kinds: Collection[Names], code: Code) -> Iterator[Problem]:
     """Names that nothing defines; where that is not certain, because not all was read, a warning."""
-    for kind, names in names_of(context.deck, kinds).items():
+    for kind, names in names_of(context, kinds).items():
         if not names.used or not (definers := catalogue.definers(kind)) or not context.deck.keywords():
             continue
         known = {key: given[0].name for key, given in names.defined.items()}
@@ -113,7 +118,7 @@ def _is_whole(context: Context, block: Block | Opaque, where: Where) -> bool:
 
 def repeated(context: Context, kinds: Collection[Names], code: Code) -> Iterator[Problem]:
     """Names that are defined a second time."""
-    for kind, names in names_of(context.deck, kinds).items():
+    for kind, names in names_of(context, kinds).items():
         thing = kind.value.removeprefix("a ").removeprefix("an ")
         for given in names.defined.values():
             for later in given[1:]:
@@ -124,7 +129,7 @@ def repeated(context: Context, kinds: Collection[Names], code: Code) -> Iterator
 def unused(context: Context, kinds: Collection[Names], code: Code) -> Iterator[Problem]:
     """Names that nothing uses: an info where the keywords that would use them are not read, or not in the deck."""
     raw = ""
-    for kind, names in names_of(context.deck, kinds).items():
+    for kind, names in names_of(context, kinds).items():
         used = {folded(bare(one.name)) for one in names.used}
         users = catalogue.users(kind)
         for key, (first, *_) in names.defined.items():

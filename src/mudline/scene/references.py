@@ -16,6 +16,7 @@ from mudline.codes.references import REF001, REF005, REF006, REF010
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Severity, Where
+from mudline.keywords import catalogue
 from mudline.keywords.model import Block
 from mudline.keywords.naming import idents_given, may_name, names_given
 from mudline.keywords.text import shown
@@ -27,6 +28,7 @@ from mudline.scene.laws import LawTable
 from mudline.scene.numbering import Numbered
 from mudline.scene.sets import Sets
 from mudline.spelling import same_marks
+from mudline.syntax.fields import canonical_key
 
 if TYPE_CHECKING:
     from mudline.keywords.library.boundary import Boundary, FixedRange, FixedValues
@@ -44,12 +46,12 @@ def check_references(context: Context, sets: Sets, laws: LawTable, *, with_soil:
 
     Postprocessing has sets of its own beside those of the model.
     """
-    own: set[str] | None = None
+    own: dict[str, str] | None = None
     for block, where, name in given_names(context.deck, Names.SET):
         if not with_soil and block.facts.soil_springs:
             continue
         if context.deck.sections[where.section].name not in _OF_THE_MODEL and sets.find(name) is None:
-            own = _sets_of_postprocessing(context.deck) if own is None else own
+            own = sets_of_postprocessing(context.deck) if own is None else own
             if folded(bare(name)) in own or not context.deck.keywords():
                 continue
         sets.check(name, where)
@@ -59,16 +61,21 @@ def check_references(context: Context, sets: Sets, laws: LawTable, *, with_soil:
 _OF_THE_MODEL = ("PREPROCESSOR", "MODEL", "LOAD CASE")
 
 
-def _sets_of_postprocessing(deck: Deck) -> set[str]:
+def sets_of_postprocessing(deck: Deck) -> dict[str, str]:
     """The sets that other sections than the model define, by their folded names."""
-    return {
-        folded(bare(name))
-        for section in deck.sections
-        if section.name not in _OF_THE_MODEL
-        for block in section.blocks
-        if type(block) is not Opaque
-        for _, name in names_given(block, Names.SET, "defines")
-    }
+    sections = (section for section in deck.sections if section.name not in _OF_THE_MODEL)
+    names = (name for section in sections for block in section.blocks for name in _sets_defined_by(block))
+    return {folded(bare(name)): bare(name) for name in names}
+
+
+def _sets_defined_by(block: Block | Opaque) -> Iterator[str]:
+    if not isinstance(block, Opaque):
+        yield from (name for _, name in names_given(block, Names.SET, "defines"))
+    elif block.keyword in catalogue.definers(Names.SET):
+        for line in block.lines:
+            key, equals, name = line.partition("=")
+            if equals and canonical_key(key) == Names.SET.name:
+                yield name
 
 
 def given_names(deck: Deck, what: Names) -> Iterator[tuple[type[Block], Where, str]]:

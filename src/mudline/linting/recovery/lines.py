@@ -248,7 +248,7 @@ def telling_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Corre
     unified = blocks.text.source.unified
     seen: set[int] = set()
     for section, block, line in _passed_through(blocks):
-        keyword = _all_telling().get("".join(unified[slice(*line)].split()).upper())
+        keyword = catalogue.telling_lines().get("".join(unified[slice(*line)].split()).upper())
         if not keyword or block.head.span.start in seen or not catalogue.block_class(section, keyword):
             continue
         seen.add(block.head.span.start)
@@ -271,11 +271,6 @@ def _passed_through(blocks: Blocks) -> Iterator[tuple[str, RawBlock, Span]]:
             yield from (
                 (section.name, block, line) for line in lines_of(text, block) if kept is None or line.start in kept
             )
-
-
-@cache
-def _all_telling() -> dict[str, str]:
-    return {line: keyword for keyword in catalogue.read_keywords() for line in catalogue.facts_of(keyword).telling}
 
 
 @recovers_from(SYN001, last=True)

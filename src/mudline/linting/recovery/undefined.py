@@ -39,7 +39,7 @@ def corrections(context: LintContext) -> Iterator[Correction]:
     yield from _names(context, lacking, sets, (Names.SET, Names.SUBSET), effort)
     yield from _names(context, nameless, curves, (Names.CURVE,), effort)
     for kinds, code in ((CURVES, REF002), (THINGS, REF019)):
-        for kind, names in names_of(context.deck, kinds).items():
+        for kind, names in names_of(scene.context, kinds).items():
             known = {key: given[0].name for key, given in names.defined.items()}
             yield from _names(context, [*undefined(scene.context, [kind], code)], known, (kind,), effort)
     yield from _numbers(context, text)

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import cache
-from itertools import islice
 from typing import TYPE_CHECKING
 
 from mudline.diagnostics import MORE, Code, Problem
@@ -56,13 +55,13 @@ def all_checks() -> tuple[Check, ...]:
 
 
 def checked(scene: ResolvedDeck) -> list[Problem]:
-    """What all checks find."""
-    return [problem for check in all_checks() for problem in _first(check, scene)]
-
-
-def _first(check: Check, scene: ResolvedDeck) -> list[Problem]:
-    """What a check finds, without the rest where it is very much."""
-    found = list(islice(check.find(scene), MOST_REPORTED + 1))
-    if len(found) > MOST_REPORTED:
-        found[-1] = replace(found[-1], message=MORE)
+    """What all checks find, of each without the rest where it is very much."""
+    found: list[Problem] = []
+    for one in all_checks():
+        most = len(found) + MOST_REPORTED
+        for problem in one.find(scene):
+            if len(found) == most:
+                found.append(replace(problem, message=MORE))
+                break
+            found.append(problem)
     return found

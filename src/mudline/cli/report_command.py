@@ -1,0 +1,230 @@
+"""`mudline report`: a page about a deck to be signed, or an index with a page a deck."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from contextlib import closing
+from dataclasses import replace
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import click
+
+from mudline import __version__
+from mudline.cli import DONE, FOUND, WRONG_USAGE, options
+from mudline.cli.inputs import Input, Inputs, collect_any_form
+from mudline.cli.lint_run import Settings, checked_settings, rules_named
+from mudline.cli.streams import emit_json, notify, notify_missing, write_text
+from mudline.cli.view import Progress, View, wants_bar
+from mudline.files import is_url
+from mudline.linting.configuration import Given as GivenRules
+from mudline.linting.engine import LintSettings
+from mudline.report.content import SECTIONS, Given, Look, Stamp, report_on
+from mudline.running.executors import executor, in_order
+
+_LEGAL = "legal"
+
+
+@options.command("report")
+@options.decks
+@options.option(
+    "-o",
+    "--output",
+    group=options.OUTPUT,
+    metavar="OUT.html",
+    help="Write the page into this file; of several decks or a folder the index, with the pages in a folder beside it.",
+)
+@options.output_format("html", "json")
+@options.option(
+    "--sections",
+    metavar="NAME[,NAME...]",
+    default=",".join(SECTIONS),
+    show_default=True,
+    help="Write these sections only; study measures run times, which differ from run to run.",
+)
+@options.option("--date", metavar="TEXT", help="Write this date on the page.")
+@options.option("--template", metavar="FILE", help='Use this jinja2 template, which may extend "page.html".')
+@options.option("--logo", metavar="FILE.svg|png", help="Put this logo at the head of the page.")
+@options.config
+@options.isolated
+@options.running
+@options.every_file
+@options.stdin_name
+@options.units
+@options.common
+def command(
+    *,
+    decks: tuple[str, ...],
+    output: str | None,
+    output_format: str,
+    sections: str,
+    date: str | None,
+    template: str | None,
+    logo: str | None,
+    config: str | None,
+    isolated: bool,
+    jobs: int,
+    scheduler: str | None,
+    every_file: bool,
+    stdin_name: str,
+    units: str | None,
+    view: View,
+) -> int:
+    """Write a page about a deck for a checker to sign: verdict, findings, model, curves, contact, study, plan.
+
+    The page stands alone: no script, no address of the network. A deck with errors gets one too, without what could
+    not be computed. DECKS are files, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML
+    files that begin as decks do), or - for standard input.
+    """
+    wanted = _sections(sections)
+    html = output_format == "html"
+    if html and output is None:
+        raise click.UsageError("-o OUT.html: give the file of the page, or print the content with --output-format json")
+    if html and (missing := next((one for one in ("jinja2", "matplotlib") if find_spec(one) is None), None)):
+        notify_missing("report", missing, "report")
+        return WRONG_USAGE
+    settings = checked_settings(config, GivenRules((), (), (), None, units), "none", isolated=isolated, fail_on=None)
+    inputs = collect_any_form(decks, stdin_name, gitignore=not every_file)
+    look = Look(*(None if one is None else Path(one) for one in (template, logo))) if html else None
+    several = len(inputs.files) > 1 or any(os.path.isdir(each) for each in decks)  # noqa: PTH112 - Path raises for a long name
+    target = None if output is None or not html else Target(Path(output), several)
+    progress = Progress(len(inputs.files), view, shown=wants_bar(view))
+    rows, contents = [], []
+    orders = _orders(inputs, settings, wanted, date, look)
+    with (
+        executor(jobs, scheduler) as pool,
+        progress,
+        closing(in_order(pool, make_report, orders, len(inputs.files))) as made_all,
+    ):
+        for file, made in made_all:
+            if made is not None and made.fault:
+                raise click.ClickException(made.fault)
+            if made is not None:
+                page = target.page(file.name) if target is not None else None
+                if page is not None and made.html is not None:
+                    write_text(page, [made.html])
+                rows.append(_row(made.content, page, target))
+                contents += [] if html else [made.content]
+            progress.advance()
+    if not html:
+        _print(contents, output)
+    elif target is not None and rows:
+        _finish(target, rows, look, view)
+    illegal = any(row["kind"] != _LEGAL and row["kind"] != "as far as read" for row in rows)
+    return max(inputs.code, FOUND if illegal else DONE)
+
+
+def _sections(text: str) -> tuple[str, ...]:
+    names = [name for each in text.split(",") if (name := each.strip().lower())]
+    if wrong := [name for name in names if name not in SECTIONS]:
+        raise click.UsageError(f"--sections: {wrong[0]!r} is not one of {', '.join(SECTIONS)}")
+    return tuple(name for name in SECTIONS if name in names)
+
+
+class Order(NamedTuple):
+    """What `make_report` is given, in any process: settings without rules, with their codes; `look` None for JSON."""
+
+    file: Input
+    given: Given
+    settings: LintSettings
+    codes: tuple[str, ...]
+    wanted: tuple[str, ...]
+    date: str | None
+    look: Look | None
+
+
+class Made(NamedTuple):
+    """The content of a page, the page, None where it is not wanted, and why it could not be made."""
+
+    content: dict[str, Any]
+    html: str | None
+    fault: str = ""
+
+
+def make_report(order: Order) -> Made:
+    """Make the page about a deck."""
+    settings = replace(order.settings, rules=rules_named(order.codes))
+    report = report_on(order.given, settings, order.wanted, Stamp(__version__, order.date))
+    if order.look is None:
+        return Made(report.json, None)
+    from mudline.report.page import LookError, page  # noqa: PLC0415 - needs jinja2
+    from mudline.report.pictures import pictures_of  # noqa: PLC0415 - needs matplotlib
+
+    try:
+        return Made(report.json, page(report, *pictures_of(report), order.look))
+    except LookError as error:
+        return Made(report.json, None, str(error))
+
+
+def _orders(
+    inputs: Inputs, settings: Settings, wanted: tuple[str, ...], date: str | None, look: Look | None
+) -> Iterator[tuple[Input, Order | None]]:
+    for file in inputs.files:
+        data = inputs.content(file)
+        if data is None:
+            yield file, None
+            continue
+        own = settings.of(file)
+        changed = None if file.path is None or is_url(file.path) else file.size_and_date()[1]
+        codes = tuple(rule.code.code for rule in own.rules)
+        given = Given(data, file.name, file.folder, changed)
+        yield file, Order(file, given, replace(own, rules=()), codes, wanted, date, look)
+
+
+# --------------------------------------------------------------------------------------------------------------- files
+
+
+class Target:
+    """Where pages go: one file, or the index with a folder beside it, which has its name without the suffix."""
+
+    def __init__(self, path: Path, several: bool) -> None:
+        self.index = path if not several or path.suffix.lower() in {".html", ".htm"} else path / "index.html"
+        self.folder = None if not several else path if self.index.parent == path else path.with_suffix("")
+        self._names: set[str] = set()
+
+    def page(self, deck: str) -> Path:
+        """The file of the page about a deck; no two of a run are the same."""
+        if self.folder is None:
+            return self.index
+        self.folder.mkdir(parents=True, exist_ok=True)
+        stem = re.sub(r"[^\w.-]+", "-", deck).strip("-.")[-100:] or "deck"
+        name, count = f"{stem}.html", 1
+        while name.lower() in self._names or name.lower() == "index.html":
+            count += 1
+            name = f"{stem}-{count}.html"
+        self._names.add(name.lower())
+        return self.folder / name
+
+
+def _row(content: dict[str, Any], page: Path | None, target: Target | None) -> dict[str, Any]:
+    """A row of the index."""
+    verdict = content["verdict"]
+    words = verdict["verdict"].partition(":")[0]
+    kind = "as far as read" if words.startswith("legal as far") else words.partition(",")[0]
+    address = "" if page is None or target is None else os.path.relpath(page, target.index.parent).replace(os.sep, "/")
+    counts = {name: verdict[name] for name in ("errors", "warnings")}
+    keywords = verdict["keywords"]
+    read = {"read": keywords["read"], "total": keywords["total"]}
+    return {"deck": content["deck"], "page": address, "verdict": words, "kind": kind} | counts | read
+
+
+def _finish(target: Target, rows: list[dict[str, Any]], look: Look | None, view: View) -> None:
+    if target.folder is not None and look is not None:
+        from mudline.report.page import index_page  # noqa: PLC0415 - needs jinja2
+
+        write_text(target.index, [index_page(rows, __version__, look)])
+    if not view.quiet:
+        notify(f"report -> {target.index.as_posix()}")
+
+
+def _print(contents: list[dict[str, Any]], output: str | None) -> None:
+    found = {"reports": contents}
+    if output is None:
+        emit_json(found)
+    else:
+        import json  # noqa: PLC0415 - pages do without
+
+        write_text(Path(output), [json.dumps(found, indent=1, ensure_ascii=False, allow_nan=False), "\n"])

@@ -1,0 +1,164 @@
+"""The sections of a page as tables, from their content."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Any, NamedTuple
+
+from mudline.limits import SHOWN_ROWS
+from mudline.quantities import UnitNames, headed, labelled, shown
+from mudline.short_repr import counted, cut
+
+MOST_CURVES = 50
+"""Curves and sets that a page shows."""
+LONGEST, LONGEST_NAME = 600, 80
+"""Characters of a message and of a name that a page shows."""
+
+Cell = str | float | None
+
+
+class Table(NamedTuple):
+    """A table: its caption, heads and rows; what it says of rows that are left out."""
+
+    caption: str
+    heads: Sequence[str]
+    rows: Sequence[Sequence[Cell]]
+    note: str = ""
+    anchors: Sequence[str] = ()
+
+
+def _table(
+    caption: str, heads: Sequence[str], rows: Iterable[Sequence[Cell]], most: int = SHOWN_ROWS, anchor: str = ""
+) -> Table:
+    found = [[cut(cell, LONGEST_NAME) if isinstance(cell, str) else cell for cell in row] for row in rows]
+    anchors = [f"{anchor}-{number}" for number in range(1, len(found[:most]) + 1)] if anchor else []
+    note = _more(len(found) - most, "row")
+    return Table(caption, [head.replace("\n", " ") for head in heads], found[:most], note, anchors)
+
+
+def _more(count: int, what: str) -> str:
+    return f"{counted(count, f'more {what}')}: the JSON of this report has all" if count > 0 else ""
+
+
+def _model(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
+    counts = [("nodes", found["nodes"]), ("elements", found["elements"]), ("seabed", found["floor"]["kind"])]
+    counts.append((labelled("length of line", names.length), found["length"]))
+    yield _table("Size", ("what", "value"), counts)
+    sets = [(one["name"], one["elements"], one["length"]) for one in found["sets"]]
+    yield _table("Element sets", ("set", "elements", headed("length", names.length)), sets, MOST_CURVES)
+    sizes = [(one["diameter"], one["elements"]) for one in found["diameters"]]
+    yield _table("External diameters", (headed("diameter", names.length), "elements"), sizes)
+    heads = ("set", "law", headed("weight", names.line_force), "ratio", headed("penetration", names.length))
+    rows = [
+        [one[key] for key in ("set", "law", "weight", "ratio", "penetration", "stiffness")]
+        for one in found["static_embedment"]
+    ]
+    yield _table("Static embedment", (*heads, headed("stiffness", names.stiffness)), rows)
+    keywords = [
+        (f"${section['name']}", f"*{one['keyword']}", _extent(one))
+        for section in found["keywords"]
+        for one in section["keywords"]
+    ]
+    yield _table("Keywords", ("section", "keyword", "lines"), keywords, 4 * SHOWN_ROWS)
+
+
+def _extent(keyword: dict[str, Any]) -> str:
+    return "read in part" if keyword["partly"] else "read" if keyword["read"] else "not read"
+
+
+def _curves(found: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
+    rows = [
+        (one["law"], one["set"], one["elements"], _values(one["values"]), f"line {one['line']} of {one['file']}")
+        for one in found["laws"]
+    ]
+    heads = ("law", "set", "elements", "values", "deck line")
+    yield _table("Laws and resistance by set", heads, rows, MOST_CURVES, "law")
+    for row in found["curves"][:MOST_CURVES]:
+        over, value = row["axes"]
+        slopes = [one["slope"] for one in row["segments"]]
+        points = [(x, y, slope) for (x, y), slope in zip(row["points"], [*slopes, None], strict=True)]
+        caption = f"{row['kind']} {cut(row['name'], LONGEST_NAME)} (*{row['keyword']}): {counted(len(points), 'point')}"
+        ends = f"; slope {shown(slopes[0])} below the first, {shown(slopes[-1])} above the last" if slopes else ""
+        yield _table(caption + ends, (over, value, "slope to the next"), points)
+    yield Table("", (), (), _more(len(found["curves"]) - MOST_CURVES, "curve"))
+
+
+def _values(values: dict[str, Any]) -> str:
+    return "; ".join(f"{name.replace('_', ' ')} {_value(value)}" for name, value in values.items())
+
+
+def _value(value: Any) -> str:  # noqa: ANN401 - whatever JSON holds
+    if isinstance(value, list):
+        return ", ".join("-" if one is None else _value(one) for one in value)
+    return shown(value) if isinstance(value, float) else str(value)
+
+
+def _contact(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
+    figures = [
+        (labelled("total reaction", names.force), found["reaction"]),
+        (labelled("submerged weight of the elements in contact", names.force), found["weight"]),
+        ("reaction over weight", found["ratio"]),
+    ]
+    if deepest := found["deepest"]:
+        words = labelled(f"largest penetration, element {deepest['element']}", names.length)
+        figures.append((words, deepest["depth"]))
+    yield _table("Equilibrium of the deck's own coordinates", ("what", "value"), figures)
+    rows = [
+        [one[key] for key in ("law", "set_name", "elements", "touching", "deepest", "reaction")]
+        for one in found["laws"]
+    ]
+    heads = ("law", "set", "elements", "in contact", headed("largest depth", names.length))
+    yield _table("By law and set", (*heads, headed("reaction", names.force)), rows, MOST_CURVES)
+    lines = [
+        (
+            one["line"],
+            f"{one['first_element']} to {one['last_element']}",
+            ", ".join(shown(point["arc_length"]) for point in one["touchdown"][:5]) or "none",
+            one["contact_length"],
+            (one["largest_force"] or {}).get("force"),
+            one["reaction"],
+            one["ratio"],
+        )
+        for one in found["lines"]
+    ]
+    where = (headed("touchdown at arc length", names.length), headed("length in contact", names.length))
+    forces = (headed("largest force", names.line_force), headed("reaction", names.force))
+    yield _table("Touchdown", ("line", "elements", *where, *forces, "over weight"), lines)
+    states = [(one["law"], one["state"], one["count"]) for one in found["states"]]
+    yield _table("States", ("law", "state", "count"), states)
+    warnings = [(one["code"], one["line"], cut(one["message"], LONGEST)) for one in found["warnings"]]
+    yield Table("Warnings about these results", ("code", "deck line", "message"), warnings[:SHOWN_ROWS])
+
+
+def _study(found: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
+    rows = [
+        (one["contact"], one["scheme"], f"{100 * one['goal']:g} %", one["step"], one["run_time"], one["deck_line"])
+        for one in found["precision"] or ()
+    ]
+    heads = ("contact", "scheme", "error", "step [s]", "run time per s [s]", "deck line")
+    yield _table("Error of speed, duration and largest force against run time", heads, rows)
+    rows = [
+        tuple(one[key] for key in ("contact", "deck_line", "stiffness", "mass", "explicit_step", "landing_step"))
+        for one in found["stability"] or ()
+    ]
+    heads = ("contact", "deck line", "stiffness", "mass", "explicit step [s]", "landing step [s]")
+    yield _table("Stable steps", heads, rows)
+    extremes = found["extremes"]
+    if extremes:
+        failed = [(one["case"], one["deck_line"], one["message"]) for one in extremes["failed"]]
+        yield _table(f"Extreme cases: {extremes['held']} of {extremes['tried']} held", ("case", "line", "what"), failed)
+
+
+def _plan(found: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
+    rows = [(one["stage"], "in" if one["active"] else "left out", one["why"]) for one in found["stages"]]
+    yield Table(f"Stages of the evaluation, {found['steps']}", ("stage", "in or out", "why"), rows)
+
+
+TABLES: dict[str, Callable[[dict[str, Any], UnitNames], Iterator[Table]]] = {
+    "model": _model,
+    "curves": _curves,
+    "contact": _contact,
+    "study": _study,
+    "plan": _plan,
+}
+"""What makes the tables of a section."""
