@@ -102,13 +102,19 @@ def _meant(context: LintContext, chosen: Sequence[Rule], *, suppress: bool) -> R
 
 
 def _as_severe(context: LintContext, causes: list[Problem], others: list[Problem]) -> list[Problem]:
-    """The causes of a deck, as errors that block it where nothing else says that it is illegal as it is written."""
+    """The causes of a deck; where nothing else says that it is illegal as it is written, they do."""
     if any(one.blocking is Blocks.ALWAYS for one in (*causes, *others)):
         return causes
-    if not any(one.blocking is Blocks.ALWAYS for one in context.scene.findings):
+    refused = [one.weight for one in context.scene.findings if one.blocking is Blocks.ALWAYS]
+    if not refused:
         return causes
-    raised = [replace(one, severity=Severity.ERROR, blocks=Blocks.ALWAYS) for one in causes]
-    return [one if one.weight is Severity.INFO else error for one, error in zip(causes, raised, strict=True)]
+    severity = {Severity.WARNING: max(refused, key=lambda each: each.rank)}
+    return [
+        one
+        if one.weight is Severity.INFO
+        else replace(one, severity=severity.get(one.weight, one.severity), blocks=Blocks.ALWAYS)
+        for one in causes
+    ]
 
 
 def may_recover(deck: Deck) -> bool:
