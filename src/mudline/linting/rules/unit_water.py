@@ -9,6 +9,7 @@ from mudline.linting.joints import Found, Joined, joint
 from mudline.linting.rule import LintContext
 from mudline.linting.rules.coordinates import UNT006
 from mudline.linting.rules.unit_densities import UNT004, UNT005
+from mudline.syntax.rows import read_number
 
 _USER_UNITS = (".keyx", ".keyxu")
 _TONNES = 10.0
@@ -24,14 +25,13 @@ def water_in_another_mass(context: LintContext, found: Found) -> Iterator[Joined
         return
     place = next((where.inside("density") for where, _ in context.written("OCEAN")), None)
     span = text.span(place) if place and context.deck.written(place) else None
-    if span is None:
+    density = read_number(text.source.unified[slice(*span)]) if span else None
+    if density is None:
         return
     everything = [*chain.from_iterable(wrong.values())]
     cause = next(one for one in everything if one.code in (UNT004, UNT005, UNT006))
-    density = text.source.unified[slice(*span)]
-    factor = 1000.0 if float(density) < _TONNES else 0.001
     message = (
-        f"the density {density} of the water does not fit the rest of the deck, in which {float(density) * factor:.6g} "
-        "would: write it in the deck's unit of mass"
+        f"the density {density!r} of the water does not fit the rest of the deck, in which "
+        f"{density * (1000.0 if density < _TONNES else 0.001):.6g} would: write it in the deck's unit of mass"
     )
     yield Joined(cause, [one for one in everything if one is not cause], message=message, place=span)
