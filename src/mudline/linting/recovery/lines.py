@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from functools import cache, lru_cache
 from typing import NamedTuple
@@ -28,6 +29,7 @@ from mudline.linting.recovery.blocks import (
     start_of,
     whole,
 )
+from mudline.linting.recovery.names import key_of_points
 from mudline.scene.names import CURVES
 from mudline.scene.references import given_names
 from mudline.scene.sets import set_key
@@ -149,22 +151,32 @@ def _keyword_line(
 @recovers_from(*_OF_FOREIGN_LINES, always=True)
 def swallowed_curves(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Curves that the deck lacks, in a block that takes them for others, which nothing uses, or passes them through."""
-    lacked = {set_key(name) for name in blocks.missing[Names.CURVE]}
+    unified = blocks.text.source.unified
+    wrong = {blocks.block_at(start_of(blocks.text, one)).start for one in problems}  # looked at for that
+    placed = ((line, blocks.raw_at(line.start(1))) for line in _name_of_curve().finditer(unified))
+    others = [(line, block) for line, block in placed if block and _may_swallow(block.name)]
+    lacked = {set_key(name) for name in blocks.missing[Names.CURVE]} if others else set()
     if lacked:
         lacked -= {set_key(name) for kind in CURVES for _, _, name in given_names(blocks.deck, kind)}
-    unified = blocks.text.source.unified
-    wrong = {blocks.block_at(start_of(blocks.text, one)).start for one in problems}
-    for section, block in blocks.blocks if lacked else ():
-        if block.name in catalogue.definers(Names.CURVE) or not catalogue.sections_of(block.name):
-            continue
-        if block.head.span.start in wrong:  # its lines are looked at for that
-            continue
-        for line in lines_of(blocks.text, block):
-            _, _, name = unified[slice(*line)].partition("=")
-            if name and set_key(name) in lacked:
-                cause = Problem(SYN001, "", trimmed(unified, *line))
-                yield from _keyword_line(blocks, section, block.name, cause, Span(line.start, whole(block).end))
-                break
+    for line, block in others:
+        if set_key(line[1]) in lacked and block.head.span.start not in wrong:
+            wrong.add(block.head.span.start)
+            cause = Problem(SYN001, "", trimmed(unified, *line.span()))
+            lines = Span(line.start(), whole(block).end)
+            yield from _keyword_line(blocks, blocks.section_name(line.start(1)), block.name, cause, lines)
+
+
+def _may_swallow(keyword: str) -> bool:
+    """Whether a keyword is known, and defines no curve of the seabed."""
+    return keyword not in catalogue.definers(Names.CURVE) and bool(catalogue.sections_of(keyword))
+
+
+@cache
+def _name_of_curve() -> re.Pattern[str]:
+    """The line above the points of a curve of the seabed, with its name."""
+    definers = filter(None, map(catalogue.declared, catalogue.definers(Names.CURVE)))
+    keys = "|".join(filter(None, (key_of_points(declared)[0] for declared in definers)))
+    return re.compile(rf"^[ \t]*(?:{keys})[ \t]*=([^,\r\n]*)", re.MULTILINE | re.IGNORECASE)
 
 
 @recovers_from(REF007, always=True)
