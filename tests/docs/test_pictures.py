@@ -48,7 +48,9 @@ def test_all_pictures_are_made_and_no_others(tmp_path: Path) -> None:
     write(tmp_path)
     made = {file.name for file in tmp_path.iterdir() if file.stat().st_size > 10_000}
     elsewhere = {"benchmarks.svg", "report-dark.png", "report-light.png"}
-    assert made == {file.name for file in IMAGES.iterdir()} - elsewhere, "those are drawn by make bench, and in a browser"
+    assert made == {file.name for file in IMAGES.iterdir()} - elsewhere, (
+        "those are drawn by make bench, and in a browser"
+    )
 
 
 def test_boxes_of_the_layers_do_not_overlap() -> None:
