@@ -162,7 +162,7 @@ def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneC
         if known_name(properties.type_):
             laws.types.setdefault(str(properties.type_), []).append(where.inside("type"))
         if not properties.sets and is_partly_unknown(properties.sets):
-            yield SetLaw(LawKind.NONE, _unknown(None), where, "new", unknown=True)
+            laws.gaps.append(where)
         gaps = [where.inside("sets", index) for index, entry in enumerate(properties.sets) if _has_gap(entry)]
         laws.gaps += gaps
         for index, entry in enumerate(properties.sets):

@@ -117,6 +117,8 @@ def _chosen_elsewhere(context: LintContext) -> bool:
         return True  # an equation, whose parameters may be varied
     if any(grant.kind is LawKind.NONE and grant.unknown for grant in scene.laws.set_laws):
         return True  # a set whose STIFFNESS= is not known
+    if any(gap.block >= 0 and not gap.path for gap in scene.laws.gaps):
+        return True  # a block of which no set is known
     if scene.context.misplaced("SEABED PROPERTIES") or (scene.context.restart and not scene.laws.referenced):
         return True
     return any(

@@ -88,7 +88,7 @@ def _of_block(entry: TrenchSet, where: Where) -> Iterator[Problem]:
         message = "PEAK= has no effect under MODEL=WALL: remove it, or write MODEL=PEAK"
         yield Problem(EXT003, message, None, Severity.WARNING, where.inside("peak"))
     found = [*_resistance_faults(entry)] if entry.model != "WALL" else []
-    for path, message in found or _excess_faults(entry):
+    for path, message in found or (() if is_partly_unknown(entry) else _excess_faults(entry)):
         yield Problem(EXT003, message, where=where.inside(*path))
     depth, bottom, upper = (number(entry.geometry, name) for name in _SIZES)
     if depth <= 0.0 or bottom <= 0.0 or upper <= 0.0 or upper <= bottom:
