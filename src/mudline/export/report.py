@@ -26,6 +26,7 @@ _BY_SUBJECT = {
     "post-processing": "results are asked for in the target",
     "seabed": "this law is not in the target's seabed",
     "model": "not in the target's model of the line",
+    "deck": "other cases of the deck are not written: export each of them",
 }
 _UNKNOWN = "mudline does not read this keyword, and passes it over"
 _WORDS = ("none", "fixed", "free", "anchored", "yes", "no", "y", "n", "true", "false", "on", "off", "null", "infinity")
@@ -86,13 +87,14 @@ class Report:
             self._seen.add(entry)
             self.entries.append(entry)
 
-    def claim(self, keyword: str, target: str) -> None:
+    def claim(self, keyword: str, target: str, section: str = "MODEL") -> None:
         """Add that all blocks of a keyword are carried."""
-        for where, _ in self.scene.deck.blocks(keyword):
+        for where, _ in self.scene.deck.blocks(keyword, section):
             self.add(where, Status.CARRIED, target)
 
     def finish(self) -> None:
         """Add the blocks of which nothing was said, and put all in the order of the deck."""
+        self.claim("PARAMETERS", "the numbers that they give", "PREPROCESSOR")
         for i, section in enumerate(self.scene.deck.sections):
             for j, block in enumerate(section.blocks):
                 if (i, j) not in self._claimed:
