@@ -28,7 +28,7 @@ USED = {
     "curve": "evaluate extrapolated forces name ratios ratios_at_force segment slopes",
 }
 INTERNAL = {
-    "deck": "alone base_of bases damaged diagnose folder_of incomplete lost origin own_sections place require written",
+    "deck": "alone base_of bases diagnose folder_of incomplete lost origin own_sections place require written",
     "scene": "context extensions laws nodes resistance seabed section_table set_table table",
 }
 

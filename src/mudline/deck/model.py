@@ -53,7 +53,6 @@ _INTERNAL = frozenset(
         "alone",
         "base_of",
         "bases",
-        "damaged",
         "diagnose",
         "errors",
         "folder_of",
@@ -78,10 +77,6 @@ class Origin:
     def place(self, problem: Problem) -> Range:
         """Lines and columns of a problem."""
         return START
-
-    def damaged(self, where: Where) -> bool:
-        """Whether something at this place could not be read."""
-        return False
 
     def lost(self, section: int, block: int) -> int:
         """How many lines of a block could not be used at all."""
@@ -177,11 +172,6 @@ class Deck:
         """Lines and columns of a problem, in the file that it belongs to."""
         deck, own = self._owned(problem)
         return deck.origin.place(own)
-
-    def damaged(self, where: Where) -> bool:
-        """Whether something at this place could not be read."""
-        deck, inner = self._at(where)
-        return deck.origin.damaged(inner)
 
     def lost(self, where: Where) -> int:
         """How many lines of a block could not be used at all."""

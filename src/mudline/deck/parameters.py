@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
@@ -19,6 +18,7 @@ from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.keywords.model import FieldSpec, ListRow, Part, columns_of, record_schema
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown, suggestion
+from mudline.keywords.unknown import UNKNOWN, is_unknown
 from mudline.keywords.values import Equation, Kind
 from mudline.spelling import Effort
 from mudline.syntax.rows import read_number
@@ -133,9 +133,8 @@ class Parameters:
         return self._value(expression, where)
 
     def _define(self, parameter: Parameter, where: Where) -> None:
-        value = cast("Value | None", parameter.value)
-        name = cast("str | None", parameter.name)
-        if name is None or value is None:
+        name, value = parameter.name, parameter.value
+        if is_unknown(name) or is_unknown(value):
             return
         if isinstance(value, str) and value.startswith("/"):
             self._define_list(name, value, where)
@@ -275,7 +274,7 @@ DEFINING = "PREPROCESSOR"
 EvaluatedDeck = NewType("EvaluatedDeck", Deck)
 """A deck without equations in the sections of the model and of the analysis; only `evaluated` makes one.
 
-A value that an equation did not give is NaN, or None in a field of whole numbers.
+A value that an equation did not give is unknown.
 """
 
 
@@ -372,10 +371,10 @@ class _Evaluator:
                 changed[slot.name] = self._number(value, slot.kind or Kind.REAL, slot.label, place)
         return row.model_copy(update=changed) if changed else row
 
-    def _number(self, equation: Equation, kind: Kind, label: str, where: Where) -> Value | None:
-        """The value of an equation; without one NaN, or None where a whole number belongs."""
+    def _number(self, equation: Equation, kind: Kind, label: str, where: Where) -> Value:
+        """The value of an equation."""
         whole = kind in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL)
-        nothing = None if whole else math.nan
+        nothing: Value = UNKNOWN
         try:
             value = self.parameters.evaluate(equation, where)
         except NoValueError as reason:
@@ -395,7 +394,7 @@ class _Evaluator:
         if value.is_integer():
             return int(value)
         self.problems.append(replace(whole_fault(equation, value, label, where), blocks=self.blocks))
-        return None
+        return nothing
 
     def _table(self, table: Table, slot: FieldSpec, where: Where) -> Table:
         columns = columns_of(slot)
@@ -404,7 +403,6 @@ class _Evaluator:
         for (row, column), word in table.words.items():
             if isinstance(word, Equation):
                 place = where._replace(path=(*where.path, row, column))
-                number = self._number(word, columns[column].kind, columns[column].label, place)
-                values[row, column] = math.nan if number is None else number
+                values[row, column] = self._number(word, columns[column].kind, columns[column].label, place)
                 del words[row, column]
         return Table(values, table.lengths, words)

@@ -8,7 +8,7 @@ from typing import Any
 
 from mudline.codes.fields import SYN003
 from mudline.codes.lines import SYN001, SYN004, SYN014
-from mudline.diagnostics import Problem, Span
+from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.keywords.grammar import ROW, Content, Node
 from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Record, record_schema
 from mudline.keywords.places import Path, Places
@@ -24,6 +24,7 @@ from mudline.keywords.text import (
     mixed_commas,
     read_value,
 )
+from mudline.keywords.unknown import UNKNOWN, Partly
 from mudline.keywords.values import Kind, Names
 from mudline.spelling import nearest
 from mudline.syntax.fields import Field, Group, read_line, split, trimmed
@@ -41,7 +42,10 @@ class Item:
 
 @dataclass(slots=True)
 class ParsedRecord:
-    """A record as plain values, and what is needed to place comments in it."""
+    """A record as plain values, and what is needed to place comments in it.
+
+    One is `unsure` where lines or settings of it could not be used: what it seems to lack may be there.
+    """
 
     part: type[Record]
     values: dict[str, Any] = field(default_factory=dict)
@@ -50,6 +54,12 @@ class ParsedRecord:
     sticky: object = None
     first: int = 0
     last: int | None = None
+    unsure: bool = False
+
+    @property
+    def known(self) -> dict[str, Any]:
+        """The values that could be read."""
+        return {name: value for name, value in self.values.items() if value is not UNKNOWN}
 
     def reach(self, position: int) -> None:
         """Take note of a line."""
@@ -66,7 +76,6 @@ class Builder:
         self.slashes = slashes
         self.places = places
         self.problems = problems
-        self.damaged = False
         self.lost = 0
         self.unclosed: Span | None = None
         self.unchosen: set[Path] = set()
@@ -94,42 +103,38 @@ class Builder:
             built.values[found.table.json] = TableBuilder(self, found.table, (*path, found.table.json)).finish()
         return built
 
-    def damage(self, path: Path, problem: Problem) -> None:
-        """A value that could not be read: the record at `path` is not complete."""
-        self.problems.append(problem)
-        self.places.damaged.add(path)
-        self.damaged = True
+    def report(self, code: Code, message: str, span: Span, repair: Repair | None = None) -> None:
+        """Note a fault."""
+        self.problems.append(Problem(code, message, span, repair=repair))
 
-    def short(self, path: Path, message: str, span: Span) -> None:
+    def short(self, message: str, span: Span) -> None:
         """A value or more is missing in a row; at the very end of the file it was cut off."""
         if 0 <= self.end <= span.end:
             message = f"the file ends before this row is complete, it seems to be cut off: {message}"
-            self.damage(path, Problem(SYN014, message, span))
+            self.report(SYN014, message, span)
         else:
-            self.damage(path, Problem(SYN003, message, span))
+            self.report(SYN003, message, span)
 
-    def _brackets(self, problems: list[Problem], path: Path) -> None:
+    def _brackets(self, problems: list[Problem], built: ParsedRecord) -> None:
         """The bracket that a line does not close; it reaches to the end of the line, so there is one at most."""
         self.unclosed = None
         for problem in problems:
-            self.damage(path, problem)
+            self.problems.append(problem)
             self.unclosed = problem.span
+            built.unsure = True
 
-    def _unreadable(self, path: Path, problem: Problem) -> None:
+    def _unreadable(self, problem: Problem) -> None:
         """A field without a value; one with an open bracket has been reported as such."""
-        if self.unclosed and problem.span and self.unclosed.start < problem.span.end:
-            self.places.damaged.add(path)
-        else:
-            self.damage(path, problem)
+        if not (self.unclosed and problem.span and self.unclosed.start < problem.span.end):
+            self.problems.append(problem)
 
     def _child(self, built: ParsedRecord, slot: FieldSpec, node: Node, path: Path) -> None:
         before = built.children.setdefault(slot.json, [])
         inner = (*path, slot.json, len(before))
         last = before[-1].sticky if before else None
         child = self.build(slot.record[node.rule], node, inner, last)
-        child.sticky = child.part.carries(child.values, last)
+        child.sticky = child.part.carries(child.known, last)
         if child.last is None:
-            self.damaged = True
             return
         before.append(child)
         built.values.setdefault(slot.json, []).append(child.values)
@@ -140,7 +145,7 @@ class Builder:
     def _settings(self, built: ParsedRecord, content: Content, path: Path) -> None:
         found = record_schema(built.part)
         line = read_line(self.text, content.span, slashes=self.slashes)
-        self._brackets(line.problems, path)
+        self._brackets(line.problems, built)
         opening = built.last is None and not issubclass(built.part, Block)
         self._groups(built, line.groups, path)
         if not opening:
@@ -166,9 +171,9 @@ class Builder:
                 near = nearest(group.key, found.keys)
                 message = f"{group.key}= does not belong on this line{hint(near)}: expected {expected}"
                 key = trimmed(self.text, group.span.start, self.text.find("=", group.span.start))
-                self.damage(path, Problem(SYN004, message, group.span, repair=instead(near, key)))
+                self.report(SYN004, message, group.span, instead(near, key))
             elif slot.json in built.values:
-                self.damage(path, Problem(SYN001, f"{group.key}= is given twice", group.span))
+                self.report(SYN001, f"{group.key}= is given twice", group.span)
             else:
                 self._setting(built, slot, group, (*path, slot.json))
 
@@ -195,7 +200,7 @@ class Builder:
         self.places.spans[path] = group.span
         fields = group.fields
         if slot.row and not _alone(slot, fields):
-            self.lost += issubclass(slot.row, ListRow) and path[:-1] in self.places.damaged
+            self.lost += issubclass(slot.row, ListRow) and built.unsure
             built.values[slot.json] = self._row_values(slot.row, fields, path)
             return
         if slot.many and any(given.text for given in fields):
@@ -204,22 +209,29 @@ class Builder:
         while len(fields) > 1 and not fields[-1].text:
             fields.pop()
         if len(fields) > 1:
-            if problem := decimal_comma(fields, [slot.kind], 1):
-                self.problems.append(problem)
             message = f"{slot.label} takes one value, found {len(fields)}"
-            self.damage(path[:-1], Problem(SYN003, message, Span(fields[0].span.start, fields[-1].span.end)))
+            place = Span(fields[0].span.start, fields[-1].span.end)
+            self.problems.append(decimal_comma(fields, [slot.kind], 1) or Problem(SYN003, message, place))
         if not fields[0].text:
-            self.damage(path[:-1], Problem(SYN003, f"{slot.label} has no value{_value_of(slot)}", group.span))
+            built.values[slot.json] = UNKNOWN
+            self.report(SYN003, f"{slot.label} has no value{_value_of(slot)}", group.span)
             return
+        self._value(built, slot, fields, path)
+
+    def _value(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field], path: Path) -> None:
+        """The value of a setting; of several the first one, where it names a new thing."""
+        built.values[slot.json] = UNKNOWN
         self.places.spans[path] = fields[0].span
         if fields[0].span.end == self.end and cut_number(fields[0].text):
             message = f"the file ends inside {fields[0].text!r}: it seems to be cut off, add what is missing"
-            self.damage(path[:-1], Problem(SYN014, message, fields[0].span))
+            self.report(SYN014, message, fields[0].span)
             return
         try:
-            built.values[slot.json] = read_value(fields[0], slot, self.problems)
+            value = read_value(fields[0], slot, self.problems)
+            if len(fields) == 1 or slot.about.defines:
+                built.values[slot.json] = value
         except UnreadableError as fault:
-            self._unreadable(path[:-1], fault.problem)
+            self._unreadable(fault.problem)
             if slot.choices and slot.name == built.part.sticky:
                 self.unchosen.add(path[:-1])
 
@@ -241,10 +253,10 @@ class Builder:
             slot, fields = found.table, list[Field]()
         else:
             fields, behind, problems = self._cut(content.span, keys=bool(found.keys))
-            self._brackets(problems, path)
+            self._brackets(problems, built)
             if len(fields) == 1 and blank_separated(fields[0].text):
                 fields = self._apart(fields[0])
-            name = built.part.row_slot(number, len(fields), built.values, last)
+            name = built.part.row_slot(number, len(fields), built.known, last)
             slot = next(s for s in found.slots if s.name == name)
         inner = (*path, slot.json)
         count = 1
@@ -255,7 +267,7 @@ class Builder:
             message = (
                 f"one line only has its place here (`{record_schema(slot.row).wanted}`): remove it, or the one above"
             )
-            self.damage(path, Problem(SYN001, message, trimmed(self.text, *content.span)))
+            self.report(SYN001, message, trimmed(self.text, *content.span))
         elif slot.row:
             self.places.spans[inner] = trimmed(self.text, *content.span)
             built.values[slot.json] = self._row_values(slot.row, fields, inner)
@@ -281,7 +293,7 @@ class Builder:
     def _single(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field], path: Path) -> None:
         """A row of one value."""
         if slot.json in built.values:
-            self.damage(path, Problem(SYN001, f"{slot.label} is given twice", fields[0].span))
+            self.report(SYN001, f"{slot.label} is given twice", fields[0].span)
             return
         built.values |= self._fields([slot], fields, path)
 
@@ -293,26 +305,30 @@ class Builder:
         for index, slot in enumerate(columns):
             if (*path, slot.json) in self.places.spans:
                 self.places.spans[*path, index] = self.places.spans.pop((*path, slot.json))
-        self.lost += path in self.places.damaged
+        self.lost += any(value is UNKNOWN for value in values.values())
         return [values.get(slot.json) for slot in columns[: len(values)]]
 
     def _fields(self, columns: Sequence[FieldSpec], fields: list[Field], path: Path) -> dict[str, Value]:
         before = len(self.problems)
         fields = self._counted(columns, fields, path)
-        miscounted = len(self.problems) > before
-        values: dict[str, Value] = {}
+        # Of a wrong count any value may be that of another column, but for the number or name that begins the row.
+        wrong = any(one.weight is Severity.ERROR for one in self.problems[before:])
+        miscounted = wrong or bool(self.unclosed)
+        values: dict[str, Value] = dict.fromkeys((slot.json for slot in columns), UNKNOWN) if miscounted else {}
         for slot, given in zip(columns, fields, strict=False):
             self.places.spans[*path, slot.json] = given.span
             if not given.text:
-                values[slot.json] = None
                 if slot.required and not miscounted:
-                    self.short(path, f"{slot.label} is missing", given.span)
+                    self.short(f"{slot.label} is missing", given.span)
+                values[slot.json] = UNKNOWN if slot.required else None
                 continue
             try:
-                values[slot.json] = read_value(given, slot, self.problems)
+                value = read_value(given, slot, self.problems)
             except UnreadableError as fault:
-                self._unreadable(path, fault.problem)
-                values[slot.json] = None
+                self._unreadable(fault.problem)
+                value = UNKNOWN
+            if not wrong or (slot is columns[0] and (slot.is_text or slot.kind is Kind.IDENT)):
+                values[slot.json] = value
         return values
 
     def _counted(self, columns: Sequence[FieldSpec], fields: list[Field], path: Path) -> list[Field]:
@@ -331,14 +347,15 @@ class Builder:
             return fields[: len(columns)]
         if problem := decimal_comma(fields, [slot.kind for slot in columns], fewest):
             self.problems.append(problem)
+            return fields[: len(columns)]
         wanted = row_format([slot.label for slot in columns], required)
         count = f"{fewest}" if fewest == len(columns) else f"{fewest} to {len(columns)}"
         message = f"{count} fields expected (`{wanted}`), found {len(fields)}"
         span = Span(fields[0].span.start, fields[-1].span.end) if fields else self.places.find(path)
         if len(fields) < fewest:
-            self.short(path, message, span)
+            self.short(message, span)
         else:
-            self.damage(path, Problem(SYN003, message, span))
+            self.report(SYN003, message, span)
         return fields[: len(columns)]
 
     def _apart(self, given: Field) -> list[Field]:
@@ -358,7 +375,8 @@ class Builder:
             try:
                 value = read_value(given, slot, self.problems)
             except UnreadableError as fault:
-                self._unreadable(path, fault.problem)
+                self._unreadable(fault.problem)
+                values = Partly(values)
                 continue
             self.places.spans[*path, len(values)] = given.span
             values.append(value)
@@ -378,29 +396,3 @@ def _alone(slot: FieldSpec, fields: list[Field]) -> bool:
     if not (slot.choices or slot.kind) or any(given.text for given in fields[1:]):
         return False
     return not blank_separated(fields[0].text)
-
-
-def construct(built: ParsedRecord) -> Part:
-    """A model without validation, for a block in which something could not be read: what is missing is None."""
-    ready: dict[str, Any] = {}
-    for slot in record_schema(built.part).slots:
-        given = built.values.get(slot.json)
-        if slot.record:
-            ready[slot.name] = [construct(child) for child in built.children.get(slot.json, [])]
-        elif slot.row and isinstance(given, list):
-            columns = record_schema(slot.row).columns
-            ready[slot.name] = _bare(slot.row, {c.json: v for c, v in zip(columns, given, strict=False)})
-        elif slot.row and isinstance(given, dict):
-            ready[slot.name] = _bare(slot.row, given)
-        else:
-            ready[slot.name] = given
-    ready["comments"] = []
-    if "keyword" in built.values:
-        ready["keyword"] = built.values["keyword"]
-    return built.part.model_construct(**ready)
-
-
-def _bare(row: type[Part], values: dict[str, Value]) -> Part:
-    """A row as it was read."""
-    ready: dict[str, Any] = {slot.name: values.get(slot.json) for slot in record_schema(row).columns}
-    return row.model_construct(**ready)

@@ -321,6 +321,9 @@ class Block(Record):
     keyword: str
 
 
+_OF_TEXT = (Kind.NAME, Kind.TITLE, Kind.OTHER)
+
+
 @dataclass(slots=True)
 class FieldSpec:
     """One field of a part, as the reader and the writer see it."""
@@ -340,6 +343,11 @@ class FieldSpec:
     def key(self) -> str:
         """The KEY of a setting, or ""."""
         return self.about.key if isinstance(self.about, Setting) else ""
+
+    @property
+    def is_text(self) -> bool:
+        """Whether its values are names and words alone."""
+        return not self.row and (self.kind in _OF_TEXT or (self.kind is None and bool(self.choices)))
 
     @property
     def label(self) -> str:

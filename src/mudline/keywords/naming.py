@@ -7,6 +7,7 @@ from functools import cache
 from typing import Literal, TypeGuard
 
 from mudline.keywords.model import Block, FieldSpec, Part, record_schema
+from mudline.keywords.unknown import UNKNOWN_NAME
 from mudline.keywords.values import Equation, Label, Names
 
 Role = Literal["names", "defines"]
@@ -74,7 +75,7 @@ def _given(
 
 
 def _is_name(item: object) -> TypeGuard[str]:
-    return isinstance(item, str) and not isinstance(item, Equation)
+    return isinstance(item, str) and item is not UNKNOWN_NAME and not isinstance(item, Equation)
 
 
 def idents_given(part: Part, what: Names) -> Iterator[tuple[tuple[str | int, ...], int | Label]]:

@@ -27,7 +27,6 @@ class Places:
     block: Span
     spans: dict[Path, Span] = field(default_factory=dict)
     runs: dict[Path, list[tuple[int, Span]]] = field(default_factory=dict)
-    damaged: set[Path] = field(default_factory=set)
     kept: frozenset[int] = frozenset()
     _lines: dict[Span, array[int]] = field(default_factory=dict)
 
@@ -73,7 +72,7 @@ class Places:
         """The same in a text in which all of it stands further behind."""
         spans = {path: span.moved(by) for path, span in self.spans.items()}
         runs = {path: [(row, span.moved(by)) for row, span in found] for path, found in self.runs.items()}
-        return Places(text, self.block.moved(by), spans, runs, self.damaged, frozenset(at + by for at in self.kept))
+        return Places(text, self.block.moved(by), spans, runs, frozenset(at + by for at in self.kept))
 
     def _cell(self, runs: list[tuple[int, Span]], inner: Path) -> Span:
         row = int(inner[0]) if inner else 0

@@ -13,12 +13,13 @@ from mudline.codes.lines import SYN001, SYN004, SYN013, SYN014
 from mudline.diagnostics import Problem, Severity, Span
 from mudline.keywords import grammar
 from mudline.keywords.attaching import Between, attach
-from mudline.keywords.builder import Builder, ParsedRecord, construct
+from mudline.keywords.builder import Builder, ParsedRecord
+from mudline.keywords.constructing import construct, lose
 from mudline.keywords.grammar import END, ROW, Content, Mismatch
 from mudline.keywords.keeping import opened
 from mudline.keywords.kept_lines import doubtful, of_other_form
 from mudline.keywords.model import AS_TEXT, Block, Part, RecordSchema, record_schema
-from mudline.keywords.places import Path, Places
+from mudline.keywords.places import Places
 from mudline.keywords.plain import read_plain
 from mudline.keywords.text import hint, instead, merge_per_line, shown, suggestion
 from mudline.short_repr import short_repr
@@ -33,7 +34,7 @@ class ReadBlock:
     """A block that was read: its model, where its values stand, what was wrong, and the comments behind its last line.
 
     `lost` counts lines that could not be used at all: what they would have defined is unknown. `found` are the places
-    in the text that was read, or what finds them when somebody asks; a block of the second kind has no damaged value.
+    in the text that was read, or what finds them when somebody asks.
     Where a piece was read, `whole` is the text that it belongs to and where it begins there. A block is `opaque` where
     what its keyword demands may stand in lines of an unknown form: all of it is then passed through unchanged.
     """
@@ -68,10 +69,6 @@ class ReadBlock:
         """The block, with its problems there, in a text in which the piece that was read begins at `start`."""
         found = self.found if isinstance(self.found, Places) else lambda: self.own
         return ReadBlock(self.model, found, problems, self.trailing, self.lost, (text, start), self.opaque)
-
-    def damaged(self, path: Path) -> bool:
-        """Whether something at this place could not be read."""
-        return isinstance(self.found, Places) and path in self.found.damaged
 
 
 class BlockReader(Protocol):
@@ -169,7 +166,6 @@ class _Reader:
         places = Places(self.text, trimmed(self.text, *self.raw.head.span))
         end = len(self.text.rstrip(" \t")) if self.last and not self.text.endswith("\n") else -1
         builder = Builder(self.text, places, self.problems, slashes=self.declared.slashes, end=end)
-        builder.damaged = any(mismatch.missing for mismatch in mismatches)
         for mismatch in mismatches:
             self._report(mismatch)
         built = builder.build(self.declared, node)
@@ -186,7 +182,7 @@ class _Reader:
     def _model(self, built: ParsedRecord, builder: Builder) -> Block:
         """The validated model; of a block with faults, what could be read of it."""
         built.values["keyword"] = self.raw.name
-        if not builder.damaged:
+        if not any(one.weight is Severity.ERROR for one in self.problems):
             try:
                 return self.declared.model_validate(built.values, context=AS_TEXT)
             except ValidationError as error:
@@ -197,6 +193,9 @@ class _Reader:
                         message = f"{_label(self.declared, place)} is missing here"
                     span = builder.places.find(place)
                     self.problems.append(Problem(SYN001, message, span))
+        for problem in self.problems:
+            if problem.code in (SYN001, SYN004) and problem.span is not None:
+                lose(built, problem.span.start)
         return cast("Block", construct(built))
 
     def nowhere(self) -> Places:

@@ -162,15 +162,20 @@ def decimal_comma(values: list[Field], kinds: list[Kind | None], fewest: int) ->
         widths = [2 if kind in _REAL else 1 for kind in kinds[:length]]
         numbers = [field for field in values if field.text.lstrip("+-").isdecimal()]
         names = sum(kind is Kind.NAME for kind in kinds[:length])
-        if sum(widths) == len(values) > length and len(numbers) >= len(values) - names:
-            first = widths.index(2)
-            return _two_fields(*values[first : first + 2])
+        first = widths.index(2) if 2 in widths else len(values)
+        if sum(widths) == len(values) > length and len(numbers) >= len(values) - names and _is_tight(*values[first:]):
+            return _two_fields(values[first], values[first + 1], Severity.ERROR)
     return None
 
 
-def _two_fields(one: Field, two: Field) -> Problem:
+def _is_tight(one: Field, two: Field, *_: Field) -> bool:
+    """Whether two fields have a comma between them, and no blank."""
+    return one.span.end + 1 == two.span.start
+
+
+def _two_fields(one: Field, two: Field, severity: Severity | None = None) -> Problem:
     message = f"decimal comma? {one.text},{two.text} is two fields here: write {one.text}.{two.text}"
-    return Problem(SYN015, message, one.span._replace(end=two.span.end))
+    return Problem(SYN015, message, one.span._replace(end=two.span.end), severity)
 
 
 def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> Problem | None:
@@ -191,7 +196,7 @@ def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> 
         return None
     if any(kinds[place] not in _REAL for place in places):
         return None
-    return _two_fields(*values[pairs[0] : pairs[0] + 2])
+    return _two_fields(values[pairs[0]], values[pairs[0] + 1])
 
 
 def _is_split(values: list[Field], at: int) -> bool:
@@ -329,10 +334,7 @@ class BlockReading(Protocol):
     problems: list[Problem]
     unclosed: Span | None
 
-    def damage(self, path: Path, problem: Problem) -> None:
-        """Note a value that could not be read."""
-
-    def short(self, path: Path, message: str, span: Span) -> None:
+    def short(self, message: str, span: Span) -> None:
         """Note a row that is too short."""
 
 
@@ -398,7 +400,7 @@ class TableBuilder:
                 self._fault(line(row), row, column, fault, raw)
         if reported > MOST_REPORTED:
             message = f"{reported - MOST_REPORTED} more faulty rows or fields in this table"
-            self.builder.damage(self.path[:-1], Problem(SYN002, message, line(-1)))
+            self.builder.problems.append(Problem(SYN002, message, line(-1)))
 
     def _label(self, table: Table, raw: RawRows, line: Span, row: int, column: int) -> bool:
         """A word where a node number belongs is taken for a label whose braces were forgotten."""
@@ -416,7 +418,7 @@ class TableBuilder:
         _, problems = split(self.builder.text, line)
         for problem in problems:
             if problem.span != self.builder.unclosed:
-                self.builder.damage(self.path[:-1], problem)
+                self.builder.problems.append(problem)
         return bool(problems)
 
     def _fault(self, line: Span, row: int, column: int, fault: str, raw: RawRows) -> None:
@@ -426,19 +428,20 @@ class TableBuilder:
             required = [column.required for column in self.columns]
             if problem := decimal_comma(fields, [column.kind for column in self.columns], sum(required)):
                 self.builder.problems.append(problem)
+                return
             wanted = row_format([column.label for column in self.columns], required)
             place = Span(fields[0].span.start, fields[-1].span.end)
             message = f"{fault} (`{wanted}`)"
             if len(fields) < sum(required):
-                self.builder.short(self.path[:-1], message, place)
+                self.builder.short(message, place)
             else:
-                self.builder.damage(self.path[:-1], Problem(SYN003, message, place))
+                self.builder.problems.append(Problem(SYN003, message, place))
             return
         place = row_fields(text, line, len(self.columns))[column].span
         word = raw.words.get((row, column))
         if word:
             fault = number_fault(word, self.columns[column].label, self.columns[column].kind)
         if word == "":
-            self.builder.short(self.path[:-1], fault, place)
+            self.builder.short(fault, place)
         else:
-            self.builder.damage(self.path[:-1], Problem(SYN002, fault, place))
+            self.builder.problems.append(Problem(SYN002, fault, place))

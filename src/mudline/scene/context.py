@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import sys
-from bisect import bisect_left
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import isnan
 from typing import Any, TypeVar, cast
 
 from mudline.codes.fields import SYN016
-from mudline.codes.lines import SYN001, SYN004
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import EvaluatedDeck, folded
 from mudline.deck.reading import TextOrigin
@@ -224,76 +220,13 @@ class Context:
         """The name among `known`, all of them folded, that is spelt nearly as `word`, or ""."""
         return nearest(folded(word), known, self._effort)
 
-    def has_read_errors(self, where: Where) -> bool:
-        """Whether something at this place, or a line below it, could not be used."""
-        if where.section in self._sound:
-            return False
-        if self.deck.damaged(where):
-            return True
-        if where.section >= len(self.deck.own_sections):  # of a deck that is continued: what it lost is in no line here
-            return self.deck.lost(where) > 0
-        if not self._unread_lines:
-            return False
-        lines = self._lines(where)
-        return bisect_left(self._unread_lines, lines.start) < bisect_left(self._unread_lines, lines.stop)
-
-    def _lines(self, where: Where) -> range:
-        """The lines from a place to the next item of its list, or to the next block."""
-        *outer, last = where.path or ("",)
-        following = Where(where.section, where.block + 1)
-        if isinstance(last, int) and last + 1 < len(
-            cast("list[object]", self.as_written(where._replace(path=tuple(outer))))
-        ):
-            following = where._replace(path=(*outer, last + 1))
-        elif following.block == len(self.deck.sections[where.section].blocks):
-            following = Where(where.section + 1)
-        end = sys.maxsize if following.section == len(self.deck.own_sections) else self._line(following)
-        return range(self._line(where), end)
-
-    def _line(self, where: Where) -> int:
-        return self._position(Problem(SYN001, "", where=where))[0]
-
-    @cached_property
-    def _unread_lines(self) -> list[int]:
-        """Lines that could not be used at all."""
-        return sorted(self._position(problem)[0] for problem in self.deck.problems if problem.code in (SYN001, SYN004))
-
-    def has_unread_line_after(self, where: Where, keyword: str) -> bool:
-        """Whether a line of a keyword that stands behind a place could not be used."""
-        line = self._line(where)
-        own = (block for block, _ in self.deck.blocks(keyword) if block.section < len(self.deck.own_sections))
-        blocks = (self._lines(block) for block in own)
-        return any(lost > line and lost in lines for lines in blocks for lost in self._unread_lines)
-
-    def lacks_value(self, where: Where, key: str) -> bool:
-        """Whether the setting `key` of a record was written without a value, or in a line, that could be read."""
-        if where.section in self._sound:
-            return False
-        if self.deck.written(where.inside(key)):
-            return self.deck.damaged(where)
-        return bool(where.path) and self._has_unread_line(self._lines(where._replace(path=())), self._line(where))
-
-    def _has_unread_line(self, lines: range, line: int) -> bool:
-        """Whether a line could not be used, among some lines, from their first one to the one behind another."""
-        return any(lost in lines and lost <= line + 1 for lost in self._unread_lines)
-
-    def generator(self, given: ListRow, where: Where) -> tuple[int, int, int] | None:
+    def generator(self, given: ListRow) -> tuple[int, int, int] | None:
         """The three values of a GEN=, the last one 1 unless given; None when one of them is not known."""
         values = [getattr(given, name) for name in type(given).model_fields]
-        if values[2] is None and not self.without_value(given, where):
+        if values[2] is None:
             values[2] = 1
         usable = all(isinstance(value, int) and abs(value) <= LARGEST_WHOLE for value in values)
-        return (values[0], values[1], values[2]) if usable and not self.deck.damaged(where) else None
-
-    def without_value(self, row: ListRow, where: Where) -> bool:
-        """Whether an equation of a row has no value."""
-        written = self.as_written(where)
-        if written is row:  # it has no equation
-            return False
-        fields = ((getattr(row, name), getattr(written, name)) for name in type(row).model_fields)
-        return any(
-            before is not None and (now is None or (isinstance(now, float) and isnan(now))) for now, before in fields
-        )
+        return (values[0], values[1], values[2]) if usable else None
 
     def as_written(self, where: Where) -> object:
         """A part of the deck before its equations were evaluated."""

@@ -159,7 +159,7 @@ def _check_points(context: Context, curve: DeckCurve, keep: Indices) -> None:
             message = "the slope to this point cannot be held by a float64: correct the point"
             place = curve.point(int(keep[error.index]))
             context.note(Problem(_CODES[error.code], message, where=place, blocks=Blocks.NEVER))
-        elif curve.whole and not context.has_read_errors(curve.title):
+        elif curve.whole:
             has = "one distinct point" if len(curve.points) else "no point"
             message = f"{curve.kind} {shown(curve.name)} has {has}: it needs at least two"
             context.note(Problem(CRV001, message, where=curve.title, blocks=Blocks.NEVER))

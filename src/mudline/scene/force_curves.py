@@ -12,6 +12,7 @@ from mudline.codes.fields import CRV001, CRV003, CRV011
 from mudline.diagnostics import Where
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
+from mudline.keywords.unknown import known_name
 from mudline.limits import MOST_REPORTED
 from mudline.scene.context import Context
 from mudline.scene.numbering import Floats, Indices, Mask, identity, side_by_side
@@ -64,12 +65,12 @@ class SceneCurve:
 def read_curves(context: Context) -> tuple[list[SceneCurve], list[SceneCurve]]:
     """The curves of `*SEABED STIFFNESS` and those of `*EMBEDMENT`, in the order of the file."""
     named = [
-        _curve(context, entry.name, entry.points, where.inside("curves", index), embedment=False)
+        _curve(context, known_name(entry.name), entry.points, where.inside("curves", index), embedment=False)
         for where, block in context.deck.blocks("SEABED STIFFNESS")
         for index, entry in enumerate(cast("SeabedStiffness", block).curves)
     ]
     by_set = [
-        _curve(context, set_name(context, entry.set_name, place), entry.points, place, embedment=True)
+        _curve(context, set_name(entry.set_name), entry.points, place, embedment=True)
         for where, block in context.deck.blocks("EMBEDMENT")
         for index, entry in enumerate(cast("Embedment", block).curves)
         for place in (where.inside("curves", index),)
@@ -77,11 +78,9 @@ def read_curves(context: Context) -> tuple[list[SceneCurve], list[SceneCurve]]:
     return named, by_set
 
 
-def set_name(context: Context, name: str | None, where: Where) -> str | None:
+def set_name(name: str | None) -> str | None:
     """The name that a SET= of a seabed law gives: ALL without a SET=, None where it could not be read."""
-    if name is None:
-        return None if context.lacks_value(where, "set") else "ALL"
-    return name
+    return "ALL" if name is None else known_name(name)
 
 
 def _curve(context: Context, name: str | None, table: Table, where: Where, *, embedment: bool) -> SceneCurve:
@@ -89,8 +88,7 @@ def _curve(context: Context, name: str | None, table: Table, where: Where, *, em
         context.unread.add("SEABED STIFFNESS")
     points, rows = _points(table)
     clashing, _ = clashes_and_repeats(points)
-    unread = len(rows) < len(table) or context.has_read_errors(where)
-    whole = not unread and not clashing.size
+    whole = len(rows) == len(table) and not clashing.size
     keep = (
         np.setdiff1d(np.arange(len(points)), clashing, assume_unique=True) if clashing.size else identity(len(points))
     )

@@ -14,6 +14,7 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Where
 from mudline.keywords import catalogue
 from mudline.keywords.naming import set_slots
+from mudline.keywords.unknown import UNKNOWN, is_partly_unknown, known_name
 from mudline.scene.context import Context
 from mudline.scene.deck_values import number, surfaces
 from mudline.scene.force_curves import SceneCurve, set_name
@@ -59,7 +60,7 @@ class LawTable:
 
     `covered` (m,) is the last set_law of the new family that holds an element, also one without stiffness. `curves` are
     the named ones, then those of `*EMBEDMENT`; `referenced` the folded names that a STIFFNESS= gives. `types` has the
-    places that say "RIGID" or "ELASTIC".
+    places that say "RIGID" or "ELASTIC", and `gaps` those behind which lines may give more laws.
     """
 
     curves: list[SceneCurve]
@@ -68,6 +69,7 @@ class LawTable:
     covered: Indices = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
     referenced: set[str] = field(default_factory=set)
     types: dict[str, list[Where]] = field(default_factory=dict)
+    gaps: list[Where] = field(default_factory=list)
 
     __repr__ = short_repr
 
@@ -89,6 +91,8 @@ def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: lis
     family.
     """
     laws = LawTable(curves=[*named, *by_set])
+    if any(map(catalogue.is_superseded, context.unread)):
+        laws.gaps.append(Where(len(context.deck.sections)))
     surfaces = [*_rigid_surface(context, sets, laws), *_elastic_surface(context, sets, laws)]
     legacy = [*surfaces, *_embedment(sets, laws, len(named))]
     new = list(_properties(context, sets, laws, named))
@@ -130,8 +134,6 @@ def _elastic_surface(context: Context, sets: Sets, laws: LawTable) -> Iterator[S
         if stiffness is not None:
             value = float(cast("float", stiffness))
             yield SetLaw(LawKind.LINEAR, sets.everything, field_, "legacy", value, unknown=not value >= 0)
-        elif context.has_read_errors(place):
-            yield SetLaw(LawKind.LINEAR, sets.everything, field_, "legacy", unknown=True)
 
 
 def _embedment(sets: Sets, laws: LawTable, first: int) -> Iterator[SetLaw]:
@@ -150,32 +152,42 @@ def typed_blocks(context: Context) -> Iterator[tuple[Where, SeabedProperties, st
     type_: str | None = None
     for where, block in context.deck.blocks("SEABED PROPERTIES"):
         properties = cast("SeabedProperties", block)
-        type_ = None if context.lacks_value(where, "type") else properties.type_ or type_
+        type_ = type_ if properties.type_ is None else properties.type_
         yield where, properties, type_
 
 
 def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneCurve]) -> Iterator[SetLaw]:
     curves = {folded(curve.name): index for index, curve in enumerate(named) if curve.named}
     for where, properties, type_ in typed_blocks(context):
-        if properties.type_ is not None and type_ is not None:
-            laws.types.setdefault(properties.type_, []).append(where.inside("type"))
+        if known_name(properties.type_):
+            laws.types.setdefault(str(properties.type_), []).append(where.inside("type"))
+        if not properties.sets and is_partly_unknown(properties.sets):
+            laws.gaps.append(where)
+        gaps = [where.inside("sets", index) for index, entry in enumerate(properties.sets) if _has_gap(entry)]
+        laws.gaps += gaps
         for index, entry in enumerate(properties.sets):
             place = where.inside("sets", index)
-            name = set_name(context, entry.set_name, place)
+            name = set_name(entry.set_name)
             holder = (None if name is None else sets.find(name)) or _unknown(name)
-            unread = context.has_read_errors(place)
             stiffness, written = entry.stiffness, place.inside("stiffness")
             if isinstance(stiffness, str):
                 curve = curves.get(folded(stiffness), NOTHING)
-                unknown = unread or curve == NOTHING or not named[curve].usable
+                unknown = curve == NOTHING or not named[curve].usable
                 yield SetLaw(LawKind.CURVE, holder, written, "new", curve=curve, unknown=unknown)
             elif type_ == "RIGID":  # on a rigid seabed a stiffness has no effect
                 yield SetLaw(LawKind.RIGID, holder, place, "new")
-            elif stiffness is None:
-                yield SetLaw(LawKind.NONE, holder, place, "new", unknown=unread or type_ is None)
+            elif stiffness is None or stiffness is UNKNOWN:
+                unknown = stiffness is UNKNOWN or not type_
+                yield SetLaw(LawKind.NONE, holder, place, "new", unknown=unknown)
             else:
                 value = float(stiffness)
-                yield SetLaw(LawKind.LINEAR, holder, written, "new", value, unknown=unread or not value >= 0)
+                yield SetLaw(LawKind.LINEAR, holder, written, "new", value, unknown=not value >= 0)
+
+
+def _has_gap(entry: SeabedSet) -> bool:
+    """Whether a line below a SET= could not be used, which may be the SET= of another one."""
+    values = (entry.stiffness, entry.friction, entry.lateral, entry.suction)
+    return UNKNOWN in values and None not in values
 
 
 class ResistanceValues(NamedTuple):
@@ -340,12 +352,13 @@ def _read_extension(context: Context, sets: Sets, keyword: str, count: int) -> E
             for index, entry in enumerate(getattr(block, listed.name)):
                 entries.append(entry)
                 places.append(where.inside(listed.json, index))
-                holders.append(_holder(context, sets, getattr(entry, named.name)))
+                holders.append(_holder(context, sets, keyword, getattr(entry, named.name)))
     return Extension(entries, places, holders, later_wins(holders, count))
 
 
-def _holder(context: Context, sets: Sets, name: str | None) -> NamedSet | None:
-    if name is None:
-        context.unread.add("SEABED PROPERTIES")
+def _holder(context: Context, sets: Sets, keyword: str, name: str | None) -> NamedSet | None:
+    known = known_name(name)
+    if known is None:
+        context.unread.add(keyword)
         return None
-    return sets.find(name)
+    return sets.find(known)

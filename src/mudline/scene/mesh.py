@@ -100,7 +100,7 @@ def _add_rows(gathered: Definitions, numbers: Floats, values: Floats, where: Whe
 
 def _node_line(context: Context, gathered: Definitions, given: NodeRange, where: Where) -> _NodeLine | None:
     place = where.inside("generate")
-    numbers = context.generator(given, place)
+    numbers = context.generator(given)
     if numbers is None:
         context.unread.add("NODE")
         return None
@@ -205,7 +205,7 @@ def _check_labels(context: Context, table: Table, where: Where) -> None:
 
 def _add_pattern(context: Context, gathered: Definitions, given: ElementPattern, where: Where) -> None:
     place = where.inside("generate")
-    numbers = context.generator(given, place)
+    numbers = context.generator(given)
     if numbers is None:
         context.unread.add("ELEMENT")
         return

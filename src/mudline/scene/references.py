@@ -184,7 +184,7 @@ def check_boundaries(context: Context, nodes: Numbered) -> None:
 def _check_range(context: Context, nodes: Numbered, entry: FixedRange, where: Where) -> None:
     """The nodes of a GEN=, without building them, and their degree of freedom."""
     values = cast("FixedValues | None", entry.generate)
-    if values is None or context.deck.damaged(where) or context.without_value(values, where):
+    if values is None:
         return
     at, step = freedom_and_step(values)
     freedom = (values.third, values.fourth)[at - 2]

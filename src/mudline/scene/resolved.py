@@ -16,6 +16,7 @@ from mudline.codes.references import REF001
 from mudline.contact.input import LawKind
 from mudline.deck.parameters import EvaluatedDeck, folded
 from mudline.diagnostics import DeckError, Problem, Where
+from mudline.keywords import catalogue
 from mudline.keywords.catalogue import facts_of
 from mudline.keywords.text import suggestion
 from mudline.limits import SHOWN_LETTERS
@@ -146,6 +147,11 @@ class ResolvedDeck:
     def context(self) -> Context:
         """What was noticed on the way, and what could not be read."""
         return self.set_table.context
+
+    @property
+    def may_have_more_laws(self) -> bool:
+        """Whether a line that could not be used may give elements a law of the seabed."""
+        return any(map(catalogue.gives_laws, self.context.unread))
 
     @property
     def lacks(self) -> bool:

@@ -10,6 +10,7 @@ import numpy as np
 
 from mudline.deck.model import Deck
 from mudline.diagnostics import Where
+from mudline.keywords.unknown import known_name
 from mudline.scene.context import Context
 from mudline.scene.deck_values import DEFAULT_DENSITY, DEFAULT_GRAVITY, number
 from mudline.scene.numbering import Floats, Indices, Mask, Numbered, looked_up, picked
@@ -47,7 +48,7 @@ class SectionTable:
 
     `diameter` (m,) is the external diameter, NaN where there is none; `faulty` (m,) marks elements whose section could
     not be read: nothing more is said about them. `open` says that a section belongs to a set whose elements the deck
-    does not show, so that any element may have it.
+    does not show, or could not be read, so that any element may have it.
     """
 
     sections: tuple[Section, ...]
@@ -69,10 +70,10 @@ def read_sections(
     for where, block in context.deck.blocks("GEOMETRIC SETS"):
         for index, entry in enumerate(cast("GeometricSets", block).sets):
             place = where.inside("sets", index)
-            name = cast("str | None", entry.set_name)
+            name = known_name(entry.set_name)
             holders.append(None if name is None else sets.find(name))
             elsewhere |= name is not None and holders[-1] is None and bool(context.possible_definition("ELEMENT SETS"))
-            sections.append(_section(context, entry, place))
+            sections.append(_section(entry, place))
     of_element = later_wins(holders, len(elements))
     diameter = looked_up(np.array([*(section.diameter for section in sections), math.nan]), of_element)
     unread = (None in holders and not elsewhere) or "GEOMETRIC SETS" in context.unread
@@ -83,17 +84,15 @@ def read_sections(
         given = ~np.isnan(external.diameter)
         diameter[at[given]] = external.diameter[given]
         faulty[at[given]] = False
-    is_open = elsewhere or any(holder.open for holder in holders if holder)
+    is_open = elsewhere or "GEOMETRIC SETS" in context.unread or any(holder.open for holder in holders if holder)
     return SectionTable(tuple(sections), of_element, diameter, faulty, is_open)
 
 
-def _section(context: Context, entry: GeometricSet, where: Where) -> Section:
+def _section(entry: GeometricSet, where: Where) -> Section:
     source, value = entry.diameter
     diameter = float(value) if isinstance(value, int | float) else math.nan
-    unread = context.has_read_errors(where) or context.has_read_errors(where.inside(format_of(entry)))
     bad = diameter < 0 or math.isnan(diameter) or (source == "Do" and diameter == 0)
-    name = str(entry.set_name or "")
-    return Section(name, diameter if diameter > 0 else math.nan, source, where, unread or bad, entry)
+    return Section(known_name(entry.set_name) or "", diameter if diameter > 0 else math.nan, source, where, bad, entry)
 
 
 def format_of(entry: GeometricSet) -> str:

@@ -13,6 +13,7 @@ from mudline.codes.references import REF001, REF005, REF008, REF009, REF010
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Problem, Severity, Where
 from mudline.keywords.text import advice_on, shown
+from mudline.keywords.unknown import is_partly_unknown, known_name
 from mudline.scene.context import Context
 from mudline.scene.deck_values import bare
 from mudline.scene.numbering import Ids, Indices, Numbered, constant, identity
@@ -130,7 +131,7 @@ class _Reader:
         """Note the sets of a block by their names."""
         for index, entry in enumerate(entries):
             where = Where(block.section, block.block, ("sets", index))
-            name = cast("str | None", entry.name)
+            name = known_name(entry.name)
             if name is None:
                 self.context.unread.add("ELEMENT SETS")
                 continue
@@ -143,7 +144,8 @@ class _Reader:
             if known is None:
                 self.definitions[key] = [(entry, where)]
                 only = entry.members[0] if len(entry.members) == 1 else None
-                if only is not None and only.rule == "set_subset" and (subset := cast("SetSubset", only).subset):
+                subset = known_name(cast("SetSubset", only).subset) if only and only.rule == "set_subset" else None
+                if subset is not None:
                     self.links[key] = self._key(subset)
             else:
                 known.append((entry, where))
@@ -151,7 +153,7 @@ class _Reader:
 
     def _expand(self, key: str) -> None:
         """Expand a set and, before it, its subsets; an explicit stack, as chains may be long."""
-        named, definitions, links, context = self.sets.named, self.definitions, self.links, self.context
+        named, definitions, links = self.sets.named, self.definitions, self.links
         waiting = [key]
         unfinished: set[str] = set()
         while waiting:
@@ -164,8 +166,8 @@ class _Reader:
                 unfinished.remove(current)
                 if link is not None and (found := named.get(link)):
                     entry, where = definitions[current][0]
-                    unsure = any(map(context.has_read_errors, (where, where.inside("members", 0))))
-                    named[current] = NamedSet(entry.name, found.elements, where, found.open or unsure)
+                    is_open = found.open or is_partly_unknown(entry.members)
+                    named[current] = NamedSet(entry.name, found.elements, where, is_open)
                 else:
                     self._settle(current)
             else:
@@ -182,8 +184,8 @@ class _Reader:
             for index, member in enumerate(entry.members):
                 if member.rule != "set_subset":
                     continue
-                name = cast("SetSubset", member).subset
-                if cast("str | None", name) is None:
+                name = known_name(cast("SetSubset", member).subset)
+                if name is None:
                     continue
                 other = self._key(name)
                 if other in unfinished:
@@ -210,12 +212,11 @@ class _Reader:
         unsure = False
         members = 0
         for entry, where in definitions:
-            unsure |= self.context.has_read_errors(where)
+            unsure |= is_partly_unknown(entry.members)
             members += len(entry.members)
             for index, member in enumerate(entry.members):
                 if member.rule == "set_subset":
                     found, whole = self._subset(cast("SetSubset", member).subset)
-                    unsure |= self.context.has_read_errors(where.inside("members", index))
                 elif member.rule == "set_list":
                     found, whole = self._listed(cast("SetList", member), where.inside("members", index))
                 else:
@@ -227,7 +228,8 @@ class _Reader:
         if not members and not unsure:  # of what is listed and does not exist, it is reported where it stands
             self.context.report(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
 
-    def _subset(self, name: str | None) -> tuple[Indices, bool]:
+    def _subset(self, given: str) -> tuple[Indices, bool]:
+        name = known_name(given)
         found = None if name is None else self.sets.named.get(self._key(name))
         return (_NOTHING, False) if found is None else (found.elements, not found.open)
 
@@ -237,7 +239,7 @@ class _Reader:
         indices = self.elements.indices(numbers)
         known = indices >= 0
         if np.count_nonzero(known) == len(member.elements):
-            return _ascending(indices), not self.context.has_read_errors(where.inside("elements"))
+            return _ascending(indices), not is_partly_unknown(member.elements)
         positions = [position for position, element in enumerate(member.elements) if isinstance(element, int)]
         missing = np.flatnonzero(~known).tolist()
         self._missing(numbers[missing], [where.inside("elements", positions[at]) for at in missing])
@@ -266,7 +268,7 @@ class _Reader:
     def _range(self, given: ElementRange, where: Where) -> tuple[Indices, bool]:
         """Elements of a range, without building it: it may be as long as a typing error makes it."""
         place = where.inside("generate")
-        numbers = self.context.generator(given, place)
+        numbers = self.context.generator(given)
         if numbers is None:
             return _NOTHING, False
         start, end, step = numbers

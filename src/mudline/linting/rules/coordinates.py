@@ -176,9 +176,9 @@ def _goes_forward(scene: Scene, ends: Indices) -> bool:
 
 
 def _directions(scene: Scene, ends: Indices) -> Floats:
-    """Unit vectors along elements with these nodes; NaN for one without length."""
-    steps = scene.coordinates[ends[:, 1]] - scene.coordinates[ends[:, 0]]
+    """Unit vectors along elements with these nodes; NaN for one without length, or with one that is not finite."""
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+        steps = scene.coordinates[ends[:, 1]] - scene.coordinates[ends[:, 0]]
         length = np.linalg.norm(steps, axis=1)[:, np.newaxis]  # 0 also where its square is too small for a number
         found: Floats = steps / np.where(length > 0.0, length, np.nan)
     return found

@@ -164,9 +164,7 @@ def repeated_section(context: LintContext) -> Iterator[Problem]:
     scene = context.scene
     sections, reading = scene.section_table.sections, scene.context
     repeated = _repeated(sections)
-    hidden = (
-        scene.section_table.open or reading.external_definers or reading.restart or "GEOMETRIC SETS" in reading.unread
-    )
+    hidden = scene.section_table.open or reading.external_definers or reading.restart
     if not sections or hidden or any(scene.set_table.find(section.name) is None for section in sections):
         return
     lacking = scene.section_table.of_element < 0

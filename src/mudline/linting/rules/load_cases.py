@@ -71,7 +71,7 @@ def vessel_without_rao(context: LintContext) -> Iterator[Problem]:
                 place = where.inside("vessels", index)
                 name = str(getattr(vessel, "vessel", None) or "")
                 still = name and set_key(name) not in moved and not getattr(vessel, "rao", None)
-                if still and not getattr(vessel, "unread", None) and not context.scene.context.has_read_errors(place):
+                if still and not getattr(vessel, "unread", None):
                     message = (
                         f"vessel {shown(name)} has no RAO and stands still in the waves: give RAO= in "
                         "*VESSEL,INTEGRATED, or the operators in *RAO"

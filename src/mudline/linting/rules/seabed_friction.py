@@ -116,7 +116,7 @@ def unused_friction_stiffness(context: LintContext) -> Iterator[Problem]:
     for entry in context.once(_resisting):
         for direction in DIRECTIONS:
             name = f"{direction}_stiffness"
-            idle = positive(entry.value(name)) and absent(context, entry, direction)
+            idle = positive(entry.value(name)) and absent(entry, direction)
             if idle and not friction_replaced(context, entry):
                 message = f"the {direction} friction stiffness is unused: the coefficient is 0; give one, or remove it"
                 yield Problem(SBD014, message, where=entry.place(name))
@@ -131,7 +131,7 @@ def _of_load_cases(context: LintContext) -> Iterator[Problem]:
         return
     entries = list(given(context))
     for direction in DIRECTIONS if entries else ():
-        if not all(absent(context, entry, direction) for entry in entries):
+        if not all(absent(entry, direction) for entry in entries):
             continue
         for where, block in blocks:
             stiffness = getattr(block, direction, None)
@@ -162,7 +162,7 @@ def extent_without_stiffness(context: LintContext) -> Iterator[Problem]:
     Finds: 6:15
     """
     for entry in context.once(_resisting):
-        if positive(entry.value("suction_extent")) and absent(context, entry, "suction_stiffness"):
+        if positive(entry.value("suction_extent")) and absent(entry, "suction_stiffness"):
             message = "a suction zone without suction stiffness has no effect: give the stiffness, or remove the extent"
             yield Problem(SBD015, message, where=entry.place("suction_extent"))
 
@@ -217,7 +217,7 @@ def one_friction_coefficient(context: LintContext) -> Iterator[Problem]:
     """
     for entry in context.once(_resisting):
         longitudinal = entry.value("longitudinal")
-        single = positive(longitudinal) and entry.value("transverse") is None and absent(context, entry, "transverse")
+        single = positive(longitudinal) and entry.value("transverse") is None and absent(entry, "transverse")
         sprung = entry.type_ != "RIGID" and positive(entry.value("lateral"))
         if single and not sprung and not friction_replaced(context, entry):
             source = "0" if entry.legacy else "0 (inferred)"
@@ -344,15 +344,10 @@ def positive(value: float | None) -> bool:
     return value is not None and value > 0.0
 
 
-def absent(context: LintContext, entry: Given, name: str) -> bool:
-    """Whether the deck gives no value, or zero; False for a line that could not be read whole."""
+def absent(entry: Given, name: str) -> bool:
+    """Whether the deck gives no value, or zero."""
     value = entry.value(name)
-    place = entry.place(name)
-    line = place._replace(path=place.path[:-1])
-    resolving = context.scene.context
-    return value == 0.0 or (
-        value is None and not resolving.has_read_errors(line) and not resolving.has_read_errors(entry.where)
-    )
+    return value is None or value == 0.0
 
 
 def friction_replaced(context: LintContext, entry: Given) -> bool:

@@ -63,8 +63,8 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
         return
     if reading.restart or any(map(is_superseded, reading.misplaced_keywords)) or reading.misplaced("SEABED PROPERTIES"):
         return
-    if any(map(is_superseded, reading.unread)) or "SEABED CONTACT" in context.keywords:
-        return  # a law that was not read may hold
+    if "SEABED CONTACT" in context.keywords:
+        return  # it may hold the pipe
     if context.problems_of(SBD004):
         return  # that there is no stiffness is reported there
     yield from _zeros(scene)
@@ -153,8 +153,7 @@ def _blocks(scene: Scene, elements: Indices) -> Iterator[Problem]:
     found = np.unique(scene.laws.covered[elements], return_index=True, return_counts=True)
     for index, first, count in zip(*(part.tolist() for part in found), strict=True):
         where = grants[index].where
-        hidden = grants[index].unknown or scene.context.has_unread_line_after(where, "SEABED PROPERTIES")
-        if legacy_open or last_open > index or hidden:
+        if legacy_open or last_open > index or grants[index].unknown or max(scene.laws.gaps, default=Where()) >= where:
             continue
         which = f"{first_of('element', scene.element_ids[elements[first]], count)} get{'s' * (count == 1)}"
         message = (
@@ -168,8 +167,7 @@ def _lying(context: LintContext, elements: Indices) -> Iterator[Problem]:
     if not elements.size:
         return
     scene = context.scene
-    uncertain = scene.laws.uncertain or "SEABED PROPERTIES" in scene.context.unread
-    if uncertain or scene.seabed.kind is not SeabedKind.FLAT or context.in_soil:
+    if scene.laws.uncertain or scene.may_have_more_laws or scene.seabed.kind is not SeabedKind.FLAT or context.in_soil:
         return
     seabed = bool(scene.laws.types or scene.laws.set_laws)
     lies = np.greater_equal if seabed else np.greater

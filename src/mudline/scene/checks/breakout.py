@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.diagnostics import Code, Problem, Severity, Where
+from mudline.keywords.unknown import is_partly_unknown
 from mudline.scene.checks import check
 from mudline.scene.checks.laws import lacks_diameter
 from mudline.scene.deck_values import number
@@ -62,7 +63,7 @@ def bad_breakout(scene: ResolvedDeck) -> Iterator[Problem]:
                     )
                     yield Problem(EXT013, message, None, Severity.WARNING, where.inside(name))
             continue
-        yield from () if scene.context.has_read_errors(where) else _of_block(given, where)
+        yield from () if is_partly_unknown(given) else _of_block(given, where)
         if given.criterion == "ELLIPSE":
             yield Problem(
                 EXT013,

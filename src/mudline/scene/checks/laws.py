@@ -34,6 +34,12 @@ SBD005 = Code("SBD005", "embedment-needs-elastic", Severity.ERROR)
 SBD009 = Code("SBD009", "missing-diameter", Severity.ERROR)
 
 
+def extends_rigid(scene: ResolvedDeck) -> bool:
+    """Whether EXT001 says that the seabed is rigid: what is wrong with laws that have no effect then is not told."""
+    extension = any(True for _ in scene.deck.blocks_that(lambda declared: declared.facts.extension))
+    return extension and "RIGID" in scene.laws.types and "ELASTIC" not in scene.laws.types
+
+
 @check(SBD001)
 def rigid_with_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     """A rigid seabed has a force-embedment curve, or a value that only an elastic one has.
@@ -56,7 +62,7 @@ def rigid_with_curve(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 9:12
     """
-    blocks = typed_blocks(scene.context) if "RIGID" in scene.laws.types else ()
+    blocks = typed_blocks(scene.context) if "RIGID" in scene.laws.types and not extends_rigid(scene) else ()
     for where, properties, type_ in blocks:
         for index, entry in enumerate(properties.sets if type_ == "RIGID" else ()):
             place = where.inside("sets", index)
@@ -125,19 +131,19 @@ def missing_type(scene: ResolvedDeck) -> Iterator[Problem]:
     """
     reading, reported = scene.context, False
     for where, properties, type_ in typed_blocks(reading):
-        if type_ is None and not reported and not reading.has_read_errors(where):
+        if type_ is None and not reported:
             reported = True
             message = "the type is missing: write TYPE=RIGID or TYPE=ELASTIC as the first line"
             yield Problem(SBD003, message, where=where)
         for index, entry in enumerate(properties.sets[:1]):
-            yield from _without_set(scene, entry.set_name, where.inside("sets", index), "lines")
+            yield from _without_set(entry.set_name, where.inside("sets", index), "lines")
     for where, block in scene.deck.blocks("EMBEDMENT"):
         for index, curve in enumerate(cast("Embedment", block).curves[:1]):
-            yield from _without_set(scene, curve.set_name, where.inside("curves", index), "points")
+            yield from _without_set(curve.set_name, where.inside("curves", index), "points")
 
 
-def _without_set(scene: ResolvedDeck, name: str | None, where: Where, what: str) -> Iterator[Problem]:
-    if name is None and not scene.context.lacks_value(where, "set"):
+def _without_set(name: str | None, where: Where, what: str) -> Iterator[Problem]:
+    if name is None:
         message = f"{what} before any SET= are read as those of SET=ALL (inferred): write SET= before them"
         yield Problem(SBD003, message, None, Severity.WARNING, where)
 
@@ -166,7 +172,7 @@ def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
     for where, block in scene.deck.blocks("ELASTIC SURFACE"):
         properties = cast("ElasticSurface", block).properties
         lacking = getattr(properties, "stiffness", None) is None
-        if lacking and not embedment and not reading.has_read_errors(where.inside("properties")):
+        if lacking and not embedment:
             message = "no stiffness here and no *EMBEDMENT in the model: nothing carries the elements; give a stiffness"
             yield reading.missing(SBD004, message, where, "EMBEDMENT")
 

@@ -211,7 +211,7 @@ def _faulty_planes(scene: ResolvedDeck) -> Iterator[Problem]:
         for index, plane in enumerate(cast("SeabedPlanes", block).planes):
             place = where.inside("planes", index)
             lacking = [key for key in ("POINT", "SLOPE") if getattr(plane, key.lower()) is None]
-            if lacking and not scene.context.has_read_errors(place):
+            if lacking:
                 names = " and ".join(f"{key}=" for key in lacking)
                 yield Problem(EXT007, f"this plane lacks {names}: write it", where=place)
             slope = number(plane, "slope")

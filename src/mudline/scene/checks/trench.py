@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
+from mudline.keywords.unknown import is_partly_unknown
 from mudline.scene.checks import check
+from mudline.scene.checks.laws import extends_rigid
 from mudline.scene.deck_values import number
 from mudline.scene.numbering import Floats, Mask, marked
 
@@ -56,11 +58,11 @@ def bad_trench(scene: ResolvedDeck) -> Iterator[Problem]:
     Finds: 9:2
     """
     extension = scene.extensions.get(_KEYWORD)
-    if extension is None:
+    if extension is None or extends_rigid(scene):
         return
     bare, locked = _without_spring(scene)
     for index, (entry, where) in enumerate(zip(_entries(scene), extension.places, strict=True)):
-        yield from _of_block(scene, entry, where)
+        yield from _of_block(entry, where)
         held = extension.of_element == index
         if np.any(found := held & bare):
             message = f"{scene.describe(found)} a trench and no lateral friction spring: give *SEABED FRICTION for them"
@@ -80,15 +82,14 @@ def _entries(scene: ResolvedDeck) -> list[TrenchSet]:
     return cast("list[TrenchSet]", scene.extensions[_KEYWORD].entries)
 
 
-def _of_block(scene: ResolvedDeck, entry: TrenchSet, where: Where) -> Iterator[Problem]:
+def _of_block(entry: TrenchSet, where: Where) -> Iterator[Problem]:
     """What a block says by itself: its resistance, its section, its centreline."""
     if entry.model == "WALL" and entry.peak is not None:
         message = "PEAK= has no effect under MODEL=WALL: remove it, or write MODEL=PEAK"
         yield Problem(EXT003, message, None, Severity.WARNING, where.inside("peak"))
-    if not scene.context.has_read_errors(where):
-        found = [*_resistance_faults(entry)] if entry.model != "WALL" else []
-        for path, message in found or _excess_faults(entry):
-            yield Problem(EXT003, message, where=where.inside(*path))
+    found = [*_resistance_faults(entry)] if entry.model != "WALL" else []
+    for path, message in found or (() if is_partly_unknown(entry) else _excess_faults(entry)):
+        yield Problem(EXT003, message, where=where.inside(*path))
     depth, bottom, upper = (number(entry.geometry, name) for name in _SIZES)
     if depth <= 0.0 or bottom <= 0.0 or upper <= 0.0 or upper <= bottom:
         message = "invalid trench geometry: depth and bottom width must be above 0, the upper width larger"
@@ -162,7 +163,7 @@ def _unread(scene: ResolvedDeck) -> bool:
     if friction is not None and None in friction.sets and not scene.context.possible_definition("ELEMENT SETS"):
         return True
     places = [*scene.resistance.places, *(friction.places if friction else ())]
-    return any(scene.context.has_read_errors(place) for place in places)
+    return any(is_partly_unknown(scene.context.as_written(place)) for place in places)
 
 
 def _uncertain(scene: ResolvedDeck) -> bool:
