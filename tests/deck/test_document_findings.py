@@ -257,7 +257,7 @@ ONE_SHAPE: list[tuple[Document, list[str]]] = [
     ({"nodes": [[1, -0.004]]}, ["nodes[0]: 2 fields, expected 3 to 4"]),
     ({"nodes": [[1, 0.0, 0.0]], "colour": "red"}, ["colour: unknown key"]),
     ({"generate": [1, 2, 3, 4]}, ["generate: 4 values, expected start, end [, increment]"]),
-    ({"nodez": []}, ["generate: is missing", "nodes: is missing", "nodez: unknown key"]),
+    ({"nodez": []}, ["nodez: unknown key (did you mean nodes?)"]),
 ]
 
 

@@ -11,6 +11,8 @@ import pytest
 
 from mudline.deck.loading import load_bytes
 from mudline.keywords.library.seabed_properties import SeabedProperties
+from mudline.keywords.library.seabed_stiffness import SeabedStiffness
+from mudline.keywords.table import Table
 from mudline.keywords.unknown import UNKNOWN, UNKNOWN_NAME, is_partly_unknown, is_unknown, known_name
 from tests.linting.findings import found
 
@@ -70,6 +72,21 @@ def test_one_value_of_a_row_hides_no_other() -> None:
     assert row is not None
     assert (row.longitudinal, row.longitudinal_mobilisation) == (0.3, 0.01)
     assert row.transverse is UNKNOWN
+
+
+def test_a_field_of_a_table_is_unknown_where_it_has_no_word() -> None:
+    def table(rows: str) -> Table:
+        block = load_bytes(f"{HEAD}*SEABED STIFFNESS\n CURVE=a\n{rows}".encode(), "deck.keyxm").sections[0].blocks[0]
+        return cast("SeabedStiffness", block).curves[0].points
+
+    assert not table(" 0, 0\n 1, =[5*2]\n").unknown
+    assert table(" 0, 0\n 1, 5x\n").unknown
+    assert table(" 0, 0\n#\n").unknown
+
+
+def test_a_trench_with_a_row_that_cannot_be_read_is_checked() -> None:
+    lines = "*SEABED TRENCH\n SET=ALL\n GEOMETRY=0.4, 0.8, 2.0\n PEAK=950.0\n#\n"
+    assert {code for code, _, _ in found(HEAD + lines)} >= {"SYN003"}
 
 
 def test_what_can_be_said_is_said_beside_a_row_that_cannot_be_read() -> None:

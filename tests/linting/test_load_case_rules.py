@@ -151,3 +151,9 @@ def test_cables() -> None:
     assert found(cable.format(49.9, 10.0), "GEO011", "GEO012") == [("GEO011", 6, 11)]
     assert found(cable.format(60.0, 60.1), "GEO011", "GEO012") == [("GEO012", 8, 8)]
     assert found(cable.replace("1, 1, 2, {}", "1, 1, 9, {}").format(4.0, 1.0), "GEO011") == []
+
+
+def test_operators_of_which_a_line_cannot_be_read_are_compared_without_it() -> None:
+    lines = "=[a\n 0.0, 0.10, 0.9, 10.0, 0.4, 90.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.1, -80.0\n"
+    text = f"$LOAD CASE\n*RAO\n VESSEL=FPSO\n LAYOUT=LINE\n{lines}"
+    assert "DAT002" not in {code for code, _, _ in found(text)}

@@ -217,10 +217,19 @@ def test_numbers_that_fit_another_keyword_of_the_deck_are_not_taken_for_its_line
     assert not any("seems to be missing" in one.message for one in found(text))
 
 
-def test_a_row_that_stays_wrong_is_no_cause() -> None:
-    codes = [one.code for one in found(changed((" 0.5, 20000.0\n", " 0,5, 20000,5\n")))]
-    assert "SYN015" in codes
-    assert "SYN003" in codes
+def test_a_warning_is_an_error_where_the_deck_as_written_is_illegal() -> None:
+    row = " 1.0E8, 1.0E8, 8.0E7, 3.5E9, 130.0, 0.0, 0.2889, 0.3239, 0.3239, 0.3239\n"
+    text = changed((" SET=ALL\n" + row, " OPTION=RIGID\n SET=ALL\n 207.0E9, 79.6E9, 0,3239, 0.2889, 7850.0\n"))
+    assert not load_bytes(text.encode(), "deck.keyxm").errors()
+    (one,) = found(text)
+    assert (one.code, one.severity, one.blocks) == ("SYN015", Severity.ERROR, True)
+
+
+def test_decimal_commas_of_a_row_with_too_many_fields_are_an_error() -> None:
+    (one,) = found(changed((" 0.5, 20000.0\n", " 0,5, 20000,5\n")))
+    assert (one.code, one.severity) == ("SYN015", Severity.ERROR)
+    assert one.fix is not None
+    assert [edit.text for edit in one.fix.edits] == ["0.5, 20000.5"]
 
 
 def test_the_severity_of_the_configuration_holds_for_the_cause() -> None:
@@ -309,3 +318,26 @@ def test_what_follows_is_in_no_output(form: str) -> None:
     written = "".join(form_module(form).write(found(text), LintRun(["deck.keyxm"], "1.0")))
     assert "SYN009" in written
     assert "REF006" not in written
+
+
+@pytest.mark.parametrize(
+    "above",
+    [
+        "*MOMENT-CURVATURE\n CURVE=Bend\n 0.0, 0.0\n 0.01, 5000.0\n",
+        "*LINES\n LINE=abc\n 1.0, 2.0\n",
+    ],
+)
+def test_curves_that_the_block_above_can_have_are_those_that_the_deck_lacks(above: str) -> None:
+    text = changed(("*SEABED STIFFNESS\n", above))
+    errors = [one for one in found(text) if one.severity is Severity.ERROR]
+    line = text[: text.index(" CURVE=Clay")].count("\n") + 1
+    assert [(one.line, one.code) for one in errors] == [(line, "SYN001")]
+    assert "*SEABED STIFFNESS" in errors[0].message
+
+
+def test_a_curve_that_its_own_kind_uses_stays_where_it_is() -> None:
+    text = changed(
+        ("*SEABED STIFFNESS\n", "*MOMENT-CURVATURE\n"),
+        (" SET=ALL\n 1.0E8, 1.0E8,", " SET=ALL, EIYY=Clay, EIZZ=Sand\n , ,"),
+    )
+    assert {"REF002"} <= {one.code for one in found(text)}

@@ -84,7 +84,7 @@ def test_a_nodal_law_leaves_rigid_elements_alone() -> None:
     rigid = "*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n"
     scene = scene_of(line_deck(METRIC, rigid + NODAL))
     assert scene.law_names == ["rigid"] * 10
-    assert refusal(rigid + NODAL).startswith("4: EXT001 *SEABED CONTACT needs an elastic seabed, and the seabed is rig")
+    assert refusal(rigid + NODAL).startswith("2: EXT001 *SEABED CONTACT needs an elastic seabed, and the seabed is rig")
 
 
 # smoothing
@@ -164,7 +164,7 @@ def test_suction_of_cohesion_and_of_explicit_laws() -> None:
     assert (own["force_factor"][0], own["force_exponent"][0], own["depth_exponent"][0]) == (70.0, 0.2, 0.26)
     assert (own["first_corner"][0], own["second_corner"][0], own["regularisation"][0]) == (0.2, 0.8, 0.01)
     rigid = "*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n*SEABED SUCTION\n SET=ALL\n COHESION=5\n"
-    assert refusal(rigid).startswith("4: EXT001 *SEABED SUCTION needs an elastic seabed")
+    assert refusal(rigid).startswith("2: EXT001 *SEABED SUCTION needs an elastic seabed")
 
 
 def test_user_units_have_no_defaults_of_suction() -> None:

@@ -56,3 +56,14 @@ def as_range(indices: IndexArray) -> Picked:
     if last - first + 1 == len(indices) and (np.diff(indices) == 1).all():
         return slice(first, last + 1)
     return indices
+
+
+def zero_outside(inside: BoolArray, *values: FloatArray) -> None:
+    """Set values to 0 but for those inside, whatever they are."""
+    if inside.all():
+        return
+    mask = inside.astype(np.int64)
+    np.negative(mask, out=mask)
+    for array in values:
+        bits = array.view(np.int64)
+        np.bitwise_and(bits, mask, out=bits)

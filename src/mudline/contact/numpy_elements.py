@@ -8,7 +8,18 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from mudline.contact import vectors
-from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, Picked, StateArray, add_at, as_range, taken
+from mudline.contact.arrays import (
+    BoolArray,
+    FloatArray,
+    IndexArray,
+    Picked,
+    StateArray,
+    add_at,
+    as_range,
+    taken,
+    zero_outside,
+)
+from mudline.contact.directions import mean_normal
 from mudline.contact.laws import PathLaw
 from mudline.contact.result import ContactResult
 from mudline.contact.tables import ContactState, ElementRows, NormalRows, Tables, rows_within
@@ -35,12 +46,14 @@ class Work(NamedTuple):
         tangent: (c, steps, m + 2) components of the unit direction of each element, those in the plane of a horizontal
             seabed alone.
         lateral: the same of the lateral force on each of its nodes.
+        ratio: z/D of each element; none where no node asks for it.
     """
 
     planes: FloatArray
     load: FloatArray
     tangent: FloatArray
     lateral: FloatArray
+    ratio: FloatArray
 
 
 class _Group(NamedTuple):
@@ -89,6 +102,7 @@ class Elements:
         bare = np.setdiff1d(np.arange(end - begin), np.concatenate(held))
         self._order, self._bare = np.concatenate([*held, bare]), len(bare)
         self._back = np.argsort(self._order) if (np.diff(self._order) != 1).any() else None
+        self._damping = None if tables.damping is None else tables.damping[None, here]
         self._unloading = self._subset(tables.unloading)
         self._steeper = [] if self._unloading is None else self._may_steepen(self._unloading)
         self._springs, self._suction = self._subset(tables.springs), self._subset(tables.suction)
@@ -134,9 +148,16 @@ class Elements:
             values[1][:, self._unsized] = np.nan
         if self._springs is not None:
             self._apply_springs(self._springs, depth, values)
+        if self._damping is not None and batch.speed is not None:
+            from mudline.contact.laws.damping import damping_force  # noqa: PLC0415 - only now is it needed
+
+            first, second = self._tables.line.at(batch.speed, self.begin, self.end)
+            values[0][...] += damping_force(depth, 0.5 * first + 0.5 * second, self._damping)
         if self._suction is not None and batch.speed is not None and state.suction is not None:
             self._apply_suction(self._suction, batch.speed, (depth, contact, trench), values, part, state.suction)
         np.multiply(values[0], self._half, out=work.load[:, self._inner])
+        if len(work.ratio):
+            work.ratio[:, self._inner] = part.ratio[:, self._here]
         if not len(work.tangent):
             return
         along = self._write_directions(work)
@@ -170,7 +191,7 @@ class Elements:
         """
         if self._back is None and len(self._groups) == 1 and not self._bare:
             self._apply_normal_law(self._groups[0], depth, ratio, touches, values, part, paths)
-            _zero_outside(touches, *values)
+            zero_outside(touches, *values)
             return
         z, on = depth.take(self._order, axis=1), touches.take(self._order, axis=1)
         found, start = np.empty((3, *depth.shape)), 0
@@ -180,7 +201,7 @@ class Elements:
             self._apply_normal_law(group, z[:, some], None, on[:, some], ours, part, paths)
             start = some.stop
         found[..., start:] = 0.0
-        _zero_outside(on, found)
+        zero_outside(on, found)
         for target, source in zip(values, found, strict=True):
             if self._back is None:
                 target[...] = source
@@ -219,7 +240,7 @@ class Elements:
         if self._tables.cuts and group.rows.curve >= 0:
             pulls = touches & (force < 0.0)
             if pulls.any():
-                _zero_outside(~pulls, *values)
+                zero_outside(~pulls, *values)
                 part.cut[:, self.begin + group.at] = pulls
 
     def _apply_unloading(
@@ -411,7 +432,7 @@ class Elements:
         from mudline.contact.laws.linear import lateral_force  # noqa: PLC0415 - only now is it needed
 
         plane = vectors.PLANES[len(along)]
-        normal = self._mean_normal(some, part)
+        normal = mean_normal(self._tables, np.arange(self.begin, self.end)[some.at], part.normal)
         across = plane.across(in_plane(tuple(taken(axis, some.at) for axis in along), normal), normal)
         touches = taken(contact, some.at)
         one, other = self._ends(work)
@@ -427,24 +448,3 @@ class Elements:
         force = np.where(touches, force, 0.0)
         for target, axis in zip(work.lateral, across, strict=True):
             target[:, self._inner][:, some.at] = axis * force
-
-    def _mean_normal(self, some: _Subset, part: ContactResult) -> tuple[FloatArray, ...]:
-        """Components of the mean of the unit normals at both ends of elements."""
-        if part.normal.strides[1] == 0:  # one for all nodes
-            return tuple(part.normal[:1, :1, axis] for axis in range(3))
-        line, elements = self._tables.line, np.arange(self.begin, self.end)[some.at]
-        one, other = (part.normal[:, side[elements]] for side in (line.first, line.second))
-        total = tuple(one[..., axis] + other[..., axis] for axis in range(3))
-        size = np.sqrt(vectors.dot_3(total, total))
-        return tuple(axis / size for axis in total)
-
-
-def _zero_outside(inside: BoolArray, *values: FloatArray) -> None:
-    """Set values to 0 but for those inside, whatever they are."""
-    if inside.all():
-        return
-    mask = inside.astype(np.int64)
-    np.negative(mask, out=mask)
-    for array in values:
-        bits = array.view(np.int64)
-        np.bitwise_and(bits, mask, out=bits)

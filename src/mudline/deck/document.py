@@ -13,12 +13,14 @@ from mudline.deck import MARK
 from mudline.deck.faults import DocumentPath, Faults, Locate, document_path, refusal, shown
 from mudline.deck.model import START, Deck, Opaque, Origin, Range, Section
 from mudline.deck.reading import Findings
+from mudline.deck.respelling import respelt
 from mudline.diagnostics import Problem, Severity, Where
 from mudline.keywords import catalogue
 from mudline.keywords.keeping import is_read
 from mudline.keywords.model import Block, Comment
 from mudline.keywords.reader import read_block
 from mudline.keywords.table import AS_TABLES
+from mudline.keywords.text import hint
 from mudline.keywords.values import Text
 from mudline.keywords.writer import block_lines
 from mudline.quantities import UNIT_SYSTEMS
@@ -127,6 +129,7 @@ class _Reader:
             self.faults.add(("sections",), "expected a list of sections")
         self.faults.raise_any()
         normalise_comments(deck)
+        self.faults.raise_respelt(deck)
         return deck
 
     def _format(self) -> dict[str, Any]:
@@ -245,13 +248,22 @@ class _Reader:
         declared = None if "lines" in given else catalogue.block_class(section, given["keyword"])
         if declared is None and "lines" not in given:
             message = f"*{given['keyword']} in ${section} has no model: expected its raw lines under `lines`"
-            self.faults.add(path, message)
-            return None
+            meant = catalogue.meant_in(given["keyword"], section)
+            declared = catalogue.block_class(section, meant) if meant else None
+            if declared is None:
+                self.faults.add(path, message)
+                return None
+            self.faults.respell((*path, "keyword"), f"{message}{hint(meant)}")
+            given = {**given, "keyword": meant}
         try:
             if declared:
                 return declared.model_validate(given)
             block = Opaque.model_validate(given)
         except ValidationError as error:
+            if declared and (found := respelt(given, declared, error)):
+                for inner, message in found.faults:
+                    self.faults.respell((*path, *inner), message)
+                return found.block
             self.faults.extend(path, error)
             return None
         block.keyword = canonical_name("*" + block.keyword)

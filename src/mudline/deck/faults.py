@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, NoReturn
 
 from pydantic import ValidationError
@@ -93,6 +93,17 @@ class _Numbered(Origin):
         return self.places[problem.span.start] if problem.span else START
 
 
+class MisspeltDeckError(DeckError):
+    """A document in which only names are misspelt; `meant` is the deck with those that were meant."""
+
+    def __init__(self, diagnostics: Sequence[Diagnostic], meant: Deck) -> None:
+        super().__init__(diagnostics)
+        self.meant = meant
+
+    def __reduce__(self) -> tuple[type[DeckError], tuple[tuple[Diagnostic, ...]]]:
+        return DeckError, (self.diagnostics,)
+
+
 class Faults:
     """Collects the faults of a document; when there are too many, it is refused at once."""
 
@@ -101,6 +112,7 @@ class Faults:
         self.locate = locate
         self.document = document
         self.found: list[tuple[Range, str]] = []
+        self.respelt = 0
 
     def add(self, path: DocumentPath, message: str) -> None:
         """One fault; raises DeckError when it is one too many."""
@@ -125,15 +137,28 @@ class Faults:
             if inner not in around or inner == deepest:
                 self.add(inner, _message(faults))
 
+    def respell(self, path: DocumentPath, message: str) -> None:
+        """A fault of spelling, in spite of which the rest is read as it was meant."""
+        self.respelt += 1
+        self.add(path, message)
+
     def raise_any(self) -> None:
-        """DeckError when there were any."""
-        if self.found:
+        """DeckError when there were any, unless all are of spelling."""
+        if len(self.found) > self.respelt:
             self._refuse()
 
+    def raise_respelt(self, meant: Deck) -> None:
+        """MisspeltDeckError when there were faults of spelling; `meant` is the deck without them."""
+        if self.found:
+            raise MisspeltDeckError(self._diagnosed(), meant)
+
     def _refuse(self) -> NoReturn:
+        raise DeckError(self._diagnosed())
+
+    def _diagnosed(self) -> list[Diagnostic]:
         places = [place for place, _ in self.found]
         problems = [Problem(DOC002, message, Span(number, number)) for number, (_, message) in enumerate(self.found)]
-        raise DeckError(Deck(self.file, origin=_Numbered(places)).diagnose(problems))
+        return Deck(self.file, origin=_Numbered(places)).diagnose(problems)
 
     def _alternatives(self, loc: DocumentPath, given: int, kind: str) -> set[int]:
         """Which steps of a path, behind the given ones, are names of alternatives that pydantic puts in."""

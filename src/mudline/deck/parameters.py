@@ -18,7 +18,7 @@ from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.keywords.model import FieldSpec, ListRow, Part, columns_of, record_schema
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown, suggestion
-from mudline.keywords.unknown import UNKNOWN
+from mudline.keywords.unknown import UNKNOWN, is_unknown
 from mudline.keywords.values import Equation, Kind
 from mudline.spelling import Effort
 from mudline.syntax.rows import read_number
@@ -133,9 +133,8 @@ class Parameters:
         return self._value(expression, where)
 
     def _define(self, parameter: Parameter, where: Where) -> None:
-        value = cast("Value | None", parameter.value)
-        name = cast("str | None", parameter.name)
-        if name is None or value is None:
+        name, value = parameter.name, parameter.value
+        if is_unknown(name) or is_unknown(value):
             return
         if isinstance(value, str) and value.startswith("/"):
             self._define_list(name, value, where)

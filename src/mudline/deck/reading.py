@@ -10,7 +10,7 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING, cast
 
 from mudline.codes.fields import SYN002, SYN006
-from mudline.codes.lines import SYN007, SYN008, SYN009, SYN010, SYN011, SYN014
+from mudline.codes.lines import SYN007, SYN008, SYN009, SYN010, SYN011, SYN012, SYN014
 from mudline.deck.model import START, Deck, Opaque, Origin, Range, Section
 from mudline.deck.parameters import Parameters
 from mudline.diagnostics import MORE, Code, Problem, Severity, Span, Where
@@ -225,6 +225,7 @@ class _Reader:
         for index, raw in enumerate(self.tree.sections):
             self._section(index, raw)
         self._truncated()
+        self._with_control_characters()
         self.deck.problems = self.problems
         self.deck.units = units or units_of(self.deck)
         return self.deck
@@ -340,6 +341,16 @@ class _Reader:
             if unclosed or piece[-1:] in "+-.eEdD" or piece in ("=", "=["):
                 message = f"the file ends inside {piece!r}: it seems to be cut off, add what is missing"
                 self.problems[index] = replace(problem, code=SYN014, message=message)
+
+    def _with_control_characters(self) -> None:
+        """A control character in a value that cannot be read is why: it is said there."""
+        for control in [one for one in self.problems if one.code is SYN012 and one.span]:
+            for index, problem in enumerate(self.problems):
+                span = problem.span
+                if problem.code is SYN002 and span and control.span and span.start <= control.span.start < span.end:
+                    self.problems[index] = replace(problem, message=f"{problem.message}; {control.message}")
+                    self.problems.remove(control)
+                    break
 
 
 _SUFFIXES = {".keyxm": "metric", ".keyxi": "imperial"}

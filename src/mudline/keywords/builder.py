@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from itertools import chain, zip_longest
 from typing import Any
 
 from mudline.codes.fields import SYN003
@@ -25,7 +24,7 @@ from mudline.keywords.text import (
     mixed_commas,
     read_value,
 )
-from mudline.keywords.unknown import UNKNOWN, UNKNOWN_NAME, Partly, is_unknown
+from mudline.keywords.unknown import UNKNOWN, Partly
 from mudline.keywords.values import Kind, Names
 from mudline.spelling import nearest
 from mudline.syntax.fields import Field, Group, read_line, split, trimmed
@@ -210,10 +209,9 @@ class Builder:
         while len(fields) > 1 and not fields[-1].text:
             fields.pop()
         if len(fields) > 1:
-            if problem := decimal_comma(fields, [slot.kind], 1):
-                self.problems.append(problem)
             message = f"{slot.label} takes one value, found {len(fields)}"
-            self.report(SYN003, message, Span(fields[0].span.start, fields[-1].span.end))
+            place = Span(fields[0].span.start, fields[-1].span.end)
+            self.problems.append(decimal_comma(fields, [slot.kind], 1) or Problem(SYN003, message, place))
         if not fields[0].text:
             built.values[slot.json] = UNKNOWN
             self.report(SYN003, f"{slot.label} has no value{_value_of(slot)}", group.span)
@@ -313,6 +311,7 @@ class Builder:
     def _fields(self, columns: Sequence[FieldSpec], fields: list[Field], path: Path) -> dict[str, Value]:
         before = len(self.problems)
         fields = self._counted(columns, fields, path)
+        # Of a wrong count any value may be that of another column, but for the number or name that begins the row.
         wrong = any(one.weight is Severity.ERROR for one in self.problems[before:])
         miscounted = wrong or bool(self.unclosed)
         values: dict[str, Value] = dict.fromkeys((slot.json for slot in columns), UNKNOWN) if miscounted else {}
@@ -324,10 +323,12 @@ class Builder:
                 values[slot.json] = UNKNOWN if slot.required else None
                 continue
             try:
-                values[slot.json] = read_value(given, slot, self.problems)
+                value = read_value(given, slot, self.problems)
             except UnreadableError as fault:
                 self._unreadable(fault.problem)
-                values[slot.json] = UNKNOWN
+                value = UNKNOWN
+            if not wrong or (slot is columns[0] and (slot.is_text or slot.kind is Kind.IDENT)):
+                values[slot.json] = value
         return values
 
     def _counted(self, columns: Sequence[FieldSpec], fields: list[Field], path: Path) -> list[Field]:
@@ -346,6 +347,7 @@ class Builder:
             return fields[: len(columns)]
         if problem := decimal_comma(fields, [slot.kind for slot in columns], fewest):
             self.problems.append(problem)
+            return fields[: len(columns)]
         wanted = row_format([slot.label for slot in columns], required)
         count = f"{fewest}" if fewest == len(columns) else f"{fewest} to {len(columns)}"
         message = f"{count} fields expected (`{wanted}`), found {len(fields)}"
@@ -394,59 +396,3 @@ def _alone(slot: FieldSpec, fields: list[Field]) -> bool:
     if not (slot.choices or slot.kind) or any(given.text for given in fields[1:]):
         return False
     return not blank_separated(fields[0].text)
-
-
-def lose(built: ParsedRecord, position: int) -> None:
-    """Take note that a line of a record, or of one inside it, could not be used."""
-    built.unsure = True
-    inner = sorted(chain.from_iterable(built.children.values()), key=lambda child: child.first)
-    for child, following in zip_longest(inner, inner[1:]):
-        if position < child.first:  # the line may be that of its name
-            for slot in record_schema(child.part).slots[:1]:
-                if slot.key:
-                    child.values.setdefault(slot.json, UNKNOWN)
-        elif following is None or position < following.first:
-            lose(child, position)
-
-
-def construct(built: ParsedRecord) -> Part:
-    """A model without validation, for a block in which something could not be read.
-
-    What is missing is None; it is unknown where it must not be missing, or a line that could not be used may have it.
-    """
-    ready: dict[str, Any] = {}
-    for slot in record_schema(built.part).slots:
-        given = _known(slot, built.values.get(slot.json))
-        if slot.record:
-            inner = [construct(child) for child in built.children.get(slot.json, [])]
-            ready[slot.name] = Partly(inner) if built.unsure else inner
-        elif slot.json not in built.values:
-            unknown = slot.required or (built.unsure and slot is not record_schema(built.part).table)
-            ready[slot.name] = _known(slot, UNKNOWN) if unknown else None
-        elif slot.row and isinstance(given, list):
-            columns = record_schema(slot.row).columns
-            ready[slot.name] = _bare(slot.row, {c.json: v for c, v in zip(columns, given, strict=False)})
-        elif slot.row and isinstance(given, dict):
-            ready[slot.name] = _bare(slot.row, given)
-        else:
-            ready[slot.name] = given
-    ready["comments"] = []
-    if "keyword" in built.values:
-        ready["keyword"] = built.values["keyword"]
-    return built.part.model_construct(_given(ready), **ready)
-
-
-def _bare(row: type[Part], values: dict[str, Value]) -> Part:
-    """A row as it was read."""
-    ready = {slot.name: _known(slot, values.get(slot.json)) for slot in record_schema(row).columns}
-    return row.model_construct(None if issubclass(row, ListRow) else _given(ready), **ready)
-
-
-def _given(fields: dict[str, Any]) -> set[str]:
-    """The names of the fields that are known: what is not is not written."""
-    return {name for name, value in fields.items() if not is_unknown(value)}
-
-
-def _known(slot: FieldSpec, value: object) -> Any:
-    """A value of a field, or what stands for one that could not be read."""
-    return UNKNOWN_NAME if value is UNKNOWN and slot.is_text else value

@@ -181,6 +181,13 @@ def is_superseded(keyword: str) -> bool:
     return _of_seabed(keyword) and bool(facts_of(keyword, "MODEL").superseded_by)
 
 
+def gives_laws(keyword: str) -> bool:
+    """Whether a keyword gives elements their law of the seabed, by itself or with the curves of others."""
+    facts = facts_of(keyword, "MODEL")
+    given = facts.extension or supersedes(keyword) or is_superseded(keyword)
+    return given and (is_superseded(keyword) or facts.defines != "curves")
+
+
 def supersedes(keyword: str) -> bool:
     """Whether a keyword takes the place of older ones of the seabed."""
     return _of_seabed(keyword) and facts_of(keyword, "MODEL").supersedes

@@ -13,7 +13,8 @@ from mudline.codes.lines import SYN001, SYN004, SYN013, SYN014
 from mudline.diagnostics import Problem, Severity, Span
 from mudline.keywords import grammar
 from mudline.keywords.attaching import Between, attach
-from mudline.keywords.builder import Builder, ParsedRecord, construct, lose
+from mudline.keywords.builder import Builder, ParsedRecord
+from mudline.keywords.constructing import construct, lose
 from mudline.keywords.grammar import END, ROW, Content, Mismatch
 from mudline.keywords.keeping import opened
 from mudline.keywords.kept_lines import doubtful, of_other_form

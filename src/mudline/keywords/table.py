@@ -108,6 +108,12 @@ class Table:
         """Whether any field is an equation."""
         return bool(self.words) and any(isinstance(word, Equation) for word in self.words.values())
 
+    @property
+    def unknown(self) -> bool:
+        """Whether any field could not be read."""
+        left_out = len(self.words) + int((self.values.shape[1] - self.lengths).sum())
+        return int(np.isnan(self.values).sum()) > left_out
+
     def column(self, index: int, default: float = math.nan) -> NDArray[np.float64]:
         """One column as an array (rows,); `default` where the row ends before it or the field is empty."""
         if index >= self.values.shape[1]:

@@ -162,15 +162,20 @@ def decimal_comma(values: list[Field], kinds: list[Kind | None], fewest: int) ->
         widths = [2 if kind in _REAL else 1 for kind in kinds[:length]]
         numbers = [field for field in values if field.text.lstrip("+-").isdecimal()]
         names = sum(kind is Kind.NAME for kind in kinds[:length])
-        if sum(widths) == len(values) > length and len(numbers) >= len(values) - names:
-            first = widths.index(2)
-            return _two_fields(*values[first : first + 2])
+        first = widths.index(2) if 2 in widths else len(values)
+        if sum(widths) == len(values) > length and len(numbers) >= len(values) - names and _is_tight(*values[first:]):
+            return _two_fields(values[first], values[first + 1], Severity.ERROR)
     return None
 
 
-def _two_fields(one: Field, two: Field) -> Problem:
+def _is_tight(one: Field, two: Field, *_: Field) -> bool:
+    """Whether two fields have a comma between them, and no blank."""
+    return one.span.end + 1 == two.span.start
+
+
+def _two_fields(one: Field, two: Field, severity: Severity | None = None) -> Problem:
     message = f"decimal comma? {one.text},{two.text} is two fields here: write {one.text}.{two.text}"
-    return Problem(SYN015, message, one.span._replace(end=two.span.end))
+    return Problem(SYN015, message, one.span._replace(end=two.span.end), severity)
 
 
 def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> Problem | None:
@@ -191,7 +196,7 @@ def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> 
         return None
     if any(kinds[place] not in _REAL for place in places):
         return None
-    return _two_fields(*values[pairs[0] : pairs[0] + 2])
+    return _two_fields(values[pairs[0]], values[pairs[0] + 1])
 
 
 def _is_split(values: list[Field], at: int) -> bool:
@@ -423,6 +428,7 @@ class TableBuilder:
             required = [column.required for column in self.columns]
             if problem := decimal_comma(fields, [column.kind for column in self.columns], sum(required)):
                 self.builder.problems.append(problem)
+                return
             wanted = row_format([column.label for column in self.columns], required)
             place = Span(fields[0].span.start, fields[-1].span.end)
             message = f"{fault} (`{wanted}`)"

@@ -7,6 +7,8 @@ from typing import Any, Final, Self
 
 from pydantic import BaseModel
 
+from mudline.keywords.table import Table
+
 
 class Unknown(float):
     """The value of `UNKNOWN`: a NaN, and whatever is asked of it is unknown too.
@@ -93,7 +95,7 @@ def is_unknown(value: object) -> bool:
 
 
 def is_partly_unknown(value: object) -> bool:
-    """Whether a value, an item of a list or a field of a part could not be read."""
-    if is_unknown(value) or type(value) is Partly:
+    """Whether a value, an item of a list, a field of a table or of a part could not be read."""
+    if is_unknown(value) or type(value) is Partly or (isinstance(value, Table) and value.unknown):
         return True
     return isinstance(value, BaseModel) and any(map(is_partly_unknown, value.__dict__.values()))

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mudline.deck.coverage import coverage_of
+from mudline.deck.faults import MisspeltDeckError
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import BaseProblem, Deck, Opaque
 from mudline.deck.reading import TextOrigin, units_of
@@ -73,13 +74,14 @@ def joined_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: b
     meant = _meant(context, chosen, suppress=suppress)
     found = problems_in(meant.context if meant else context, chosen)
     if meant is not None:
-        found = [*meant.causes, *meant.as_written(found)]
+        found = [*meant.as_written(found)]
+        found = [*_as_severe(context, meant.causes, found), *found]
     found = unsuppressed(context, found, chosen) if suppress else found
     if not found or context.text is None:
         return found
     from mudline.linting.joining import joined_findings  # noqa: PLC0415 - most decks are without a finding
 
-    return joined_findings(context.text, found)
+    return joined_findings(context, found)
 
 
 def _meant(context: LintContext, chosen: Sequence[Rule], *, suppress: bool) -> Recovered | None:
@@ -99,6 +101,22 @@ def _meant(context: LintContext, chosen: Sequence[Rule], *, suppress: bool) -> R
     from mudline.linting.recovery.engine import Reading, recovered  # noqa: PLC0415 - most decks do without
 
     return recovered(context, {rule.code.code for rule in chosen}, Reading(again, _read_once, reported))
+
+
+def _as_severe(context: LintContext, causes: list[Problem], others: list[Problem]) -> list[Problem]:
+    """The causes of a deck; where nothing else says that it is illegal as it is written, they do."""
+    if any(one.blocking is Blocks.ALWAYS for one in (*causes, *others)):
+        return causes
+    refused = [one.weight for one in context.scene.findings if one.blocking is Blocks.ALWAYS]
+    if not refused:
+        return causes
+    severity = {Severity.WARNING: max(refused, key=lambda each: each.rank)}
+    return [
+        one
+        if one.weight is Severity.INFO
+        else replace(one, severity=severity.get(one.weight, one.severity), blocks=Blocks.ALWAYS)
+        for one in causes
+    ]
 
 
 def may_recover(deck: Deck) -> bool:
@@ -258,6 +276,9 @@ def covered_findings(
     """What `lint_bytes` finds, and how many keywords were read."""
     try:
         deck = read_deck(data, name, units=units, folder=folder)
+    except MisspeltDeckError as error:
+        found = lint_context(LintContext(error.meant, dialect=dialect), chosen)
+        return [*error.diagnostics, *found], coverage_of(error.meant)
     except DeckError as error:
         return list(error.diagnostics), Coverage()
     return lint_context(LintContext(deck, dialect=dialect), chosen), coverage_of(deck)

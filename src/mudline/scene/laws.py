@@ -14,7 +14,7 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Where
 from mudline.keywords import catalogue
 from mudline.keywords.naming import set_slots
-from mudline.keywords.unknown import UNKNOWN, known_name
+from mudline.keywords.unknown import UNKNOWN, is_partly_unknown, known_name
 from mudline.scene.context import Context
 from mudline.scene.deck_values import number, surfaces
 from mudline.scene.force_curves import SceneCurve, set_name
@@ -60,8 +60,7 @@ class LawTable:
 
     `covered` (m,) is the last set_law of the new family that holds an element, also one without stiffness. `curves` are
     the named ones, then those of `*EMBEDMENT`; `referenced` the folded names that a STIFFNESS= gives. `types` has the
-    places that say "RIGID" or "ELASTIC". One is `partial` where a line that gives laws
-    could not be used.
+    places that say "RIGID" or "ELASTIC", and `gaps` those behind which lines may give more laws.
     """
 
     curves: list[SceneCurve]
@@ -70,14 +69,14 @@ class LawTable:
     covered: Indices = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
     referenced: set[str] = field(default_factory=set)
     types: dict[str, list[Where]] = field(default_factory=dict)
-    partial: bool = False
+    gaps: list[Where] = field(default_factory=list)
 
     __repr__ = short_repr
 
     @property
     def uncertain(self) -> bool:
-        """Whether any element may have another law: one of elements that the deck does not show, or not read whole."""
-        return self.partial or any(set_law.set_.open for set_law in self.set_laws)
+        """Whether some law belongs to elements that the deck does not show: any element may have it."""
+        return any(set_law.set_.open for set_law in self.set_laws)
 
     def followers(self, curve: int) -> Indices:
         """Indices of the elements on a curve."""
@@ -91,8 +90,9 @@ def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: lis
     Of both families, a curve holds before a number, whichever gives it; of two curves or two numbers, that of the new
     family.
     """
-    partial = any(keyword == "SEABED PROPERTIES" or catalogue.is_superseded(keyword) for keyword in context.unread)
-    laws = LawTable(curves=[*named, *by_set], partial=partial)
+    laws = LawTable(curves=[*named, *by_set])
+    if any(map(catalogue.is_superseded, context.unread)):
+        laws.gaps.append(Where(len(context.deck.sections)))
     surfaces = [*_rigid_surface(context, sets, laws), *_elastic_surface(context, sets, laws)]
     legacy = [*surfaces, *_embedment(sets, laws, len(named))]
     new = list(_properties(context, sets, laws, named))
@@ -161,6 +161,10 @@ def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneC
     for where, properties, type_ in typed_blocks(context):
         if known_name(properties.type_):
             laws.types.setdefault(str(properties.type_), []).append(where.inside("type"))
+        if not properties.sets and is_partly_unknown(properties.sets):
+            laws.gaps.append(where)
+        gaps = [where.inside("sets", index) for index, entry in enumerate(properties.sets) if _has_gap(entry)]
+        laws.gaps += gaps
         for index, entry in enumerate(properties.sets):
             place = where.inside("sets", index)
             name = set_name(entry.set_name)
@@ -178,6 +182,12 @@ def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneC
             else:
                 value = float(stiffness)
                 yield SetLaw(LawKind.LINEAR, holder, written, "new", value, unknown=not value >= 0)
+
+
+def _has_gap(entry: SeabedSet) -> bool:
+    """Whether a line below a SET= could not be used, which may be the SET= of another one."""
+    values = (entry.stiffness, entry.friction, entry.lateral, entry.suction)
+    return UNKNOWN in values and None not in values
 
 
 class ResistanceValues(NamedTuple):
@@ -312,6 +322,16 @@ class Extension:
             parts = [getattr(part, step, None) for part in parts]
         return picked((number(part, name, default) for part in parts), at)
 
+    def asking(self, name: str) -> Mask:
+        """Elements (m,) whose block gives a field, a number at least 0; all with a block where it is mandatory."""
+        flags = []
+        for entry in self.entries:
+            value = getattr(entry, name, None)
+            number_asks = value >= 0.0 if isinstance(value, float | int) else value is not None
+            flags.append(number_asks or type(entry).model_fields[name].is_required())
+        found: Mask = np.array([*flags, False])[self.of_element]
+        return found
+
 
 def read_extensions(context: Context, sets: Sets, count: int) -> dict[str, Extension]:
     """What the deck gives, by keyword in the order of the catalogue; keywords that it has not are left out."""
@@ -323,14 +343,6 @@ def _goes_by_set(declared: type[Block]) -> bool:
     return declared.facts.extension and declared.facts.later_wins
 
 
-def with_nodal_stiffness(contact: Extension) -> Mask:
-    """Elements (m,) whose block of `*SEABED CONTACT` gives their nodes a stiffness."""
-    given = (getattr(entry, "nodal_stiffness", None) for entry in contact.entries)
-    flags = [isinstance(value, float | int) and value >= 0.0 for value in given]
-    found: Mask = np.array([*flags, False])[contact.of_element]
-    return found
-
-
 def _read_extension(context: Context, sets: Sets, keyword: str, count: int) -> Extension:
     entries: list[Record] = []
     places: list[Where] = []
@@ -340,13 +352,13 @@ def _read_extension(context: Context, sets: Sets, keyword: str, count: int) -> E
             for index, entry in enumerate(getattr(block, listed.name)):
                 entries.append(entry)
                 places.append(where.inside(listed.json, index))
-                holders.append(_holder(context, sets, getattr(entry, named.name)))
+                holders.append(_holder(context, sets, keyword, getattr(entry, named.name)))
     return Extension(entries, places, holders, later_wins(holders, count))
 
 
-def _holder(context: Context, sets: Sets, name: str | None) -> NamedSet | None:
+def _holder(context: Context, sets: Sets, keyword: str, name: str | None) -> NamedSet | None:
     known = known_name(name)
     if known is None:
-        context.unread.add("SEABED PROPERTIES")
+        context.unread.add(keyword)
         return None
     return sets.find(known)

@@ -12,6 +12,7 @@ from mudline.deck.parameters import DEFINING, PLACEHOLDER, Parameters, folded
 from mudline.diagnostics import Problem, Severity, Where
 from mudline.keywords import catalogue
 from mudline.keywords.text import hint, shown, suggestion
+from mudline.keywords.unknown import is_unknown, known_name
 from mudline.spelling import Effort, nearest
 from mudline.syntax.tree import canonical_name
 
@@ -81,9 +82,7 @@ def undefined_variations(deck: Deck) -> Iterator[Problem]:
     present = deck.keywords(DEFINING)
     if not called or "EXCEL VARIATIONS" in present or _unsure(deck, "VARIATION"):
         return
-    variations = [
-        cast("str | None", variation.name) for _, block in _variations(deck) for variation in block.variations
-    ]
+    variations = [known_name(variation.name) for _, block in _variations(deck) for variation in block.variations]
     if None in variations:
         return
     known = {name_key(name): unquoted(name) for name in variations if name is not None}
@@ -139,7 +138,7 @@ def _varied(deck: Deck) -> Iterator[_Named]:
     for where, block in _variations(deck):
         for i, variation in enumerate(block.variations):
             for j, varied in enumerate(variation.parameters):
-                if cast("str | None", varied.parameter) is not None:
+                if known_name(varied.parameter) is not None:
                     place = where.inside("variations", i, "parameters", j, "parameter")
                     yield unquoted(varied.parameter), place
 
@@ -169,11 +168,11 @@ def _parameters(deck: Deck) -> dict[str, str] | None:
     """Names of parameters by their folded form; None where a line that could not be read may define more."""
     blocks: Iterable[tuple[Where, ParameterBlock]] = deck.blocks("PARAMETERS", DEFINING)
     listed = [parameter for _, block in blocks for parameter in block.parameters]
-    unread = any(cast("str | None", parameter.name) is None for parameter in listed)
+    unread = any(is_unknown(parameter.name) for parameter in listed)
     if unread or _unsure(deck, "PARAMETERS"):
         return None
     defined = {key: found.name for key, found in Parameters(deck).definitions.items()}
-    without_value = [parameter.name for parameter in listed if cast("object", parameter.value) is None]
+    without_value = [parameter.name for parameter in listed if is_unknown(parameter.value)]
     return {folded(name): name for name in without_value} | defined
 
 

@@ -151,7 +151,7 @@ def _bare(part: _P) -> _P:
 
 
 def _values(block: Block | Opaque | None) -> object:
-    return _NOTHING if block is None else _bare(block).model_dump()
+    return _NOTHING if block is None else _bare(block).model_dump(warnings=False)
 
 
 def _described(where: Where, path: DocumentPath, wanted: object, found: object) -> tuple[Where, str]:

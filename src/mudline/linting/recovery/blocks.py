@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_right
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -18,6 +19,9 @@ from mudline.scene.references import given_names
 from mudline.scene.sets import ALL, set_key
 from mudline.syntax.edits import TextEdit
 from mudline.syntax.tree import Kind, Leaf, RawBlock, RawSection
+
+ROW_NUMBER = re.compile(r"[ \t]*([0-9]{1,10})[ \t]*(?=,)")
+"""The number at the begin of a row."""
 
 
 @dataclass(frozen=True, slots=True)

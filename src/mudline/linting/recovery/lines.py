@@ -19,6 +19,7 @@ from mudline.keywords.reader import all_keys, reads, schemas_of
 from mudline.keywords.values import Kind as Value
 from mudline.keywords.values import Names
 from mudline.linting.recovery.blocks import (
+    ROW_NUMBER,
     Blocks,
     Correction,
     data_of,
@@ -28,6 +29,10 @@ from mudline.linting.recovery.blocks import (
     start_of,
     whole,
 )
+from mudline.linting.recovery.names import key_of_points
+from mudline.scene.names import CURVES
+from mudline.scene.references import given_names
+from mudline.scene.sets import set_key
 from mudline.syntax.edits import TextEdit
 from mudline.syntax.fields import first_key, trimmed
 from mudline.syntax.source import Source
@@ -41,7 +46,6 @@ MOST_NAMED = 5
 
 _OF_FOREIGN_LINES = (SYN001, SYN002, SYN003, SYN004)
 """What the lines of another keyword give in a block."""
-_ROW_NUMBER = re.compile(r"[ \t]*([0-9]{1,10})[ \t]*(?=,)")
 
 # ------------------------------------------------------------------------------------------------------------- the star
 
@@ -144,6 +148,37 @@ def _keyword_line(
         yield Correction(cause, (TextEdit(lines, ""),), lines, message)
 
 
+@recovers_from(*_OF_FOREIGN_LINES, always=True)
+def swallowed_curves(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Curves that the deck lacks, in a block that takes them for others, which nothing uses, or passes them through."""
+    unified = blocks.text.source.unified
+    wrong = {blocks.block_at(start_of(blocks.text, one)).start for one in problems}  # looked at for that
+    placed = ((line, blocks.raw_at(line.start(1))) for line in _name_of_curve().finditer(unified))
+    others = [(line, block) for line, block in placed if block and _may_swallow(block.name)]
+    lacked = {set_key(name) for name in blocks.missing[Names.CURVE]} if others else set()
+    if lacked:
+        lacked -= {set_key(name) for kind in CURVES for _, _, name in given_names(blocks.deck, kind)}
+    for line, block in others:
+        if set_key(line[1]) in lacked and block.head.span.start not in wrong:
+            wrong.add(block.head.span.start)
+            cause = Problem(SYN001, "", trimmed(unified, *line.span()))
+            lines = Span(line.start(), whole(block).end)
+            yield from _keyword_line(blocks, blocks.section_name(line.start(1)), block.name, cause, lines)
+
+
+def _may_swallow(keyword: str) -> bool:
+    """Whether a keyword is known, and defines no curve of the seabed."""
+    return keyword not in catalogue.definers(Names.CURVE) and bool(catalogue.sections_of(keyword))
+
+
+@cache
+def _name_of_curve() -> re.Pattern[str]:
+    """The line above the points of a curve of the seabed, with its name."""
+    definers = filter(None, map(catalogue.declared, catalogue.definers(Names.CURVE)))
+    keys = "|".join(filter(None, (key_of_points(declared)[0] for declared in definers)))
+    return re.compile(rf"^[ \t]*(?:{keys})[ \t]*=([^,\r\n]*)", re.MULTILINE | re.IGNORECASE)
+
+
 @recovers_from(REF007, always=True)
 def elements_among_nodes(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:  # noqa: ARG001 - of text
     """Rows that begin the numbers of their block again, where the deck lacks the keyword that they read as."""
@@ -153,7 +188,7 @@ def elements_among_nodes(blocks: Blocks, problems: Sequence[Problem]) -> Iterato
         rows = bool(catalogue.facts_of(lacking[0]).defines) if lacking and declared.facts.defines else False
         given: set[str] = set()
         for line in lines_of(text, block) if rows and block.leaves else ():
-            number = _ROW_NUMBER.match(text.source.unified, *line)
+            number = ROW_NUMBER.match(text.source.unified, *line)
             if number and number[1] in given:
                 lines = Span(line.start, block.leaves[-1].span.end)
                 thing = declared.facts.defines.removesuffix("s")

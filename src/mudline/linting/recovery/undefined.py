@@ -6,14 +6,14 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from mudline.codes.lines import SYN001
-from mudline.codes.references import REF001, REF008
+from mudline.codes.references import REF001, REF005, REF006, REF007, REF008
 from mudline.deck.parameters import folded
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Problem, Repair, Severity, Span, Where
 from mudline.keywords.model import Part
 from mudline.keywords.naming import names_given
 from mudline.keywords.values import Names
-from mudline.linting.recovery.blocks import Correction, also_in, line_at, start_of
+from mudline.linting.recovery.blocks import ROW_NUMBER, Correction, also_in, line_at, start_of
 from mudline.linting.rule import LintContext
 from mudline.scene.checks.laws import REF002, undefined_curve
 from mudline.scene.checks.names import REF019
@@ -43,6 +43,7 @@ def corrections(context: LintContext) -> Iterator[Correction]:
             known = {key: given[0].name for key, given in names.defined.items()}
             yield from _names(context, [*undefined(scene.context, [kind], code)], known, (kind,), effort)
     yield from _numbers(context, text)
+    yield from _given_twice(context, text)
     unlike = [one.lacks for one in nameless if not meant_names(one.lacks, curves, effort)]
     yield from _rows_without_name(context, text, unlike)
 
@@ -95,6 +96,31 @@ def _numbers(context: LintContext, text: TextOrigin) -> Iterator[Correction]:
             repair = Repair("unsafe", f"write {number}", ((span, number),))
             message = f"{cause.message} (did you mean {number}?)"
             yield Correction(replace(cause, message=message, repair=repair), (TextEdit(span, number),), span)
+
+
+def _given_twice(context: LintContext, text: TextOrigin) -> Iterator[Correction]:
+    """Numbers that are given twice, where the rows beside one say that it was to be one that is not defined."""
+    noticed = context.scene.noticed
+    lacking = {one.lacks for one in noticed if one.lacks and one.code in (REF005, REF006)}
+    for problem in noticed if lacking else ():
+        at = start_of(text, problem)
+        if problem.code is not REF007 or at < 0:
+            continue
+        line = line_at(text, at)
+        unified = text.source.unified
+        places = (
+            line,
+            line_at(text, max(line.start - 1, 0)),
+            line_at(text, min(line.end + 1, len(unified))),
+        )
+        own, above, below = (ROW_NUMBER.match(unified, *place) for place in places)
+        meant = {str(int(row[1]) + step) for row, step in ((above, 1), (below, -1)) if row} & lacking
+        if own and len(meant) == 1:
+            number, span = meant.pop(), Span(*own.span(1))
+            lacking.discard(number)
+            message = f"number {own[1]} is given twice, and {number} is not defined: is this one {number}?"
+            repair = Repair("unsafe", f"write {number}", ((span, number),))
+            yield Correction(replace(problem, message=message, repair=repair), (TextEdit(span, number),), span)
 
 
 def _rows_without_name(context: LintContext, text: TextOrigin, curves: list[str]) -> Iterator[Correction]:

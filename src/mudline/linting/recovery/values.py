@@ -13,6 +13,7 @@ from mudline.keywords.model import record_schema
 from mudline.keywords.reader import schemas_of
 from mudline.keywords.values import Kind
 from mudline.linting.recovery.blocks import Blocks, Correction, line_at, recovers_from, start_of
+from mudline.linting.rules.style_lines import INDENTED_COMMENT
 from mudline.syntax.edits import TextEdit
 from mudline.syntax.rows import NUMBER
 
@@ -70,11 +71,26 @@ def rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
             yield Correction(problem, (TextEdit(line, other),), line)
 
 
+@recovers_from(SYN001, SYN002, SYN003)
+def indented_comments(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Comments with blanks before their C, which make them data: without these blanks."""
+    unified = blocks.text.source.unified
+    lines = {line_at(blocks.text, start_of(blocks.text, one)).start: one for one in reversed(problems)}
+    for start, problem in lines.items():
+        if problem.weight is Severity.ERROR and (found := INDENTED_COMMENT.match(unified, start)):
+            blanks = Span(start, start + len(found[0]) - len(found[0].lstrip(" \t")))
+            words = "an indented line is data: if it is meant as a comment, put its C in column 1"
+            repair = Repair("unsafe", "put the C in column 1", ((blanks, ""),))
+            cause = replace(problem, message=f"{problem.message}; {words}", repair=repair)
+            yield Correction(cause, (TextEdit(blanks, ""),), line_at(blocks.text, start))
+
+
 @recovers_from(SYN015)
 def decimal_commas(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Fields that are the halves of one number, in a row that has as many as it may have: a point between them."""
     text = blocks.text
-    errors = {line_at(text, start_of(text, one)) for one in blocks.deck.problems if one.weight is Severity.ERROR}
+    others = (one for one in blocks.deck.problems if one.code is not SYN015 and one.weight is Severity.ERROR)
+    errors = {line_at(text, start_of(text, one)) for one in others}
     for problem in problems:
         line = line_at(text, start_of(text, problem))
         if problem.span is None or line in errors:

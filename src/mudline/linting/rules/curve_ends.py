@@ -9,6 +9,7 @@ import numpy as np
 from mudline.curves import ForceCurve
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
+from mudline.linting.joints import Found, Joined, joint
 from mudline.linting.rule import STEEPEST, LintContext, rule
 from mudline.linting.rules.curve_shape import is_upside_down
 from mudline.linting.rules.seabed_position import DEEPEST, bounds_of
@@ -23,6 +24,15 @@ CRV014 = Code("CRV014", "beyond-curve", Severity.INFO)
 
 _SMALL = 0.01
 """Part of the largest force of a curve that counts as none."""
+
+
+@joint(CRV012)
+def falls_where_it_pulls(_: LintContext, found: Found) -> Iterator[Joined]:
+    """That a force falls, at the point where it pulls."""
+    falling = {one.where: one for one in found.get("CRV005", ())}
+    for problem in found["CRV012"]:
+        if other := falling.get(problem.where):
+            yield Joined(problem, [other], other.message)
 
 
 def _at_zero(curve: ForceCurve) -> float:

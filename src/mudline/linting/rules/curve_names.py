@@ -8,13 +8,14 @@ from collections.abc import Iterable, Iterator
 from itertools import groupby
 from typing import TYPE_CHECKING, cast
 
-from mudline.codes.contact import REF003, SBD017
+from mudline.codes.contact import REF003, SBD006, SBD017
 from mudline.contact.input import LawKind
 from mudline.deck.parameters import folded
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
 from mudline.keywords.reader import all_keys
 from mudline.keywords.text import shown
+from mudline.linting.joints import Found, Joined, joint
 from mudline.linting.rule import LintContext, rule
 from mudline.linting.suppression import MARK
 from mudline.scene.names import CURVES, repeated, unused
@@ -85,6 +86,14 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
         yield Problem(REF003, message, None, severity, curve.title, repairs.get(curve.where))
 
 
+@joint(SBD006)
+def the_law_of_a_curve(_: LintContext, found: Found) -> Iterator[Joined]:
+    """The one curve that nothing uses, under the one law that lacks a stiffness."""
+    bare, idle = found["SBD006"], found.get("REF003", ())
+    if len(bare) == len(idle) == 1:
+        yield Joined(bare[0], idle, idle[0].message)
+
+
 _ESTIMATE = re.compile(
     r"[\W_]*(?<![^\W_])(?:lb|le|be|ub|hb|he|low|lower|best|high|higher|upper|mean|min|max|p\d\d?)(?:[\W_]+(?:estimate|bound))?(?![^\W_])"
 )
@@ -108,11 +117,9 @@ def _chosen_elsewhere(context: LintContext) -> bool:
         return True  # an equation, whose parameters may be varied
     if any(grant.kind is LawKind.NONE and grant.unknown for grant in scene.laws.set_laws):
         return True  # a set whose STIFFNESS= is not known
-    if (
-        scene.laws.partial
-        or scene.context.misplaced("SEABED PROPERTIES")
-        or (scene.context.restart and not scene.laws.referenced)
-    ):
+    if any(gap.block >= 0 and not gap.path for gap in scene.laws.gaps):
+        return True  # a block of which no set is known
+    if scene.context.misplaced("SEABED PROPERTIES") or (scene.context.restart and not scene.laws.referenced):
         return True
     return any(
         folded(" ".join(varied.keyword or [])) == "seabed properties"  # None in a line that could not be read

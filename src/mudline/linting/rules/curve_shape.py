@@ -9,9 +9,10 @@ from itertools import chain
 import numpy as np
 
 from mudline.deck.reading import TextOrigin
-from mudline.diagnostics import Code, Problem, Repair, Severity, Span
+from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
 from mudline.keywords.text import shown
 from mudline.limits import MOST_REPORTED
+from mudline.linting.joints import Found, Joined, joint
 from mudline.linting.rule import LARGEST_RATIO, LintContext, rule
 from mudline.scene.deck_curves import other_curves
 from mudline.scene.force_curves import SceneCurve, clashes_and_repeats
@@ -163,6 +164,23 @@ def unsorted_points(context: LintContext) -> Iterator[Problem]:
             before, value = over[index - 1 : index + 1].tolist()
             message = f"{name} {value!r} comes after {before!r}: legal, the points are sorted; put them in order"
             yield Problem(CRV002, message, where=other.point(index))
+
+
+@joint(CRV009, CRV010, CRV005)
+def of_one_curve(_: LintContext, found: Found) -> Iterator[Joined]:
+    """What is said of a curve besides one point that is far off, exchanged columns, or forces that all fall."""
+    of_curve: dict[Where, dict[str, list[Problem]]] = {}
+    for code, problems in found.items():
+        for one in problems if code.startswith("CRV") else ():
+            if one.where is not None and "points" in one.where.path:
+                curve = one.where._replace(path=one.where.path[: one.where.path.index("points")])
+                of_curve.setdefault(curve, {}).setdefault(code, []).append(one)
+    for given in of_curve.values():
+        falls = len(given.get("CRV005", ())) == 1 and {"CRV007", "CRV012"} <= given.keys()
+        code = next((code for code in ("CRV009", "CRV010") if code in given), "CRV005" if falls else "")
+        if code:
+            first = given[code][0]
+            yield Joined(first, [one for problems in given.values() for one in problems if one is not first])
 
 
 @rule(CRV005)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -63,8 +64,10 @@ def faulty_data(context: LintContext) -> Iterator[Problem]:
     """
     for where, block in context.blocks("RAO", "LOAD CASE"):
         for index, vessel in enumerate(cast("Raos", block).vessels):
-            rows = vessel.lines.values.tolist() if vessel.lines is not None else []
-            if fault := unequal_frequencies(rows):
+            lines = vessel.lines
+            columns = [lines.column(column).tolist() for column in (0, 1)] if lines is not None else []
+            rows = zip(*columns, strict=True)  # a heading and a frequency, NaN where it is not known
+            if fault := unequal_frequencies([row for row in rows if not any(map(math.isnan, row))]):
                 message = f"{fault}: correct the lines"
                 yield Problem(DAT002, message, where=where.inside("vessels", index, "lines"))
     files = list(_files(context)) if context.deck.folder else []

@@ -22,6 +22,7 @@ from mudline.linting.rule import LintContext, rule
 from mudline.linting.rules.references import WATER
 from mudline.linting.rules.seabed_position import first_of
 from mudline.scene.deck_values import number
+from mudline.scene.model import Scene
 from mudline.scene.numbering import Mask
 from mudline.syntax.rows import read_number
 
@@ -186,7 +187,7 @@ def node_without_element(context: LintContext) -> Iterator[Problem]:
     ends = scene.element_nodes
     used[ends[ends >= 0]] = True
     used |= _named(context)
-    free = np.flatnonzero(~used)
+    free = np.flatnonzero(~used & _placed(scene))
     if free.size:
         what = first_of("node", scene.node_ids[free[0]], free.size)
         message = f"{what} of no element: remove it, or correct the element that should end there"
@@ -221,11 +222,17 @@ def end_not_held(context: LintContext) -> Iterator[Problem]:
         return
     counts = np.bincount(scene.element_nodes.ravel(), minlength=len(scene.node_ids))
     held = _named(context)
-    free = np.flatnonzero((counts == 1) & ~held)
+    free = np.flatnonzero((counts == 1) & ~held & _placed(scene))
     if free.size and held.any():
         what = first_of("node", scene.node_ids[free[0]], free.size)
         message = f"{what} at the end of a line is held by nothing: add it to *BOUNDARY, or leave it if the end is free"
         yield Problem(GEO010, message, where=scene.nodes.where(int(free[0])))
+
+
+def _placed(scene: Scene) -> Mask:
+    """The nodes whose place is known: those of a GEN= between others that are not defined are not."""
+    x, y = scene.coordinates[:, 0], scene.coordinates[:, 1]
+    return ~(np.isnan(x) & np.isnan(y))
 
 
 def _named(context: LintContext) -> Mask:

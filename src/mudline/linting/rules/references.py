@@ -10,6 +10,7 @@ from mudline.deck.parameters import folded, list_items
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
 from mudline.keywords.text import shown
+from mudline.keywords.unknown import is_unknown, known_name
 from mudline.linting.rule import LintContext, entries_of_sets, limited, rule
 from mudline.linting.rules.style_lines import line_around
 from mudline.scene.sets import ALL, LONGEST_NAME
@@ -144,7 +145,7 @@ def repeated_set(context: LintContext) -> Iterator[Problem]:
     """
     known: set[str] = set()
     for where, entry in entries_of_sets(context.written("ELEMENT SETS")):
-        name = cast("str | None", entry.name)
+        name = known_name(entry.name)
         if name is None or (key := folded(name)) == ALL:
             continue
         if key in known:
@@ -194,8 +195,8 @@ def repeated_parameter(context: LintContext) -> Iterator[Problem]:
 
 def _names(parameter: Parameter) -> list[str]:
     """The parameters that a line defines."""
-    name, value = cast("str | None", parameter.name), cast("object", parameter.value)
-    if name is None or value is None:
+    name, value = parameter.name, parameter.value
+    if is_unknown(name) or is_unknown(value):
         return []
     if isinstance(value, str) and value.startswith("/"):
         return [item.name for item in list_items(name, value)[0]]

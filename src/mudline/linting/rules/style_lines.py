@@ -25,8 +25,8 @@ STY009 = Code("STY009", "indented-comment", Severity.WARNING)
 _DATA = (Kind.RUN, Kind.SETTING, Kind.TEXT)
 
 _KEY_LIKE = re.compile(r"\n[Cc][A-Za-z]")
-_INDENTED_COMMENT = re.compile(r"[ \t]++[Cc](?:[ \t]++[^ \t\r\n]|[-*=#_.~+]{2})")
-_COMMENT_BELOW = re.compile(rf"\n{_INDENTED_COMMENT.pattern}")
+INDENTED_COMMENT = re.compile(r"[ \t]++[Cc](?:[ \t]++[^ \t\r\n]|[-*=#_.~+]{2})")
+_COMMENT_BELOW = re.compile(rf"\n{INDENTED_COMMENT.pattern}")
 
 _SMALL = re.compile(r"[a-z]")
 _INDENTED_HEAD = re.compile(r"[ \t]++[*$]")
@@ -170,7 +170,7 @@ def key_like_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
             yield Problem(STY008, message, Span(start, source.index("=", start) + 1), repair=repair)
 
 
-@rule_of_text(STY009, lambda source: _COMMENT_BELOW.search(source) or _INDENTED_COMMENT.match(source), odd=True)
+@rule_of_text(STY009, lambda source: _COMMENT_BELOW.search(source) or INDENTED_COMMENT.match(source), odd=True)
 def indented_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A line that looks like a comment is indented, and so it is data.
 
@@ -188,7 +188,7 @@ def indented_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
     Finds: 3:3
     """
     for leaf, read, kept in placed_leaves(text):
-        if kept or leaf.kind not in (Kind.TEXT, Kind.SETTING) or not _INDENTED_COMMENT.match(source, *leaf.span):
+        if kept or leaf.kind not in (Kind.TEXT, Kind.SETTING) or not INDENTED_COMMENT.match(source, *leaf.span):
             continue
         if read is None or not is_setting(source, leaf, read):
             message = "an indented line is data, not a comment: if it is meant as one, put its C in column 1"

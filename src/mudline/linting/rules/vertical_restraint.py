@@ -68,8 +68,6 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
     if context.problems_of(SBD004):
         return  # that there is no stiffness is reported there
     yield from _zeros(scene)
-    if scene.laws.partial:
-        return  # a law that was not read may hold
     free = scene.law == LawKind.NONE
     if np.count_nonzero(free) and ("PIP SECTION" in context.keywords or "PIP CONNECTION" in context.keywords):
         free &= ~_inner_pipes(scene, free)
@@ -155,7 +153,7 @@ def _blocks(scene: Scene, elements: Indices) -> Iterator[Problem]:
     found = np.unique(scene.laws.covered[elements], return_index=True, return_counts=True)
     for index, first, count in zip(*(part.tolist() for part in found), strict=True):
         where = grants[index].where
-        if legacy_open or last_open > index or grants[index].unknown:
+        if legacy_open or last_open > index or grants[index].unknown or max(scene.laws.gaps, default=Where()) >= where:
             continue
         which = f"{first_of('element', scene.element_ids[elements[first]], count)} get{'s' * (count == 1)}"
         message = (
@@ -169,7 +167,7 @@ def _lying(context: LintContext, elements: Indices) -> Iterator[Problem]:
     if not elements.size:
         return
     scene = context.scene
-    if scene.laws.uncertain or scene.seabed.kind is not SeabedKind.FLAT or context.in_soil:
+    if scene.laws.uncertain or scene.may_have_more_laws or scene.seabed.kind is not SeabedKind.FLAT or context.in_soil:
         return
     seabed = bool(scene.laws.types or scene.laws.set_laws)
     lies = np.greater_equal if seabed else np.greater

@@ -46,7 +46,7 @@ def extension_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
           SET=ALL
           COHESION=5000.0
 
-    Finds: 6:1
+    Finds: 3:7
     """
     reading, types = scene.context, scene.laws.types
     if "ELASTIC" in types:
@@ -56,12 +56,16 @@ def extension_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
         return
     supplier = "" if "RIGID" in types else reading.possible_definition("ELASTIC SURFACE")
     what = "the seabed is rigid" if "RIGID" in types else "the model has none"
-    for where, block in scene.deck.blocks_that(lambda declared: declared.facts.extension):
-        message = f"*{block.keyword} needs an elastic seabed, and {what}: write *SEABED PROPERTIES with TYPE=ELASTIC"
+    found = list(scene.deck.blocks_that(lambda declared: declared.facts.extension))
+    names = " and ".join(dict.fromkeys(f"*{block.keyword}" for _, block in found))
+    for where, _ in found[:1]:
+        needs = "needs" if len(names.split(" and ")) == 1 else "need"
+        message = f"{names} {needs} an elastic seabed, and {what}: write *SEABED PROPERTIES with TYPE=ELASTIC"
         if supplier:
             yield Problem(EXT001, f"{message}; {supplier}", None, Severity.WARNING, where)
         else:
-            yield Problem(EXT001, message, where=where)
+            rigid = (place for place in types.get("RIGID", ()) if place.section < len(scene.deck.own_sections))
+            yield Problem(EXT001, message, where=next(rigid, where))
 
 
 @check(EXT004)
