@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import cast
 
+from mudline.codes.fields import SYN015
 from mudline.codes.lines import SYN014
 from mudline.deck.forms import form_of
 from mudline.deck.loading import dump, load_bytes
@@ -27,6 +28,7 @@ from mudline.syntax.source import CONTROLS, END_MARK, Source
 from mudline.syntax.tree import Kind, Leaf, RawBlock
 
 _CUT_OFF = "the file ends right behind a keyword and seems to be cut off: add what is missing, or a line end"
+_COMMAS = "a number seems to have a decimal comma, which a blank behind it would hide: correct it first (SYN015)"
 _ALTERED = "formatting would change its meaning, so it is left unchanged: please report this fault of mudline"
 _REMARKS = "its YAML comments (#) would be lost, so it is left unchanged: remove them to format it"
 
@@ -48,6 +50,8 @@ def formatted(data: bytes, name: str) -> bytes:
     deck = read_source(source).require()
     if any(problem.code is SYN014 for problem in deck.problems):
         raise FormatError(_CUT_OFF)
+    if any(problem.code is SYN015 for problem in deck.problems):
+        raise FormatError(_COMMAS)
     edits = _Layout(cast("TextOrigin", deck.origin)).edits()
     if not edits:
         return data
