@@ -13,7 +13,7 @@ CORE := $(addprefix tests/,syntax expression keywords curves contact scene compa
 ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help install demo test test-fast test-lowest lint format typecheck index docs tutorials pictures studies dynamics bench extension site serve build clean
+.PHONY: help install demo test test-fast test-lowest lint format typecheck index docs tutorials pictures studies dynamics bench fuzz extension site serve build clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' Makefile
@@ -110,6 +110,9 @@ dynamics: $(VENV)/.developer ## time integration of a line on the seabed, and ot
 
 bench: $(VENV)/.developer ## measure speed beside other programs, and write docs/benchmarks.md (25 minutes)
 	$(BIN)/python -m tests.benchmarks $(ARGS)
+
+fuzz: $(VENV)/.developer ## look for inputs that break a promise: ARGS="--seconds N --target NAME"
+	$(BIN)/python -m tests.fuzz $(ARGS)
 
 extension: ## the extension for VS Code, in editors/vscode (needs npm)
 	npm install --silent --prefix editors/vscode

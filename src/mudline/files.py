@@ -127,12 +127,24 @@ def replacement(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
                 _take_over(stream.fileno(), temporary, old)
             if sys.platform != "win32":  # there, what is open cannot be renamed; here, it is locked until it is closed
                 temporary.replace(target)
+                if synced:
+                    _sync_folder(target.parent)
         if sys.platform == "win32":
             temporary.replace(target)
     except BaseException:
         with suppress(OSError):
             temporary.unlink()
         raise
+
+
+def _sync_folder(folder: Path) -> None:
+    """Wait until the disk has the new name of a file; a folder that may not be read is left to the system."""
+    with suppress(OSError):
+        handle = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(handle)
+        finally:
+            os.close(handle)
 
 
 def _take_over(handle: int, temporary: Path, old: os.stat_result) -> None:

@@ -9,8 +9,8 @@ import pytest
 
 from mudline.contact import ContactInput, ContactModel
 from mudline.contact.arrays import FloatArray
+from mudline.contact.directions import directions_of
 from mudline.contact.seabed import PlanesSeabed
-from mudline.contact.tangent import directions_of
 from tests.builders.contact import LINEAR, at_depths, chain, drawn, friction, on, trench, walk
 
 

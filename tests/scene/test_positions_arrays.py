@@ -250,3 +250,12 @@ def test_damaged_archive_is_read_or_refused(tmp_path_factory: pytest.TempPathFac
         assert str(error)  # noqa: PT017 - either outcome is right
     else:
         assert found.values.shape[1:] == (3, 3)
+
+
+def test_an_array_that_promises_more_than_there_is(tmp_path: Path) -> None:
+    """A small archive must not make the program take memory for numbers that it does not hold."""
+    head = io.BytesIO()
+    np.lib.format.write_array_header_1_0(head, {"descr": "<f8", "fortran_order": False, "shape": (10**6, 10**6, 3)})
+    with zipfile.ZipFile(tmp_path / "p.npz", "w") as archive:
+        archive.writestr("positions.npy", head.getvalue() + bytes(80))
+    assert "the array positions of 24000000000000 bytes has only" in refusal(tmp_path / "p.npz").message

@@ -17,6 +17,7 @@ from mudline.cli.streams import emit, reason
 from mudline.linting.configuration import (
     EXTEND,
     KEYS,
+    NO_OUTSIDE,
     TABLES,
     CodeFault,
     Configuration,
@@ -29,7 +30,7 @@ from mudline.patterns import matches
 
 T = TypeVar("T")
 
-_DEFAULTS = {EXTEND: "", "fail-on": "warning", "dialect": "mudline"}
+_DEFAULTS = {EXTEND: "", "fail-on": "warning", "dialect": "mudline", NO_OUTSIDE: False}
 
 
 @options.command("config")

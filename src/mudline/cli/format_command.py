@@ -54,7 +54,7 @@ def _outcome(inputs: Inputs, file: Input, data: bytes, view: View, *, check: boo
     if diff:
         print_changes(data, new, file.name, view)
     if not (check or diff):
-        if not inputs.replaced(file, new):
+        if not inputs.replaced(file, data, new):
             return _FAILED
         if view.verbose:
             notify(f"{file.name}: reformatted")

@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 
 STDIN = "-"
 
+CHANGED = "it has changed during the run: left unchanged, run it again"
+"""Said of a file that somebody else has written."""
+
 _HEAD = 4096
 """Bytes at the beginning of a JSON or YAML file that name its format."""
 
@@ -97,9 +100,15 @@ class Inputs:
             self.fail(f"{file.name}: {reason(error)}")
             return None
 
-    def replaced(self, file: Input, content: bytes) -> bool:
-        """Whether a file has its new content; if not, that is reported."""
+    def replaced(self, file: Input, read: bytes, content: bytes) -> bool:
+        """Whether a file has its new content; if not, that is reported.
+
+        A file that no longer holds what was read of it stays as it is: somebody else has written it.
+        """
         try:
+            if file.read() != read:
+                self.fail(f"{file.name}: {CHANGED}")
+                return False
             write_atomically(Path(file.path or file.name), content)
         except OSError as error:
             self.fail(f"{file.name}: cannot be written: {reason(error)}")

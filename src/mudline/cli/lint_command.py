@@ -69,6 +69,7 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
     type=click.Choice(["mudline", "flexcom"]),
     help="Check decks for this program (default: mudline); flexcom has no extension keywords.",
 )
+@options.no_outside
 @options.config
 @options.isolated
 @options.option(
@@ -103,6 +104,7 @@ def command(
     baseline: str | None,
     recording: bool,
     dialect: str | None,
+    no_outside: bool,
     config: str | None,
     isolated: bool,
     statistics: bool,
@@ -123,7 +125,7 @@ def command(
     """
     if scheduler is not None and (fix or diff or watch):
         raise click.UsageError("--fix, --diff and --watch do not go with --scheduler: leave one of them out")
-    given = Given(_words(chosen), _words(ignored), _words(also), dialect, units)
+    given = Given(_words(chosen), _words(ignored), _words(also), dialect, units, no_outside)
     fixing = "none" if not (fix or diff) else "unsafe" if unsafe else "safe"
     wanted = outputs(forms)
     Configured(config, isolated)  # wrong usage is reported once, before anything is watched

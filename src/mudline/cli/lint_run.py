@@ -160,7 +160,7 @@ def _deliver(inputs: Inputs, file: Input, data: bytes, content: bytes, view: Vie
     elif file.path is None:
         emit_deck(content)
     elif content != data:
-        return inputs.replaced(file, content)
+        return inputs.replaced(file, data, content)
     return True
 
 

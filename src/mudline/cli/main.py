@@ -8,6 +8,7 @@ import sys
 from collections.abc import Sequence
 from contextlib import suppress
 from importlib import import_module
+from pathlib import Path
 from typing import cast
 
 import click
@@ -17,6 +18,7 @@ from mudline import __version__
 from mudline.cli import CLOSED_PIPE, DONE, FOUND, WRONG_USAGE, options, streams
 from mudline.cli.streams import notify, reason
 from mudline.diagnostics import PluginError
+from mudline.outside import refusing_outside
 from mudline.spelling import nearest
 
 COMPLETION = "_MUDLINE_COMPLETE"
@@ -129,7 +131,8 @@ def _invoke(arguments: Sequence[str]) -> int:
             if not arguments:
                 click.echo(mudline.get_help(context), err=True)
                 return WRONG_USAGE
-            return cast("int", mudline.invoke(context))
+            with refusing_outside(_refuses_outside):
+                return cast("int", mudline.invoke(context))
     except click.exceptions.Exit as leaving:
         return leaving.exit_code
     except click.ClickException as error:
@@ -145,6 +148,12 @@ def _invoke(arguments: Sequence[str]) -> int:
     except MemoryError:
         notify("out of memory")
         return FOUND
+
+
+def _refuses_outside(folder: Path) -> bool:
+    from mudline.linting.configuration import refuses_outside  # noqa: PLC0415 - only for decks that name files outside
+
+    return refuses_outside(folder)
 
 
 def _unwritable(error: OSError) -> int:

@@ -160,6 +160,13 @@ stdin_name = option(
     help="Call standard input (-) by this name in messages; its suffix gives the format and the units.",
 )
 
+no_outside = option(
+    "--no-outside",
+    group=INPUT,
+    is_flag=True,
+    help="Refuse decks that name files outside of their project, the nearest folder with a configuration or .git.",
+)
+
 config = option(
     "--config", group=INPUT, metavar="FILE", help="Use this configuration for all decks, not the nearest one of each."
 )

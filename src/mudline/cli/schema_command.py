@@ -9,7 +9,7 @@ import click
 from mudline.cli import DONE, options
 from mudline.cli.streams import emit_json
 from mudline.deck.document import json_schema
-from mudline.linting.configuration import EXTEND, KEYS, LISTS, OF_CODES, SEVERITIES, WORDS
+from mudline.linting.configuration import EXTEND, KEYS, LISTS, NO_OUTSIDE, OF_CODES, SEVERITIES, WORDS
 
 
 @options.command("schema")
@@ -37,6 +37,7 @@ MEANINGS = {
     "unfixable": "Rules whose fixes are never made.",
     "fail-on": "The least severity that fails a run; warning unless set.",
     "dialect": "The program that the decks are for.",
+    "no-outside": "Whether a deck that names a file outside of its project is refused.",
     "per-file-ignores": "Rules that are left out in the files that fit a pattern.",
     "severity": "Severities that hold instead of the rules' own; off leaves a rule out.",
 }
@@ -57,6 +58,8 @@ def configuration_schema() -> dict[str, Any]:
 
 
 def _values(key: str) -> dict[str, Any]:
+    if key == NO_OUTSIDE:
+        return {"type": "boolean"}
     if key == EXTEND:
         return _path()
     if key in WORDS:

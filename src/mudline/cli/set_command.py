@@ -14,7 +14,7 @@ from mudline.assignment.fields import ConditionError, DeckCondition, Target, tar
 from mudline.assignment.paths import Assignment, Operand, PathError, parse_assignment, parse_condition
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_changes
-from mudline.cli.inputs import Input, Inputs, collect
+from mudline.cli.inputs import CHANGED, Input, Inputs, collect
 from mudline.cli.streams import emit, emit_deck, notify, notify_diagnostics
 from mudline.cli.view import View
 from mudline.deck.forms import KEYWORD, form_of
@@ -149,9 +149,9 @@ class _Run:
         for file, held, edits in self.planned:
             data = self.inputs.content(file)  # read again: the contents of many would fill the memory
             if data is not None and hash(data) != held:
-                self.inputs.fail(f"{file.name}: it has changed during the run: left unchanged, run it again")
+                self.inputs.fail(f"{file.name}: {CHANGED}")
             elif data is not None:
-                self.inputs.replaced(file, _edited(file, data, edits))
+                self.inputs.replaced(file, data, _edited(file, data, edits))
 
     def notify_counts(self, would: str) -> None:
         """Print how many decks were changed, and how many were not, by the reason."""

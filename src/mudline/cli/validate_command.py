@@ -19,9 +19,11 @@ from mudline.cli.streams import emit, reason
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Coverage, DeckError, Diagnostic
+from mudline.linting.configuration import refuses_outside
 from mudline.linting.output.json import as_object
 from mudline.linting.rule import LintContext
 from mudline.linting.verdict import Verdict, judge, refused
+from mudline.outside import refusing_outside
 from mudline.quantities import csv_lines
 from mudline.running.executors import Pool, executor, in_order
 from mudline.short_repr import counted
@@ -43,6 +45,7 @@ _FAIL_ON = ("error", "warning", "unread")
     help="Exit with 1 for an illegal deck (default), for one with warnings too, or also for one that is not read as a "
     "whole.",
 )
+@options.no_outside
 @options.running
 @options.every_file
 @options.stdin_name
@@ -53,6 +56,7 @@ def command(
     paths: tuple[str, ...],
     output_format: str,
     fail_on: str,
+    no_outside: bool,
     jobs: int,
     scheduler: str | None,
     every_file: bool,
@@ -70,10 +74,10 @@ def command(
     as decks do), URLs of either, or - for standard input. Of many decks -q shows the table without the errors.
     """
     inputs = collect_any_form(paths, stdin_name, gitignore=not every_file, urls=True)
-    total = Total()
+    total, wanted = Total(), Wanted(inputs, units, no_outside)
     shown = wants_bar(view) and (output_format == "text" or not sys.stdout.isatty())
     progress = Progress(len(inputs.files), view, shown=shown)
-    with executor(jobs, scheduler) as pool, closing(_judged(pool, inputs, units, total, view, progress)) as judged:
+    with executor(jobs, scheduler) as pool, closing(_judged(pool, wanted, total, view, progress)) as judged:
         if output_format == "json":
             _print_json(judged, total)
         elif output_format == "csv":
@@ -134,18 +138,32 @@ class Judged(NamedTuple):
     data: bytes
 
 
+class Wanted(NamedTuple):
+    """The decks, the units that they are read in, and whether they may name no file outside of their project."""
+
+    inputs: Inputs
+    units: str | None
+    no_outside: bool
+
+
 class Order(NamedTuple):
     """What `judge_order` is given, in any process; `here` is the working folder of the command."""
 
     data: bytes
     file: Input
     units: str | None
+    no_outside: bool
     verbose: bool
     here: str
 
 
 def judge_order(order: Order) -> tuple[Verdict, list[Diagnostic]]:
     """The verdict on a deck and its errors; `verbose` adds the warnings."""
+    with refusing_outside(lambda folder: order.no_outside or refuses_outside(folder)):
+        return _judge_order(order)
+
+
+def _judge_order(order: Order) -> tuple[Verdict, list[Diagnostic]]:
     file = order.file.seen_from(order.here)
     try:
         deck = load_bytes(order.data, file.name, units=order.units, folder=file.folder)
@@ -159,12 +177,10 @@ def judge_order(order: Order) -> tuple[Verdict, list[Diagnostic]]:
 # ------------------------------------------------------------------------------------------------------- all files
 
 
-def _judged(
-    pool: Pool, inputs: Inputs, units: str | None, total: Total, view: View, progress: Progress
-) -> Generator[Judged, None, None]:
+def _judged(pool: Pool, wanted: Wanted, total: Total, view: View, progress: Progress) -> Generator[Judged, None, None]:
     """Each deck that can be read; all are counted. The bar is hidden while a deck with errors is printed."""
-    orders = _orders(inputs, units, total, view, progress)
-    with progress, closing(in_order(pool, judge_order, orders, len(inputs.files))) as results:
+    orders = _orders(wanted, total, view, progress)
+    with progress, closing(in_order(pool, judge_order, orders, len(wanted.inputs.files))) as results:
         for data, made in results:
             if made is not None and data is not None:
                 verdict, found = made
@@ -176,20 +192,20 @@ def _judged(
 
 
 def _orders(
-    inputs: Inputs, units: str | None, total: Total, view: View, progress: Progress
+    wanted: Wanted, total: Total, view: View, progress: Progress
 ) -> Iterator[tuple[bytes | None, Order | None]]:
     """The content of each file and what is sent of it; None for one that cannot be read."""
     here = os.getcwd()  # noqa: PTH109 - sent as text
-    for file in inputs.files:
+    for file in wanted.inputs.files:
         try:
             data = file.read()
         except OSError as error:
             total.unreadable += 1
             progress.hide()
-            inputs.fail(f"{file.name}: {reason(error)}")
+            wanted.inputs.fail(f"{file.name}: {reason(error)}")
             yield None, None
         else:
-            yield data, Order(data, file, units, view.verbose, here)
+            yield data, Order(data, file, wanted.units, wanted.no_outside, view.verbose, here)
 
 
 # ---------------------------------------------------------------------------------------------------------- output

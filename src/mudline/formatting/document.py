@@ -7,10 +7,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import cast
 
+from mudline.codes.fields import SYN015
 from mudline.codes.lines import SYN014
 from mudline.deck.forms import form_of
 from mudline.deck.loading import dump, load_bytes
-from mudline.deck.model import Deck, Section
+from mudline.deck.model import Deck, Opaque, Section
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Span
 from mudline.formatting.rows import RowKind, Rows, Run, Single, cut
@@ -27,6 +28,7 @@ from mudline.syntax.source import CONTROLS, END_MARK, Source
 from mudline.syntax.tree import Kind, Leaf, RawBlock
 
 _CUT_OFF = "the file ends right behind a keyword and seems to be cut off: add what is missing, or a line end"
+_COMMAS = "a number seems to have a decimal comma, which a blank behind it would hide: correct it first (SYN015)"
 _ALTERED = "formatting would change its meaning, so it is left unchanged: please report this fault of mudline"
 _REMARKS = "its YAML comments (#) would be lost, so it is left unchanged: remove them to format it"
 
@@ -48,6 +50,8 @@ def formatted(data: bytes, name: str) -> bytes:
     deck = read_source(source).require()
     if any(problem.code is SYN014 for problem in deck.problems):
         raise FormatError(_CUT_OFF)
+    if any(problem.code is SYN015 for problem in deck.problems):
+        raise FormatError(_COMMAS)
     edits = _Layout(cast("TextOrigin", deck.origin)).edits()
     if not edits:
         return data
@@ -99,11 +103,24 @@ def _same(one: object, other: object) -> bool:
         same = one.name == other.name and one.lines == other.lines
         return same and _same(one.comments, other.comments) and _same(one.blocks, other.blocks)
     if isinstance(one, Part) and isinstance(other, Part):
-        names = type(one).model_fields
-        return all(_same(getattr(one, name), getattr(other, name)) for name in names)
+        return _same_part(one, other)
     if isinstance(one, list) and isinstance(other, list):
         return len(one) == len(other) and all(map(_same, one, other))
     return bool(one == other)
+
+
+def _same_part(one: Part, other: Part) -> bool:
+    if isinstance(one, Opaque) and isinstance(other, Opaque):
+        return one.keyword == other.keyword and _without_blanks(one.lines) == _without_blanks(other.lines)
+    return all(_same(getattr(one, name), getattr(other, name)) for name in type(one).model_fields)
+
+
+def _without_blanks(lines: list[str]) -> list[str]:
+    """Lines without the blank ones at their end: behind the last one an end-of-file mark gets a line of its own."""
+    end = len(lines)
+    while end and not lines[end - 1].strip():
+        end -= 1
+    return [*lines[: end - 1], *(line.rstrip() for line in lines[max(end - 1, 0) : end])]
 
 
 # -------------------------------------------------------------------------------------------------- the lines of a file
@@ -224,11 +241,15 @@ _BLANKS = re.compile(r"[ \t]*")
 
 @dataclass(slots=True)
 class Reading:
-    """By offset: the kind of the row, or of the values of the KEY=, that begins there; the choice written there."""
+    """By offset: the kind of the row, or of the values of the KEY=, that begins there; the choice written there.
+
+    `whole` has the choices that are not known, which may hold commas.
+    """
 
     text: str
     kinds: dict[int, RowKind] = field(default_factory=dict)
     choices: dict[int, str] = field(default_factory=dict)
+    whole: dict[int, str] = field(default_factory=dict)
 
     def kind_at(self, start: int) -> RowKind | None:
         """The kind of the row that begins at an offset or after the blanks there."""
@@ -277,7 +298,10 @@ def _value(slot: FieldSpec, value: object, path: Path, places: Places, found: Re
         for column in columns:
             _value(column, getattr(value, column.name), (*path, column.json), places, found)
     elif span and slot.kind is not FieldKind.NAME and value in slot.choices:
-        found.choices[span.start] = str(value)
+        if found.text[slice(*span)].strip(" \t").upper() == str(value).upper():  # no control character in it
+            found.choices[span.start] = str(value)
+    elif span and slot.about.opaque is not None and isinstance(value, str):
+        found.whole[span.start] = value
 
 
 Laid = tuple[Span, str]
@@ -354,6 +378,9 @@ class _Block:
 
     def _setting(self, span: Span) -> str:
         line = read_line(self.text, span, slashes=self.declared.slashes)
+        first = line.groups[0]
+        if whole := self.reading.whole.get(first.fields[0].span.start):
+            return f" {first.key}={whole}".rstrip(" ") + "\n"
         texts = [text for group in line.groups for text in self._group(group)]
         return " " + ", ".join(texts).rstrip(" ") + "\n"
 

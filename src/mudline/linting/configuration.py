@@ -6,7 +6,7 @@ import os
 import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
-from functools import reduce
+from functools import lru_cache, reduce
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -18,7 +18,8 @@ LISTS = ("select", "ignore", "extend-select", "include", "exclude", "fixable", "
 WORDS = {"fail-on": ("error", "warning", "info"), "dialect": ("mudline", "flexcom")}
 TABLES = ("per-file-ignores", "severity")
 EXTEND = "extend"
-KEYS = (EXTEND, *LISTS, *WORDS, *TABLES)
+NO_OUTSIDE = "no-outside"
+KEYS = (EXTEND, *LISTS, *WORDS, NO_OUTSIDE, *TABLES)
 _ADDED = "extend-select"
 OF_CODES = ("select", "ignore", "extend-select", "fixable", "unfixable")
 SEVERITIES = ("error", "warning", "info", "off")
@@ -83,6 +84,7 @@ class Given(NamedTuple):
     also: tuple[str, ...] = ()
     dialect: str | None = None
     units: str | None = None
+    no_outside: bool = False
 
 
 def read_configuration(
@@ -183,9 +185,8 @@ class _Reading:
     def check(self, key: str, value: object) -> None:
         if key not in KEYS:
             raise self.error(key, f"unknown key {key!r}{_hint(key, KEYS)}")
-        if key == EXTEND:
-            if not isinstance(value, str) or not value.strip():
-                raise self.error(key, f'{key} must be the path of a file, such as "../base.toml", not {value!r}')
+        if key in (EXTEND, NO_OUTSIDE):
+            self.single(key, value)
         elif key in WORDS:
             self.one_of(key, value, WORDS[key])
         elif key == "severity":
@@ -195,10 +196,16 @@ class _Reading:
         elif key == "per-file-ignores":
             for glob, codes in self.pairs(key, value):
                 self.codes(glob, self.texts(glob, codes))
-        else:
+        elif key in LISTS:
             texts = self.texts(key, value)
             if key in OF_CODES:
                 self.codes(key, texts)
+
+    def single(self, key: str, value: object) -> None:
+        if key == NO_OUTSIDE and not isinstance(value, bool):
+            raise self.error(key, f"{key} is true or false, not {value!r}")
+        if key == EXTEND and (not isinstance(value, str) or not value.strip()):
+            raise self.error(key, f'{key} must be the path of a file, such as "../base.toml", not {value!r}')
 
     def one_of(self, key: str, value: object, choices: tuple[str, ...]) -> None:
         if not isinstance(value, str) or value not in choices:
@@ -269,3 +276,13 @@ def _in(folder: Path, code_fault: CodeFault | None) -> Configuration | None:
         if path.is_file() and (found := read_configuration(path, demanded=False, code_fault=code_fault)):
             return found
     return None
+
+
+@lru_cache(maxsize=256)
+def refuses_outside(folder: Path) -> bool:
+    """Whether the nearest configuration keeps decks of a folder from files outside; also one that cannot be read."""
+    try:
+        found = Search().nearest(Path(os.path.abspath(folder)))  # noqa: PTH100 - links stay what they are called
+    except (OSError, ConfigurationError):
+        return True
+    return bool(found.values.get(NO_OUTSIDE))

@@ -43,7 +43,8 @@ class LintSettings:
     """Which rules run, how severe their findings are, and which are fixed; it can be pickled.
 
     `units` None means those of the file. `severities` override the rules' own by code. Findings of `fail_on` or worse
-    fail a run. Fixes of the codes in `unfixable` are never made.
+    fail a run. Fixes of the codes in `unfixable` are never made. With `no_outside` a deck names no file outside of its
+    project.
     """
 
     rules: tuple[Rule, ...]
@@ -53,6 +54,7 @@ class LintSettings:
     fail_on: Severity = Severity.WARNING
     fixing: Fixing = Fixing.NONE
     unfixable: frozenset[str] = frozenset()
+    no_outside: bool = False
 
 
 def lint_context(context: LintContext, chosen: Sequence[Rule]) -> list[Diagnostic]:

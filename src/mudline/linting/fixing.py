@@ -22,6 +22,7 @@ from mudline.limits import MOST_PASSES, MOST_TRIES
 from mudline.linting.engine import Fixing, LintSettings, covered_findings, problems_in, repairs_of_causes, unsuppressed
 from mudline.linting.rule import LintContext
 from mudline.linting.suppression import MARK
+from mudline.outside import refusing_outside
 from mudline.syntax.edits import TextEdit, edited_bytes
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, SyntaxTree, parse
@@ -51,6 +52,11 @@ def lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None
 
     `folder` is where files that the deck names are; without it none of them is looked for.
     """
+    with refusing_outside(lambda _folder: settings.no_outside):
+        return _lint_one(name, data, settings, folder)
+
+
+def _lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None) -> FileReport:
     result = Fixed(None, (), "")
     if settings.fixing is not Fixing.NONE and form_of(name) == "keyword":
         result = fix_bytes(data, name, settings, folder)

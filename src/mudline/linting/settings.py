@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mudline.diagnostics import Severity
-from mudline.linting.configuration import Configuration, Given
+from mudline.linting.configuration import NO_OUTSIDE, Configuration, Given
 from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.registry import rules, select
 from mudline.patterns import matches
@@ -47,6 +47,7 @@ def merged_settings(
         Severity(fail_on or found.values.get("fail-on", "warning")),
         fixing,
         _unfixable(found),
+        given.no_outside or bool(found.values.get(NO_OUTSIDE)),
     )
 
 

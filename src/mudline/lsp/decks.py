@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
-from contextlib import AbstractContextManager, suppress
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
 from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -30,6 +30,7 @@ from mudline.linting.rule import LintContext
 from mudline.linting.settings import hidden_codes, merged_settings
 from mudline.lsp.documents import Document
 from mudline.lsp.names import Occurrence, occurrences
+from mudline.outside import refusing_outside
 from mudline.patterns import matches
 from mudline.scene.model import Scene
 
@@ -64,9 +65,11 @@ class Analysis:
     found: tuple[Diagnostic, ...] = ()
     looked_at: frozenset[str] = frozenset()
 
-    def reading(self) -> AbstractContextManager[None]:
-        """A block in which the texts of open decks hold before the files on the disk."""
-        return with_unsaved(self.unsaved)
+    @contextmanager
+    def reading(self) -> Iterator[None]:
+        """A block in which the texts of open decks hold before the files on the disk, and settings are heeded."""
+        with with_unsaved(self.unsaved), refusing_outside(lambda _folder: self.settings.no_outside):
+            yield
 
     def read(self) -> Self:
         """Read the deck; its scene and its names are found when somebody asks."""

@@ -108,13 +108,22 @@ def report_on(given: Given, settings: LintSettings, wanted: Collection[str], sta
     for name in of_scene:
         why = missing
         try:
-            found[name] = None if made.scene is None else _section(name, made.scene, made)
+            found[name] = None if made.scene is None else _as_json(_section(name, made.scene, made))
         except DeckError as error:
             found[name], why = None, _reason(error)
         if why:
             head["missing"][name] = why
     head["inferred"] = [*([] if deck is None else inferences(deck)), *_of_plan(found.get("plan"))]
     return made
+
+
+def _as_json(value: Any) -> Any:  # noqa: ANN401 - whatever JSON holds
+    """A value without numbers that JSON cannot hold: None for what overflowed."""
+    if isinstance(value, dict):
+        return {key: _as_json(each) for key, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_as_json(each) for each in value]
+    return finite(value) if isinstance(value, float) else value
 
 
 def _section(name: str, scene: Scene, made: Report) -> dict[str, Any]:

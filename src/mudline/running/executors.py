@@ -21,6 +21,7 @@ from itertools import islice
 from typing import TYPE_CHECKING, TypeVar
 
 from mudline import __version__
+from mudline.outside import refusing_outside
 
 if TYPE_CHECKING:  # imported by runs that are large enough
     from concurrent.futures import Executor, Future
@@ -192,8 +193,11 @@ def _done(version: str, function: Callable[[_Given], _Made], given: list[_Given]
     """What a process or a worker does, and the seconds that it took."""
     if version != __version__:
         raise RunError(f"a worker has mudline {__version__}, the command {version}: install the same version")
+    from mudline.linting.configuration import refuses_outside  # noqa: PLC0415 - only where there are workers
+
     start = time.perf_counter()
-    made = [function(one) for one in given]
+    with refusing_outside(refuses_outside):
+        made = [function(one) for one in given]
     return time.perf_counter() - start, made
 
 

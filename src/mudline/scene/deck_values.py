@@ -15,7 +15,9 @@ from mudline.files import look
 from mudline.keywords import catalogue
 from mudline.keywords.model import Block, Part, Row, record_schema
 from mudline.keywords.naming import may_name, names_given
+from mudline.keywords.text import shown
 from mudline.keywords.values import LINE_SETS, Names
+from mudline.outside import is_made_by_system, is_refused, project_of
 from mudline.syntax.fields import read_line
 from mudline.syntax.rows import read_number
 
@@ -66,9 +68,25 @@ def find_file(folder: Path | None, written: str) -> Path | None:
         return None
     path = look(folder / name)
     try:
-        return path if path.is_file() else None
+        usable = path.is_file() and not is_made_by_system(path) and not is_refused(path, folder)
     except OSError:
         return None
+    return path if usable else None
+
+
+def not_found(folder: Path, name: str) -> tuple[str, bool]:
+    """Why a deck in a folder does not get the file that it names, and whether that is because it is refused."""
+    try:
+        refused = "\0" not in name and is_refused(folder / name, folder)
+    except OSError:
+        refused = False
+    if refused:
+        return (
+            f"the file {shown(name)} lies outside of the project {project_of(folder).as_posix()}, and is refused",
+            True,
+        )
+    looked = f"looked in {folder.as_posix()}"
+    return f"the file {shown(name)} was not found ({looked}): correct the name, or put the file there", False
 
 
 def missing_files(deck: Deck) -> Iterator[tuple[Where, Path, str]]:

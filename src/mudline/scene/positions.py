@@ -10,6 +10,7 @@ import zlib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from math import prod
 from pathlib import Path
 from typing import cast
 
@@ -218,8 +219,18 @@ def _load_npz(path: Path) -> dict[str, Reals]:
 
 
 def _member(archive: zipfile.ZipFile, name: str) -> NDArray[np.generic]:
+    """An array; raises ValueError for one that promises more than there is, before memory is taken for it."""
+    held = archive.getinfo(f"{name}.npy").file_size
+    with archive.open(f"{name}.npy") as stream:
+        read_header = _HEADERS.get(np.lib.format.read_magic(stream))
+        shape, _, kind = read_header(stream) if read_header else ((), False, np.dtype(np.float64))
+        if (promised := prod(shape) * kind.itemsize) > held:
+            raise ValueError(f"the array {name} of {promised} bytes has only {held} in the file")
     with archive.open(f"{name}.npy") as stream:
         return cast("NDArray[np.generic]", np.lib.format.read_array(stream, allow_pickle=False))
+
+
+_HEADERS = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}
 
 
 @contextmanager

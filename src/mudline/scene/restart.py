@@ -15,11 +15,12 @@ from mudline.deck.forms import SUFFIXES
 from mudline.deck.loading import load_bytes, load_path
 from mudline.deck.model import Base, BaseProblem, Deck
 from mudline.deck.parameters import Parameters, evaluated
-from mudline.diagnostics import DeckError, Problem, Where
+from mudline.diagnostics import DeckError, Problem, Severity, Where
 from mudline.files import look, unsaved
 from mudline.keywords.text import shown
 from mudline.limits import LARGEST_FILE, MOST_CONTINUED, MOST_NEIGHBOURS
-from mudline.scene.deck_values import file_name, find_file
+from mudline.outside import without_text
+from mudline.scene.deck_values import file_name, find_file, not_found
 
 if TYPE_CHECKING:
     from mudline.keywords.library.restart import Restart
@@ -31,12 +32,14 @@ _ADVICE = "correct the name, or put the deck there"
 class _Chain(NamedTuple):
     """The decks before a deck, the nearest first; `fault` says why the first of all was not reached, and "" if it was.
 
-    `is_own` says that the fault is that of the deck itself: it is about its own LAST=, or leads back to it.
+    `is_own` says that the fault is that of the deck itself: it is about its own LAST=, or leads back to it, and
+    `is_refused` that the first of all lies outside of the project, and may not be read.
     """
 
     bases: list[Base]
     fault: str = ""
     is_own: bool = False
+    is_refused: bool = False
 
 
 def continued(deck: Deck) -> tuple[Deck, list[Problem]]:
@@ -50,15 +53,15 @@ def continued(deck: Deck) -> tuple[Deck, list[Problem]]:
     problems: list[Problem] = []
     for where, name in names[:-1]:
         if find_deck(deck, name) is None:
-            problems.append(Problem(REF015, _missing(deck, name), where=where))
+            problems.append(_reported(*_missing(deck, name), where))
     where, _ = names[-1]
     chain = _follow(deck)
     if chain.is_own:
-        problems.append(Problem(REF015, chain.fault, where=where))
+        problems.append(_reported(chain.fault, chain.is_refused, where))
     if not chain.bases:
         return deck, problems
     for base in chain.bases:
-        problems += (_of_base(problem, base.deck) for problem in base.errors)
+        problems += (_of_base(_shown(problem, base, deck.folder), base.deck) for problem in base.errors)
     units = (each.units for each in (deck, *(base.deck for base in chain.bases)))
     whole = replace(
         deck,
@@ -68,6 +71,16 @@ def continued(deck: Deck) -> tuple[Deck, list[Problem]]:
         incomplete=bool(chain.fault),
     )
     return whole, problems
+
+
+def _reported(fault: str, refused: bool, where: Where) -> Problem:  # noqa: FBT001 - as `_missing` returns it
+    return Problem(REF015, fault, None, Severity.ERROR if refused else None, where)
+
+
+def _shown(problem: Problem, base: Base, folder: Path) -> Problem:
+    """A problem of a deck that is continued, without a text of one outside of the project."""
+    path = Path(base.deck.folder or folder, Path(base.deck.file).name)
+    return replace(problem, message=without_text(problem.message, path, folder), repair=None)
 
 
 def _of_base(problem: Problem, deck: Deck) -> BaseProblem:
@@ -102,7 +115,8 @@ def _follow(deck: Deck) -> _Chain:
             return _Chain(bases, f"the *RESTART of {trail[-1]} could not be read")
         path = find_deck(current, name)
         if path is None:
-            return _Chain(bases, _missing(current, name), is_own=not bases)
+            why, refused = _missing(current, name)
+            return _Chain(bases, why, is_own=not bases, is_refused=refused)
         if _identity(path) in seen:
             back = " -> ".join([*trail, path.name])
             message = f"LAST= leads back to a deck that is open already ({back}): choose the deck of the run before"
@@ -111,7 +125,8 @@ def _follow(deck: Deck) -> _Chain:
             return _Chain(bases, f"more than {MOST_CONTINUED} decks continue each other")
         base = read_base(path)
         if isinstance(base, str):
-            return _Chain(bases, f"the deck that LAST= continues is not read: {base}; {_ADVICE}", is_own=not bases)
+            why = without_text(base, path, deck.folder or path.parent)
+            return _Chain(bases, f"the deck that LAST= continues is not read: {why}; {_ADVICE}", is_own=not bases)
         seen.add(_identity(path))
         trail.append(path.name)
         bases.append(base)
@@ -119,10 +134,15 @@ def _follow(deck: Deck) -> _Chain:
     return _Chain(bases)
 
 
-def _missing(deck: Deck, name: str) -> str:
-    folder = deck.folder.as_posix() if deck.folder else ""
+def _missing(deck: Deck, name: str) -> tuple[str, bool]:
+    """Why the deck that LAST= names is not there, and whether that is because it is refused."""
     names = candidate_names(deck, name)
-    return f"the deck {shown(names[0])} was not found (looked in {folder} for {', '.join(names)}): {_ADVICE}"
+    folder = deck.folder or Path()
+    why, refused = not_found(folder, names[0])
+    if refused:
+        return why, True
+    looked = f"looked in {folder.as_posix() if deck.folder else ''} for {', '.join(names)}"
+    return f"the deck {shown(names[0])} was not found ({looked}): {_ADVICE}", False
 
 
 def _identity(path: Path) -> Path:

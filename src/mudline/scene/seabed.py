@@ -14,6 +14,7 @@ import numpy as np
 from mudline.diagnostics import Where
 from mudline.keywords.text import shown
 from mudline.limits import LARGEST_FILE
+from mudline.outside import without_text
 from mudline.scene.context import Context
 from mudline.scene.deck_values import file_name, find_file, number, surfaces
 from mudline.scene.numbering import Floats, side_by_side
@@ -131,13 +132,14 @@ def _profile(context: Context, block: SeabedProfile, where: Where, unreadable: l
 
 def _read_points(context: Context, name: str, columns: int, where: Where) -> tuple[Floats, str, str]:
     """The points of a file, why they are not known, and the fault of a file that is there, or is a compiled one."""
-    path = find_file(context.deck.folder_of(where), name)
+    folder = context.deck.folder_of(where)
+    path = find_file(folder, name)
     try:
         if path is None and not name.lower().endswith(COMPILED):
             return _NO_POINTS, f"{shown(name)} was not found", ""
         return read_profile(path or Path(name), columns), "", ""
     except ValueError as error:
-        fault = str(error)
+        fault = without_text(str(error), path, folder) if path else str(error)
     except OSError as error:
         fault = str(error.strerror)
     return _NO_POINTS, fault, fault

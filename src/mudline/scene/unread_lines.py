@@ -18,7 +18,7 @@ from mudline.keywords.keeping import is_read, kept_lines, kept_places
 from mudline.keywords.text import shown
 from mudline.keywords.values import Equation, Label, Names
 from mudline.scene.context import Context
-from mudline.scene.deck_values import bare, data_lines, file_name, find_file
+from mudline.scene.deck_values import bare, data_lines, file_name, find_file, not_found
 from mudline.scene.names import CURVES, names_of
 from mudline.scene.references import check_label, sets_of_postprocessing
 from mudline.scene.sets import Sets
@@ -231,6 +231,5 @@ class _Looking:
         given = self.context.written.sections[where.section].name in catalogue.CERTAIN_SECTIONS
         if folder is None or not given or "%" in name or find_file(folder, name) is not None:
             return
-        looked = f"looked in {folder.as_posix()}"
-        message = f"the file {shown(name)} was not found ({looked}): correct the name, or put the file there{_UNREAD}"
-        self._note(Problem(REF015, message, None, None, where))
+        message, refused = not_found(folder, name)
+        self._note(Problem(REF015, f"{message}{_UNREAD}", None, Severity.ERROR if refused else None, where))

@@ -110,6 +110,14 @@ def _rows(sheet: Any, texts: Any) -> Iterator[list[Cell]]:  # noqa: ANN401 - ope
         yield cells
 
 
+def _width(line: str, separator: str) -> int:
+    """How many fields a line has; none where it is no line of a table, which is reported when it is read."""
+    try:
+        return len(next(csv.reader([line], delimiter=separator), []))
+    except csv.Error:
+        return 0
+
+
 def csv_sheet(data: bytes, file: str) -> Sheet:
     """A CSV file as a sheet; its fields are separated by commas, semicolons or tabs, as those of its first line are.
 
@@ -118,10 +126,10 @@ def csv_sheet(data: bytes, file: str) -> Sheet:
     source = Source.from_bytes(data, file)
     if not source.readable:
         raise data_error(file, source.problems[0].message)
-    first = source.text.partition("\n")[0]
-    separator = max(SEPARATORS, key=lambda one: len(next(csv.reader([first], delimiter=one), [])))
+    first = source.unified.partition("\n")[0]
+    separator = max(SEPARATORS, key=lambda one: _width(first, one))
     rows: list[list[Cell]] = []
-    for fields, line in csv_rows(file, source.text, separator):
+    for fields, line in csv_rows(file, source.unified, separator):
         given = ((column, text.strip()) for column, text in enumerate(fields, 1))
         rows.append([Cell(line, column, text) for column, text in given if text])
     return Sheet(file, PurePath(file).stem, rows, is_workbook=False)

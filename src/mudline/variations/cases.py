@@ -19,7 +19,8 @@ from mudline.keywords.model import Block
 from mudline.keywords.text import shown, suggestion
 from mudline.keywords.values import Equation
 from mudline.limits import LARGEST_FILE, MOST_DECKS
-from mudline.scene.deck_values import find_file
+from mudline.outside import without_text
+from mudline.scene.deck_values import find_file, not_found
 from mudline.spelling import Effort
 from mudline.syntax.fields import is_one_field
 from mudline.syntax.rows import read_number
@@ -226,8 +227,12 @@ def _addition(deck: Deck, varied: VariedBlock, keyword: str, section: str) -> Ad
         )
     path = find_file(deck.folder, varied.file)
     if path is None:
-        raise RefusedError(f"file {shown(unquoted(varied.file))} was not found beside the deck")
-    text = _block_text(_content(path, varied.file), keyword)
+        why, refused = not_found(deck.folder, unquoted(varied.file))
+        raise RefusedError(why if refused else f"file {shown(unquoted(varied.file))} was not found beside the deck")
+    try:
+        text = _block_text(_content(path, varied.file), keyword)
+    except RefusedError as error:
+        raise RefusedError(without_text(str(error), path, deck.folder)) from error
     try:
         text.encode(cast("TextOrigin", deck.origin).source.encoding)
     except UnicodeEncodeError as error:

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from mudline.contact import vectors
 from mudline.contact.arrays import FloatArray
+from mudline.contact.directions import directions_of
 from mudline.contact.tables import Tables
-from mudline.contact.tangent import directions_of
 from mudline.contact.vectors import in_plane
 from tests.builders.contact import LINEAR, chain, friction
 

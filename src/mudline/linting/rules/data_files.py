@@ -15,6 +15,7 @@ from mudline.keywords.model import FieldSpec, Part, record_schema
 from mudline.keywords.text import shown
 from mudline.keywords.values import Contents
 from mudline.linting.rule import LintContext, limited, rule
+from mudline.outside import without_text
 from mudline.scene.data_files import fault_of, has_uneven_times, unequal_frequencies
 from mudline.scene.deck_values import file_name, find_file
 
@@ -74,7 +75,8 @@ def faulty_data(context: LintContext) -> Iterator[Problem]:
     for named in files:
         path = find_file(context.deck.folder, file_name(parameters.filled(named.name) if parameters else named.name))
         if path is not None and (fault := _fault(named, path)):
-            yield Problem(DAT002, f"{shown(path.name)} cannot be used: {fault}", where=named.where)
+            shown_fault = without_text(fault, path, context.deck.folder)
+            yield Problem(DAT002, f"{shown(path.name)} cannot be used: {shown_fault}", where=named.where)
 
 
 def _fault(named: _Named, path: Path) -> str:

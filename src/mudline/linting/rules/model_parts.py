@@ -38,6 +38,7 @@ GEO011 = Code("GEO011", "short-cable", Severity.WARNING)
 GEO012 = Code("GEO012", "node-beyond-cable", Severity.WARNING)
 
 _ROUNDED = 1e-6
+_OF_CABLE = ("node", "cable", "distance")
 """Share of a length by which it may be rounded."""
 
 
@@ -343,7 +344,8 @@ def node_beyond_cable(context: LintContext) -> Iterator[Problem]:
     for where, block in context.blocks("NODE,CURVILINEAR"):
         for index, entry in enumerate(cast("CurvilinearNodes", block).entries):
             table = getattr(entry, "nodes", None)
-            for row, (_, cable, distance) in enumerate(table.values.tolist() if table is not None else ()):
+            rows = [] if table is None or table.values.shape[1] < len(_OF_CABLE) else table.values.tolist()
+            for row, (_, cable, distance) in enumerate(rows):
                 length = lengths.get(cable, math.nan)
                 if distance > length * (1.0 + _ROUNDED):
                     message = f"the node lies {distance:g} along a cable {length:g} long: correct one of them"

@@ -12,10 +12,9 @@ from mudline.deck.model import Opaque
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.keywords.catalogue import may_have_no_length
 from mudline.keywords.ranges import range_faults, ranged_slots
-from mudline.keywords.text import shown
 from mudline.limits import MOST_REPORTED
 from mudline.scene.checks import check
-from mudline.scene.deck_values import missing_files
+from mudline.scene.deck_values import missing_files, not_found
 from mudline.scene.sections import format_of
 
 if TYPE_CHECKING:
@@ -64,10 +63,11 @@ def missing_file(scene: ResolvedDeck) -> Iterator[Problem]:
     Without the file of its profile the seabed is not known.
     """
     for where, folder, name in missing_files(scene.context.written):
-        looked = f"looked in {folder.as_posix()}"
-        message = f"the file {shown(name)} was not found ({looked}): correct the name, or put the file there"
-        profile = bool(scene.seabed.missing) and where == scene.seabed.where.inside("file")
-        yield Problem(REF015, message, where=where, blocks=Blocks.ALWAYS if profile else Blocks.NEVER)
+        message, refused = not_found(folder, name)
+        severity = Severity.ERROR if refused else None
+        profile = refused or (bool(scene.seabed.missing) and where == scene.seabed.where.inside("file"))
+        blocks = Blocks.ALWAYS if profile else Blocks.NEVER
+        yield Problem(REF015, message, None, severity, where, blocks=blocks)
 
 
 GEO001 = Code("GEO001", "inner-exceeds-outer", Severity.ERROR)

@@ -1,0 +1,264 @@
+"""What is fuzzed: a function for each target, which raises where a promise is broken."""
+
+from __future__ import annotations
+
+import json
+import struct
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from io import BytesIO
+from pathlib import Path
+from typing import NamedTuple
+
+from mudline.deck.forms.json import to_json
+from mudline.deck.forms.keyword import to_keyword
+from mudline.deck.loading import load_bytes
+from mudline.diagnostics import DeckError, Severity
+from mudline.formatting.document import FormatError, formatted, same_meaning
+from mudline.keywords.values import Contents
+from mudline.linting.configuration import Configuration, ConfigurationError, Given, read_configuration
+from mudline.linting.engine import Fixing, LintSettings, lint_bytes
+from mudline.linting.fixing import fix_bytes
+from mudline.linting.registry import UnknownRule, rules
+from mudline.linting.settings import merged_settings
+from mudline.scene.data_files import fault_of
+from mudline.syntax.source import Source
+from tests.cli.runner import run
+from tests.keywords.test_plain_blocks import same
+from tests.samples import SAMPLES
+
+ROOT = Path(__file__).parents[2]
+NAME = "deck.keyxm"
+_CODES = {0, 1, 2}
+
+
+class BrokenPromiseError(AssertionError):
+    """A promise that does not hold; the message says which."""
+
+
+class Target(NamedTuple):
+    """What is done with an input, and which files its inputs come from."""
+
+    check: Callable[[bytes], None]
+    seeds: Callable[[], list[bytes]]
+
+
+def decks() -> list[bytes]:
+    """Samples and the corpus."""
+    paths = [
+        *SAMPLES.glob("*.key*"),
+        *(ROOT / "tests" / "corpus").rglob("*.key*"),
+        *Path(__file__).parent.glob("found/*"),
+    ]
+    return [path.read_bytes() for path in sorted(paths)]
+
+
+def _documents() -> list[bytes]:
+    made = []
+    for data in decks():
+        try:
+            made.append(to_json(load_bytes(data, NAME)).encode())
+        except (DeckError, ValueError):
+            continue
+    return [one for one in made if len(one) < 20_000]
+
+
+# ---------------------------------------------------------------------------------------------------------- in process
+
+
+def _read(data: bytes) -> None:
+    source = Source.from_bytes(data, NAME)
+    if source.to_bytes() != data:
+        raise BrokenPromiseError("reading a file and writing it gives other bytes")
+    load_bytes(data, NAME)
+
+
+def _lint(data: bytes) -> None:
+    lint_bytes(data, NAME, rules())
+
+
+def _fix(data: bytes) -> None:
+    settings = LintSettings(rules(), fixing=Fixing.UNSAFE)
+    once = fix_bytes(data, NAME, settings)
+    if once.changed is None:
+        return
+    again = fix_bytes(once.changed, NAME, settings)
+    if again.changed is not None and again.changed != once.changed:
+        raise BrokenPromiseError("fixing a fixed deck changes it again")
+    before = {one.code for one in lint_bytes(data, NAME, rules()) if one.severity is Severity.ERROR}
+    after = {one.code for one in lint_bytes(once.changed, NAME, rules()) if one.severity is Severity.ERROR}
+    if not before and after:
+        raise BrokenPromiseError(f"a fixed deck has new errors: {', '.join(sorted(after))}")
+
+
+def _format(data: bytes) -> None:
+    try:
+        once = formatted(data, NAME)
+    except (DeckError, FormatError) as error:
+        if "please report" in str(error):
+            raise
+        return
+    if formatted(once, NAME) != once:
+        raise BrokenPromiseError("formatting a formatted deck changes it again")
+    if not same_meaning(load_bytes(data, NAME), load_bytes(once, NAME)):
+        raise BrokenPromiseError("a formatted deck means something else")
+
+
+def _convert(data: bytes) -> None:
+    """There and back, for what the command converts: decks without an error of reading."""
+    deck = load_bytes(data, NAME)
+    if any(one.weight is Severity.ERROR for one in deck.problems):
+        return
+    try:
+        text = to_json(deck)
+        back = load_bytes(text.encode(), "deck.json")
+    except ValueError:
+        return
+    if to_json(back) != text:
+        raise BrokenPromiseError("a deck in JSON, read and written, is another one")
+    try:
+        keyword = to_keyword(back)
+    except ValueError:
+        return
+    if to_json(load_bytes(keyword.encode(), NAME)) != text:
+        raise BrokenPromiseError("a deck in JSON, written as keyword text and read, is another one")
+
+
+def _fast(data: bytes) -> None:
+    """The fast reader of plain blocks gives what the grammar gives."""
+    same(data)
+
+
+def _document(data: bytes) -> None:
+    for name in ("deck.json", "deck.yaml"):
+        try:
+            load_bytes(data, name)
+        except DeckError:
+            continue
+
+
+def _comments(data: bytes) -> None:
+    marked = b"\n".join(b"C mudline: " + line if n % 3 else line for n, line in enumerate(data.splitlines()))
+    lint_bytes(marked, NAME, rules())
+
+
+def _configuration(data: bytes) -> None:
+    with _file(data, "mudline.toml") as path:
+        try:
+            found = read_configuration(path)
+        except ConfigurationError:
+            return
+        try:
+            merged_settings(found or Configuration(), Given())
+        except UnknownRule:
+            return
+
+
+def _data(data: bytes) -> None:
+    with _file(data, "data.txt") as path:
+        for contents in Contents:
+            fault_of(path, contents)
+
+
+# ------------------------------------------------------------------------------------------------------------ commands
+
+
+@contextmanager
+def _file(data: bytes, name: str) -> Iterator[Path]:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / name
+        path.write_bytes(data)
+        yield path
+
+
+def _command(*words: str, name: str = NAME) -> Callable[[bytes], None]:
+    """A command on a file, as a user runs it: no traceback, an exit code of the three, JSON that is JSON."""
+
+    def check(data: bytes) -> None:
+        with _file(data, name) as path:
+            given = [word.format(path=path, folder=path.parent) for word in words]
+            outcome = run(*given)
+        if outcome.code not in _CODES:
+            raise BrokenPromiseError(f"exit code {outcome.code}")
+        if "Traceback" in outcome.err:
+            raise BrokenPromiseError(outcome.err.strip().splitlines()[-1])
+        if "json" in words and outcome.code == 0 and outcome.out:
+            json.loads(outcome.out)
+
+    return check
+
+
+def _tables() -> list[bytes]:
+    return [b"Set,Ratio,Force\nA,0,0\nA,1,5\n", b"Curve Name,Embedment Ratio,Seabed Force\nc,0,0\n,1,5\n"]
+
+
+def _workbooks() -> list[bytes]:
+    from openpyxl import Workbook  # noqa: PLC0415 - an extra
+
+    book = Workbook()
+    sheet = book.active
+    for row in (("Curve Name", "Embedment Ratio", "Seabed Force"), ("c", 0, 0), (None, 1, 5)):
+        sheet.append(row)
+    stream = BytesIO()
+    book.save(stream)
+    return [stream.getvalue()]
+
+
+def _configurations() -> list[bytes]:
+    return [
+        b'select = ["SYN", "CRV003"]\nfail-on = "error"\nno-outside = true\n',
+        b'[severity]\nLEG = "off"\n[per-file-ignores]\n"*.das" = ["CRV"]\n',
+    ]
+
+
+def _data_files() -> list[bytes]:
+    return [
+        (SAMPLES / "scr-vessel.rao").read_bytes(),
+        b"C a\n0.0 1.0\n0.5 1.5\n",
+        b"HEADING=0\n0.1\n" + b"1 2 3 4 5 6\n" * 2,
+    ]
+
+
+def _positions(data: bytes) -> None:
+    with _file(data, "positions.npz") as path:
+        outcome = run("evaluate", str(SAMPLES / "legacy-flowline.keyxm"), "--positions", str(path), "-q")
+        if outcome.code not in _CODES:
+            raise BrokenPromiseError(f"exit code {outcome.code}")
+
+
+def _archives() -> list[bytes]:
+    import numpy as np  # noqa: PLC0415 - as the program does
+
+    stream = BytesIO()
+    np.savez(stream, node=np.arange(1, 4), positions=np.zeros((2, 3, 3)), time=np.arange(2.0))
+    return [stream.getvalue(), struct.pack("<I", 0x04034B50)]
+
+
+TARGETS = {
+    "read": Target(_read, decks),
+    "fast": Target(_fast, decks),
+    "lint": Target(_lint, decks),
+    "fix": Target(_fix, decks),
+    "format": Target(_format, decks),
+    "convert": Target(_convert, decks),
+    "comments": Target(_comments, decks),
+    "document": Target(_document, _documents),
+    "configuration": Target(_configuration, _configurations),
+    "data": Target(_data, _data_files),
+    "migrate": Target(_command("migrate", "{path}", "--verify"), decks),
+    "evaluate": Target(_command("evaluate", "{path}", "--output-format", "json"), decks),
+    "validate": Target(_command("validate", "{path}", "--output-format", "json"), decks),
+    "study": Target(_command("study", "{path}", "--only", "stability", "--output-format", "json"), decks),
+    "report": Target(
+        _command(
+            "report", "{path}", "--output-format", "json", "--sections", "verdict,findings,model,curves,contact,plan"
+        ),
+        decks,
+    ),
+    "index": Target(_command("index", "{path}", "-o", "{folder}/archive", "-q"), decks),
+    "csv": Target(_command("convert", "{path}", "-o", "{folder}/o.keyxm", name="t.csv"), _tables),
+    "xlsx": Target(_command("convert", "{path}", "-o", "{folder}/o.keyxm", name="t.xlsx"), _workbooks),
+    "positions": Target(_positions, _archives),
+}
+"""By name."""
