@@ -66,6 +66,8 @@ MOST_MATCHED = 2000
 
 LARGEST_FILE = 200_000_000
 """Bytes of a file that a deck names; a larger one is not what the keyword expects."""
+MOST_CELLS = 25_000_000
+"""Cells of a picture of the seabed: each takes some hundred bytes while it is thinned."""
 LARGEST_NEIGHBOUR = 50_000_000
 """Bytes of a file beside a deck whose content is looked at: it is read in each run."""
 MOST_NEIGHBOURS = 20_000

@@ -21,6 +21,7 @@ from mudline.contact import (
     LawAssignment,
 )
 from mudline.contact.arrays import FloatArray, IndexArray
+from mudline.contact.laws.trench import diagram, rounded
 from mudline.contact.seabed import FlatSeabed, PlanesSeabed, Seabed, SlopingSeabed
 from mudline.contact.seabed.profile import ProfileSeabed
 from mudline.curves import ForceCurve
@@ -28,13 +29,13 @@ from tests.builders.contact import ALONG_Y, FRICTION, bridge_law, floats, fricti
 from tests.contact.comparison import Scene, Sizes, compare
 
 NORMAL = ("linear", "smoothed", "curve", "soil", "rigid")
-BESIDE = ("unloading", "suction spring", "suction", "lateral")
-TRENCHES = ("trench peak", "trench wall", "trench table")
-LAWS = (*NORMAL, "nodal", *BESIDE, "friction", *TRENCHES)
+BESIDE = ("unloading", "suction spring", "damping", "suction", "lateral")
+TRENCHES = ("trench peak", "trench wall", "trench table", "trench level")
+LAWS = (*NORMAL, "nodal", "nodal damping", *BESIDE, "friction", "breakout", *TRENCHES)
 """All laws; in scenes each is on some elements or nodes."""
 SUBSETS: tuple[tuple[frozenset[str], bool], ...] = (
-    (frozenset({"curve", "linear", "smoothed", "soil", "unloading", "suction spring", "suction"}), True),
-    (frozenset({"linear", "nodal", "friction", "lateral"}), False),
+    (frozenset({"curve", "linear", "smoothed", "soil", "unloading", "suction spring", "damping", "suction"}), True),
+    (frozenset({"linear", "nodal", "nodal damping", "friction", "breakout", "lateral"}), False),
 )
 """Laws of the scenes of the suite, and whether their seabed is flat: each has loops of its own, compiled once."""
 SIZES = (1e-300, 1e-160, 1e-100, 1e-12, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e12, 1e100, 1e160, 1e300)
@@ -136,12 +137,15 @@ def _laws_of_block(line: _Line) -> Iterator[LawAssignment]:
     yield on("rigid", [row + 3])
     yield on("soil", [row + 4], strength=5e3, gradient=1.5e3)
     yield on("nodal", [node + 4], stiffness=1e4)
+    yield on("damping", [row], damping=1e3)
+    yield on("nodal damping", [node], damping=1e3)
     yield on("unloading", [row, row + 1, row + 2], stiffness=1.0)
     yield on("suction spring", [row], stiffness=800.0, extent=0.2)
     yield suction(law, [row])
     yield on("lateral", [row], stiffness=900.0)
     yield friction([node], ellipse=True, angle=30.0)
     yield friction([node + 1, node + 2], stiffness=np.nan, mobilisation=0.02)
+    yield on("breakout", [node + 2], peak_displacement=0.02, peak_growth=0.1, residual=0.4, residual_displacement=0.2)
     yield on("trench peak", [row], peak=300.0, **widths)
     yield on("trench wall", [row + 1], depth=0.05, **widths)
     yield on("trench table", [row + 2], table=0, **widths)
@@ -244,6 +248,8 @@ def _beside_parameters(random: _Random, name: str, count: int, size: float) -> d
             "cyclic_floor": np.where(random.rng.random(count) < 0.5, random.values(count, 0.0, 1.0, 0.5), np.nan),
         },
         "lateral": lambda: {"stiffness": random.scaled(count, 0.0, 5e3, size, 0.0)},
+        "damping": lambda: {"damping": random.scaled(count, 0.0, 5e3, size, 0.0)},
+        "nodal damping": lambda: {"damping": random.scaled(count, 0.0, 5e3, size, 0.0)},
     }  # fmt: skip
     return makers[name]()
 
@@ -266,6 +272,23 @@ def _friction(random: _Random, nodes: int, size: float) -> LawAssignment:
     return on("friction", rows, **dict(zip(FRICTION, columns, strict=True)))
 
 
+def _breakout(random: _Random, friction: LawAssignment) -> LawAssignment:
+    """On some nodes without an ellipse, some with a growth with z/D."""
+    rows = friction.rows[np.asarray(friction.parameters["elliptic"]) == 0.0]
+    rows = rows[random.some(len(rows))]
+    count = len(rows)
+    peak, growth = random.values(count, 1e-3, 0.05, 1e-300), random.values(count, 0.0, 0.1, 0.0)
+    return on(
+        "breakout",
+        rows,
+        peak_displacement=peak,
+        peak_growth=growth * random.pick((0.0, 1.0)),
+        residual=random.values(count, 0.0, 1.2, 0.0, 1.0),
+        residual_growth=random.values(count, 0.0, 0.5, 0.0),
+        residual_displacement=peak + growth + random.values(count, 1e-3, 0.2),
+    )
+
+
 def _trench(random: _Random, name: str, elements: int, size: float) -> LawAssignment:
     rows = random.some(elements, 0.7)
     count = len(rows)
@@ -279,7 +302,7 @@ def _trench(random: _Random, name: str, elements: int, size: float) -> LawAssign
     }
     if name == "trench peak":
         given["peak"] = random.scaled(count, 0.0, 1e3, size, 0.0, 1e-12)
-    elif name == "trench wall":
+    elif name in {"trench wall", "trench level"}:
         given["depth"] = random.values(count, 1e-3, 0.01, 1e-9)
     else:
         given["table"] = random.rng.integers(0, 3, count)
@@ -288,7 +311,7 @@ def _trench(random: _Random, name: str, elements: int, size: float) -> LawAssign
 
 _TABLES = (
     np.array([[0.01, 100.0], [0.1, 400.0], [0.3, 50.0]]),
-    np.array([[0.0, 250.0]]),
+    rounded(diagram(0.02, 0.3, 400.0, (120.0, 0.4)), 0.03),
     np.column_stack([np.linspace(0.0, 0.5, 40), np.linspace(0.0, 300.0, 40) ** 1.5]),
 )
 
@@ -309,9 +332,9 @@ def _laws(
             found.append(on(name, rows))
         else:
             found.append(on(name, rows, **_beside_parameters(random, name, len(rows), size)))
-    for name in (*BESIDE, "nodal"):
+    for name in (*BESIDE, "nodal", "nodal damping"):
         if name in names:
-            rows = random.some(nodes if name == "nodal" else elements)
+            rows = random.some(nodes if name.startswith("nodal") else elements)
             if name in {"unloading", "suction"}:  # a soil has its own
                 rows = rows[
                     ~np.isin(rows, np.concatenate([np.zeros(0), *(law.rows for law in found if law.law == "soil")]))
@@ -320,6 +343,8 @@ def _laws(
     if "friction" in names:
         found.append(_friction(random, nodes, size))
     found += [_trench(random, name, elements, size) for name in TRENCHES if name in names]
+    if {"friction", "breakout"} <= names:
+        found.append(_breakout(random, next(law for law in found if law.law == "friction")))
     return tuple(found)
 
 

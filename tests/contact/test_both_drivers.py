@@ -158,6 +158,8 @@ def test_a_state_is_never_written_to(backend: Backend) -> None:
         kept.append((state, {name: array.copy() for name, array in arrays_of(state) if array is not None}))
     for old, copies in kept:
         for name, array in arrays_of(old):
+            if name.endswith("breakout"):  # none in this scene; see test_breakout
+                continue
             assert array is not None
             assert equal_bits(array, copies[name]).all()
 

@@ -147,8 +147,8 @@ def test_the_force_is_bounded_and_continuous(clay: Clay, path: list[float]) -> N
 def leg(z: FloatArray, memory: tuple[float, ...], soil: Numbers) -> tuple[FloatArray, tuple[float, ...]]:
     """Forces on a straight way behind a memory, and the memory at its end."""
     memory = tuple(map(float, SOIL.begin(z[-1], memory)))
-    if SOIL.pending(z[-1], memory):
-        memory = (*memory[:-1], float(SOIL.locate(D, memory, soil)))
+    if kind := int(SOIL.pending(z[-1], memory)):
+        memory = (*memory[:-1], float(SOIL.locate[kind - 1](D, memory, soil)))
     force, _, after = SOIL.advance(z, D, memory, soil)
     return force, tuple(float(np.broadcast_to(number, len(z))[-1]) for number in after)
 

@@ -15,7 +15,7 @@ ROOT = Path(__file__).parents[2] / "src" / "mudline"
 BASE = "diagnostics, files, ..."
 API = ("api", "plugins")
 
-_WIDTH, _ROW, _BOX = 760, 74, (118, 34)
+_WIDTH, _ROW, _BOX = 880, 74, (118, 34)
 _GAP, _CROSSING = 10, 16
 """Least distance of two boxes, and the width that an arrow takes in a row that it crosses."""
 _STYLE = "font-family:sans-serif;font-size:13px"

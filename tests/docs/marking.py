@@ -7,7 +7,7 @@ import re
 MADE = "<!-- Made from the program by `make docs`: change the program, not this page. -->"
 
 _KEYWORD = r"[*$][A-Z][A-Z-]*(?:[ ,][A-Z][A-Z-]*)*"
-_SETTING = r"(?<![A-Z=])[A-Z]{2}[A-Z_]*(?: [A-Z]+)*=(?:\[\.\.\.\]|[A-Z]+\b)?"
+_SETTING = r"(?<![A-Z=])[A-Z]{2}[A-Z_]*(?: [A-Z]+)*=(?:\[\.\.\.\]|[A-Z][A-Z0-9]*(?:-[A-Z]+)*\b)?"
 _LIST = r"/[^/|]*:[^/|]*/"
 _LANGUAGE = re.compile(f"{_KEYWORD}|{_SETTING}|{_LIST}")
 

@@ -69,7 +69,7 @@ def test_tab_completes_commands_options_words_and_paths(terminal: Terminal) -> N
 def test_the_script_offers_every_command_that_begins_so(tmp_path: Path) -> None:
     ask = "COMP_WORDS=(mudline e); COMP_CWORD=1; _mudline_completion mudline; printf '%s\\n' \"${COMPREPLY[@]}\""
     done = shell(f"{SOURCED}\n{ask}", checkout(tmp_path))
-    assert (sorted(done.stdout.split()), done.stderr) == (["evaluate", "expand"], "")
+    assert (sorted(done.stdout.split()), done.stderr) == (["evaluate", "expand", "export"], "")
 
 
 def test_the_lines_of_the_page_are_those_that_are_tried() -> None:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from mudline.contact import ContactResult
 from tests.builders.decks import FOOT, IMPERIAL, METRIC, POUND, Units, line_deck
-from tests.builders.scenes import scene_of
+from tests.builders.scenes import messages, scene_of
 
 PRESSED = 0.05 * 50000.0 * 10.0
 """Normal force in N of a node between two elements of 10 m."""
@@ -45,6 +45,43 @@ def lateral(units: Units, trench: str, sideways: list[float]) -> list[float]:
     assert friction is not None
     found: list[float] = np.abs(friction[1:, 5, 1]).tolist()
     return found
+
+
+@BOTH
+def test_a_residual_a_lowered_level_and_rounded_corners(units: Units, length: float, force: float) -> None:
+    u = units.value
+    more = f" RESIDUAL={u(500.0, -1, 1)}, {u(3.0, 1)}\n SMOOTHING={u(0.2, 1)}\n"
+    trench = f" GEOMETRY={u(0.02, 1)}, {u(1.0, 1)}, {u(3.0, 1)}\n PEAK={u(2000.0, -1, 1)}\n"
+    found = lateral(units, trench + more, [0.5, 1.0, 2.0, 4.0])
+    # corners: slope 4000 over four half widths; from 4000 to -750
+    added = [4000.0 * 0.05, 2000.0 - 4750.0 * 0.05, 1250.0, 500.0]
+    np.testing.assert_allclose(found, [(0.5 * PRESSED + 10.0 * each) / force for each in added], rtol=1e-9)
+    low = moved(units, bed(units, trench + " LEVEL=LOWERED\n" + more), [1.0, 4.0])
+    np.testing.assert_allclose(low.depth[:, 5], np.array([0.03, 0.04, 0.05]) / length, rtol=1e-9)
+
+
+BED = bed(METRIC, " GEOMETRY=0.5, 1.0, 3.0\n")
+
+
+@pytest.mark.parametrize(
+    ("lines", "message"),
+    [
+        (" PEAK=2000.0\n RESIDUAL=500.0, 1.0\n", "no later than the peak, at 1"),
+        (" PEAK=2000.0\n SMOOTHING=0.3\n", "half of the shortest side of the resistance, 0.5"),
+        (" PEAK=2000.0\n SMOOTHING=0.25\n RESIDUAL=500.0, 1.2\n", "resistance, 0.2"),
+        (" PEAK=TABLE\n 0.4, 300.0\n 1.0, 50.0\n SMOOTHING=0.1\n", "resistance, 0"),
+        (" PEAK=TABLE\n 0.4, 300.0\n 1.0, 0.0\n RESIDUAL=500.0, 1.2\n", "a table has a residual"),
+        (" MODEL=WALL\n LEVEL=LOWERED\n", "LEVEL= does not go with"),
+        (" MODEL=WALL\n RESIDUAL=500.0, 1.2\n", "RESIDUAL= does not go with"),
+        (" MODEL=WALL\n SMOOTHING=0.1\n", "SMOOTHING= does not go with"),
+        (" PEAK=2000.0\n SMOOTHING=0.25\n RESIDUAL=500.0, 1.5\n LEVEL=LOWERED\n", ""),
+        (" PEAK=TABLE\n 0.4, 300.0\n 1.0, 0.0\n SMOOTHING=0.3\n", ""),
+        (" MODEL=WALL\n LEVEL=UNCHANGED\n", ""),
+    ],
+)
+def test_what_a_trench_may_not_say(lines: str, message: str) -> None:
+    found = messages(line_deck(METRIC, BED + lines))
+    assert [message in text for text in found] == [True] * bool(message)
 
 
 @BOTH

@@ -50,6 +50,17 @@ def test_the_critical_step_of_a_linear_seabed_is_its_formula() -> None:
     assert (row.at_own_step, words[:5]) == ("stable", "loses")
 
 
+def test_a_lateral_resistance_that_falls_is_advised_on_with_stiffness_and_step() -> None:
+    """(peak - residual) W / distance, which a structure has to have, and half of the time in which motion grows."""
+    breakout = "*SEABED FRICTION\n SET=ALL\n COEFFICIENTS=0.3, 0.6\n STIFFNESS=2E4\n"
+    text = deck(LINEAR + breakout + " LATERAL=PEAK-RESIDUAL\n PEAK=1.2, 0.03\n RESIDUAL=0.6, 0.3\n")
+    advice = studied(text, "stability", "pruning").advice.text
+    needed = 0.6 / 0.27 * (MASS - 1025.0 * math.pi / 4.0 * 0.3**2) * 9.81
+    assert f"line {line_of(text, 'PEAK=')} (softening on ALL)" in advice
+    assert f"above {needed:.6g} N/m2" in advice
+    assert f"a step up to {math.floor(500.0 / math.sqrt(needed / MASS)) / 1e3:.3g} s" in advice
+
+
 def test_damping_lowers_the_critical_step_of_velocity_verlet(whole: Study) -> None:
     """(omega dt)^2 + 4 gamma dt < 4, gamma = c / m."""
     assert whole.stability is not None
@@ -63,7 +74,7 @@ def test_damping_lowers_the_critical_step_of_velocity_verlet(whole: Study) -> No
 
 
 def test_landings_keep_their_speed_up_to_the_landing_step_and_not_above(everything: Scene) -> None:
-    contacts, _ = contacts_of(everything, everything.contact_input("cut"))
+    contacts, *_ = contacts_of(everything, everything.contact_input("cut"))
     rows = {one.row.contact: one.row for one in judged(everything, contacts, None)}
     landed = [one for one in contacts if one.law is not None]
     assert {one.row.kind for one in landed} == {"curve", "linear"}

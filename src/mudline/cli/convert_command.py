@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from importlib.util import find_spec
 from pathlib import Path, PurePath
 
@@ -22,7 +23,9 @@ from mudline.keywords.table import Table
 
 _FORMS = click.Choice(form_names())
 _TABLES = {".xlsx": "xlsx", ".xlsm": "xlsx", ".csv": "csv"}
-_SOURCES = click.Choice([*form_names(), *dict.fromkeys(_TABLES.values())])
+_BEDS = {".tif": "geotiff", ".tiff": "geotiff", ".asc": "esri-asc"}
+_GRIDS = (*dict.fromkeys(_BEDS.values()), "moordyn-grid")
+_SOURCES = click.Choice([*form_names(), *dict.fromkeys(_TABLES.values()), *_GRIDS])
 _OTHER_SHEETS = {".xls", ".xlsb", ".ods"}
 
 
@@ -36,15 +39,32 @@ _OTHER_SHEETS = {".xls", ".xlsb", ".ods"}
 )
 @options.option("--to", "target", type=_FORMS, help="Write in this format, not in that of the suffix of OUT.")
 @options.option("--sorted", "in_order", is_flag=True, help="Write curves with their points sorted by ratio.")
+@options.option("--within", type=float, metavar="METRES", help="Thin a seabed (.tif, .asc) as far as this error.")
+@options.option("--origin", metavar="E,N", help="Easting and northing of Y = Z = 0 of a seabed (default 0,0).")
+@options.option("--datum", type=float, metavar="ELEVATION", help="Elevation of X = 0 of a seabed (default 0).")
 @takes_deck
 def command(
-    *, deck: GivenDeck, output: str | None, source: str | None, target: str | None, in_order: bool, view: View
+    *,
+    deck: GivenDeck,
+    output: str | None,
+    source: str | None,
+    target: str | None,
+    in_order: bool,
+    within: float | None,
+    origin: str | None,
+    datum: float | None,
+    view: View,
 ) -> int:
-    """Convert a deck between keyword text, JSON and YAML; tables (.xlsx, .csv) to a deck.
+    """Convert a deck between keyword text, JSON and YAML; tables (.xlsx, .csv) and seabeds (.tif, .asc) to a deck.
 
     Only blank lines and the spelling of numbers are lost. A deck with a value that its keyword does not allow, as a
     curve of one point or a negative depth, is not written as JSON or YAML.
     """
+    grid = source if source in _GRIDS else _BEDS.get(PurePath(deck.path).suffix.lower(), "") if source is None else ""
+    if grid:
+        return _bed(deck, grid, output, within, _origin(origin, datum), view)
+    if (within, origin, datum) != (None, None, None):
+        raise click.UsageError("--within, --origin and --datum are for a seabed: give a .tif or .asc, or --from")
     form = target or _form_of_output(output)
     table = _table_form(deck, source)
     read = _tables(deck, table) if table else deck.load(source).require()
@@ -63,6 +83,55 @@ def command(
     write_text(path, [text])
     if not view.quiet:
         notify(f"{read.file} -> {path.as_posix()}")
+    return DONE
+
+
+def _origin(given: str | None, datum: float | None) -> tuple[float, float, float]:
+    """Elevation, easting and northing of the deck's origin; raises click.UsageError."""
+    try:
+        east, north = (float(word) for word in (given or "0,0").split(","))
+    except ValueError:
+        east = north = math.nan
+    if not math.isfinite(east + north + (datum or 0.0)):
+        raise click.UsageError(f"--origin {given!r}, --datum {datum}: expected finite numbers, as in 430000,6500000")
+    return datum or 0.0, east, north
+
+
+def _bed(
+    deck: GivenDeck,
+    form: str,
+    output: str | None,
+    within: float | None,
+    origin: tuple[float, float, float],
+    view: View,
+) -> int:
+    """Write the deck of a seabed and its file of points. Raises DeckError, click.ClickException."""
+    if output is None or PurePath(output).suffix.lower() not in {".keyxm", ".keyx", ".das"}:
+        raise click.UsageError("a seabed in metres becomes two files: give -o OUT.keyxm")
+    if within is None or not 0.0 < within < math.inf:
+        raise click.UsageError("a seabed is thinned: give its largest error, as in --within 0.05")
+    for library, extra in (("scipy", "surface"), *[("rasterio", "bathymetry")] * (form == "geotiff")):
+        if find_spec(library) is None:
+            notify_missing(f"a seabed ({form})", library, extra)
+            return FOUND
+    from mudline.cli.evaluate_inputs import read_file  # noqa: PLC0415 - only a seabed needs it
+    from mudline.deck.loading import load_bytes  # noqa: PLC0415 - as above
+    from mudline.export.bathymetry import bed_deck  # noqa: PLC0415 - as above
+
+    path = Path(output).with_suffix(".xyz")
+    bed = read_file(deck.path, lambda file: bed_deck(file, form, path.name, within, origin))
+    found = load_bytes(bed.deck.encode(), output)
+    if found.problems or [getattr(block, "file", "") for each in found.sections for block in each.blocks] != [
+        path.name
+    ]:
+        raise click.UsageError(
+            f"{path.name!r}: a deck does not read this as the name of a file: give letters and digits"
+        )
+    write_text(path, [bed.points])
+    write_text(Path(output), [bed.deck])
+    if not view.quiet:
+        notify(f"{bed.kept} of {bed.given} points, largest difference {bed.error:.3g} m")
+        notify(f"{deck.path} -> {output}, {path.as_posix()}")
     return DONE
 
 

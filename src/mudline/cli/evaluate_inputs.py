@@ -53,6 +53,15 @@ class EvaluateInputs:
         scene = self.scene(deck)
         return prepare(scene, self._placed(scene), self.tension)
 
+    def _read(self, path: Path, scene: Scene) -> Positions:
+        """Positions from a file in our form, or in one of another program that its headings tell."""
+        if not self.headings and path.suffix.lower() not in {".npz", ".npy"}:
+            from mudline.export.returned import read_returned  # noqa: PLC0415 - needs the shape of the lines
+
+            if (found := read_returned(path, scene)) is not None:
+                return found
+        return read_positions(path, scene.nodes, self.headings)
+
     def _placed(self, scene: Scene) -> Positions | None:
         """Positions of a scene's nodes; with `time_step` those without times get them."""
         path = self.positions
@@ -60,7 +69,7 @@ class EvaluateInputs:
             return None
         if self.headings and Path(path).suffix.lower() in {".npz", ".npy"}:
             raise click.UsageError(f"--columns is for CSV: the arrays of {path} have names already")
-        positions = read_file(path, lambda file: read_positions(file, scene.nodes, self.headings))
+        positions = read_file(path, lambda file: self._read(file, scene))
         if self.time_step is None:
             return positions
         if positions.time is None or positions.timed:

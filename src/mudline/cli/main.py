@@ -43,6 +43,7 @@ COMMANDS = {
     "study": "Measure what accuracy costs on a deck, and what is stable.",
     "report": "Write a page about a deck for a checker to sign.",
     "rules": "List the rules, or explain one.",
+    "export": "Export the model of a deck for another program.",
     "schema": "Print the JSON Schema of decks, or of the configuration.",
     "config": "Show the configuration of a deck.",
     "lsp": "Serve an editor: findings, fixes, help and names as you type.",

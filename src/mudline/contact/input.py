@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mudline.arguments import expect, read_only
 from mudline.contact.arrays import BoolArray, FloatArray, IdArray, IndexArray
-from mudline.contact.laws import Law, NormalLaw, PathLaw, law_named
+from mudline.contact.laws import BUILT_IN, Law, NormalLaw, PathLaw, law_named
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:  # a scene without curves does not load them, nor does a flat seabed load other shapes
@@ -152,7 +152,7 @@ class ContactInput:
         laws: which elements and nodes have which laws, with which parameters; an element has one normal law at most.
         curves: what the parameter of the law "curve" points to.
         tables: what that of the law "trench table" points to: (rows, 2) distance from the centreline, ascending, and
-            lateral resistance per unit length.
+            lateral resistance per unit length; maybe a third column, see `laws.trench`.
         tension: what happens where a curve pulls: "keep" its negative force, or "cut" force and stiffness to 0.
         seabed: its shape; None for a flat one at X = 0.
         weight: (m,) submerged weights per unit length, NaN where unknown; None when none is. Forces do without them.
@@ -246,6 +246,11 @@ class ContactInput:
         return any(name in self.assigned for name in names)
 
     @property
+    def needs_velocities(self) -> list[str]:
+        """Names of the laws that ask for velocities along the normals."""
+        return [name for name, given in self.assigned.items() if given.law.velocities]
+
+    @property
     def normal_laws(self) -> list[AssignedLaw]:
         """The normal laws of elements that are there, a rigid seabed left out."""
         return [given for given in self.assigned.values() if _is_normal(given, "elements")]
@@ -266,7 +271,7 @@ class ContactInput:
         found = np.zeros(len(self.element_ids), np.int8)
         found[self._nodal_elements()] = LawKind.NODAL
         for given in self._restrained:
-            found[given.rows] = _KINDS.get(given.law.name, LawKind.OTHER)
+            found[given.rows] = _kind(given.law.name)
         return found
 
     @property
@@ -365,13 +370,9 @@ class ContactInput:
         raise ElementError(f"element {element} {what}", element)
 
 
-_KINDS = {
-    "curve": LawKind.CURVE,
-    "linear": LawKind.LINEAR,
-    "smoothed": LawKind.LINEAR,
-    "rigid": LawKind.RIGID,
-    "soil": LawKind.SOIL,
-}
+def _kind(name: str) -> LawKind:
+    known = LawKind.__members__ if name in BUILT_IN else {}
+    return LawKind.LINEAR if name == "smoothed" else known.get(name.upper(), LawKind.OTHER)
 
 
 def _is_normal(given: AssignedLaw, acts_on: str) -> bool:

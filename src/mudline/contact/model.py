@@ -87,13 +87,13 @@ class ContactModel:
         elements with one of them are left out, and a node's reaction is that of the elements that are evaluated.
 
         A scene with history begins it at the first step. `velocities` are of the shape of the positions; without them
-        they are differences over `times` (steps,), 0 at the first step. Only suction asks for them.
+        they are differences over `times` (steps,), 0 at the first step. Only suction and damping ask for them.
 
         Raises:
             PositionError: a position is NaN or infinite.
             ElementError: a value of an element overflows.
-            ValueError: an argument does not have the shape or type it should, or a series with suction has neither
-                velocities nor times.
+            ValueError: an argument does not have the shape or type it should, or a series with suction or damping has
+                neither velocities nor times.
         """
         given = self.input.coordinates if positions is None else positions
         single = False
@@ -122,8 +122,9 @@ class ContactModel:
         series, mask = _as_series(positions, nodes), _as_mask(present, nodes)
         motion = _as_velocities(velocities, series.shape)
         clock = _as_times(times, len(series))
-        if self._tables.suction is not None and motion is None and clock is None and len(series) > 1:
-            raise ValueError("a series with suction needs velocities, or the times of its steps")
+        if self.input.needs_velocities and motion is None and clock is None and len(series) > 1:
+            law = self.input.needs_velocities[0]
+            raise ValueError(f"a series with {law} needs velocities, or the times of its steps")
         driver, state = self._driver(len(series)), self._tables.initial_state()
         rows = self._numpy.steps if driver is None else driver.steps
         whole = self._blank(series[:], mask, clock) if together else None
@@ -171,7 +172,7 @@ class ContactModel:
             raise ValueError("a step takes the positions of one step")
         mask = _as_mask(None, nodes)
         motion = _as_velocities(velocities, series.shape)
-        if self._tables.suction is not None and motion is None and state.positions is not None and dt is None:
+        if self.input.needs_velocities and motion is None and state.positions is not None and dt is None:
             raise ValueError("a step without velocities needs dt > 0")
         with np.errstate(all="ignore"):
             # a copy: state and result keep it, and whoever steps may write the next positions into the same array
@@ -261,6 +262,10 @@ class ContactModel:
         """Evaluate a batch into `part`; return the state behind it, in the arrays of `state` unless that is `kept`."""
         laid = points[0] if state.laid is None else state.laid
         self._numpy.locate(points, part)
+        if self._tables.level is not None:
+            from mudline.contact.tangent import lower  # noqa: PLC0415 - few trenches do
+
+            lower(self._tables, points, laid, part.normal, part.gap)
         batch = Batch(points, self._speed(points, rates, spans, part.normal, state), laid)
         after = None if driver is None else driver.run(batch, part, state)
         if after is None:
@@ -283,11 +288,11 @@ class ContactModel:
         normal: FloatArray,
         state: ContactState,
     ) -> FloatArray | None:
-        """Velocities (steps, n) along the normals, where suction asks for them.
+        """Velocities (steps, n) along the normals, where a law asks for them.
 
         Those given, else differences over `spans`, the times since the steps before: 0 at the first step of a series.
         """
-        if self._tables.suction is None:
+        if not self.input.needs_velocities:
             return None
         flat = isinstance(self._seabed, FlatSeabed)
         if rates is None:

@@ -7,12 +7,12 @@ everything came out finite, and what did not.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
 from mudline.contact import vectors
-from mudline.contact.arrays import FloatArray, add_at, as_range, taken
+from mudline.contact.arrays import BoolArray, FloatArray, Picked, add_at, as_range, taken
 from mudline.contact.numpy_elements import Elements, Work
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed import FlatSeabed, Seabed
@@ -67,12 +67,13 @@ class NumpyDriver:
             np.zeros((steps, elements + 2)),
             np.zeros((self._components, steps, elements + 2)),
             np.zeros((lateral, steps, elements + 2)),
+            np.zeros((steps, elements + 2)) if self._tables.embeds else np.empty((0, 0)),
         )
         for some in self._elements:
             some.run(batch, part, state, work)
         laid = None if self._tables.trench is None else self._tables.laid_line(batch.laid)
         for some_nodes in self._nodes:
-            some_nodes.run(part, state, work, laid)
+            some_nodes.run(batch.speed, part, state, work, laid)
 
 
 def _keep_freed_memory() -> None:
@@ -83,6 +84,48 @@ def _keep_freed_memory() -> None:
     is never touched costs nothing.
     """
     np.empty(31 * 2**20, np.int8)
+
+
+class _Breakout(NamedTuple):
+    """Nodes of a range with a breakout: rows of the law, columns in the range, parameters, 1 over elements."""
+
+    rows: slice
+    at: Picked
+    law: tuple[FloatArray, ...]
+    share: FloatArray
+
+
+class _Softening:
+    """The breakout of nodes over the steps of a batch.
+
+    `embedment` are their ratios z/D (steps, k), or one for all; `held` (5, k) what they remember, written in place.
+    """
+
+    def __init__(self, nodes: _Breakout, embedment: FloatArray | None, held: FloatArray) -> None:
+        self._nodes, self._embedment, self._held = nodes, embedment, held
+
+    def soften(self, step: int, scaled: tuple[FloatArray, FloatArray], points: FloatArray, across: Components) -> None:
+        """Scale the lateral springs and limits (k,) of a step to points (3, k)."""
+        from mudline.contact.laws.breakout import reached, shares  # noqa: PLC0415 - most friction has no breakout
+
+        (_, at, law, _), held, axes = self._nodes, self._held, len(across)
+        away = tuple(points[3 - axes :, at] - held[3 - axes : 3])
+        distance = vectors.PLANES[axes].dot(tuple(axis[at] if len(axis) > 1 else axis for axis in across), away)
+        deep = 0.0 if self._embedment is None else self._embedment[step]
+        held[3], held[4] = reached((held[3], held[4]), distance, deep, law)
+        share, _, softer = shares(held[3], held[4], law)
+        for values, factor in zip(scaled, (softer, share), strict=True):
+            values[at] *= factor
+
+    def begin(self, points: FloatArray, on: BoolArray) -> None:
+        """Forget what nodes remember that were not in contact."""
+        on = on[self._nodes.at]
+        self._held[:3] = np.where(on, self._held[:3], points[:, self._nodes.at])
+        self._held[3:] = np.where(on, self._held[3:], 0.0)
+
+    def end(self, held: BoolArray) -> None:
+        """Forget what nodes remember that are out of contact."""
+        self._held[...] = np.where(held[self._nodes.at], self._held, [[np.nan]] * 3 + [[0.0]] * 2)
 
 
 class Nodes:
@@ -98,6 +141,7 @@ class Nodes:
             columns = tuple(column[None, cut] for column in rows.columns)
             if cut.start < cut.stop:
                 self._nodal.append((rows.reaction, as_range(rows.rows[cut] - begin), columns, rows.law.onset(*columns)))
+        self._damping = None if tables.nodal_damping is None else tables.nodal_damping[None, here]
         friction = tables.friction
         if friction is not None:
             self._active, self._elliptic = friction.active[here], friction.elliptic[here]
@@ -108,6 +152,11 @@ class Nodes:
             turned = rows_within(friction.turned, begin, end)
             self._turned = friction.turned[turned] - begin
             self._turn = friction.cosine[turned], friction.sine[turned]
+        self._breakout: _Breakout | None = None
+        if (breakout := tables.breakout) is not None:
+            cut = rows_within(breakout.rows, begin, end)
+            columns = tuple(column[cut] for column in breakout.columns)
+            self._breakout = _Breakout(cut, as_range(breakout.rows[cut] - begin), columns[:-1], columns[-1])
         if tables.trench is not None:
             from mudline.contact.trenches import ranks  # noqa: PLC0415 - most friction has no trench
 
@@ -115,13 +164,24 @@ class Nodes:
             nodes = self._trench.nodes - begin
             self._in_trench, self._ranks = as_range(nodes), [(rows, as_range(nodes[rows])) for rows in ranks(nodes)]
 
-    def run(self, part: ContactResult, state: ContactState, work: Work, laid: LaidCentreline | None) -> None:
+    def run(
+        self,
+        speed: FloatArray | None,
+        part: ContactResult,
+        state: ContactState,
+        work: Work,
+        laid: LaidCentreline | None,
+    ) -> None:
         """Write the nodes of a batch."""
         line, here = self._tables.line, self._here
         total = line.sums(work.load, self.begin, self.end)
         for reaction, at, columns, onset in self._nodal:
             z = 0.0 - taken(part.gap[:, here], at)
             add_at(total, at, np.where(z > onset, reaction(z, 0.0, *columns)[0], 0.0))
+        if self._damping is not None and speed is not None:
+            from mudline.contact.laws.damping import damping_force  # noqa: PLC0415 - only now is it needed
+
+            total += damping_force(0.0 - part.gap[:, here], speed[:, here], self._damping)
         part.normal_force[:, here] = total
         if part.normal.strides[1] == 0:  # one for all nodes
             normal = tuple(part.normal[:1, :1, axis] for axis in range(3))
@@ -168,7 +228,7 @@ class Nodes:
         found: Components = tuple(np.zeros(along[0].shape) for _ in along)
         one = other = np.zeros(along[0].shape)
         if state.friction is not None:
-            one, other = self._friction_forces(part, state.friction, work, axes, laid)
+            one, other = self._friction_forces(part, state, work, axes, laid)
             found = self._plane.blend(along, across, one, other)
         if len(work.lateral):
             push = self._sums(work.lateral, directed=False)
@@ -181,7 +241,7 @@ class Nodes:
     def _friction_forces(
         self,
         part: ContactResult,
-        history: FrictionHistory,
+        state: ContactState,
         work: Work,
         axes: tuple[Components, Components],
         laid: LaidCentreline | None,
@@ -189,6 +249,7 @@ class Nodes:
         """Friction along u1 and u2 (steps, k); the stick points go from step to step."""
         from mudline.contact.laws import friction as law  # noqa: PLC0415 - only now is it needed
 
+        history = cast("FrictionHistory", state.friction)
         along, across = axes
         plane, here, first = self._plane, self._here, 3 - len(along)
         places = work.planes[..., here]
@@ -201,6 +262,7 @@ class Nodes:
         walls = None if laid is None or not self._ranks else self._trench_limits(places, across, pressing, laid)
         stick = history.stick_points[here].T.copy()
         held = history.states[here, 0] > 0
+        softening = self._softening(state, work)
         forces, slips = np.empty(limits.shape), np.empty(limits.shape, np.bool_)
         elongation = np.empty((2, len(self._active)))
         for step, close in enumerate(closed):
@@ -209,17 +271,13 @@ class Nodes:
             away = np.where(on, places[first:, step] - stick[first:], 0.0)
             elongation[0], elongation[1] = plane.dot(u, away), plane.dot(v, away)
             spring, limit = springs[:, step], limits[:, step]
+            if softening is not None:
+                softening.begin(places[:, step], on)
+                softening.soften(step, (spring[1], limit[1]), places[:, step], v)
             trial = spring * elongation
             if walls is not None:
                 limit[1] += np.where(trial[1] > 0.0, walls[0][step], walls[1][step])
-            force, slip = law.in_box(trial, limit)
-            if self._curved:
-                mapped = law.on_ellipse if limited else law.in_ellipse
-                # forces, and whether both directions slip, or each
-                curved = mapped(trial[0], trial[1], limit[0], limit[1])
-                for side, slipping in enumerate((curved[2], curved[-1])):
-                    force[side] = np.where(self._elliptic, curved[side], force[side])
-                    slip[side] = np.where(self._elliptic, slipping, slip[side])
+            force, slip = self._bounded(trial, limit, limited=limited)
             moves = law.slip_distance(slip, elongation, force, spring)
             moved = plane.blend(u, v, moves[0], moves[1])
             stick = np.where(on, stick, places[:, step])
@@ -228,6 +286,8 @@ class Nodes:
             np.subtract(0.0, force, out=forces[:, step])
             slips[:, step] = slip
         history.stick_points[here] = np.where(held, stick, np.nan).T
+        if softening is not None:
+            softening.end(held)
         for side in range(2):
             states = (slips[side].view(np.int8) + np.int8(1)) * closed.view(np.int8)
             states += self._idle
@@ -235,6 +295,29 @@ class Nodes:
             if part.friction_state is not None:
                 part.friction_state[:, here, side] = states
         return forces[0], forces[1]
+
+    def _bounded(self, trial: FloatArray, limit: FloatArray, *, limited: bool) -> tuple[FloatArray, BoolArray]:
+        """Forces (2, k) in the springs and whether they slip; `limited`: all limits are above 0."""
+        from mudline.contact.laws import friction as law  # noqa: PLC0415 - only now is it needed
+
+        force, slip = law.in_box(trial, limit)
+        if self._curved:
+            mapped = law.on_ellipse if limited else law.in_ellipse
+            # forces, and whether both directions slip, or each
+            curved = mapped(trial[0], trial[1], limit[0], limit[1])
+            for side, slipping in enumerate((curved[2], curved[-1])):
+                force[side] = np.where(self._elliptic, curved[side], force[side])
+                slip[side] = np.where(self._elliptic, slipping, slip[side])
+        return force, slip
+
+    def _softening(self, state: ContactState, work: Work) -> _Softening | None:
+        nodes, held = self._breakout, state.breakout
+        if nodes is None or held is None:
+            return None
+        deep = None
+        if self._tables.embeds:
+            deep = taken(self._tables.line.sums(work.ratio, self.begin, self.end), nodes.at) * nodes.share
+        return _Softening(nodes, deep, held[:, nodes.rows])
 
     def _trench_limits(
         self, places: FloatArray, across: Components, pressing: FloatArray, laid: LaidCentreline

@@ -35,12 +35,14 @@ class Work(NamedTuple):
         tangent: (c, steps, m + 2) components of the unit direction of each element, those in the plane of a horizontal
             seabed alone.
         lateral: the same of the lateral force on each of its nodes.
+        ratio: z/D of each element; none where no node asks for it.
     """
 
     planes: FloatArray
     load: FloatArray
     tangent: FloatArray
     lateral: FloatArray
+    ratio: FloatArray
 
 
 class _Group(NamedTuple):
@@ -89,6 +91,7 @@ class Elements:
         bare = np.setdiff1d(np.arange(end - begin), np.concatenate(held))
         self._order, self._bare = np.concatenate([*held, bare]), len(bare)
         self._back = np.argsort(self._order) if (np.diff(self._order) != 1).any() else None
+        self._damping = None if tables.damping is None else tables.damping[None, here]
         self._unloading = self._subset(tables.unloading)
         self._steeper = [] if self._unloading is None else self._may_steepen(self._unloading)
         self._springs, self._suction = self._subset(tables.springs), self._subset(tables.suction)
@@ -134,9 +137,16 @@ class Elements:
             values[1][:, self._unsized] = np.nan
         if self._springs is not None:
             self._apply_springs(self._springs, depth, values)
+        if self._damping is not None and batch.speed is not None:
+            from mudline.contact.laws.damping import damping_force  # noqa: PLC0415 - only now is it needed
+
+            first, second = self._tables.line.at(batch.speed, self.begin, self.end)
+            values[0][...] += damping_force(depth, 0.5 * first + 0.5 * second, self._damping)
         if self._suction is not None and batch.speed is not None and state.suction is not None:
             self._apply_suction(self._suction, batch.speed, (depth, contact, trench), values, part, state.suction)
         np.multiply(values[0], self._half, out=work.load[:, self._inner])
+        if len(work.ratio):
+            work.ratio[:, self._inner] = part.ratio[:, self._here]
         if not len(work.tangent):
             return
         along = self._write_directions(work)

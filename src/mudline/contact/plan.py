@@ -15,6 +15,7 @@ import numpy as np
 from mudline.arguments import expect
 from mudline.contact.arrays import FloatArray
 from mudline.contact.input import ContactInput, LawKind
+from mudline.contact.laws import NormalLaw
 from mudline.contact.tables import Tables
 from mudline.short_repr import UnknownNameError, counted, outline
 
@@ -122,6 +123,11 @@ def _normal_law(given: ContactInput, tables: Tables, choice: BackendChoice) -> s
         own = "its" if len(rows.rows) == 1 else "their"
         what = f"a stiffness of {own} own" if rows.law.name == "nodal" else f"the law {rows.law.name!r}"
         parts.append(f"{counted(len(rows.rows), 'node')} with {what}")
+    parts += [
+        f"{counted(len(law.rows), law.law.acts_on[:-1])} with {law.law.summary}"
+        for law in given.assigned.values()
+        if law.law.stage == "normal law" and not isinstance(law.law, NormalLaw) and law.law.name != "rigid"
+    ]
     if not parts:
         parts.append("no element has a curve or a linear stiffness")
     if "rigid" in given.assigned:
@@ -177,6 +183,9 @@ def _friction(given: ContactInput) -> str:
         parts.append(f"{counted(int(constant.sum()), 'node')} with a constant spring{criterion}")
     if lengths := int((~constant).sum()):
         parts.append(f"{counted(lengths, 'node')} with a mobilisation length, Kt = mu N / length (inferred)")
+    if (breaks := given.assigned.get("breakout")) is not None:
+        count = counted(len(breaks.rows), "node")
+        parts.append(f"{count} with {breaks.law.summary}, where mu2 and Kt2 have no effect")
     return "; ".join(parts)
 
 
@@ -191,6 +200,7 @@ _TRENCHES = {
     "trench peak": "with a peak resistance of the walls (inferred), where the depth has no effect (MODEL=WALL uses it)",
     "trench table": "with a tabulated resistance of the walls (inferred), where depth and widths have no effect",
     "trench wall": "with sloped walls (inferred)",
+    "trench level": "where the seabed is lowered by depth and widths after all, along the normal of the seabed",
 }
 
 
@@ -198,10 +208,10 @@ def _trench(given: ContactInput, tables: Tables) -> tuple[bool, str]:
     found = {name: given.assigned[name] for name in _TRENCHES if name in given.assigned}
     if not found:
         return False, "no node lies in a trench"
-    if tables.trench is None:
+    if tables.trench is None and tables.level is None:
         return False, "a trench adds to the limits of friction, and no node has a friction law"
     parts = [f"{counted(len(law.rows), 'element')} {_TRENCHES[name]}" for name, law in found.items()]
-    return True, "; ".join([*parts, "the seabed is not lowered"])
+    return True, "; ".join([*parts, *([] if tables.level else ["the seabed is not lowered"])])
 
 
 Backend = Literal["auto", "numpy", "fast"]

@@ -6,6 +6,7 @@ Both are facts of the laws. Without positions they are the largest that a law ca
   virgin path where that is steeper;
 * friction: the spring of a node that sticks; one with a mobilisation length has mu N / length under the static normal
   force, the submerged weight of half of each of the node's elements;
+* breakout: the fall to the residual under that normal force, as an amount: it softens;
 * lateral springs and springs against uplift: their stiffness;
 * suction: F_max / (xc1 Delta_B) while it is mobilised, and dF_max/dv, both at the pull-out velocity that makes them
   largest: with the exponents of Bridge et al. v_r for the stiffness and rest for the damping. Infinite where a law has
@@ -81,6 +82,7 @@ def stiffest(tables: Tables, result: ContactResult | None, speed: FloatArray | N
             parts = [_normal(tables, rows, result).stiffness for rows in curves]
             found.append(_law("curve", np.fmax.reduce(parts)))
         found += [_nodal(tables, rows, result) for rows in tables.nodal]
+        found += _damping(tables)
         if tables.unloading is not None:
             found.append(_unloading(tables, tables.unloading))
         if tables.springs is not None:
@@ -89,10 +91,25 @@ def stiffest(tables: Tables, result: ContactResult | None, speed: FloatArray | N
             found.append(_suction(tables, speed))
         if tables.friction is not None:
             found.append(_friction(tables, tables.friction, result))
+            found += _breakout(tables, tables.friction, result)
         if tables.lateral is not None:
             given = tables.given.assigned["lateral"]
             found.append(_law("lateral", _spread(tables, given.rows, given["stiffness"])))
     return Stiffest(tuple(found))
+
+
+def _damping(tables: Tables) -> list[LawStiffness]:
+    """Damping of inward motion, of elements and of the nodes of elements, without a stiffness."""
+    found = []
+    if (own := tables.damping) is not None:
+        damping = np.where(own > 0.0, own, np.nan)
+        found.append(LawStiffness("damping", 0.0 * damping, damping, "length"))
+    if (at_nodes := tables.nodal_damping) is not None:
+        ends = tables.given.element_nodes
+        damping = np.maximum(at_nodes[ends[:, 0]], at_nodes[ends[:, 1]])
+        damping = np.where(damping > 0.0, damping, np.nan)
+        found.append(LawStiffness("nodal damping", 0.0 * damping, damping, "node"))
+    return found
 
 
 def _law(name: str, stiffness: FloatArray) -> LawStiffness:
@@ -185,12 +202,28 @@ def suction_rates(law: SuctionLaw, v: FloatArray) -> tuple[FloatArray, FloatArra
 
 def _friction(tables: Tables, friction: FrictionRows, result: ContactResult | None) -> LawStiffness:
     """Springs of nodes that stick, the stiffer of both directions and of the two nodes of an element."""
-    normal_force = static_normal_force(tables) if result is None else np.fmax(_largest(result.normal_force), 0.0)
+    normal_force = _pressing(tables, result)
     springs = np.where(friction.rising > 0.0, friction.rising * normal_force, 0.0) + friction.constant
     if tables.trench is None:  # a direction without a coefficient has no limit to stick below; trench walls add one
         springs = np.where(friction.coefficients > 0.0, springs, 0.0)
     own = np.where(friction.active, springs.max(axis=0), np.nan)
     return _law_of_nodes("friction", tables, own)
+
+
+def _pressing(tables: Tables, result: ContactResult | None) -> FloatArray:
+    """The largest normal force (n,) of each node, the static one where no positions are given."""
+    return static_normal_force(tables) if result is None else np.fmax(_largest(result.normal_force), 0.0)
+
+
+def _breakout(tables: Tables, friction: FrictionRows, result: ContactResult | None) -> list[LawStiffness]:
+    """The fall of the lateral resistance behind its peak; that of a large embedment is less steep."""
+    if tables.breakout is None:
+        return []
+    nodes, (peak, _, residual, _, last, _) = tables.breakout.rows, tables.breakout.columns
+    own = np.full(len(friction.active), np.nan)
+    limit = friction.coefficients[1, nodes] * _pressing(tables, result)[nodes]
+    own[nodes] = limit * np.maximum(1.0 - residual, 0.0) / (last - peak)
+    return [_law_of_nodes("breakout", tables, own)]
 
 
 def static_normal_force(tables: Tables) -> FloatArray:

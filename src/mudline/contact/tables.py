@@ -38,6 +38,7 @@ class ContactState:
         suction: states of the elements with suction (k,).
         friction: stick points of the nodes (n,).
         touchdown: (k, 3) midpoints of the elements with lateral springs when they touched down; NaN out of contact.
+        breakout: (5, k) of the nodes with a breakout: the place of first contact (NaN out of contact), s and w.
         paths: (k, c) what the elements remember whose force follows a path.
     """
 
@@ -47,11 +48,12 @@ class ContactState:
     suction: SuctionHistory | None = None
     friction: FrictionHistory | None = None
     touchdown: FloatArray | None = None
+    breakout: FloatArray | None = None
     paths: FloatArray | None = None
 
     def __repr__(self) -> str:
         when = "before the first step" if self.positions is None else f"after a step of {len(self.positions)} nodes"
-        names = ("unloading", "suction", "friction", "touchdown", "paths")
+        names = ("unloading", "suction", "friction", "touchdown", "breakout", "paths")
         held = ", ".join(name for name in names if getattr(self, name) is not None)
         return outline(f"ContactState {when}", held or "nothing to remember")
 
@@ -60,7 +62,9 @@ class ContactState:
         """The shapes of all that is remembered beside positions, by which states of different models differ."""
         parts = (self.unloading, self.suction, self.friction)
         found = [part and tuple(getattr(part, name).shape for name in part.__dataclass_fields__) for part in parts]
-        return *found, *(None if array is None else array.shape for array in (self.touchdown, self.paths))
+        return *found, *(
+            None if array is None else array.shape for array in (self.touchdown, self.breakout, self.paths)
+        )
 
     def copied(self) -> ContactState:
         """Return a state whose arrays may be written; positions stay as they are."""
@@ -71,6 +75,7 @@ class ContactState:
             self.suction and _copied(self.suction),
             self.friction and _copied(self.friction),
             None if self.touchdown is None else self.touchdown.copy(order="K"),
+            None if self.breakout is None else self.breakout.copy(),
             None if self.paths is None else self.paths.copy(),
         )
 
@@ -127,7 +132,7 @@ class NormalRows(NamedTuple):
 
 
 class ElementRows(NamedTuple):
-    """Elements (k,) with a law beside the normal one, and the parameters that the drivers need."""
+    """Elements, or nodes, (k,) with a law beside the normal one, and the parameters that the drivers need."""
 
     rows: IndexArray
     columns: tuple[FloatArray, ...]
@@ -163,7 +168,10 @@ class Tables:
         normal: normal laws of elements. nodal: those of nodes.
         unloading: stiffness. springs: stiffness and extent of suction springs. lateral: stiffness times half length.
         friction: its springs and limits as the drivers want them. friction_law: the same by node, for tangents.
+        breakout: nodes with it, its parameters and 1 over their numbers of elements. embeds: whether it asks for z/D.
+        damping, nodal_damping: coefficients of elements (m,), of nodes (n,), 0 where there is none; None without any.
         suction: parameters of `suction.SuctionLaw`, in its order.
+        level: trenches in which the seabed is lowered.
         pulling: elements with suction whose curve pulls somewhere; None when there are none.
         cuts: whether curves that pull are cut to 0.
         rigid: (n,) nodes of elements on a rigid seabed; None when there are none.
@@ -182,6 +190,8 @@ class Tables:
         self.unloading = _element_rows(given, "unloading")
         self.springs = _element_rows(given, "suction spring")
         self.suction = _element_rows(given, "suction")
+        self.damping = _coefficients(given, "damping", len(self.half))
+        self.nodal_damping = _coefficients(given, "nodal damping", len(given.node_ids))
         self.lateral = _lateral(given)
         self.friction_law: FrictionLaw | None = None
         self.friction: FrictionRows | None = None
@@ -193,6 +203,14 @@ class Tables:
             from mudline.contact.trenches import trench_rows  # noqa: PLC0415 - most friction has no trench
 
             self.trench = trench_rows(given, self.friction.coefficients[1])
+        self.breakout = _breakout(given, self)
+        self.embeds = self.breakout is not None and any(self.breakout.columns[at].any() for at in (1, 3))
+        self.level = None
+        if given.has("trench level"):
+            from mudline.contact.laws.trench import LEVEL  # noqa: PLC0415 - as above
+            from mudline.contact.trenches import trench_rows  # noqa: PLC0415 - as above
+
+            self.level = trench_rows(given, np.zeros(len(given.node_ids)), (LEVEL,))
         self._laid: tuple[FloatArray, LaidCentreline] | None = None
         self.pulling = _pulling(given)
         self.cuts = given.tension == "cut"
@@ -201,8 +219,11 @@ class Tables:
             self.rigid = np.zeros(len(given.node_ids), np.bool_)
             self.rigid[given.element_nodes[given.assigned["rigid"].rows]] = True
             self.rigid.flags.writeable = False  # results have it too
-        parts = (self.unloading, self.suction, self.lateral, self.friction)
-        self.history = self._paths is not None or any(part is not None for part in parts)
+        parts = (self.unloading, self.suction, self.lateral, self.friction, self.level)
+        # velocities are differences to the step before where none are given
+        self.history = (
+            self._paths is not None or bool(given.needs_velocities) or any(part is not None for part in parts)
+        )
 
     def laid_line(self, laid: FloatArray) -> LaidCentreline:
         """Return the line as it was `laid`, prepared once: the states of a run share that array."""
@@ -234,8 +255,14 @@ class Tables:
             suction=suction,
             friction=friction,
             touchdown=None if self.lateral is None else np.full((len(self.lateral.rows), 3), np.nan, order="F"),
+            breakout=None if self.breakout is None else _unmoved(len(self.breakout.rows)),
             paths=None if self._paths is None else self._paths.copy(),
         )
+
+
+def _unmoved(count: int) -> FloatArray:
+    """What nodes with a breakout remember before first contact."""
+    return np.repeat([[np.nan], [np.nan], [np.nan], [0.0], [0.0]], count, axis=1)
 
 
 def rows_within(rows: IndexArray, begin: int, end: int) -> slice:
@@ -276,12 +303,32 @@ def _element_rows(given: ContactInput, name: str) -> ElementRows | None:
     return None if found is None else ElementRows(found.rows, found.columns)
 
 
+def _coefficients(given: ContactInput, name: str, count: int) -> FloatArray | None:
+    """The damping of all of `count` elements or nodes."""
+    found = given.assigned.get(name)
+    return None if found is None else found.spread("damping", count, 0.0)
+
+
 def _lateral(given: ContactInput) -> ElementRows | None:
     found = given.assigned.get("lateral")
     if found is None:
         return None
     with np.errstate(over="ignore"):  # a step refuses the reaction
         return ElementRows(found.rows, (found["stiffness"] * (0.5 * given.length[found.rows]),))
+
+
+def _breakout(given: ContactInput, tables: Tables) -> ElementRows | None:
+    """The breakout of nodes that have it; ValueError for a node without friction in a box."""
+    found = given.assigned.get("breakout")
+    if found is None:
+        return None
+    able = np.zeros(len(given.node_ids), np.bool_)
+    if tables.friction is not None:
+        able = tables.friction.active & ~tables.friction.elliptic
+    if not able[found.rows].all():
+        node = given.node_ids[found.rows[~able[found.rows]][0]]
+        raise ValueError(f"node {node} has a breakout law, which needs friction in a box")
+    return ElementRows(found.rows, (*found.columns, 1.0 / np.diff(tables.line.start)[found.rows]))
 
 
 def _friction_law(given: AssignedLaw, nodes: int) -> FrictionLaw:

@@ -8,6 +8,7 @@ seabed the normal is held too. Friction makes A unsymmetric. B holds the velocit
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -20,8 +21,8 @@ from mudline.contact.vectors import in_plane, turned_3, units
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
-    from mudline.contact.laws.friction import FrictionForce
-    from mudline.contact.trenches import AddedLimit
+    from mudline.contact.laws.friction import ExtraLimit, FrictionForce, FrictionHistory, FrictionLaw
+    from mudline.contact.trenches import AddedLimit, Lowered
 
 
 class Triples(NamedTuple):
@@ -83,12 +84,14 @@ class _Blocks:
 class _Step(NamedTuple):
     """What the parts of a tangent share.
 
-    points, normal: (n, 3). ends: (m, 2) nodes of the elements. half: (m,) half lengths. before, after: the states.
+    points, normal: (n, 3). slope: (n, 3) gradient of the height above the seabed, `normal` outside of trenches.
+    ends: (m, 2) nodes of the elements. half: (m,) half lengths. before, after: the states.
     """
 
     tables: Tables
     points: FloatArray
     normal: FloatArray
+    slope: FloatArray
     ends: IndexArray
     half: FloatArray
     result: ContactResult
@@ -110,14 +113,18 @@ def assemble(
     `states` are those before and behind the step, `result` what it gave. `back`: elements on a path turn round.
     """
     nodes = len(points)
-    step = _Step(tables, points, np.asarray(result.normal), tables.given.element_nodes, tables.half, result, *states)
+    normal = np.asarray(result.normal)
+    slope, laid = normal, points if states[0].laid is None else states[0].laid
+    if tables.level is not None:
+        slope = normal + _level(tables, points, laid, normal).gradient
+    step = _Step(tables, points, normal, slope, tables.given.element_nodes, tables.half, result, *states)
     stiffness, own = np.nan_to_num(_turned_round(step) if back else result.stiffness), _nodal_stiffness(step)
     by_position, by_velocity = _Blocks(nodes), _Blocks(nodes)
-    _add_normal(step, stiffness, own, by_position)
-    damping = np.zeros(len(stiffness))
-    if speed is not None and tables.suction is not None:
-        damping = _suction_damping(step, speed)
-        _add_normal(step, damping, np.zeros(nodes), by_velocity)
+    _add_normal(step, (stiffness, own), step.slope, by_position)
+    damping, own_damping = np.zeros(len(stiffness)), np.zeros(nodes)
+    if speed is not None:
+        damping, own_damping = _suction_damping(step, speed) + _damping(step, speed), _nodal_damping(step, speed)
+        _add_normal(step, (damping, own_damping), normal, by_velocity)
     if tables.lateral is not None:
         _add_lateral(step, by_position)
     if tables.friction is not None:
@@ -127,8 +134,8 @@ def assemble(
         push = np.einsum("nij,ni->nj", axes, sliding.friction.by_compression)
         _add_springs(axes, sliding, closed, by_position)
         _add_turning(step, sliding, closed, by_position)
-        _add_compression(step, push, closed, (stiffness, own), by_position)
-        _add_compression(step, push, closed, (damping, np.zeros(nodes)), by_velocity)
+        _add_compression(step, push, closed, (stiffness, own), step.slope, by_position)
+        _add_compression(step, push, closed, (damping, own_damping), normal, by_velocity)
     return Tangent(by_position.triples(), by_velocity.triples())
 
 
@@ -158,6 +165,18 @@ def _nodal_stiffness(step: _Step) -> FloatArray:
     return found
 
 
+def _damping(step: _Step, speed: FloatArray) -> FloatArray:
+    """Damping (m,) of the inward motion of elements."""
+    given, v = step.tables.damping, 0.5 * speed[step.ends].sum(axis=1)
+    return np.zeros(len(v)) if given is None else np.where((step.result.depth > 0.0) & (v < 0.0), given, 0.0)
+
+
+def _nodal_damping(step: _Step, speed: FloatArray) -> FloatArray:
+    """Damping (n,) of the inward motion of nodes."""
+    given = step.tables.nodal_damping
+    return np.zeros(len(speed)) if given is None else np.where((step.result.gap < 0.0) & (speed < 0.0), given, 0.0)
+
+
 def _suction_damping(step: _Step, speed: FloatArray) -> FloatArray:
     """Minus d force / d pull-out velocity (m,) of suction."""
     from mudline.contact.laws.suction import SUCTION, SuctionLaw, suction_damping  # noqa: PLC0415 - only now needed
@@ -179,15 +198,16 @@ def _suction_damping(step: _Step, speed: FloatArray) -> FloatArray:
     return found
 
 
-def _add_normal(step: _Step, stiffness: FloatArray, own: FloatArray, blocks: _Blocks) -> None:
-    """Normal forces along fixed normals: `stiffness` (m,) by depth of the elements, `own` (n,) by that of nodes."""
+def _add_normal(step: _Step, by_height: tuple[FloatArray, FloatArray], slope: FloatArray, blocks: _Blocks) -> None:
+    """Normal forces along fixed normals: by the height of the elements (m,), and of nodes (n,), which has a `slope`."""
+    stiffness, own = by_height
     used = np.flatnonzero(stiffness)
     share = -0.5 * step.half[used] * stiffness[used]
     for at in step.ends[used].T:
         for by in step.ends[used].T:
-            blocks.add(at, by, share[:, None, None] * _outer(step.normal[at], step.normal[by]))
+            blocks.add(at, by, share[:, None, None] * _outer(step.normal[at], slope[by]))
     nodes = np.flatnonzero(own)
-    blocks.add(nodes, nodes, -own[nodes, None, None] * _outer(step.normal[nodes], step.normal[nodes]))
+    blocks.add(nodes, nodes, -own[nodes, None, None] * _outer(step.normal[nodes], slope[nodes]))
 
 
 def _add_lateral(step: _Step, blocks: _Blocks) -> None:
@@ -261,7 +281,49 @@ def _friction_of(step: _Step) -> _Sliding:
         pressed, forward = np.maximum(compression, 0.0), trial > 0.0
         added = added_limit(tables.trench, line, places, directions.axes, pressed, forward)
         extra = ExtraLimit(added.force, np.ones(len(places)), added.by_normal_force, np.where(trial > 0.0, 1.0, -1.0))
+    if tables.breakout is not None:
+        law, extra, added = _breaking_out(step, law, history, directions, places, compression, extra, added)
     return _Sliding(directions, slide(law, history, places, directions.axes, compression, extra), added)
+
+
+def _breaking_out(  # noqa: PLR0913, PLR0917 - as above
+    step: _Step,
+    law: FrictionLaw,
+    history: FrictionHistory,
+    directions: Directions,
+    places: FloatArray,
+    compression: FloatArray,
+    extra: ExtraLimit | None,
+    added: AddedLimit | None,
+) -> tuple[FrictionLaw, ExtraLimit, AddedLimit]:
+    """What a breakout leaves of springs and limits, as less of a limit; embedments are held."""
+    from mudline.contact.laws.breakout import shares  # noqa: PLC0415 - most friction has no breakout
+    from mudline.contact.laws.friction import ExtraLimit, slide  # noqa: PLC0415 - only now is it needed
+    from mudline.contact.trenches import AddedLimit  # noqa: PLC0415 - as above
+
+    rows = step.tables.breakout
+    if rows is None or step.before.breakout is None or step.after.breakout is None:
+        raise TypeError("the state has no breakout: it belongs to another model")
+    count, nodes, numbers = len(places), rows.rows, rows.columns[:-1]
+    extra = extra or ExtraLimit(*(np.zeros(count) for _ in range(4)))
+    added = added or AddedLimit(np.zeros(count), np.zeros(count), np.zeros((count, 3)), np.zeros(count))
+    far, deep = step.after.breakout[3:]
+    share, fall, softer = shares(far, deep, numbers)
+    away = places[nodes] - step.after.breakout[:3].T
+    distance = (away * directions.axes[1][nodes]).sum(axis=1)
+    grows = np.isfinite(distance) & (far > step.before.breakout[3])
+    coefficient = law.coefficients[nodes, 1]
+    pressed = coefficient * np.maximum(compression[nodes], 0.0)
+    extra.force[nodes], extra.by_normal_force[nodes] = pressed * (share - 1.0), coefficient * (share - 1.0)
+    extra.by_offset[nodes] = np.where(grows, 0.0 - pressed * fall * np.sign(distance), 0.0)
+    mobilisation = law.mobilisation.copy()
+    mobilisation[nodes, 1] /= softer
+    law = replace(law, mobilisation=mobilisation)
+    trial = slide(law, history, places, directions.axes, compression).trial
+    extra.outward[nodes] = np.sign(trial[nodes, 1])
+    added.gradient[nodes] = directions.axes[1][nodes]
+    added.by_angle[nodes] = np.where(grows, -(away * directions.axes[0][nodes]).sum(axis=1), 0.0)
+    return law, extra, added
 
 
 def _add_springs(axes: FloatArray, sliding: _Sliding, closed: IndexArray, blocks: _Blocks) -> None:
@@ -274,17 +336,22 @@ def _add_springs(axes: FloatArray, sliding: _Sliding, closed: IndexArray, blocks
 
 
 def _add_compression(
-    step: _Step, push: FloatArray, closed: IndexArray, stiffness: tuple[FloatArray, FloatArray], blocks: _Blocks
+    step: _Step,
+    push: FloatArray,
+    closed: IndexArray,
+    stiffness: tuple[FloatArray, FloatArray],
+    slope: FloatArray,
+    blocks: _Blocks,
 ) -> None:
-    """The limits follow the normal force: `push` (n, 3) is d friction / d N, `stiffness` that of elements and nodes."""
+    """The limits follow the normal force: `push` (n, 3) is d friction / d N."""
     elements, own = stiffness
-    blocks.add(closed, closed, -own[closed, None, None] * _outer(push[closed], step.normal[closed]))
+    blocks.add(closed, closed, -own[closed, None, None] * _outer(push[closed], slope[closed]))
     held = _marked(closed, len(own))
     for at in step.ends.T:
         used = np.flatnonzero((elements != 0.0) & held[at])
         share = -0.5 * step.half[used] * elements[used]
         for by in step.ends[used].T:
-            blocks.add(at[used], by, share[:, None, None] * _outer(push[at[used]], step.normal[by]))
+            blocks.add(at[used], by, share[:, None, None] * _outer(push[at[used]], slope[by]))
 
 
 def _add_turning(step: _Step, sliding: _Sliding, closed: IndexArray, blocks: _Blocks) -> None:
@@ -369,6 +436,21 @@ def directions_of(tables: Tables, points: FloatArray, normals: FloatArray) -> Di
         senses = np.ones((len(line.first), 2))
         senses[line.elements, line.sides] = line.senses
     return Directions((along, np.cross(normals, along)), follows, senses, np.sqrt((flat * flat).sum(axis=1)))
+
+
+def lower(tables: Tables, points: FloatArray, laid: FloatArray, normal: FloatArray, gap: FloatArray) -> None:
+    """Add the depth of trenches in which the seabed is lowered to gaps (steps, n) of `points` (steps, n, 3)."""
+    for place, normals, height in zip(points, normal, gap, strict=True):
+        np.add(height, _level(tables, place, laid, normals).depth, out=height)
+
+
+def _level(tables: Tables, points: FloatArray, laid: FloatArray, normal: FloatArray) -> Lowered:
+    from mudline.contact.trenches import level_at  # noqa: PLC0415 - few trenches do
+
+    if tables.level is None:
+        raise TypeError("no trench lowers the seabed")
+    lateral = directions_of(tables, points, normal).axes[1]
+    return level_at(tables.level, tables.laid_line(laid), points, lateral)
 
 
 def _padded(values: FloatArray) -> FloatArray:

@@ -9,10 +9,12 @@ import numpy as np
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, SmallIndexArray, StateArray
 from mudline.contact.input import AssignedLaw, ContactInput, ElementError
 from mudline.contact.laws.trench import (
+    LEVEL,
     PEAK,
     TABLE,
     WALL,
     in_table,
+    lowered,
     on_wall,
     peak_share,
     peak_slope,
@@ -60,17 +62,21 @@ class TrenchRows(NamedTuple):
         return self._replace(start=self.start[:0], **{name: getattr(self, name)[rows] for name in names})
 
 
-def trench_rows(given: ContactInput, friction: FloatArray) -> TrenchRows:
-    """The trenches of the nodes; `friction` (n,) are the lateral coefficients.
+def trench_rows(given: ContactInput, friction: FloatArray, kinds: tuple[int, ...] = (PEAK, WALL, TABLE)) -> TrenchRows:
+    """The trenches of the nodes; `friction` (n,) are the lateral coefficients. LEVEL has depths as amounts.
 
-    Each end of an element counts with half of its length; equal trenches of the elements at a node are one row.
+    Each end of an element counts with half of its length; equal trenches of the elements at a node are one row. A node
+    with a breakout, which is a limit of its own, has none.
 
     Raises:
         ValueError: the wall of a trench locks itself: mu2 tan(theta) >= 1.
         ElementError: half of an element's length times the resistance overflows.
     """
-    columns = [_of_law(given, kind, friction) for kind in (PEAK, WALL, TABLE)]
+    columns = [_of_law(given, kind, friction) for kind in kinds]
     nodes, keys, ends, amounts = (np.concatenate(parts) for parts in zip(*columns, strict=True))
+    if "breakout" in given.assigned and LEVEL not in kinds:
+        held = ~np.isin(nodes, given.assigned["breakout"].rows)
+        nodes, keys, ends, amounts = nodes[held], keys[held], ends[held], amounts[held]
     straight = ~np.isnan(ends[:, 0])
     lines, line = _distinct(ends[straight])
     of_line = np.full(len(ends), -1.0)
@@ -109,7 +115,7 @@ def _distinct(table: FloatArray) -> tuple[FloatArray, IndexArray]:
     return ascending[is_new], which
 
 
-_NAMES = {PEAK: "trench peak", WALL: "trench wall", TABLE: "trench table"}
+_NAMES = {PEAK: "trench peak", WALL: "trench wall", TABLE: "trench table", LEVEL: "trench level"}
 
 
 def _of_law(
@@ -134,7 +140,8 @@ def _of_law(
         elif kind == TABLE:
             amounts.append(half)
         else:
-            amounts.append(_wall(given, law, end, friction) * half / _lengths(given)[end])
+            whole = law["depth"] if kind == LEVEL else _wall(given, law, end, friction)
+            amounts.append(whole * half / _lengths(given)[end])
         if not np.isfinite(amounts[-1]).all():
             element = int(given.element_ids[law.rows[np.flatnonzero(~np.isfinite(amounts[-1]))[0]]])
             raise ElementError(f"element {element}: the resistance of its trench overflows", element)
@@ -326,7 +333,7 @@ def tabulated(table: FloatArray, distance: FloatArray) -> FloatArray:
     columns = table_rows(table)
     row = table_row(columns, distance)
     held = np.minimum(np.maximum(distance, columns[0][0]), columns[0][-1])
-    return np.asarray(in_table(held, columns[0][row], columns[1][row], columns[2][row]))
+    return np.asarray(in_table(held, *(column[row] for column in columns)))
 
 
 def slopes(trench: TrenchRows, offset: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -338,9 +345,33 @@ def slopes(trench: TrenchRows, offset: FloatArray) -> tuple[FloatArray, FloatArr
     for index in np.unique(trench.table[kind == TABLE]).tolist():
         here: BoolArray = (kind == TABLE) & (trench.table == index)
         columns = table_rows(trench.tables[index])
-        slope = np.where(distance[here] < columns[0][0], 0.0, columns[2][table_row(columns, distance[here])])
+        row = table_row(columns, distance[here])
+        bent = columns[2][row] + 2.0 * columns[3][row] * (np.minimum(distance[here], columns[0][-1]) - columns[0][row])
+        slope = np.where(distance[here] < columns[0][0], 0.0, bent)
         by_distance[here] = amount[here] * slope
     return by_distance, by_normal
+
+
+class Lowered(NamedTuple):
+    """By how much the seabed lies lower at nodes (n,), and the gradient (n, 3) of that with u2 held."""
+
+    depth: FloatArray
+    gradient: FloatArray
+
+
+def level_at(whole: TrenchRows, line: LaidCentreline, points: FloatArray, lateral: FloatArray) -> Lowered:
+    """Return the level of the seabed in trenches below nodes at `points` (n, 3) with u2 (n, 3)."""
+    found = Lowered(np.zeros(len(points)), np.zeros(points.shape))
+    for place in ranks(whole.nodes):
+        rows = whole.some(place)
+        at, beside = rows.nodes, line.pieces_beside(rows)
+        where = line.away(beside, points[at].T[:, None])
+        offset = (where.vector[:, 0].T * lateral[at]).sum(axis=1)
+        share, slope = lowered(np.abs(offset), rows.inner, rows.outer)
+        found.depth[at] += rows.amount * share
+        slope = rows.amount * slope * np.sign(offset)
+        found.gradient[at] += slope[:, None] * _offset_gradient(line, rows, beside, where, lateral[at])
+    return found
 
 
 def ranks(nodes: IndexArray) -> list[IndexArray]:

@@ -139,9 +139,10 @@ class Facts:
     outside the deck, which its lines are about, may define; `out_of_sight` says that the deck has these things, and
     where they lie is not computed. With `later_wins` an element follows the last record whose SET= holds it, and that
     record as a whole. `carried` are the fields that a block has from the block before it, where it does not give them.
-    `seabed_type` is the type of seabed that a legacy surface is. `soil_springs` hold elements in the soil, and what
-    `moves_vessels` lets them follow the waves or a time history; of elements with `zero_length` the ends may lie at one
-    place. What is computed from it is said under the heading `computed_in` of the page on the contact evaluator.
+    `seabed_type` is the type of seabed that a legacy surface is. `gives_law` is the kind of law that elements get in
+    place of what they had, and the field of a record that asks for it. `soil_springs` hold elements in the soil, and
+    what `moves_vessels` lets them follow the waves or a time history; of elements with `zero_length` the ends may lie
+    at one place. What is computed from it is said under the heading `computed_in` of the page on the contact evaluator.
     `instead_of` says what to write instead of a setting that other keywords have.
     """
 
@@ -155,6 +156,7 @@ class Facts:
     later_wins: bool = False
     carried: tuple[str, ...] = ()
     seabed_type: Literal["", "RIGID", "ELASTIC"] = ""
+    gives_law: tuple[Literal["", "soil", "nodal"], str] = ("", "")
     soil_springs: bool = False
     moves_vessels: bool = False
     zero_length: bool = False

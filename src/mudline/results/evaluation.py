@@ -110,7 +110,7 @@ class Evaluation:
     @property
     def _clock(self) -> Floats | None:
         """The times of the steps, where a law asks for velocities."""
-        return self.time if self.model.input.has("suction") else None
+        return self.time if self.model.input.needs_velocities else None
 
     def _timed(self, part: Part) -> Part:
         return part if self.time is None else Part(part.start, replace(part.result, times=self.time[part.steps]))
@@ -195,17 +195,17 @@ def _require_coordinates(scene: Scene) -> None:
 
 
 def _require_clock(ready: Prepared, positions: Positions) -> None:
-    """Steps that follow each other need times that rise; suction without velocities needs times."""
+    """Steps that follow each other need times that rise; a law that asks for velocities needs them, or times."""
     if positions.time is None or len(positions.time) < 2:
         return
-    pulled = ready.model.input.has("suction") and positions.velocities is None
+    asking = ready.model.input.needs_velocities if positions.velocities is None else []
     if not positions.timed:
-        if pulled:
-            message = "suction needs velocities, or the times of the steps: the positions have neither"
+        if asking:
+            message = f"{asking[0]} needs velocities, or the times of the steps: the positions have neither"
             raise ready.scene.refusal(message)
         return
     falls = np.flatnonzero(np.diff(positions.time) <= 0.0)
     if falls.size:
         before, after = positions.time[falls[0] : falls[0] + 2].tolist()
-        what = "suction needs velocities, or times that rise" if pulled else _HISTORY
+        what = f"{asking[0]} needs velocities, or times that rise" if asking else _HISTORY
         raise ready.scene.refusal(f"{what}: {after!r} follows {before!r}")

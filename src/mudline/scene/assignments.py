@@ -15,6 +15,7 @@ from mudline.scene.resolved import ResolvedDeck
 
 if TYPE_CHECKING:
     from mudline.contact.laws.suction import SuctionLaw
+    from mudline.keywords.library.seabed_friction import FrictionSet
     from mudline.keywords.library.seabed_suction import SuctionSet
     from mudline.keywords.library.seabed_trench import TrenchSet
 
@@ -54,8 +55,29 @@ def _half_width(extension: Extension, block: Indices, penetration: Floats, diame
 
 
 def _is_auto(extension: Extension, block: Indices) -> Mask:
-    """Whether each block leaves the width to the static penetration; that is the default."""
-    return marked((getattr(entry, "smoothing", None) in (None, "AUTO") for entry in extension.entries), block)
+    """Whether each block leaves the width to the static penetration; that is the default but beside DAMPING= alone."""
+
+    def auto(entry: object) -> bool:
+        names = ("form", "nodal_stiffness") if getattr(entry, "damping", None) is not None else ()
+        given: object = getattr(entry, "smoothing", None)
+        asked = not names or any(getattr(entry, name, None) is not None for name in names)
+        return given == "AUTO" or (given is None and asked)
+
+    return marked(map(auto, extension.entries), block)
+
+
+def damping(scene: ResolvedDeck) -> list[LawAssignment]:
+    """Damping of elements with a law per unit length, and of the nodes of those with a stiffness of their nodes."""
+    extension = scene.extensions["SEABED CONTACT"]
+    given = np.nan_to_num(extension.values(extension.of_element, "damping"))
+    rows = np.flatnonzero((given > 0.0) & ~np.isin(scene.law, (LawKind.NONE, LawKind.RIGID, LawKind.NODAL)))
+    length = np.where(scene.nodal & np.isfinite(scene.length), scene.length, 0.0)
+    of_nodes = summed(0.5 * given * length, scene.element_nodes, len(scene.node_ids))
+    nodes = np.flatnonzero(of_nodes > 0.0)
+    return [
+        LawAssignment("damping", rows, {"damping": given[rows]}),
+        LawAssignment("nodal damping", nodes, {"damping": of_nodes[nodes]}),
+    ]
 
 
 def _one_sided(extension: Extension, block: Indices) -> Mask:
@@ -100,11 +122,16 @@ def _static_at_nodes(scene: ResolvedDeck, stiffness: Floats) -> tuple[Floats, Fl
     W L_t is half of the weight of each of a node's elements, its diameter the mean of theirs.
     """
     ends, count = scene.element_nodes, len(scene.node_ids)
-    known = ~np.isnan(scene.diameter)
     with np.errstate(all="ignore"):
-        carried = summed(0.5 * scene.submerged_weight * scene.length, ends, count)
+        return summed(0.5 * scene.submerged_weight * scene.length, ends, count) / stiffness, _sizes(scene)
+
+
+def _sizes(scene: ResolvedDeck) -> Floats:
+    """Mean diameters (n,) of the elements at the nodes; NaN where none is known."""
+    ends, count, known = scene.element_nodes, len(scene.node_ids), ~np.isnan(scene.diameter)
+    with np.errstate(all="ignore"):
         sizes = summed(np.where(known, scene.diameter, 0.0), ends, count)
-        return carried / stiffness, sizes / summed(known.astype(np.float64), ends, count)
+        return sizes / summed(known.astype(np.float64), ends, count)
 
 
 def unloading_lines(scene: ResolvedDeck) -> LawAssignment:
@@ -190,7 +217,7 @@ def _cyclic(entry: object) -> tuple[float, float]:
 
 
 def node_friction(scene: ResolvedDeck, lateral: Indices) -> LawAssignment:
-    """The friction of the nodes that have any.
+    """The friction of the nodes that have any; that across the line up to the breakout, where they have one.
 
     Nodes of elements with a lateral spring (`lateral` (k,)) have no transverse coefficient; nodes of a rigid seabed
     have no friction, as their normal reaction is that of a constraint.
@@ -201,9 +228,9 @@ def node_friction(scene: ResolvedDeck, lateral: Indices) -> LawAssignment:
     ellipse, angle = np.zeros(count, dtype=np.bool_), np.full(count, np.nan)
     extension = scene.extensions.get("SEABED FRICTION")
     if extension is not None:
-        block = at_nodes(extension.of_element, ends, count)
+        block = _friction_blocks(scene, extension)
         here = block >= 0
-        springs = np.where(here[:, None], _of_keyword(extension, block), springs)
+        springs = np.where(here[:, None], _of_keyword(scene, extension, block), springs)
         active = active | here
         ellipse = marked((getattr(entry, "criterion", None) == "ELLIPSE" for entry in extension.entries), block)
         angle = extension.values(block, "directions")
@@ -257,23 +284,74 @@ def _shortest(scene: ResolvedDeck) -> Floats:
     return shortest
 
 
-def _of_keyword(extension: Extension, block: Indices) -> Floats:
-    """As `_of_properties`, by `*SEABED FRICTION`: springs are given, and have no mobilisation length."""
+def _of_keyword(scene: ResolvedDeck, extension: Extension, block: Indices) -> Floats:
+    """As `_of_properties`, by `*SEABED FRICTION`: springs are given, and have no length but that of a breakout."""
     coefficients, stiffness = (
         np.column_stack([extension.values(block, part, name) for name in ("first", "second")])
         for part in ("coefficients", "stiffness")
     )
     stiffness[:, 1] = np.where(np.isnan(stiffness[:, 1]), stiffness[:, 0], stiffness[:, 1])
-    return np.stack([coefficients, stiffness, np.full(stiffness.shape, np.nan)])
+    lengths, out = np.full(stiffness.shape, np.nan), marked(map(breaks_out, extension.entries), block)
+    if out.any():
+        coefficients[out, 1], stiffness[out, 1] = extension.values(block, "peak", "factor")[out], np.nan
+        lengths[out, 1] = _breakouts(scene)["peak_displacement"][out]
+    return np.stack([coefficients, stiffness, lengths])
+
+
+def breaks_out(entry: object) -> bool:
+    """Whether a block of `*SEABED FRICTION` gives a breakout."""
+    return getattr(entry, "lateral", None) in {"PEAK-RESIDUAL", "F114"}
+
+
+def softens(entry: object) -> bool:
+    """Whether a block of `*SEABED FRICTION` gives a breakout with less behind it."""
+    from mudline.contact.laws.breakout import F114_RESIDUAL  # noqa: PLC0415 - only now
+
+    given = cast("FrictionSet", entry)
+    residual = F114_RESIDUAL[0] if given.lateral == "F114" else number(given.residual, "factor")
+    return breaks_out(given) and number(given.peak, "factor") > residual
+
+
+def node_breakouts(scene: ResolvedDeck, friction: LawAssignment) -> list[LawAssignment]:
+    """The breakout of the nodes with friction that have one (`LATERAL=` of `*SEABED FRICTION`)."""
+    extension = scene.extensions.get("SEABED FRICTION")
+    if extension is None or not any(map(breaks_out, extension.entries)):
+        return []
+    out = marked(map(breaks_out, extension.entries), _friction_blocks(scene, extension))[friction.rows]
+    rows = friction.rows[out & (np.asarray(friction.parameters["lateral_coefficient"]) > 0.0)]
+    return [LawAssignment("breakout", rows, {name: values[rows] for name, values in _breakouts(scene).items()})]
+
+
+def _friction_blocks(scene: ResolvedDeck, extension: Extension) -> Indices:
+    """The block of `*SEABED FRICTION` that each node (n,) follows, -1 for none."""
+    return at_nodes(extension.of_element, scene.element_nodes, len(scene.node_ids))
+
+
+def _breakouts(scene: ResolvedDeck) -> dict[str, Floats]:
+    """The parameters of the breakout of all nodes (n,); NaN where there is none."""
+    from mudline.contact.laws.breakout import F114_DISPLACEMENTS, F114_RESIDUAL  # noqa: PLC0415 - only now
+
+    extension = scene.extensions["SEABED FRICTION"]
+    block = _friction_blocks(scene, extension)
+    published = marked((getattr(entry, "lateral", None) == "F114" for entry in extension.entries), block)
+    peak, residual, size = extension.values(block, "peak", "factor"), F114_RESIDUAL, _sizes(scene)
+    given: dict[str, tuple[Floats | float, Floats]] = {
+        "peak_displacement": (extension.values(block, "peak", "displacement"), F114_DISPLACEMENTS[0] * size),
+        "peak_growth": (0.0, F114_DISPLACEMENTS[1] * size),
+        "residual": (extension.values(block, "residual", "factor") / peak, residual[0] / peak),
+        "residual_growth": (0.0, residual[1] / peak),
+        "residual_displacement": (extension.values(block, "residual", "displacement"), F114_DISPLACEMENTS[2] * size),
+    }
+    return {name: np.where(published, theirs, ours) for name, (ours, theirs) in given.items()}
 
 
 def trenches(scene: ResolvedDeck) -> list[LawAssignment]:
-    """The elements in trenches with a peak resistance, a tabulated one, or sloped walls."""
+    """The elements in trenches with a peak resistance, a tabulated one, or sloped walls; and where these lower it."""
     extension = scene.extensions["SEABED TRENCH"]
     entries = _trench_sets(scene)
     if not (extension.of_element >= 0).any():
         return []
-    walls = np.array([entry.model == "WALL" for entry in entries])
+    walls, lower = (np.array([getattr(entry, name) == text for entry in entries]) for name, text in _KINDS_OF_TRENCH)
     tabulated = np.array([_has_table(entry) for entry in entries])
     table = np.cumsum(tabulated) - 1.0
     found = []
@@ -281,6 +359,7 @@ def trenches(scene: ResolvedDeck) -> list[LawAssignment]:
         ("trench peak", ~walls & ~tabulated, "peak"),
         ("trench table", tabulated, "table"),
         ("trench wall", walls, "depth"),
+        ("trench level", lower, "depth"),
     ):
         rows = np.flatnonzero((extension.of_element >= 0) & blocks[extension.of_element])
         block = extension.of_element[rows]
@@ -295,13 +374,33 @@ def trenches(scene: ResolvedDeck) -> list[LawAssignment]:
     return found
 
 
+_KINDS_OF_TRENCH = (("model", "WALL"), ("level", "LOWERED"))
+
+
 def resistance_tables(scene: ResolvedDeck) -> list[Floats]:
-    """The tables (k, 2) of the blocks that have one, in their order."""
-    return [entry.table.values for entry in _trench_sets(scene) if _has_table(entry) and entry.table is not None]
+    """The tables (k, 3) of the blocks that have one, in their order."""
+    from mudline.contact.laws.trench import rounded  # noqa: PLC0415 - only now is it needed
+
+    entries = [entry for entry in _trench_sets(scene) if _has_table(entry)]
+    return [rounded(resistance_diagram(entry), number(entry, "smoothing", 0.0)) for entry in entries]
+
+
+def resistance_diagram(entry: TrenchSet) -> Floats:
+    """The corners (k, 2) of the resistance over the distance from the centreline."""
+    from mudline.contact.laws.trench import diagram  # noqa: PLC0415 - only now is it needed
+
+    if entry.table is not None:
+        return entry.table.values
+    inner, outer = (0.5 * number(entry.geometry, name) for name in ("bottom_width", "upper_width"))
+    held, given = entry.residual, entry.residual is not None
+    residual = (number(held, "resistance"), number(held, "displacement")) if given else None
+    return diagram(inner, outer, number(entry, "peak"), residual)
 
 
 def _has_table(entry: TrenchSet) -> bool:
-    return entry.model != "WALL" and entry.peak == "TABLE"
+    """Whether its resistance is no plain peak, and none of walls."""
+    rounds = entry.residual is not None or number(entry, "smoothing", 0.0) > 0.0
+    return entry.model != "WALL" and (entry.peak == "TABLE" or rounds)
 
 
 def _trench_sets(scene: ResolvedDeck) -> list[TrenchSet]:

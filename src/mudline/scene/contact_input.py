@@ -62,7 +62,7 @@ def _contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> Cont
 
 def _refusals(scene: ResolvedDeck) -> Iterator[Problem]:
     """What no check covers: a problem for each kind, at the first element concerned."""
-    springs = np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR, LawKind.SOIL))
+    springs = ~np.isin(scene.law, (LawKind.NONE, LawKind.RIGID, LawKind.NODAL))
     unknown = scene.element_nodes.min(axis=1, initial=0) < 0
     yield from _refusal(scene, unknown, "ends at a node that is not known", "end at nodes that are not known")
     endless = springs & ~np.isfinite(scene.length) & ~unknown
@@ -105,6 +105,10 @@ def _normal_laws(scene: ResolvedDeck, arrays: LawArrays) -> list[LawAssignment]:
         from mudline.scene.assignments import nodal_springs  # noqa: PLC0415 - only now is it needed
 
         laws.append(nodal_springs(scene))
+    if "SEABED CONTACT" in scene.extensions:
+        from mudline.scene.assignments import damping  # noqa: PLC0415 - only now is it needed
+
+        laws += damping(scene)
     if "SEABED SOIL" in scene.extensions:
         from mudline.scene.assignments import soils  # noqa: PLC0415 - only now is it needed
 
@@ -139,6 +143,9 @@ def _lateral_laws(scene: ResolvedDeck) -> list[LawAssignment]:
     friction = friction_of(scene)
     if friction is not None:
         laws.append(friction)
+        from mudline.scene.assignments import node_breakouts  # noqa: PLC0415 - only now is it needed
+
+        laws += node_breakouts(scene, friction)
     if "SEABED TRENCH" in scene.extensions:
         from mudline.scene.assignments import trenches  # noqa: PLC0415 - only now is it needed
 

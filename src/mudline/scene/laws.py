@@ -312,6 +312,16 @@ class Extension:
             parts = [getattr(part, step, None) for part in parts]
         return picked((number(part, name, default) for part in parts), at)
 
+    def asking(self, name: str) -> Mask:
+        """Elements (m,) whose block gives a field, a number at least 0; all with a block where it is mandatory."""
+        flags = []
+        for entry in self.entries:
+            value = getattr(entry, name, None)
+            number_asks = value >= 0.0 if isinstance(value, float | int) else value is not None
+            flags.append(number_asks or type(entry).model_fields[name].is_required())
+        found: Mask = np.array([*flags, False])[self.of_element]
+        return found
+
 
 def read_extensions(context: Context, sets: Sets, count: int) -> dict[str, Extension]:
     """What the deck gives, by keyword in the order of the catalogue; keywords that it has not are left out."""
@@ -321,14 +331,6 @@ def read_extensions(context: Context, sets: Sets, count: int) -> dict[str, Exten
 
 def _goes_by_set(declared: type[Block]) -> bool:
     return declared.facts.extension and declared.facts.later_wins
-
-
-def with_nodal_stiffness(contact: Extension) -> Mask:
-    """Elements (m,) whose block of `*SEABED CONTACT` gives their nodes a stiffness."""
-    given = (getattr(entry, "nodal_stiffness", None) for entry in contact.entries)
-    flags = [isinstance(value, float | int) and value >= 0.0 for value in given]
-    found: Mask = np.array([*flags, False])[contact.of_element]
-    return found
 
 
 def _read_extension(context: Context, sets: Sets, keyword: str, count: int) -> Extension:

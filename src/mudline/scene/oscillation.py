@@ -17,6 +17,7 @@ import numpy as np
 from mudline.codes import RUN001
 from mudline.contact.input import LawKind
 from mudline.diagnostics import Problem, Where
+from mudline.quantities import time_unit, unit_names
 from mudline.scene.laws import Extension
 from mudline.scene.numbering import Floats, Indices, Mask, at_nodes, summed
 from mudline.scene.resolved import ResolvedDeck
@@ -25,17 +26,18 @@ if TYPE_CHECKING:
     from mudline.contact.input import ContactInput
     from mudline.contact.stiffest import Stiffest
 
-_NORMAL = ("curve", "linear", "smoothed", "soil")
 _RISES = np.linspace(0.02, 1.0, 50)
 """Pull-out velocities over v_r at which the mobilisation of suction is looked at."""
 _NEARLY = 0.999
+SOFTENING = "softening"
+"""Kind of what falls as it moves on."""
 
 
 class Oscillation(NamedTuple):
     """One kind of contact, at its node that asks for the smallest step.
 
-    kind: "normal", "nodal", "unloading", "friction", "lateral", "suction spring", "suction mobilisation" or "suction
-        damping".
+    kind: "normal", "nodal", "unloading", "friction", "softening", "lateral", "suction spring", "suction mobilisation"
+        or "suction damping".
     name: its law, and the set through which its elements have it.
     element: index of its element, or of one element of its node.
     node: index of its node.
@@ -74,10 +76,14 @@ class Oscillation(NamedTuple):
 
 
 class Oscillations(NamedTuple):
-    """What oscillates, the fastest first, and (name, reason) of contacts of which nothing is known."""
+    """What oscillates, the fastest first, and (name, reason) of contacts of which nothing is known.
+
+    softening: what falls as it moves on: its `omega` is the rate at which a motion grows.
+    """
 
     found: list[Oscillation]
     unknown: list[tuple[str, str]]
+    softening: list[Oscillation]
 
 
 def oscillations(scene: ResolvedDeck, given: ContactInput) -> Oscillations:
@@ -88,12 +94,24 @@ def oscillations(scene: ResolvedDeck, given: ContactInput) -> Oscillations:
     every = [*_of_elements(scene, given, ContactModel(given).stiffest(), carried)]
     found = [one for one in every if isinstance(one, Oscillation)]
     unknown = [one for one in every if not isinstance(one, Oscillation)]
-    return Oscillations(sorted(found, key=lambda one: one.critical_step("central-difference")), unknown)
+    softening = [one for one in found if one.kind == SOFTENING]
+    springs = [one for one in found if one.kind != SOFTENING]
+    springs.sort(key=lambda one: one.critical_step("central-difference"))
+    return Oscillations(springs, unknown, softening)
 
 
 def line_of(scene: ResolvedDeck, where: Where | None) -> int:
     """Line of a place in the file that it stands in; 0 for none."""
     return 0 if where is None else scene.deck.place(Problem(RUN001, "", where=where)).line
+
+
+def softening_needs(scene: ResolvedDeck, one: Oscillation) -> str:
+    """What a structure and a motion need where a resistance falls: " = stiffness, and a step"."""
+    from mudline.contact.stiffest import ADVISED_OMEGA_DT, rounded_down  # noqa: PLC0415 - loaded when it is needed
+
+    unit, time = unit_names(scene.units).behind("stiffness"), f" {time_unit(scene.units)}".rstrip()
+    step = rounded_down(ADVISED_OMEGA_DT / one.omega)
+    return f" = {one.stiffness:.6g}{unit} (node {scene.node_ids[one.node]}), and a motion a step up to {step:.3g}{time}"
 
 
 class _Carried:
@@ -127,10 +145,13 @@ def _of_elements(
     scene: ResolvedDeck, given: ContactInput, facts: Stiffest, carried: _Carried
 ) -> Iterator[Oscillation | tuple[str, str]]:
     """Every kind of contact, or its name and why its frequency is not known."""
+    from mudline.contact.laws import is_normal  # noqa: PLC0415 - loaded when it is needed
+
     by_law = {law.law: law for law in facts.laws}
     none = np.zeros(len(given.element_ids))
+    inward = np.nan_to_num(by_law["damping"].damping) if "damping" in by_law else none
     sections = scene.section_table.of_element
-    springs = [by_law[name].stiffness for name in _NORMAL if name in by_law]
+    springs = [law.stiffness for name, law in by_law.items() if law.per == "length" and is_normal(name)]
     normal = np.fmax.reduce(springs) if springs else np.full(len(sections), np.nan)
     back = scene.extensions.get("SEABED UNLOADING")
     blocks = np.full(len(sections), -1) if back is None else back.of_element
@@ -139,16 +160,16 @@ def _of_elements(
         returns = by_law["unloading"].stiffness
         with np.errstate(invalid="ignore"):
             steeper = returns > normal
-    soil = scene.extensions.get("SEABED SOIL")
-    kinds = np.full(len(sections), -1) if soil is None else np.where(scene.law == LawKind.SOIL, soil.of_element, -1)
-    for group in _groups(~np.isnan(normal), scene.laws.of_element, sections, blocks, kinds):
+    for group in _groups(~np.isnan(normal), scene.laws.of_element, sections, blocks, scene.replacing):
         name = f"{scene.law_names[group[0]]} on {scene.law_sets[group[0]]}"
         place = place_of_law(scene, int(group[0]))
-        yield _of_group("normal", name, group, (normal, none), carried, place)
+        yield _of_group("normal", name, group, (normal, inward), carried, place)
         if back is not None and steeper[group].any():
             place = back.places[int(back.of_element[group[0]])].inside("stiffness")
-            yield _of_group("unloading", f"unloading of {name}", group, (returns, none), carried, place)
-    yield from _of_nodes(scene, by_law["nodal"].at_nodes if "nodal" in by_law else None, carried)
+            yield _of_group("unloading", f"unloading of {name}", group, (returns, inward), carried, place)
+    damped = given.assigned.get("nodal damping")
+    own = np.zeros(carried.nodes) if damped is None else damped.spread("damping", carried.nodes, 0.0)
+    yield from _of_nodes(scene, by_law["nodal"].at_nodes if "nodal" in by_law else None, own, carried)
     for law, field in (("suction spring", "suction"), ("lateral", "lateral")):
         if law in by_law:
             for group in _groups(~np.isnan(by_law[law].stiffness), scene.resistance.of_element, sections):
@@ -159,6 +180,8 @@ def _of_elements(
         yield from _of_suction(scene, given, carried)
     if "friction" in by_law:
         yield from _of_friction(scene, given, by_law["friction"].at_nodes, carried)
+    if "breakout" in by_law:
+        yield from _of_springs(scene, SOFTENING, "peak", by_law["breakout"].at_nodes, carried)
 
 
 def _groups(having: Mask, *keys: Indices) -> list[Indices]:
@@ -218,9 +241,9 @@ def _checked(one: Oscillation) -> Oscillation | tuple[str, str]:
 
 
 def _of_nodes(
-    scene: ResolvedDeck, stiffness: Floats | None, carried: _Carried
+    scene: ResolvedDeck, stiffness: Floats | None, damping: Floats, carried: _Carried
 ) -> Iterator[Oscillation | tuple[str, str]]:
-    """Nodes with a stiffness of their own: of each stiffness the fastest node."""
+    """Nodes with a stiffness of their own, and maybe a damping: of each stiffness the fastest node."""
     if stiffness is None:
         return
     contact = scene.extensions["SEABED CONTACT"]
@@ -230,7 +253,8 @@ def _of_nodes(
         found = _of_node("nodal", f"nodal {value:.6g}", nodes, stiffness, carried)
         if isinstance(found, Oscillation):
             place = contact.places[int(blocks[found.node])].inside("nodal_stiffness")
-            yield found._replace(name=f"{found.name} at node {scene.node_ids[found.node]}", where=place)
+            name, rate = f"{found.name} at node {scene.node_ids[found.node]}", damping[found.node]
+            yield found._replace(name=name, where=place, damping=float(rate / carried.length[found.node]))
         else:
             yield (f"nodal stiffness {value:.6g}", "no frequency: the mass of its nodes is not known")
 
@@ -253,7 +277,22 @@ def _of_node(
 def _of_friction(
     scene: ResolvedDeck, given: ContactInput, stiffness: Floats | None, carried: _Carried
 ) -> Iterator[Oscillation | tuple[str, str]]:
-    """Nodes that stick, by the place that gives them their springs."""
+    """Nodes that stick, and why some have no springs."""
+    if stiffness is None:
+        return
+    yield from _of_springs(scene, "friction", "stiffness", stiffness, carried)
+    ends, sliding = carried.ends, given.assigned["friction"].rows
+    unknown = sliding[np.isnan(stiffness[sliding])]
+    if unknown.size:
+        around = scene.submerged_weight[np.isin(ends, unknown).any(axis=1)]
+        why = "which is not known" if np.isnan(around).any() else "and the pipe floats"
+        yield "friction", f"no springs at {len(unknown)} nodes: they follow the submerged weight, {why}"
+
+
+def _of_springs(
+    scene: ResolvedDeck, kind: str, field: str, stiffness: Floats | None, carried: _Carried
+) -> Iterator[Oscillation | tuple[str, str]]:
+    """Nodes (n,) with a spring of friction, by the place that gives it: `field` of its block, or FRICTION=."""
     if stiffness is None:
         return
     own = scene.extensions.get("SEABED FRICTION")
@@ -264,20 +303,14 @@ def _of_friction(
     for group in _groups(having, of_keyword, of_properties):
         keyword, index = int(of_keyword[group[0]]), int(of_properties[group[0]])
         if own is not None and keyword >= 0:
-            holder, place = own.sets[keyword], own.places[keyword].inside("stiffness")
-            name = f"friction on {'?' if holder is None else holder.name}"
+            holder, place = own.sets[keyword], own.places[keyword].inside(field)
+            name = f"{kind} on {'?' if holder is None else holder.name}"
         else:
             place = scene.resistance.places[index].inside("friction")
             on = np.flatnonzero(scene.resistance.of_element == index)[0]
             name = f"friction on {_set_of_resistance(scene, int(on))}"
-        found = _of_node("friction", name, group, stiffness, carried)
+        found = _of_node(kind, name, group, stiffness, carried)
         yield found._replace(where=place) if isinstance(found, Oscillation) else found
-    sliding = given.assigned["friction"].rows
-    unknown = sliding[np.isnan(stiffness[sliding])]
-    if unknown.size:
-        around = scene.submerged_weight[np.isin(ends, unknown).any(axis=1)]
-        why = "which is not known" if np.isnan(around).any() else "and the pipe floats"
-        yield "friction", f"no springs at {len(unknown)} nodes: they follow the submerged weight, {why}"
 
 
 def _of_suction(scene: ResolvedDeck, given: ContactInput, carried: _Carried) -> Iterator[Oscillation | tuple[str, str]]:
@@ -352,9 +385,9 @@ def place_of_suction(own: Extension, index: int) -> Where:
 
 def place_of_law(scene: ResolvedDeck, element: int) -> Where | None:
     """Where the stiffness of an element stands: the end of the steepest segment of its curve."""
-    if scene.law[element] == LawKind.SOIL:
-        soil = scene.extensions["SEABED SOIL"]
-        return soil.places[int(soil.of_element[element])].inside("strength")
+    for _, field, extension, elements in reversed(scene.replaced):
+        if elements[element]:
+            return extension.places[int(extension.of_element[element])].inside(field)
     law = scene.set_law(element)
     if law is None:
         return None

@@ -186,7 +186,7 @@ def _check_range(context: Context, nodes: Numbered, entry: FixedRange, where: Wh
     values = cast("FixedValues | None", entry.generate)
     if values is None:
         return
-    at, step = _freedom_and_step(values)
+    at, step = freedom_and_step(values)
     freedom = (values.third, values.fourth)[at - 2]
     if freedom is None:
         message = "this GEN= has no degree of freedom: write start, end [, increment], dof [, displacement]"
@@ -214,7 +214,7 @@ def _check_freedom(context: Context, given: object, where: Where) -> None:
         context.report(SYN005, f"{given} is not a degree of freedom: {expected}", where)
 
 
-def _freedom_and_step(values: FixedValues) -> tuple[int, object]:
+def freedom_and_step(values: FixedValues) -> tuple[int, object]:
     """Which value of a GEN= is the degree of freedom, counted from 0, and the increment.
 
     Of four values the third is taken for it only where the fourth cannot be one.

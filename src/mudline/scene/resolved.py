@@ -17,11 +17,12 @@ from mudline.codes.references import REF001
 from mudline.contact.input import LawKind
 from mudline.deck.parameters import EvaluatedDeck, folded
 from mudline.diagnostics import DeckError, Problem, Where
+from mudline.keywords.catalogue import facts_of
 from mudline.keywords.text import suggestion
 from mudline.limits import SHOWN_LETTERS
 from mudline.scene.context import Context
 from mudline.scene.force_curves import SceneCurve
-from mudline.scene.laws import Extension, LawTable, SeabedResistance, SetLaw, with_nodal_stiffness
+from mudline.scene.laws import Extension, LawTable, SeabedResistance, SetLaw
 from mudline.scene.mesh import ElementTable
 from mudline.scene.names import CURVES, THINGS, undefined
 from mudline.scene.numbering import Floats, Ids, Indices, Mask, Numbered
@@ -91,6 +92,15 @@ class ByName(Mapping[str, Value]):
             return UnknownNameError(f"a {self._kind} is found by its name, a str, not by {type(name).__name__}")
         names = list(self)
         return UnknownNameError.among(self._kind, cut(name, SHOWN_LETTERS), names, suggestion(name, names))
+
+
+class Replaced(NamedTuple):
+    """Elements (m,) to which the blocks of an extension keyword give another kind of law, by one of their fields."""
+
+    kind: LawKind
+    field: str
+    extension: Extension
+    elements: Mask
 
 
 class LawArrays(NamedTuple):
@@ -232,14 +242,22 @@ class ResolvedDeck:
         return self.laws.set_laws[index] if index >= 0 else None
 
     @cached_property
-    def _replaced(self) -> list[tuple[LawKind, Extension, Mask]]:
-        """Kinds that extension keywords give in place of what elements (m,) had, the last one for good."""
-        found: list[tuple[LawKind, Extension, Mask]] = []
-        soft = self.laws_given != LawKind.RIGID
-        if (soil := self.extensions.get("SEABED SOIL")) is not None:
-            found.append((LawKind.SOIL, soil, (soil.of_element >= 0) & soft))
-        if (contact := self.extensions.get("SEABED CONTACT")) is not None:
-            found.append((LawKind.NODAL, contact, with_nodal_stiffness(contact) & soft))
+    def replaced(self) -> list[Replaced]:
+        """What extension keywords give in place of what elements had, the last one for good."""
+        soft, found = self.laws_given != LawKind.RIGID, []
+        for keyword, extension in reversed(self.extensions.items()):
+            law, field = facts_of(keyword).gives_law
+            if law:
+                asked = extension.asking(field) & soft
+                found.append(Replaced(LawKind[law.upper()], field, extension, asked))
+        return found
+
+    @property
+    def replacing(self) -> Indices:
+        """The block of its keyword that replaced the law of each element (m,), -1 for those that have their own."""
+        found = np.full(len(self.element_ids), -1)
+        for _, _, extension, elements in self.replaced:
+            found = np.where(elements, extension.of_element, found)
         return found
 
     @cached_property
@@ -258,7 +276,7 @@ class ResolvedDeck:
     def law(self) -> NDArray[np.int8]:
         """`LawKind` of each element (m,)."""
         found = self.laws_given
-        for kind, _, elements in self._replaced:
+        for kind, _, _, elements in self.replaced:
             found = np.where(elements, np.int8(kind), found)
         return found
 
@@ -267,7 +285,7 @@ class ResolvedDeck:
         """`curve:NAME`, `linear`, `nodal`, `soil`, `rigid` or `none` for each element."""
         names = [*(self.law_name(set_law) for set_law in self.laws.set_laws), "none"]
         found = [names[position] for position in self.laws.of_element.tolist()]
-        for kind, _, elements in self._replaced:
+        for kind, _, _, elements in self.replaced:
             for element in np.flatnonzero(elements).tolist():
                 found[element] = kind.name.lower()
         return found
@@ -277,7 +295,7 @@ class ResolvedDeck:
         """Name of the set through which each element got its law; None without a law."""
         names = [None if set_law.kind is LawKind.NONE else set_law.set_.name for set_law in self.laws.set_laws]
         found = [[*names, None][index] for index in self.laws.of_element.tolist()]
-        for _, extension, elements in self._replaced:
+        for _, _, extension, elements in self.replaced:
             for element in np.flatnonzero(elements).tolist():
                 holder = extension.sets[int(extension.of_element[element])]
                 found[element] = None if holder is None else holder.name

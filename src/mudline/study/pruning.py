@@ -7,6 +7,7 @@ have is added with usual values to all elements with a normal law, and costs wha
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
@@ -30,15 +31,8 @@ _LEAST = 1e-3
 _COHESION = 5000.0
 _DIAMETER = 0.3
 
-_LAWS: dict[str, tuple[str, ...]] = {
-    "smoothing": (),
-    "unloading": ("unloading",),
-    "suction": ("suction", "suction spring"),
-    "friction": ("friction",),
-    "lateral": ("lateral",),
-    "trench": ("trench peak", "trench wall", "trench table"),
-}
-"""The stages that a deck may lack, and the laws that each evaluates; that of smoothing takes the place of others."""
+_STAGES = ("smoothing", "unloading", "suction", "friction", "lateral", "trench")
+"""The stages that a deck may lack; the law of smoothing takes the place of others."""
 _EXTENSIONS = {
     "smoothing": "SEABED CONTACT",
     "unloading": "SEABED UNLOADING",
@@ -79,13 +73,13 @@ def pruned(scene: Scene, given: ContactInput, timer: Timer) -> Pruning:
     model = ContactModel(given, backend="numpy")
     models = {"": model, "floor": ContactModel(replace(given, laws=()), backend="numpy")}
     for stage in model.plan:
-        if stage.stage in _LAWS:
+        if stage.stage in _STAGES:
             changed = without(given, stage.stage) if stage.active else with_added(given, stage.stage)
-            if changed is not None:
-                models[stage.stage] = ContactModel(changed, backend="numpy")
-    removable = any(stage.active for stage in model.plan if stage.stage in _LAWS)
+            with suppress(ValueError):  # a law that is added may not go with those that are there
+                models |= {} if changed is None else {stage.stage: ContactModel(changed, backend="numpy")}
+    removable = any(stage.active for stage in model.plan if stage.stage in _STAGES)
     if removable:
-        models["normal law"] = ContactModel(without(given, *_LAWS), backend="numpy")
+        models["normal law"] = ContactModel(without(given, *_STAGES), backend="numpy")
     taken = seconds_per_step(models, timer)
     if "" not in taken:
         taken = {}
@@ -109,7 +103,7 @@ def pruned(scene: Scene, given: ContactInput, timer: Timer) -> Pruning:
             less = taken[stage.stage]
             part = {"floor": floor, "normal law": less - floor}.get(stage.stage, whole - less)
             row = row._replace(time=max(part, 0.0), share=min(max(part, 0.0) / whole, 1.0))
-        elif stage.stage in taken and stage.stage in _LAWS:
+        elif stage.stage in taken and stage.stage in _STAGES:
             row = row._replace(cost_if_added=max(taken[stage.stage] - whole, 0.0) / len(given.node_ids))
         rows.append(row)
     return Pruning(rows, whole, len(given.element_ids))
@@ -146,8 +140,7 @@ def _seconds(calls: Iterable[Callable[[], object]], repeats: int, timer: Timer) 
 
 def without(given: ContactInput, *stages: str) -> ContactInput:
     """Return the input without the laws of some stages; smoothed laws become linear ones."""
-    left_out = {law for stage in stages for law in _LAWS[stage]}
-    laws = [law for law in given.laws if law.law not in left_out]
+    laws = [law for law in given.laws if law_named(law.law).stage not in stages]
     if "smoothing" in stages:
         laws = [_sharp(law) for law in laws]
     return replace(given, laws=tuple(laws))

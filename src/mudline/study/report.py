@@ -115,7 +115,7 @@ def study(
     """
     given = scene.contact_input("cut" if scene.blocking("keep") else "keep")
     found = Study(scene.deck.file, scene.units, own_step(scene))
-    contacts, unknown = contacts_of(scene, given)
+    contacts, unknown, softening = contacts_of(scene, given)
     measure = [part for part in PARTS if part in parts or (draw and part == "precision")]
     for part in tracked(measure):
         notes = found.notes.setdefault(part, [])
@@ -133,7 +133,7 @@ def study(
     compared = [part for part in measure if part != "pruning" and part in parts]
     if found.own is None and compared:
         found.notes[compared[0]].append("The deck has no *TIME with a fixed step to compare with.")
-    found.advice = _advice(found, contacts)
+    found.advice = _advice(found, contacts, softening)
     return found
 
 
@@ -158,7 +158,7 @@ class _Limit(NamedTuple):
     line: int
 
 
-def _advice(found: Study, contacts: Sequence[Contact]) -> Advice:
+def _advice(found: Study, contacts: Sequence[Contact], softening: Sequence[str]) -> Advice:
     own = None if found.own is None else found.own.step
     if found.precision is None and found.stability is None:
         return Advice(_of_stages(found), own_step=own)
@@ -173,7 +173,7 @@ def _advice(found: Study, contacts: Sequence[Contact]) -> Advice:
     scheme, first = next(iter(best.items()), (None, None))
     if first is not None and first.step is not None:
         texts.append(_of_own_step(found, first.step))
-    texts += [jump_note(found, one.row) for one in found.stability or () if one.row.jump]
+    texts += [jump_note(found, one.row) for one in found.stability or () if one.row.jump] + [*softening]
     if found.extremes is not None and found.extremes.failed:
         texts.append(f"{len(found.extremes.failed)} of {found.extremes.tried} extreme cases do not hold.")
     if not contacts:

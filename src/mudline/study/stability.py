@@ -13,7 +13,7 @@ from mudline.contact.arrays import BoolArray, FloatArray
 from mudline.contact.input import ContactInput, LawKind
 from mudline.diagnostics import Where
 from mudline.scene.model import Scene
-from mudline.scene.oscillation import Oscillation, line_of, oscillations
+from mudline.scene.oscillation import Oscillation, line_of, oscillations, softening_needs
 from mudline.study.drops import ALLOWED, CurveLaw, Drop, Landing, Law, LinearLaw, landings
 from mudline.study.schemes import HHT, MOST_STEPS, SCHEMES
 
@@ -99,12 +99,12 @@ def file_of(scene: Scene, where: Where | None) -> str:
     return Path(base[0].file if base else scene.deck.file).name
 
 
-def contacts_of(scene: Scene, given: ContactInput) -> tuple[list[Contact], list[str]]:
-    """Return the contacts of a scene, the smallest critical step first, and what is not known of others.
+def contacts_of(scene: Scene, given: ContactInput) -> tuple[list[Contact], list[str], list[str]]:
+    """Return the contacts of a scene, the smallest critical step first, what is not known of others, and what softens.
 
     Contacts with the same numbers from the same line share a row.
     """
-    found, unknown = oscillations(scene, given)
+    found, unknown, softening = oscillations(scene, given)
     rows: dict[tuple[object, ...], Contact] = {}
     for one in found:
         row = _row(scene, one)
@@ -114,13 +114,23 @@ def contacts_of(scene: Scene, given: ContactInput) -> tuple[list[Contact], list[
         else:
             rows[key] = Contact(one, _law_of(scene, given, one), row)
     ordered = sorted(rows.values(), key=lambda contact: contact.row.explicit_step)
-    return ordered, [f"{name}: {reason}" for name, reason in unknown]
+    falls = [
+        f"Behind its peak the lateral resistance falls, {_line(scene, one)}: equilibrium needs a structural stiffness "
+        f"per unit length above{softening_needs(scene, one).removeprefix(' =')}."
+        for one in softening
+    ]
+    return ordered, [f"{name}: {reason}" for name, reason in unknown], falls
+
+
+def _line(scene: Scene, one: Oscillation) -> str:
+    line = line_of(scene, one.where)
+    return f"line {line} ({one.name})" if line else one.name
 
 
 def _row(scene: Scene, one: Oscillation) -> StabilityRow:
     kind = _TWO_KINDS.get(one.kind, one.kind)
     if kind == "normal":
-        kind = {LawKind.CURVE: "curve", LawKind.SOIL: "soil"}.get(LawKind(scene.law[one.element]), "linear")
+        kind = LawKind(scene.law[one.element]).name.lower()
     return StabilityRow(
         one.name,
         kind,
@@ -148,7 +158,7 @@ def _law_of(scene: Scene, given: ContactInput, one: Oscillation) -> Law | None:
     if one.kind != "normal":
         return None
     arrays, element = scene.law_arrays(), one.element
-    if scene.law[element] == LawKind.SOIL:
+    if scene.law[element] not in {LawKind.CURVE, LawKind.LINEAR}:  # its force depends on its path
         return None
     index = int(arrays.curve_index[element])
     if index >= 0:

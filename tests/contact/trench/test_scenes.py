@@ -10,6 +10,9 @@ import pytest
 
 from mudline.contact import ContactInput, ContactModel, LawAssignment
 from mudline.contact.arrays import FloatArray
+from mudline.contact.laws.trench import diagram, rounded, shortest_side
+from mudline.contact.plan import Backend
+from mudline.contact.trenches import tabulated
 from tests.builders.contact import ALONG_Y, LINEAR, NONE, chain, drawn, friction, on, trench
 
 MU = 0.4
@@ -68,6 +71,73 @@ def test_a_table_holds_from_the_centreline_on(offset: float, resistance: float, 
     result = contact.evaluate(drawn([(0.0, 0.0), (0.0, side * offset), (0.0, side * (offset - 0.02))]))
     assert result.reaction[1, :, 2] == pytest.approx([-side * (400.0 + resistance)] * 2)
     assert result.reaction[2, :, 2] == pytest.approx([side * 400.0] * 2)
+
+
+RESIDUAL = diagram(0.25, 0.85, 600.0, (150.0, 1.05))
+"""Rises from 0.25 to its peak at 0.55, falls to 150 at 1.05."""
+
+
+@pytest.mark.parametrize("backend", ["numpy", "fast"])
+@pytest.mark.parametrize(
+    ("points", "width", "offset", "resistance"),
+    [
+        (RESIDUAL, 0.0, 0.55, 600.0),
+        (RESIDUAL, 0.0, 0.80, 375.0),
+        (RESIDUAL, 0.0, 5.0, 150.0),
+        (RESIDUAL, 0.1, 0.25, 50.0),  # slope 2000 over 4 times the half width 0.1
+        (RESIDUAL, 0.1, 0.20, 12.5),
+        (RESIDUAL, 0.1, 0.55, 600.0 - 2900.0 * 0.025),
+        (RESIDUAL, 0.1, 0.80, 375.0),
+        (RESIDUAL, 0.1, 1.15, 150.0),
+        (diagram(0.25, 0.85, 600.0, None), 0.1, 0.85, 50.0),
+        (diagram(0.25, 0.85, 600.0, None), 0.1, 0.96, 0.0),
+        (TABLE, 0.0, 0.4, 350.0),
+    ],
+)
+def test_a_residual_and_rounded_corners(
+    points: FloatArray, width: float, offset: float, resistance: float, backend: Backend
+) -> None:
+    ditch = on("trench table", 1, table=0, **WIDTHS)
+    inputs = chain([LINEAR], friction(2, (0.5, MU), 1e5), ditch, tables=(rounded(points, width),))
+    result = ContactModel(inputs, backend=backend).evaluate(drawn([(0.0, 0.0), (0.0, offset)]))
+    assert result.reaction[1, :, 2] == pytest.approx([-(400.0 + resistance)] * 2, rel=1e-12)
+
+
+def test_rounded_corners_are_smooth() -> None:
+    places = np.linspace(0.0, 1.3, 2601)
+    force = tabulated(rounded(RESIDUAL, 0.1), places)
+    slope = np.diff(force) / np.diff(places)
+    assert np.abs(np.diff(slope)).max() < 2900.0 / 0.2 * 6e-4  # of corners 2000 and more
+    assert shortest_side(RESIDUAL) == pytest.approx(0.3)
+    assert shortest_side(TABLE) == 0.0
+
+
+@pytest.mark.parametrize("backend", ["numpy", "fast"])
+def test_a_lowered_seabed(backend: Backend) -> None:
+    """0.3 m at the bottom, half of it at mid-wall, nothing outside; the line was laid along its own middle."""
+    laws = friction(2, (0.5, MU), 1e5), on("trench level", 1, depth=0.3, bottom=0.5, upper=1.7)
+    contact = ContactModel(chain([LINEAR], *laws), backend=backend)
+    result = contact.evaluate(drawn([(0.0, y) for y in (0.0, 0.25, -0.55, 0.85, 2.0)], 0.32))
+    assert result.depth[:, 0] == pytest.approx([0.02, 0.02, 0.17, 0.32, 0.32], rel=1e-12)
+    assert (result.normal == [1.0, 0.0, 0.0]).all()
+    half = ContactModel(chain([LINEAR] * 2, friction(3), on("trench level", [0], depth=0.3, bottom=0.5, upper=1.7)))
+    assert half.evaluate(drawn([(0.0, 0.0)], 0.3, 3)).gap[0] == pytest.approx([0.0, -0.15, -0.3], abs=1e-15)
+
+
+def test_tangent_on_a_lowered_wall() -> None:
+    """The height changes as the pipe moves sideways: the normal stays, so the tangent is not symmetric."""
+    law = on("trench level", 1, depth=0.3, bottom=0.5, upper=1.7)
+    contact = ContactModel(chain([LINEAR], law, friction(2, (0.5, MU), 1e5)))
+    places = drawn([(0.0, 0.0), (0.0, 0.5)], 0.32)
+    _, state = contact.step(places[0], None, contact.initial_state())
+    matrix = contact.tangent(places[1], None, state).by_position.dense()
+    for column, at in enumerate(np.ndindex(places[1].shape)):
+        moved = [places[1].copy(), places[1].copy()]
+        moved[0][at] += 1e-7
+        moved[1][at] -= 1e-7
+        found = [contact.step(each, None, state)[0].reaction for each in moved]
+        np.testing.assert_allclose(matrix[:, column], (found[0] - found[1]).ravel() / 2e-7, rtol=1e-5, atol=0.1)
+    assert matrix[0, 2] == pytest.approx(12500.0 * 2.0 * 0.5)
 
 
 BLOCKS: dict[str, tuple[tuple[LawAssignment, ...], list[float]]] = {

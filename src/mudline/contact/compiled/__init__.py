@@ -31,7 +31,7 @@ PER_CYCLE, FLOOR, LEAST_DEPTH, SUCTION_COLUMNS = 9, 10, 11, 12
 # Columns of the table of numbers of nodes, before the parameters of their normal laws.
 MU_1, MU_2, CONSTANT_1, CONSTANT_2, RISING_1, RISING_2, COSINE, SINE, NODE_ONSET, NODE_LAW = range(10)
 # Columns of the table of indices of nodes.
-ACTIVE, ELLIPTIC, NODE_KIND, NODE_INDICES = range(4)
+ACTIVE, ELLIPTIC, NODE_KIND, BREAKS_OUT, NODE_INDICES = range(5)
 # Columns of the tables of trenches.
 INNER, OUTER, STEEPNESS, AMOUNT, TRENCH_NUMBERS = range(5)
 TRENCH_KIND, TABLE_START, TABLE_END, CENTRELINE, TRENCH_INDICES = range(5)
@@ -50,6 +50,8 @@ class Features(NamedTuple):
     unloading: bool
     steepens: bool
     springs: bool
+    damping: bool
+    nodal_damping: bool
     suction: bool
     slides: bool
     lateral: bool
@@ -59,6 +61,8 @@ class Features(NamedTuple):
     turned: bool
     trench: bool
     tables: bool
+    breakout: bool
+    embeds: bool
 
 
 def features_of(tables: Tables, *, flat: bool) -> Features:
@@ -72,6 +76,8 @@ def features_of(tables: Tables, *, flat: bool) -> Features:
         unloading=tables.unloading is not None,
         steepens=_steepens(tables),
         springs=tables.springs is not None,
+        damping=tables.damping is not None,
+        nodal_damping=tables.nodal_damping is not None,
         suction=suction is not None,
         slides=friction is not None or tables.lateral is not None,
         lateral=tables.lateral is not None,
@@ -81,6 +87,8 @@ def features_of(tables: Tables, *, flat: bool) -> Features:
         turned=friction is not None and bool(friction.turned.size),
         trench=trench is not None,
         tables=trench is not None and bool((trench.table >= 0).any()),
+        breakout=tables.breakout is not None,
+        embeds=tables.embeds,
     )
 
 
@@ -168,7 +176,14 @@ def node_tables(tables: Tables) -> tuple[Any, Any]:
         for column, values in pairs:
             numbers[:, column], numbers[:, column + 1] = values
         numbers[friction.turned, COSINE], numbers[friction.turned, SINE] = friction.cosine, friction.sine
+    if tables.breakout is not None:
+        index[tables.breakout.rows, BREAKS_OUT] = np.arange(len(tables.breakout.rows))
     return read_only(index), read_only(numbers)
+
+
+def breakout_table(tables: Tables) -> Any:
+    """Breakout laws (k, 6): the parameters, and 1 over the elements at the node."""
+    return read_only(np.empty((0, 6)) if tables.breakout is None else np.column_stack(tables.breakout.columns))
 
 
 def trench_tables(tables: Tables) -> tuple[Any, ...]:
@@ -179,7 +194,7 @@ def trench_tables(tables: Tables) -> tuple[Any, ...]:
             read_only(array)
             for array in (
                 np.zeros(0, np.int32), np.zeros((0, TRENCH_INDICES), np.int32),
-                np.empty((0, TRENCH_NUMBERS)), np.empty((0, 4)), np.empty((3, 0)),
+                np.empty((0, TRENCH_NUMBERS)), np.empty((0, 4)), np.empty((4, 0)),
             )
         )  # fmt: skip
     from mudline.contact.laws.trench import table_rows  # noqa: PLC0415 - most friction has no trench
@@ -192,7 +207,7 @@ def trench_tables(tables: Tables) -> tuple[Any, ...]:
     index[tabled, TABLE_START] = starts[trench.table[tabled]]
     index[tabled, TABLE_END] = starts[trench.table[tabled] + 1]
     numbers = np.column_stack([trench.inner, trench.outer, trench.steepness, trench.amount])
-    every = np.concatenate([np.empty((3, 0)), *rows], axis=1)
+    every = np.concatenate([np.empty((4, 0)), *rows], axis=1)
     return tuple(read_only(array) for array in (trench.start.astype(np.int32), index, numbers, trench.lines, every))
 
 

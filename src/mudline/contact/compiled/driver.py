@@ -25,6 +25,7 @@ from mudline.contact.arrays import FloatArray
 from mudline.contact.compiled import (
     LAW,
     NO_LINE,
+    breakout_table,
     by_component,
     element_tables,
     features_of,
@@ -36,7 +37,7 @@ from mudline.contact.compiled import (
 )
 from mudline.contact.compiled.functions import Loop, edition, one_of
 from mudline.contact.compiled.loops import elements_loop, nodes_loop
-from mudline.contact.laws import MODULES, PathLaw, where
+from mudline.contact.laws import MODULES, PathLaw, every, where
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed import FlatSeabed, Seabed
 from mudline.contact.tables import Batch, ContactState, NormalRows, Tables
@@ -63,6 +64,7 @@ _INNER: Any = {"error_model": "numpy", "no_cpython_wrapper": True, "no_cfunc_wra
 """For what only loops call: no contraction of products and sums, divisions as numpy does them."""
 
 overload(where, jit_options=_INNER, strict=False)(lambda *_: _pick)
+overload(every, jit_options=_INNER, strict=False)(lambda _: lambda condition: condition)
 
 
 @cache
@@ -119,7 +121,9 @@ class CompiledDriver:
         self._pulls = suction_table(tables)
         self._node_loop = _loop(nodes_loop, callable_in_loops, has, _equations(tables.nodal), sources)
         self._node_index, self._node_numbers = node_tables(tables)
-        self._trenches = trench_tables(tables)
+        self._trenches, self._breaks = trench_tables(tables), breakout_table(tables)
+        given_damping = tables.damping, tables.nodal_damping
+        self._damping = [read_only(np.empty(0) if each is None else each) for each in given_damping]
         line = tables.line
         self._line = tuple(
             read_only(array) for array in (line.start.astype(np.int32), line.elements, line.senses, tables.half)
@@ -187,6 +191,7 @@ class CompiledDriver:
         sticks = (
             by_component(np.empty((0, 3)) if slides is None else slides.stick_points),
             by_component(np.zeros((0, 2), np.int8) if slides is None else slides.states),
+            np.empty((5, 0)) if after.breakout is None else after.breakout,
         )
         extra = (
             part.cut if part.cut.flags.writeable else none > 0,
@@ -201,12 +206,13 @@ class CompiledDriver:
         normals = read_only(part.normal) if self._normal is None else self._normal
         written = part.depth, part.ratio, part.contact, part.force, part.slope, part.stiffness
         elements = (
-            self._index, self._numbers, self._pulls, points, part.gap, speed, normals, self._knots, states, written,
-            extra, work,
+            self._index, self._numbers, self._pulls, points, part.gap, speed, normals, self._knots, self._damping[0],
+            states, written, extra, work,
         )  # fmt: skip
         nodes = (
-            *self._line, self._node_index, self._node_numbers, points, part.gap, normals, part.force, work,
-            (*self._trenches, *self._laid_tables(batch.laid)), sticks, (part.normal_force, part.reaction), slips,
+            *self._line, self._node_index, self._node_numbers, points, part.gap, normals, part.force, speed,
+            self._damping[1], work, (*self._trenches, *self._laid_tables(batch.laid)),
+            (self._breaks, part.ratio), sticks, (part.normal_force, part.reaction), slips,
         )  # fmt: skip
         return elements, nodes
 

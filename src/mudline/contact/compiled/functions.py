@@ -38,7 +38,7 @@ Point = tuple[float, float, float]
 
 def functions_of(law: NormalLaw) -> tuple[Callable[..., Any] | None, ...]:
     """Return the equations of a law."""
-    of_path = (law.begin, law.pending, law.locate, law.advance) if isinstance(law, PathLaw) else ()
+    of_path = (law.begin, law.pending, *law.locate, law.advance) if isinstance(law, PathLaw) else ()
     return (law.reaction, law.steepest, *of_path)
 
 
@@ -102,6 +102,19 @@ def one_of(wrap: Wrap, laws: tuple[tuple[Callable[..., Any], int], ...], first: 
     return wrap(one)  # type: ignore[no-any-return]
 
 
+def _of_kind(wrap: Wrap, functions: tuple[Callable[..., Any], ...]) -> Callable[..., Any]:
+    """Return a function that calls the one of a kind, from 0: (kind, diameter, memory, parameters)."""
+    first = wrap(functions[0])
+    others = _of_kind(wrap, functions[1:]) if functions[1:] else first
+    last = len(functions) == 1
+
+    def one(kind: int, diameter: float, memory: Numbers, soil: Numbers) -> float:
+        event: float = first(diameter, memory, soil) if last or kind == 0 else others(kind - 1, diameter, memory, soil)
+        return event
+
+    return wrap(one)  # type: ignore[no-any-return]
+
+
 def followed(wrap: Wrap, laws: tuple[tuple[PathLaw | None, int], ...], first: int) -> Callable[..., Any]:
     """Return a function that goes on along the path of a kind, from 0: (kind, z, diameter, table, row, paths, held).
 
@@ -126,7 +139,8 @@ def followed(wrap: Wrap, laws: tuple[tuple[PathLaw | None, int], ...], first: in
             return f, k
 
         return wrap(skipped)  # type: ignore[no-any-return]
-    begin, pending, locate, advance = (wrap(each) for each in (law.begin, law.pending, law.locate, law.advance))
+    begin, pending, advance = (wrap(each) for each in (law.begin, law.pending, law.advance))
+    locate = _of_kind(wrap, law.locate)
     parameters, memory_of, rest_of = row_of(wrap, count), row_of(wrap, len(law.start)), row_of(wrap, len(law.start) - 1)
     last = len(law.start) - 1
 
@@ -140,8 +154,9 @@ def followed(wrap: Wrap, laws: tuple[tuple[PathLaw | None, int], ...], first: in
         memory = begin(z, memory_of(paths, held, 0))
         for column in range(last + 1):
             paths[held, column] = memory[column]
-        if pending(z, memory):
-            paths[held, last] = locate(diameter, memory, soil)
+        event = pending(z, memory)
+        if event > 0:
+            paths[held, last] = locate(event - 1, diameter, memory, soil)
         f, k, memory = advance(z, diameter, (*rest_of(paths, held, 0), paths[held, last]), soil)
         for column in range(last + 1):
             paths[held, column] = memory[column]
@@ -292,7 +307,7 @@ def table_resistance(rows: Array, begin: int, end: int, distance: float) -> floa
     if distance > rows[0, end - 1]:
         row = end - 1
     held = np.minimum(np.maximum(distance, rows[0, begin]), rows[0, end - 1])
-    value: float = in_table(held, rows[0, row], rows[1, row], rows[2, row])
+    value: float = in_table(held, rows[0, row], rows[1, row], rows[2, row], rows[3, row])
     return value
 
 

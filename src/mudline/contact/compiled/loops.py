@@ -31,7 +31,9 @@ from mudline.contact.compiled.functions import (
     unit_of_span,
 )
 from mudline.contact.laws import PathLaw
+from mudline.contact.laws.breakout import reached, shares
 from mudline.contact.laws.curve import on_segment
+from mudline.contact.laws.damping import damping_force
 from mudline.contact.laws.friction import slip_distance
 from mudline.contact.laws.linear import lateral_force, spring_suction
 from mudline.contact.laws.suction import SUCTION
@@ -52,14 +54,14 @@ def elements_loop(
     diameter, table, e), where an unloading line may be less steep than the virgin path.
     """
     curves, cuts, unloading, steepens, springs = has.curves, has.cuts, has.unloading, has.steepens, has.springs
-    suction, slides, lateral, flat = has.suction, has.slides, has.lateral, has.flat
+    suction, slides, lateral, flat, damps = has.suction, has.slides, has.lateral, has.flat, has.damping
     plane = vectors.PLANES[2 if has.flat else 3]
     project, default, cross, dot = plane.project, plane.default, plane.across, plane.dot
     normal_law, follow, follows = one_of(wrap, laws, col.LAW), followed(wrap, paths, col.LAW), has.paths
 
     def loop(
         begin: int, end: int, index: Array, table: Array, pulls: Array, points: Array, gap: Array, speed: Array,
-        normals: Array, knots: Array, states: Array, out: Array, extra: Array, work: Array,
+        normals: Array, knots: Array, damping: Array, states: Array, out: Array, extra: Array, work: Array,
     ) -> int:  # fmt: skip
         depth, ratio, contact, force, slope, stiffness = out
         cut, state, regularised = extra
@@ -116,6 +118,9 @@ def elements_loop(
                 if springs and table[e, col.SPRING] > 0.0:
                     g, h = spring_suction(onset - deep, table[e, col.SPRING], table[e, col.EXTENT])
                     f, s, k = f + g, s + h * diameter, k + h
+
+                if damps:
+                    f = f + damping_force(deep, 0.5 * speed[step, a] + 0.5 * speed[step, b], damping[e])
 
                 if suction and index[e, col.PULLS] >= 0:
                     held, v = index[e, col.PULLS], 0.5 * speed[step, a] + 0.5 * speed[step, b]
@@ -197,25 +202,43 @@ def _trench_limit(has: Features) -> Callable[..., Any]:
     return walls
 
 
+def _softened(has: Features) -> Callable[..., Any]:
+    """Make the function that moves a node with a breakout on, and gives what is left of its spring and limit."""
+    flat, embeds = has.flat, has.embeds
+    dot = vectors.PLANES[2 if has.flat else 3].dot
+
+    def soften(at: int, p: Point, across: Array, deep: float, table: Array, held: Array) -> tuple[float, float]:
+        x, y, z = p[0] - held[0, at], p[1] - held[1, at], p[2] - held[2, at]
+        distance = dot(across, (y, z)) if flat else dot(across, (x, y, z))
+        law: Numbers = (table[at, 0], table[at, 1], table[at, 2], table[at, 3], table[at, 4])
+        held[3, at], held[4, at] = reached(
+            (held[3, at], held[4, at]), distance, deep * table[at, 5] if embeds else 0.0, law
+        )
+        share, _, softer = shares(held[3, at], held[4, at], law)
+        return softer, share
+
+    return soften
+
+
 def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], int], ...], edition: int) -> Loop:
     """Make the loop over nodes: sums of element forces, nodal springs, friction, lateral springs and reactions."""
     friction, turned, lateral, nodal, slides = has.friction, has.turned, has.lateral, has.nodal, has.slides
-    flat, elliptic, trench = has.flat, has.elliptic, has.trench
+    flat, elliptic, trench, breakout, damps = has.flat, has.elliptic, has.trench, has.breakout, has.nodal_damping
     plane = vectors.PLANES[2 if has.flat else 3]
     project, default, cross, dot, turn = plane.project, plane.default, plane.across, plane.dot, plane.turned
     blend, added, reacts = plane.blend, plane.added, plane.reaction
     normal_law = one_of(wrap, laws, col.NODE_LAW)
-    walls = wrap(_trench_limit(has))
+    walls, soften = wrap(_trench_limit(has)), wrap(_softened(has))
 
     def loop(
         begin: int, end: int, start: Array, elements: Array, senses: Array, half: Array, index: Array, table: Array,
-        points: Array, gap: Array, normals: Array, force: Array, work: Array, trenches: Array, states: Array,
-        out: Array, extra: Array,
+        points: Array, gap: Array, normals: Array, force: Array, speed: Array, damping: Array, work: Array,
+        trenches: Array, breaks: Array, states: Array, out: Array, extra: Array,
     ) -> int:  # fmt: skip
         totals, reaction = out
         friction_force, slipping = extra
         tangent, sideways = work
-        sticks, sticking = states
+        sticks, sticking, moved_so_far = states
         wrong = min(edition, 0)
         for step in range(len(gap)):
             for i in range(begin, end):
@@ -240,6 +263,8 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                         f, k = normal_law(index[i, col.NODE_KIND], z, 0.0, table, i)
                         wrong += not math.isfinite(f + k)
                         total += f
+                if damps:
+                    total += damping_force(0.0 - gap[step, i], speed[step, i], damping[i])
                 totals[step, i] = total
                 n = (normals[0, 0, 0], normals[0, 0, 1], normals[0, 0, 2])
                 if normals.shape[1] > 1:
@@ -271,6 +296,16 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                             k1 = table[i, col.CONSTANT_1] + table[i, col.RISING_1] * total
                             k2 = table[i, col.CONSTANT_2] + table[i, col.RISING_2] * total
                             t1, t2, l1, l2 = k1 * e1, k2 * e2, table[i, col.MU_1] * total, table[i, col.MU_2] * total
+                            if breakout and index[i, col.BREAKS_OUT] >= 0:
+                                if not held:
+                                    moved_so_far[3:, index[i, col.BREAKS_OUT]] = 0.0
+                                    moved_so_far[:3, index[i, col.BREAKS_OUT]] = sticks[:, i]
+                                deep = 0.0
+                                for at in range(start[i], start[i + 1]):
+                                    deep += breaks[1][step, elements[at]]
+                                soft, share = soften(index[i, col.BREAKS_OUT], p, across, deep, breaks[0], moved_so_far)
+                                k2, l2 = k2 * soft, l2 * share
+                                t2 = k2 * e2
                             curved = elliptic and index[i, col.ELLIPTIC] > 0
                             f1, f2, slip_1, slip_2 = in_limits(t1, t2, l1, l2, curved)
                             if trench and (slip_2 or (curved and slip_1)):  # what sticks without a trench sticks in it
@@ -286,6 +321,9 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                             f1, f2, one, other = 0.0 - f1, 0.0 - f2, 1 + slip_1, 1 + slip_2
                         else:
                             sticks[0, i] = sticks[1, i] = sticks[2, i] = np.nan
+                            if breakout and index[i, col.BREAKS_OUT] >= 0:
+                                moved_so_far[:3, index[i, col.BREAKS_OUT]] = np.nan
+                                moved_so_far[3:, index[i, col.BREAKS_OUT]] = 0.0
                         sticking[0, i], sticking[1, i] = one, other
                         slipping[step, i, 0], slipping[step, i, 1] = one, other
                         sideward = blend(along, across, f1, f2)

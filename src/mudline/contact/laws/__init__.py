@@ -6,7 +6,7 @@ is evaluated, stepped, planned and differentiated like the others, with numpy an
 The functions of a law are expressions: they take floats (in compiled loops) and arrays (in numpy) alike and give the
 same bits for both, as long as they use `+ - * /`, comparisons, `&`, `|`, `np.maximum`, `np.minimum`, `np.abs`,
 `np.sqrt`, `np.nextafter`, `np.float_power` (not `**`, which numpy computes with code of its own) and `where` (not
-`np.where`).
+`np.where`); a loop may end where `every` number would stay as it is.
 """
 
 from __future__ import annotations
@@ -29,6 +29,11 @@ Reaction = Callable[..., tuple[Value, Value]]
 def where(condition: Value, one: Value, other: Value) -> Value:
     """Return `one` where the condition holds, else `other`; for numbers and for arrays."""
     return np.where(condition, one, other)
+
+
+def every(condition: Value) -> bool:
+    """Return whether a condition holds, for all of an array."""
+    return bool(np.all(condition))
 
 
 class Parameter(NamedTuple):
@@ -81,9 +86,11 @@ class Law:
     Attributes:
         name: how assignments, plans and tables call it.
         summary: what it is, in a few words.
+        stage: the stage of the plan that evaluates it.
         acts_on: whether its rows are elements or nodes.
         parameters: what each row needs.
         needs_diameter: whether an element needs an external diameter.
+        velocities: whether a step asks for velocities along the normals.
         history: whether a step's result depends on the steps before it.
         tables: whether it takes tables besides numbers; `parameters` then has the index of one.
         check: what the parameters, by name, must be to each other: where it does not hold, and what it is.
@@ -95,7 +102,9 @@ class Law:
     summary: str
     acts_on: Literal["elements", "nodes"]
     parameters: tuple[Parameter, ...]
+    stage: str = "normal law"
     needs_diameter: bool = False
+    velocities: bool = False
     history: bool = False
     tables: bool = False
     check: Callable[[dict[str, FloatArray]], tuple[BoolArray, str]] | None = None
@@ -139,15 +148,15 @@ class PathLaw(NormalLaw):
     Attributes:
         start: what an element remembers that never touched the seabed.
         begin: (z, memory) to the memory with a reversal, where going to z is one.
-        pending: (z, memory) to whether the event has to be known.
-        locate: (D, memory, parameters) to the event.
+        pending: (z, memory) to which event has to be known, from 1 on, 0 for none.
+        locate: of each event (D, memory, parameters) to where it is.
         advance: (z, D, memory, parameters) to force, stiffness d force / d z on going on in this direction, and memory.
     """
 
     start: tuple[float, ...]
     begin: Callable[..., tuple[Value, ...]]
     pending: Callable[..., Value]
-    locate: Callable[..., Value]
+    locate: tuple[Callable[..., Value], ...]
     advance: Callable[..., tuple[Value, Value, tuple[Value, ...]]]
 
     __repr__ = short_repr
@@ -166,11 +175,13 @@ class PathLaw(NormalLaw):
         for deep, force, stiffness in zip(depth, *out, strict=True):
             z = np.where(deep > 0.0, deep, 0.0)
             memory = self.begin(z, memory)
-            (wanted,) = self.pending(z, memory).nonzero()
-            if wanted.size:
+            pending = self.pending(z, memory)
+            if pending.any():
                 event = memory[-1].copy()
-                here = tuple(values[wanted] for values in memory), tuple(values[wanted] for values in parameters)
-                event[wanted] = self.locate(diameter[wanted], *here)
+                for kind, locate in enumerate(self.locate, 1):
+                    (wanted,) = (pending == kind).nonzero()
+                    here = tuple(values[wanted] for values in memory), tuple(values[wanted] for values in parameters)
+                    event[wanted] = locate(diameter[wanted], *here)
                 memory = (*memory[:-1], event)
             force[...], stiffness[...], memory = self.advance(z, diameter, memory, parameters)
         held[:, :count] = np.stack(memory, axis=1)
@@ -191,6 +202,10 @@ _LAWS: dict[str, str | Law] = {
     "trench table": "trench:TRENCH_TABLE",
     "trench wall": "trench:TRENCH_WALL",
     "soil": "soil:SOIL",
+    "breakout": "breakout:BREAKOUT",
+    "damping": "damping:DAMPING",
+    "nodal damping": "damping:NODAL_DAMPING",
+    "trench level": "trench:TRENCH_LEVEL",
 }
 """Module and name of each law, or the law itself once it was asked for."""
 MODULES = tuple(dict.fromkeys(str(place).partition(":")[0] for place in _LAWS.values()))
@@ -218,6 +233,11 @@ def law_named(name: str) -> Law:
         law: Law = getattr(import_module(f"{__name__}.{module}"), attribute)
         _LAWS[name] = found = law
     return found
+
+
+def is_normal(name: str) -> bool:
+    """Whether the law of a name is one of the reaction along the normal."""
+    return isinstance(law_named(name), NormalLaw)
 
 
 def register(law: Law) -> NormalLaw:

@@ -295,6 +295,7 @@ def _ellipse(step: _Trial, rising: FloatArray, by_offset: FloatArray, by_normal:
 FRICTION = Law(
     name="friction",
     summary="Coulomb friction in two directions",
+    stage="friction",
     acts_on="nodes",
     parameters=(
         Parameter("axial_coefficient", "1", "mu_1, along the line"),

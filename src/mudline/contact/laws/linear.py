@@ -145,6 +145,7 @@ def spring_suction(uplift: Value, stiffness: Value, extent: Value) -> tuple[Valu
 SUCTION_SPRING = Law(
     name="suction spring",
     summary="spring against uplift, without history",
+    stage="suction",
     acts_on="elements",
     parameters=(
         Parameter("stiffness", "F/L2", "force per unit length and length of uplift"),
@@ -163,6 +164,7 @@ def lateral_force(stiffness: Value, elongation: Value) -> Value:
 LATERAL = Law(
     name="lateral",
     summary="spring to where the element touched down",
+    stage="lateral",
     acts_on="elements",
     parameters=(Parameter("stiffness", "F/L2", "force per unit length and length of lateral displacement"),),
     history=True,

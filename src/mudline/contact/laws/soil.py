@@ -22,14 +22,15 @@ import math
 
 import numpy as np
 
-from mudline.contact.laws import Parameter, PathLaw, Value, where
+from mudline.contact.laws import Parameter, PathLaw, Value, every, where
 
 DOWN, UP, AGAIN = 0.0, 1.0, 2.0
 """Ways: at the largest penetration so far, on an uplift, on a re-penetration."""
 Numbers = tuple[Value, ...]
 
-_HALVINGS, _HALF_OCTAVES = 44, 24
-"""Of brackets, and how far from z_max a meeting is sought: 12 octaves of z."""
+_TRIALS, _HALF_OCTAVES = 60, 24
+"""Steps to an event at most, and how far from z_max a meeting is sought: 12 octaves of z."""
+_CLOSE = 1e-15
 _SHALLOW = 0.1
 _UNKNOWN = -1.0
 
@@ -92,21 +93,17 @@ def begin(z: Value, memory: Numbers) -> Numbers:
 
 
 def pending(z: Value, memory: Numbers) -> Value:
-    """Return where the event of a way has to be known for going to z."""
+    """Return which event of a way has to be known for going to z: 1 of an uplift, 2 of a re-penetration, 0 for none."""
     _, _, way, deepest, _, z0, p0, event = memory
-    falls = (way == UP) & (p0 > 0.0) & (z < z0)
-    return (event == _UNKNOWN) & (falls | ((way == AGAIN) & (z > deepest)))
+    unknown = event == _UNKNOWN
+    falls = unknown & (way == UP) & (p0 > 0.0) & (z < z0)
+    return where(falls, 1, where(unknown & (way == AGAIN) & (z > deepest), 2, 0))
 
 
-def locate(diameter: Value, memory: Numbers, soil: Numbers) -> Value:
-    """Return the event of the way: a function of where it began."""
-    return where(memory[2] == UP, _fall(diameter, memory[5], memory[6], soil), _meeting(diameter, memory, soil))
-
-
-def _fall(diameter: Value, z0: Value, p0: Value, soil: Numbers) -> Value:
+def fall(diameter: Value, memory: Numbers, soil: Numbers) -> Value:
     """Where the uplift falls through zero: P <= 0 where P_u(z) (z_a - z) >= c, of which the largest root is wanted."""
     strength, gradient, b, pace = soil[0], soil[1], soil[3], soil[4] / diameter
-    suction = np.maximum(soil[5], 1e-300)
+    z0, p0, suction = memory[5], memory[6], np.maximum(soil[5], 1e-300)
     steep = pace * ultimate(z0, diameter, soil)[0]
     top = z0 - p0 / steep
     enough = p0 * p0 / (steep * suction)
@@ -114,13 +111,28 @@ def _fall(diameter: Value, z0: Value, p0: Value, soil: Numbers) -> Value:
     edge = _SHALLOW * diameter
     deep = _peak(b, strength, gradient, top)
     low = np.maximum(where(deep > edge, deep, np.minimum(_peak(0.5, strength, gradient, top), edge)), 0.0)
-    high = np.maximum(top, low)
+    z = high = np.maximum(top, low)
     falls = (top > 0.0) & (ultimate(low, diameter, soil)[0] * (top - low) >= enough)
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        below = ultimate(middle, diameter, soil)[0] * (top - middle) >= enough
-        low, high = where(below, middle, low), where(below, high, middle)
-    return where(falls, low, 0.0)
+    low = where(falls, low, high)
+    for _ in range(_TRIALS):
+        most, rise = ultimate(z, diameter, soil)
+        z, low, high, settled = _narrowed(z, low, high, most * (top - z) - enough, rise * (top - z) - most)
+        if every(settled):
+            break
+    return where(falls, z, 0.0)
+
+
+def _narrowed(z: Value, low: Value, high: Value, value: Value, slope: Value) -> tuple[Value, Value, Value, Value]:
+    """One step, of Newton's or a halving, to where a value falls through 0 between low and high: z, both, if it stays.
+
+    What stays is not moved by a further step: so single numbers may stop before others do.
+    """
+    before = value >= 0.0
+    low, high = where(before, z, low), where(before, high, z)
+    guess = z - value / where(slope < 0.0, slope, -1.0)
+    settled = (np.abs(guess - z) <= _CLOSE * z) | (high - low <= _CLOSE * z)
+    guess = where((guess > low) & (guess < high), guess, 0.5 * low + 0.5 * high)
+    return where(settled, z, guess), low, high, settled
 
 
 def _peak(exponent: Value, strength: Value, gradient: Value, top: Value) -> Value:
@@ -132,31 +144,40 @@ def _peak(exponent: Value, strength: Value, gradient: Value, top: Value) -> Valu
     return where(linear < 0.0, (root - linear) / (2.0 * where(square > 0.0, square, 1.0)), found)
 
 
-def _meets(z: Value, diameter: Value, memory: Numbers, least: Value, soil: Numbers) -> Value:
-    """Whether the form of a re-penetration reaches P_i at z; it never does from P0 <= 0, but from z0 = 0 always."""
+def _short(z: Value, diameter: Value, memory: Numbers, least: Value, soil: Numbers) -> tuple[Value, Value]:
+    """Return what the form of a re-penetration lacks to reach P_i at z, > 0 before it does, and its slope."""
     z0, p0, pace = memory[5], memory[6], soil[4] / diameter
-    most = ultimate(z, diameter, soil)[0]
-    rest = most - p0
-    reach = most * rest + most * least * pace * (z - z0) - rest * rest * (1.0 + pace * z)
-    return (z0 <= 0.0) | ((p0 > 0.0) & (reach >= 0.0))
+    most, rise = ultimate(z, diameter, soil)
+    rest, share = most - p0, 1.0 + pace * z
+    lacks = rest * rest * share - most * rest - most * least * pace * (z - z0)
+    slope = rest * (2.0 * rise * share + pace * rest) - rise * (rest + most) - least * pace * (rise * (z - z0) + most)
+    return lacks, slope
 
 
-def _meeting(diameter: Value, memory: Numbers, soil: Numbers) -> Value:
-    """Where a re-penetration that has passed z_max meets P_i: from where its bound is P_i on; infinity for nowhere."""
-    fallen, slow = memory[4], soil[7]
+def meeting(diameter: Value, memory: Numbers, soil: Numbers) -> Value:
+    """Where a re-penetration that has passed z_max meets P_i: from where its bound is P_i on; infinity for nowhere.
+
+    From P0 <= 0 it never does, from z0 = 0 at once.
+    """
+    fallen, slow, z0, p0 = memory[4], soil[7], memory[5], memory[6]
     decayed = where(slow < 1.0, fallen / where(slow < 1.0, 1.0 - slow, 1.0), np.inf)
     first = np.maximum(memory[3], where(fallen < 0.0, 0.0, decayed))
     low = high = where(first < np.inf, first, memory[3])
-    least = ultimate(memory[5], diameter, soil)[0]
-    found = _meets(high, diameter, memory, least, soil)
+    never = (first == np.inf) | ((p0 <= 0.0) & (z0 > 0.0))
+    least = ultimate(z0, diameter, soil)[0]
+    met = (z0 <= 0.0) | (_short(high, diameter, memory, least, soil)[0] <= 0.0)
     for _ in range(_HALF_OCTAVES):
-        low, high = where(found, low, high), where(found, high, high * 2.0**0.5)
-        found = found | _meets(high, diameter, memory, least, soil)
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        met = _meets(middle, diameter, memory, least, soil)
-        low, high = where(met, low, middle), where(met, middle, high)
-    return where(found & (first < np.inf), high, np.inf)
+        if every(met | never):
+            break
+        low, high = where(met, low, high), where(met, high, high * 2.0**0.5)
+        met = met | (_short(high, diameter, memory, least, soil)[0] <= 0.0)
+    low, z = where(met & np.logical_not(never) & (z0 > 0.0), low, high), high
+    for _ in range(_TRIALS):
+        lacks, slope = _short(z, diameter, memory, least, soil)
+        z, low, high, settled = _narrowed(z, low, high, lacks, slope)
+        if every(settled):
+            break
+    return where(met & np.logical_not(never), z, np.inf)
 
 
 def advance(z: Value, diameter: Value, memory: Numbers, soil: Numbers) -> tuple[Value, Value, Numbers]:
@@ -257,7 +278,7 @@ SOIL = PathLaw(
     start=(0.0, 0.0, DOWN, 0.0, -1.0, 0.0, 0.0, _UNKNOWN),
     begin=begin,
     pending=pending,
-    locate=locate,
+    locate=(fall, meeting),
     advance=advance,
     equation="P = P_u zeta/(1 + zeta), zeta = K_max z/D, at the largest z so far; hyperbolas from each reversal",
     source="Randolph and Quiggin (2009), OMAE2009-79259, from memory of its formulas; bounds and z_P inferred",

@@ -330,6 +330,7 @@ def _crossed(given: dict[str, FloatArray]) -> tuple[BoolArray, str]:
 SUCTION_LAW = Law(
     name="suction",
     summary="suction after Bridge et al., with a state",
+    stage="suction",
     acts_on="elements",
     parameters=(
         Parameter("force_factor", "F/L (T/L)^n", "alpha_f of F_max = alpha_f v^n_f"),
@@ -348,6 +349,7 @@ SUCTION_LAW = Law(
             optional=True,
         ),
     ),
+    velocities=True,
     history=True,
     check=_crossed,
     equation="F = -cyclic alpha_f v^n_f trapezoid(x / (alpha_D v_max^n_D))",

@@ -96,6 +96,7 @@ def on_line(z: Value, z_max: Value, force_max: Value, line: Value, bottom: Value
 UNLOADING = Law(
     name="unloading",
     summary="unloading line from the deepest point so far",
+    stage="unloading",
     acts_on="elements",
     parameters=(Parameter("stiffness", "F/L2", "unloading stiffness ku", above=True),),
     history=True,

@@ -39,6 +39,16 @@ class ContactSet(Record):
         Literal["CENTRED", "ONE-SIDED"] | None,
         setting("FORM", "place of the quadratic zone: about the seabed, or below it", default="CENTRED"),
     ] = None
+    damping: Annotated[
+        Real | None,
+        setting(
+            "DAMPING",
+            "damping per unit length, of inward motion in contact only; alone in a block it is all that this gives",
+            unit="FT/L2",
+            at_least=0,
+            default="0",
+        ),
+    ] = None
 
 
 class SeabedContact(Block):
@@ -46,7 +56,7 @@ class SeabedContact(Block):
 
     rule = "seabed_contact"
     subject = "seabed"
-    facts = Facts(extension=True, later_wins=True, computed_in="smoothing")
+    facts = Facts(extension=True, later_wins=True, gives_law=("nodal", "nodal_stiffness"), computed_in="smoothing")
     summary = "Nodal normal stiffness, and smoothing of linear contact laws, by element set (extension)."
     example = "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=50000.0\n SMOOTHING=0.005\n FORM=CENTRED\n"
 

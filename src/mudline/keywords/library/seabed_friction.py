@@ -26,6 +26,23 @@ class TangentialStiffness(Row):
     ] = None
 
 
+class Peak(Row):
+    """Values of PEAK=."""
+
+    factor: Annotated[Real, about("lateral resistance over the normal force at breakout", unit="-", above=0)]
+    displacement: Annotated[
+        Real | None,
+        about("displacement from the place of first contact at which it is reached", unit="L", above=0, default="none"),
+    ] = None
+
+
+class Residual(Row):
+    """Values of RESIDUAL=."""
+
+    factor: Annotated[Real, about("lateral resistance over the normal force after breakout", unit="-", at_least=0)]
+    displacement: Annotated[Real, about("displacement at which it is reached", unit="L", above=0)]
+
+
 class FrictionSet(Record):
     """What one SET= gets, taken whole."""
 
@@ -46,6 +63,17 @@ class FrictionSet(Record):
         Literal["BOX", "ELLIPSE"] | None,
         setting("CRITERION", "each direction by itself, or both on one ellipse", default="BOX"),
     ] = None
+    lateral: Annotated[
+        Literal["COULOMB", "PEAK-RESIDUAL", "F114"] | None,
+        setting(
+            "LATERAL",
+            "across the line: the limit of COEFFICIENTS=; a breakout that is had once and a residual, by PEAK= and "
+            "RESIDUAL=; or by PEAK= and the embedment after DNV-RP-F114",
+            default="COULOMB",
+        ),
+    ] = None
+    peak: Annotated[Peak | None, setting("PEAK", "breakout")] = None
+    residual: Annotated[Residual | None, setting("RESIDUAL", "resistance after breakout")] = None
 
 
 class SeabedFriction(Block):

@@ -61,7 +61,7 @@ class SeabedSoil(Block):
 
     rule = "seabed_soil"
     subject = "seabed"
-    facts = Facts(extension=True, later_wins=True, computed_in="hysteretic-soil")
+    facts = Facts(extension=True, later_wins=True, gives_law=("soil", "strength"), computed_in="hysteretic-soil")
     summary = "Hysteretic penetration, uplift and re-penetration of a soil, by element set (extension)."
     example = "*SEABED SOIL\n SET=ALL\n STRENGTH=5000.0, 1500.0\n SUCTION=0.6, 1.0\n"
 

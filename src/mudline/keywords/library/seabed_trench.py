@@ -26,6 +26,13 @@ class ResistancePoint(Row):
     resistance: Annotated[Real, about("lateral resistance per unit length there", unit="F/L", at_least=0)]
 
 
+class TrenchResidual(Row):
+    """Values of RESIDUAL=."""
+
+    resistance: Annotated[Real, about("lateral resistance per unit length beyond the peak", unit="F/L", at_least=0)]
+    displacement: Annotated[Real, about("distance from the centreline from which on it holds", unit="L", above=0)]
+
+
 class Centreline(Row):
     """Values of CENTRELINE=: two points of a straight line."""
 
@@ -64,6 +71,22 @@ class TrenchSet(Record):
         Table | None,
         rows(
             ResistancePoint, "rows of PEAK=TABLE, at least two; linear between them, the first holds inside, 0 outside"
+        ),
+    ] = None
+    level: Annotated[
+        Literal["UNCHANGED", "LOWERED"] | None,
+        setting(
+            "LEVEL", "LOWERED: the seabed lies lower by the depth of the trench between its walls", default="UNCHANGED"
+        ),
+    ] = None
+    residual: Annotated[
+        TrenchResidual | None,
+        setting("RESIDUAL", "resistance to which that of PEAK= falls beyond its peak, instead of to 0", default="none"),
+    ] = None
+    smoothing: Annotated[
+        Real | None,
+        setting(
+            "SMOOTHING", "half width of parabolas in the corners of the resistance", unit="L", at_least=0, default="0"
         ),
     ] = None
     centreline: Annotated[

@@ -23,12 +23,12 @@ from mudline.limits import MOST_REPORTED
 from mudline.linting.rule import LintContext, rule
 from mudline.linting.rules.seabed_position import bounds_of
 from mudline.quantities import unit_names
-from mudline.scene.assignments import suction_law
+from mudline.scene.assignments import softens, suction_law
 from mudline.scene.deck_values import number
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices
-from mudline.scene.oscillation import Oscillation, line_of, oscillations
+from mudline.scene.oscillation import Oscillation, line_of, oscillations, softening_needs
 
 if TYPE_CHECKING:
     from mudline.keywords.library.time import TimeSpan
@@ -37,6 +37,7 @@ EXT008 = Code("EXT008", "soft-unloading", Severity.WARNING)
 STB001 = Code("STB001", "suction-snap", Severity.INFO)
 STB002 = Code("STB002", "coarse-time-step", Severity.INFO)
 STB003 = Code("STB003", "stiff-jump", Severity.WARNING)
+STB004 = Code("STB004", "lateral-softening", Severity.INFO)
 
 _SMALLEST_PART, _LARGEST_PART = 0.01, 0.99
 
@@ -179,6 +180,59 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
                 f"{advised:.3g} or less"
             )
             yield Problem(STB002, message, where=where.inside("fixed", "increment"))
+
+
+@rule(STB004)
+def lateral_softening(context: LintContext) -> Iterator[Problem]:
+    """The lateral resistance falls while the pipe moves on.
+
+    Behind the breakout of LATERAL=PEAK-RESIDUAL or F114 the resistance falls to its residual: this is a negative
+    stiffness, (peak - residual) N over the distance between the two displacements. Only a structure that is stiffer
+    sideways, per unit length, has one equilibrium there; a softer one jumps, and the motion grows at a rate that is the
+    root of that stiffness over the mass. The message gives the stiffness under the static normal force, for the node
+    that needs most, and the step that resolves the rate, where weight and mass are known. Use that step through
+    breakout, or a static solution by displacements.
+
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *GEOMETRIC SETS
+          OPTION=MOORING
+          SET=ALL
+          480.0E6, 200.0, 0.3
+         *OCEAN
+          100.0, 1025.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+         *SEABED FRICTION
+          SET=ALL
+          COEFFICIENTS=0.3, 0.6
+          STIFFNESS=20000.0
+        - LATERAL=PEAK-RESIDUAL
+        - PEAK=1.2, 0.03
+        - RESIDUAL=0.6, 0.3
+
+    Finds: 24:2
+    """
+    scene = context.scene
+    extension = scene.extensions.get("SEABED FRICTION")
+    if extension is None or not any(map(softens, extension.entries)) or scene.blocking("cut"):
+        return
+    known = {one.where: one for one in oscillations(scene, scene.contact_input("cut")).softening}
+    needs = "equilibrium needs a structural stiffness per unit length above (peak - residual) N / distance"
+    for entry, place in zip(extension.entries, extension.places, strict=True):
+        where = place.inside("peak")
+        if softens(entry):
+            numbers = softening_needs(scene, known[where]) if where in known else ", with N and mass as they will be"
+            yield Problem(STB004, f"the lateral resistance falls behind its peak: {needs}{numbers}", where=where)
 
 
 def _described(scene: Scene, one: Oscillation) -> str:

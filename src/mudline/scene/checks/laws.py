@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.contact.input import LawKind
+from mudline.contact.laws import law_named
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.keywords.text import advice_on, shown
@@ -252,18 +253,19 @@ def missing_diameter(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 23:12
     """
-    soil = scene.extensions.get("SEABED SOIL")
-    if soil is None and all(set_law.kind is not LawKind.CURVE for set_law in scene.laws.set_laws):
+    if not scene.replaced and all(set_law.kind is not LawKind.CURVE for set_law in scene.laws.set_laws):
         return
     sections = scene.section_table
     lacking = np.isnan(sections.diameter) & ~sections.faulty
     if not np.count_nonzero(lacking):
         return
-    for index, where in enumerate(soil.places) if soil else ():
-        bare = (scene.law == LawKind.SOIL) & lacking & (soil.of_element == index if soil else False)
-        if bare.any():
-            message = f"{scene.describe(bare)} a soil and no external diameter: give Do (or Dd) in *GEOMETRIC SETS"
-            yield lacks_diameter(scene, SBD009, message, where.inside("set"))
+    for kind, _, extension, _ in scene.replaced:
+        name = kind.name.lower()
+        for index, where in enumerate(extension.places) if law_named(name).needs_diameter else ():
+            bare = np.flatnonzero((scene.law == kind) & lacking & (extension.of_element == index))
+            if bare.size:
+                what = f"a {name} and no external diameter: give Do (or Dd) in *GEOMETRIC SETS"
+                yield lacks_diameter(scene, SBD009, f"{scene.describe(bare)} {what}", where.inside("set"))
     missing = np.flatnonzero((scene.law == LawKind.CURVE) & lacking)
     if not missing.size:
         return

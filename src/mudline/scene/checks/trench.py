@@ -36,8 +36,10 @@ def bad_trench(scene: ResolvedDeck) -> Iterator[Problem]:
     friction coefficient that no LATERAL= replaces, must give one. MODEL=PEAK, the default, needs PEAK=; the rows of
     PEAK=TABLE are two or more, and their offsets begin at 0 or more and ascend. MODEL=WALL has the resistance of its
     slope: where the transverse coefficient times that slope is 1 or more, the wall would hold any force. The two points
-    of CENTRELINE= must differ. PEAK= beside MODEL=WALL has no effect and is a warning, and so are elements whose
-    friction this deck may not show. Correct the value, or give what is missing.
+    of CENTRELINE= must differ. RESIDUAL= goes with a number in PEAK= and is reached behind the middle of the wall;
+    SMOOTHING= rounds off at most half of the shortest side of the resistance; neither, nor LEVEL=LOWERED, goes with
+    MODEL=WALL. PEAK= beside MODEL=WALL has no effect and is a warning, and so are elements whose friction this deck may
+    not show. Correct the value, or give what is missing.
 
     Example:
          $MODEL
@@ -84,9 +86,9 @@ def _of_block(entry: TrenchSet, where: Where) -> Iterator[Problem]:
     if entry.model == "WALL" and entry.peak is not None:
         message = "PEAK= has no effect under MODEL=WALL: remove it, or write MODEL=PEAK"
         yield Problem(EXT003, message, None, Severity.WARNING, where.inside("peak"))
-    if entry.model != "WALL":
-        for path, message in _resistance_faults(entry):
-            yield Problem(EXT003, message, where=where.inside(*path))
+    found = [*_resistance_faults(entry)] if entry.model != "WALL" else []
+    for path, message in found or (() if is_partly_unknown(entry) else _excess_faults(entry)):
+        yield Problem(EXT003, message, where=where.inside(*path))
     depth, bottom, upper = (number(entry.geometry, name) for name in _SIZES)
     if depth <= 0.0 or bottom <= 0.0 or upper <= 0.0 or upper <= bottom:
         message = "invalid trench geometry: depth and bottom width must be above 0, the upper width larger"
@@ -110,6 +112,35 @@ def _resistance_faults(entry: TrenchSet) -> Iterator[tuple[tuple[str | int, ...]
         yield ("table", 0, 0), "the offset from the centreline is negative: it is a distance, the same on both sides"
     for row in np.flatnonzero(np.diff(offsets) <= 0.0)[:1].tolist():
         yield ("table", row + 1, 0), "the offset is not larger than that of the row before: offsets must ascend"
+
+
+def _excess_faults(entry: TrenchSet) -> Iterator[tuple[tuple[str | int, ...], str]]:
+    """Path and message of a level, a residual or rounded corners that go with no other value, or with no geometry."""
+    from mudline.contact.laws.trench import shortest_side  # noqa: PLC0415 - a deck without trenches does without it
+    from mudline.scene.assignments import resistance_diagram  # noqa: PLC0415 - as above
+
+    if entry.model == "WALL":
+        for name, given in (
+            ("level", entry.level == "LOWERED"),
+            ("residual", entry.residual),
+            ("smoothing", entry.smoothing),
+        ):
+            if given:
+                yield (
+                    (name,),
+                    f"MODEL=WALL has sloped walls, which {name.upper()}= does not go with: remove one of the two",
+                )
+        return
+    middle = 0.25 * (number(entry.geometry, "bottom_width") + number(entry.geometry, "upper_width"))
+    if entry.residual is not None and entry.peak == "TABLE":
+        yield ("residual",), "a table has a residual of its own: remove RESIDUAL=, or add its row"
+    elif number(entry.residual, "displacement") <= middle:
+        yield (
+            ("residual",),
+            f"the residual is reached no later than the peak, at {middle:g}: give a larger displacement",
+        )
+    elif number(entry, "smoothing", 0.0) > max(0.5 * (side := shortest_side(resistance_diagram(entry))), 0.0):
+        yield ("smoothing",), f"SMOOTHING= is above half of the shortest side of the resistance, {side:g}: give less"
 
 
 def _without_spring(scene: ResolvedDeck) -> tuple[Mask, Mask]:

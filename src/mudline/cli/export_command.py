@@ -1,0 +1,82 @@
+"""`mudline export`: the model of a deck for another program, and the table of what does not carry over."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import asdict
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from mudline.cli import DONE, FOUND, options
+from mudline.cli.inputs import STDIN, GivenDeck, takes_deck
+from mudline.cli.streams import emit_json, notify, write_text
+from mudline.cli.view import View
+
+if TYPE_CHECKING:
+    from mudline.export.report import Report
+
+_TARGETS = ("moordyn", "orcaflex", "riflex")
+
+
+@options.command("export")
+@options.option("--to", "target", type=click.Choice(_TARGETS), required=True, help="Write the input of this program.")
+@options.option("-o", "--output", required=True, metavar="OUT", help="Write to this file, and others beside it.")
+@options.option("--strict", is_flag=True, help="Exit with 1 if anything was approximated or left out.")
+@options.output_format("text", "json")
+@takes_deck
+def command(*, deck: GivenDeck, target: str, output: str, strict: bool, output_format: str, view: View) -> int:
+    """Export seabed, line and soil of a deck as the input of another program, and list what does not carry over."""
+    from mudline.export.line_model import build  # noqa: PLC0415 - help reads no deck
+    from mudline.linting.engine import naming_causes  # noqa: PLC0415 - as above
+    from mudline.scene.model import resolve  # noqa: PLC0415 - as above
+
+    path = Path(output)
+    if output == STDIN:
+        raise click.UsageError("-o -: a model may need several files; give the name of a file")
+    if os.path.exists(deck.path) and os.path.exists(output) and os.path.samefile(deck.path, output):  # noqa: PTH110, PTH121 - Path raises for long names
+        raise click.UsageError(f"-o {output} is the deck itself: give another name")
+    read = deck.load().require()
+    with naming_causes(read):
+        scene = resolve(read).require_evaluable()
+    model = build(scene)
+    files = import_module(f"mudline.export.{target}").write(model, path.name)
+    for name, text in files.items():
+        write_text(path.with_name(name), [text])
+    if not view.quiet:
+        notify(f"{read.file} -> {', '.join(path.with_name(name).as_posix() for name in files)}")
+    if output_format == "json":
+        entries = [asdict(entry) for entry in model.report.entries]
+        places = [path.with_name(name).as_posix() for name in files]
+        emit_json(
+            {"target": target, "deck": read.file, "files": places, "exact": model.report.is_exact, "entries": entries}
+        )
+    else:
+        _print(model.report, view)
+    return FOUND if strict and not model.report.is_exact else DONE
+
+
+def _print(report: Report, view: View) -> None:
+    """The table of what does not carry over."""
+    printer = view.printer()
+    own = report.scene.deck.file
+    rows = [
+        (
+            entry.keyword,
+            str(entry.line) if entry.file == own else f"{entry.file}:{entry.line}",
+            entry.status.value,
+            entry.target,
+            entry.effect,
+        )
+        for entry in report.lost
+    ]
+    carried = len(report.entries) - len(report.lost)
+    columns = ("keyword", "line", "status", "in the target", "effect")
+    note = f"{carried} carried; JSON lists them too"
+    if rows:
+        left = ("keyword", "status", "in the target", "effect")
+        printer.table("What does not carry over", columns, rows, left=left, whole=("keyword",), note=note)
+    else:
+        printer.line(f"All carries over: {note}")

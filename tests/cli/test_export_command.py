@@ -1,0 +1,100 @@
+"""`mudline export`: files, the table of what does not carry over, exit codes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.cli.runner import SAMPLES, assert_fits, run
+from tests.export.decks import ELASTIC, text
+
+PLAIN = text(bed=ELASTIC.replace(" FRICTION=0.3, 0.5, 0.01, 0.02\n", ""))
+
+
+@pytest.mark.parametrize("target", ["moordyn", "orcaflex", "riflex"])
+def test_a_sample_is_written_with_its_list(target: str, tmp_path: Path) -> None:
+    out = tmp_path / "model.txt"
+    outcome = run("export", str(SAMPLES / "scr-touchdown.keyxm"), "--to", target, "-o", str(out))
+    assert outcome.code == 0
+    assert "model.txt" in outcome.err
+    assert "What does not carry over" in outcome.out
+    assert "carried; JSON lists them too" in outcome.out
+    head = out.read_text(encoding="ascii")[:4000]
+    assert "model of scr-touchdown.keyxm" in head
+    assert "*SEABED PROPERTIES (299) approximated: " in head
+    assert "25.51 kN/m2" in head
+
+
+def test_json_has_what_is_carried_too(tmp_path: Path) -> None:
+    out = tmp_path / "model.yml"
+    arguments = ("--to", "orcaflex", "-o", str(out), "--output-format", "json")
+    outcome = run("export", str(SAMPLES / "scr-touchdown.keyxm"), *arguments)
+    found = outcome.json()
+    assert_fits(found, "export")
+    assert (found["target"], found["exact"], found["files"]) == ("orcaflex", False, [out.as_posix()])
+    curves = [entry for entry in found["entries"] if entry["keyword"] == "*SEABED STIFFNESS"]
+    assert [(entry["line"], entry["status"]) for entry in curves] == [(310, "approximated"), (323, "approximated")]
+    assert curves[1]["effect"] == "curve 'Flowline Clay': secant 105.8 kN/m2 at W (8.82 mm), tangent there 54.2 kN/m2"
+    assert {"carried", "approximated", "left out"} == {entry["status"] for entry in found["entries"]}
+
+
+def test_strict_is_1_where_something_is_lost_and_writes_all_the_same(tmp_path: Path) -> None:
+    out = tmp_path / "model.inp"
+    assert run("export", str(SAMPLES / "scr-touchdown.keyxm"), "--to", "riflex", "-o", str(out), "--strict").code == 1
+    assert out.exists()
+    deck = tmp_path / "deck.keyxm"
+    deck.write_text(PLAIN)
+    outcome = run("export", str(deck), "--to", "riflex", "-o", str(out), "--strict")
+    assert outcome.code == 0
+    assert outcome.out.startswith("All carries over: ")
+
+
+def test_a_seabed_of_its_own_is_a_second_file(tmp_path: Path) -> None:
+    deck, out = tmp_path / "deck.keyxm", tmp_path / "my model.txt"
+    deck.write_text(text(bed=ELASTIC + "*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=2.0\n"))
+    outcome = run("export", str(deck), "--to", "moordyn", "-o", str(out))
+    assert outcome.code == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["deck.keyxm", "my model.txt", "my_model-seabed.txt"]
+    assert "my_model-seabed.txt" in outcome.err
+
+
+def test_a_deck_that_goes_on_from_another_needs_ends_of_its_own(tmp_path: Path) -> None:
+    outcome = run("export", str(SAMPLES / "scr-dynamic.keyxm"), "--to", "riflex", "-o", str(tmp_path / "a.inp"))
+    assert outcome.code == 1
+    assert "scr-touchdown.keyxm:237:" in outcome.err
+    assert "node 201 ends a line" in outcome.err
+    assert not list(tmp_path.iterdir())
+
+
+def test_entries_of_another_file_have_its_name(tmp_path: Path) -> None:
+    (tmp_path / "model.keyxm").write_text(PLAIN.partition("$LOAD CASE")[0])
+    case = "$LOAD CASE\n*RESTART\n LAST=model, TYPE=DYNAMIC\n*ANALYSIS TYPE\n TYPE=TIME DOMAIN\n"
+    case += "*BOUNDARY\n TYPE=CONSTANT\n"
+    case += "".join(f" {node}, {freedom}\n" for node in (1, 11) for freedom in (1, 2))
+    (tmp_path / "case.keyxm").write_text(case)
+    arguments = ("--to", "moordyn", "-o", str(tmp_path / "a.txt"))
+    outcome = run("export", str(tmp_path / "case.keyxm"), *arguments)
+    assert outcome.code == 0
+    assert "free in DOF 3 in the deck" in " ".join(outcome.out.split())
+    found = run("export", str(tmp_path / "case.keyxm"), *arguments, "--output-format", "json").json()
+    assert {Path(entry["file"]).name for entry in found["entries"]} == {"case.keyxm", "model.keyxm"}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("--to", "riflex", "-o", "-"), "give the name of a file"),
+        (("--to", "riflex", "-o", "deck.keyxm"), "is the deck itself"),
+        (("--to", "abaqus", "-o", "a"), "'abaqus'"),
+        (("--to", "riflex"), "Missing option '-o'"),
+        (("--to", "riflex", "-o", "no/such/folder/a.inp"), "cannot be written"),
+    ],
+)
+def test_wrong_usage(arguments: tuple[str, ...], message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("deck.keyxm").write_text(PLAIN)
+    outcome = run("export", "deck.keyxm", *arguments)
+    assert outcome.code == 2
+    assert message in outcome.err
+    assert Path("deck.keyxm").read_text() == PLAIN
