@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+import tarfile
 import tomllib
 import zipfile
 from importlib import metadata
@@ -22,14 +23,34 @@ GRAMMAR = sorted(path.name for path in (ROOT / "grammar").glob("*.lark"))
 LONGEST_FILE = 450
 
 
+def built(kind: str, of: Path, into: Path) -> Path:
+    """The wheel or the source archive of a folder."""
+    build = [sys.executable, "-m", "hatchling", "build", "-t", kind, "-d", str(into)]
+    subprocess.run(build, cwd=of, capture_output=True, timeout=TIMEOUT, check=True)
+    (made,) = into.glob("*.whl" if kind == "wheel" else "*.tar.gz")
+    return made
+
+
+def contents(wheel: Path) -> dict[str, bytes]:
+    with zipfile.ZipFile(wheel) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+@pytest.mark.slow
+def test_the_source_archive_makes_the_same_wheel(tmp_path: Path) -> None:
+    with tarfile.open(built("sdist", ROOT, tmp_path / "source")) as archive:
+        archive.extractall(tmp_path / "unpacked", filter="data")
+    (unpacked,) = (tmp_path / "unpacked").iterdir()
+    one = contents(built("wheel", ROOT, tmp_path / "checkout"))
+    other = contents(built("wheel", unpacked, tmp_path / "archive"))
+    assert list(one) == list(other)
+    assert [name for name, data in one.items() if data != other[name]] == []
+
+
 @pytest.fixture(scope="module")
 def wheel_names(tmp_path_factory: pytest.TempPathFactory) -> set[str]:
     folder = tmp_path_factory.mktemp("dist")
-    build = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(folder)]
-    subprocess.run(build, cwd=ROOT, capture_output=True, timeout=TIMEOUT, check=True)
-    (wheel,) = folder.glob("*.whl")
-    with zipfile.ZipFile(wheel) as archive:
-        return set(archive.namelist())
+    return set(contents(built("wheel", ROOT, folder)))
 
 
 def test_version_is_that_of_the_metadata() -> None:

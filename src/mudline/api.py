@@ -9,12 +9,14 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from mudline.arguments import expect, read_only, several
 from mudline.deck import model
 from mudline.deck.forms import KEYWORD
 from mudline.deck.loading import dump, load_bytes, load_path
 from mudline.diagnostics import Diagnostic
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select as _chosen
+from mudline.quantities import checked_units
 from mudline.scene import model as scenes
 
 if TYPE_CHECKING:
@@ -66,10 +68,12 @@ class Deck(model.Deck):
 class Scene:
     """A deck resolved: equations evaluated, sets expanded, everything as arrays in the deck's units; X is up.
 
-    `Deck.scene` makes scenes; `contact` makes the evaluator. n nodes, m elements.
+    `Deck.scene` makes scenes; `contact` makes the evaluator. n nodes, m elements. Its arrays cannot be
+    written: they are those that are evaluated.
     """
 
     def __init__(self, resolved: scenes.Scene) -> None:
+        expect(resolved, "resolved", scenes.Scene, "what Deck.scene makes scenes of")
         self._resolved = resolved
 
     def __repr__(self) -> str:
@@ -115,32 +119,32 @@ class Scene:
     @property
     def node_ids(self) -> Ids:
         """Node numbers (n,), in the order in which they first appear."""
-        return self._resolved.node_ids
+        return read_only(self._resolved.node_ids)
 
     @property
     def coordinates(self) -> Floats:
         """Node coordinates (n, 3), X up."""
-        return self._resolved.coordinates
+        return read_only(self._resolved.coordinates)
 
     @property
     def element_ids(self) -> Ids:
         """Element numbers (m,)."""
-        return self._resolved.element_ids
+        return read_only(self._resolved.element_ids)
 
     @property
     def element_nodes(self) -> Indices:
         """Indices (m, 2) of each element's nodes."""
-        return self._resolved.element_nodes
+        return read_only(self._resolved.element_nodes)
 
     @property
     def length(self) -> Floats:
         """Element lengths (m,) between the deck's coordinates."""
-        return self._resolved.length
+        return read_only(self._resolved.length)
 
     @property
     def diameter(self) -> Floats:
         """External diameters (m,): Do, else Dd of a FLEXIBLE section; NaN where there is none."""
-        return self._resolved.diameter
+        return read_only(self._resolved.diameter)
 
     @property
     def law_names(self) -> list[str]:
@@ -191,7 +195,7 @@ def read(path: str | os.PathLike[str], *, units: str | None = None) -> Deck:
         ValueError: `path` is the text of a deck.
         TypeError: `path` is not a path.
     """
-    return _public(load_path(_path(path), units=units))
+    return _public(load_path(_path(path), units=_units(units)))
 
 
 def read_positions(path: str | os.PathLike[str], scene: Scene) -> Positions:
@@ -207,7 +211,8 @@ def read_positions(path: str | os.PathLike[str], scene: Scene) -> Positions:
     """
     from mudline.scene import positions  # noqa: PLC0415 - decks alone do without it
 
-    return positions.read_positions(Path(path), scene._resolved.nodes)  # noqa: SLF001 - a class of this module
+    expect(scene, "scene", Scene, "a Scene")
+    return positions.read_positions(_path(path), scene._resolved.nodes)  # noqa: SLF001 - a class of this module
 
 
 def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | None = None) -> list[ContactWarning]:
@@ -215,9 +220,16 @@ def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | No
 
     `positions` are those that were evaluated, (nodes, 3) or (steps, nodes, 3); None stands for the deck's own
     coordinates, whose reaction is compared with the submerged weight.
-    """
-    from mudline.results import warnings  # noqa: PLC0415 - decks alone do without it
 
+    Raises ValueError where result or positions are not those of the scene.
+    """
+    from mudline.contact.result import ContactResult as Result  # noqa: PLC0415 - decks alone do without it
+    from mudline.results import warnings  # noqa: PLC0415 - as above
+
+    expect(scene, "scene", Scene, "a Scene")
+    expect(result, "result", Result, "a ContactResult")
+    if len(result.evaluated) != len(scene.element_ids) or len(result.present) != len(scene.node_ids):
+        raise ValueError("result must be that of the scene: it has another number of nodes or elements")
     return warnings.contact_warnings(scene._resolved, result, positions)  # noqa: SLF001 - as above
 
 
@@ -233,7 +245,7 @@ def from_keyword(text: str | bytes, *, units: str | None = None) -> Deck:
     Raises:
         DeckError: the text cannot be read; `.diagnostics` has the places.
     """
-    deck = _from_text(text, KEYWORD, units)
+    deck = _from_text(text, KEYWORD, _units(units))
     deck.source = ""
     return deck
 
@@ -274,14 +286,16 @@ def lint(
     Raises:
         OSError: the file cannot be read.
         ValueError: a word names no rule, or `path` is the text of a deck.
-        TypeError: `path` is not a path.
+        TypeError: `path` is not a path, or `select` or `ignore` are not several words.
     """
-    file = _path(path, "save it to a file")
-    return lint_bytes(file.read_bytes(), file.as_posix(), _chosen(select, ignore), units=units, folder=file.parent)
+    file, units = _path(path, "save it to a file"), _units(units)
+    words = [several(given, name, str, "several str") for given, name in ((select, "select"), (ignore, "ignore"))]
+    return lint_bytes(file.read_bytes(), file.as_posix(), _chosen(*words), units=units, folder=file.parent)
 
 
 def _from_text(text: str | bytes, form: str, units: str | None = None) -> Deck:
     """The deck of a text in a form. What no file can hold is replaced in a keyword text, and refused in a document."""
+    expect(text, "text", (str, bytes), "str or bytes")
     errors = "replace" if form == KEYWORD else "surrogatepass"
     data = text if isinstance(text, bytes) else text.encode(errors=errors)
     return _public(load_bytes(data, f"<{form}>", form=form, units=units))
@@ -290,6 +304,10 @@ def _from_text(text: str | bytes, form: str, units: str | None = None) -> Deck:
 def _public(deck: model.Deck) -> Deck:
     """A deck that was read as users have it; raises DeckError when something in it could not be read."""
     return Deck(**vars(deck.require()))
+
+
+def _units(units: str | None) -> str | None:
+    return None if units is None else checked_units(units)
 
 
 def _path(given: object, advice: str = "use mudline.{}(text)") -> Path:

@@ -9,10 +9,19 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
+from mudline.short_repr import cut
+
 RESULT_FORMAT = "mudline-result/2"
 """Name and version of the form of result files."""
 
 UNIT_SYSTEMS = ("metric", "imperial", "user")
+
+
+def checked_units(units: object) -> str:
+    """The name of a system of units; raises ValueError for what is none."""
+    if not isinstance(units, str) or units not in UNIT_SYSTEMS:
+        raise ValueError(f"units must be one of {', '.join(UNIT_SYSTEMS)}, not {cut(repr(units), 60)}")
+    return units
 
 
 class UnitNames(NamedTuple):

@@ -50,7 +50,7 @@ def made_files() -> set[str]:
 def documents() -> list[Path]:
     """Every page of the project, also those written by hand."""
     return [
-        *(ROOT / f"{name}.md" for name in ("README", "CHANGELOG", "CONTRIBUTING")),
+        *(ROOT / f"{name}.md" for name in ("README", "CHANGELOG", "CONTRIBUTING", "SECURITY")),
         *sorted(ROOT.glob("docs/**/*.md")),
     ]
 

@@ -139,7 +139,8 @@ def _pages(pattern: str) -> list[Any]:
 def _linked_outside() -> set[Path]:
     """Files outside docs/ that the navigation has or its pages link to, and those that these link to."""
     found: set[Path] = set()
-    waiting = [*DOCS.rglob("*.md"), ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md", ROOT / "samples/README.md"]
+    beside = ("CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "samples/README.md")
+    waiting = [*DOCS.rglob("*.md"), *(ROOT / name for name in beside)]
     while waiting:
         page = waiting.pop()
         if page in found:

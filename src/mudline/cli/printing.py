@@ -117,7 +117,8 @@ class Printer:
         cells = [[row[i] for i in filled] for row in cells]
         names = [columns[i] for i in filled]
         depth = max(name.count("\n") for name in names)
-        heads = list(zip(*(("\n" * (depth - name.count("\n")) + name).split("\n") for name in names), strict=True))
+        padded = (("\n" * (depth - name.count("\n")) + name).split("\n") for name in names)
+        heads = list(zip(*([self.visible(line) for line in lines] for lines in padded), strict=True))
         texts = ([text for text, _ in row] for row in cells)
         widths = [max(map(cell_len, column)) for column in zip(*heads, *texts, strict=True)]
         to_left = [name in left for name in names]

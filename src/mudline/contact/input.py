@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mudline.arguments import expect, read_only
 from mudline.contact.arrays import BoolArray, FloatArray, IdArray, IndexArray
 from mudline.contact.laws import BUILT_IN, Law, NormalLaw, PathLaw, law_named
 from mudline.short_repr import short_repr
@@ -184,7 +185,15 @@ class ContactInput:
     __repr__ = short_repr
 
     def __post_init__(self) -> None:
-        nodes, elements = len(self.node_ids), len(self.element_ids)
+        for name in ("node_ids", "coordinates", "element_ids", "element_nodes", "length", "diameter", "weight"):
+            if (array := getattr(self, name)) is not None or name != "weight":
+                expect(array, name, np.ndarray, "an array")
+                object.__setattr__(self, name, read_only(array))
+        for name, kind in (("laws", LawAssignment), ("curves", object), ("tables", np.ndarray)):
+            expect(getattr(self, name), name, (tuple, list), "a tuple")
+            for each in getattr(self, name):
+                expect(each, f"each of {name}", kind, f"a {kind.__name__}")
+        nodes, elements = self.node_ids.size, self.element_ids.size
         _expect(self.node_ids, "node_ids", "iu", (nodes,))
         _expect(self.coordinates, "coordinates", "f", (nodes, 3))
         _expect(self.element_ids, "element_ids", "iu", (elements,))
@@ -193,7 +202,7 @@ class ContactInput:
             _expect(getattr(self, name), name, "f", (elements,))
         if self.weight is not None:
             _expect(self.weight, "weight", "f", (elements,))
-        if self.tension not in {"keep", "cut"}:
+        if self.tension not in ("keep", "cut"):
             raise ValueError(f"tension must be 'keep' or 'cut', not {self.tension!r}")
         self._check_elements(nodes)
         names = dict.fromkeys(assignment.law for assignment in self.laws)

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from numbers import Real
+from types import NoneType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mudline.arguments import as_array, expect
 from mudline.contact.arrays import BoolArray, FloatArray, IdArray, StepReader
 from mudline.contact.input import ContactInput, PositionError
 from mudline.contact.numpy_driver import NumpyDriver
@@ -50,7 +53,9 @@ class ContactModel:
         Raises:
             ImportError: `backend` is "fast", but the extra is not installed.
             ValueError: there is no such backend.
+            TypeError: `given` is not a ContactInput.
         """
+        expect(given, "given", ContactInput, "a ContactInput")
         self.input = given
         self._seabed: Seabed = given.seabed or FlatSeabed()
         with np.errstate(all="ignore"):  # what overflows is refused where a step comes to it
@@ -59,6 +64,7 @@ class ContactModel:
             self.plan: Plan = make_plan(given, self._tables, self._choice)
             self._numpy = NumpyDriver(self._tables, self._seabed)
         self._compiled: CompiledDriver | None = None
+        self._nodes, self._shapes = len(given.node_ids), self._tables.initial_state().shapes
 
     def __repr__(self) -> str:
         nodes, elements = len(self.input.node_ids), len(self.input.element_ids)
@@ -90,9 +96,11 @@ class ContactModel:
                 neither velocities nor times.
         """
         given = self.input.coordinates if positions is None else positions
-        single = not isinstance(given, StepReader) and np.ndim(given) == 2
-        if single:
-            given = np.array(given)  # a copy, which the result keeps: the caller may write the next positions into it
+        single = False
+        if not isinstance(given, StepReader):
+            given = as_array(given, "positions")
+            single = given.ndim == 2
+            given = given.copy() if single else given  # the result keeps it: the caller may write the next into theirs
         parts = list(self.stream(given, present=present, velocities=velocities, times=times, together=True))
         result = parts[0].result
         return result.step(0) if single else result
@@ -151,8 +159,11 @@ class ContactModel:
 
         Raises:
             PositionError, ElementError: as `evaluate`.
-            ValueError: as `evaluate`, or `dt` is not finite and above 0, or is missing where it is needed.
+            ValueError: as `evaluate`, or `dt` is not finite and above 0, or is missing where it is needed, or `state`
+                is that of another model.
         """
+        self._check_state(state)
+        expect(dt, "dt", (Real, NoneType), "a number")
         if dt is not None and not 0.0 < dt < np.inf:
             raise ValueError(f"dt must be finite and above 0, not {dt!r}")
         nodes = len(self.input.node_ids)
@@ -166,11 +177,18 @@ class ContactModel:
         with np.errstate(all="ignore"):
             # a copy: state and result keep it, and whoever steps may write the next positions into the same array
             points = _read_steps(series, range(1), self.input.node_ids, mask).copy()
+            points.flags.writeable = False
             part = self._blank(points, mask, None)
             rates = None if motion is None else np.asarray(motion, np.float64)
             spans = None if dt is None or state.positions is None else np.array([dt])
             after = self._advance(self._driver(1), points, rates, spans, part, state, 0, kept=True)
         return part.step(0), after
+
+    def _check_state(self, state: ContactState) -> None:
+        """Raise TypeError for what is no state, ValueError for that of another model."""
+        expect(state, "state", ContactState, "a ContactState")
+        if state.shapes != self._shapes or (state.positions is not None and len(state.positions) != self._nodes):
+            raise ValueError("state must be one of this model: it is that of other nodes, elements or laws")
 
     def tangent(
         self,
@@ -207,6 +225,8 @@ class ContactModel:
         """
         from mudline.contact.stiffest import stiffest  # noqa: PLC0415 - forces alone do without it
 
+        if positions is None and velocities is not None:
+            raise ValueError("velocities need positions")
         result = None if positions is None else self.evaluate(positions, velocities=velocities)
         speed = None
         if result is not None and velocities is not None:
@@ -323,7 +343,7 @@ def _as_series(positions: ArrayLike | StepReader, nodes: int) -> RealArray | Ste
     Raises:
         ValueError: the shape or the kind of number is not one of these.
     """
-    given: RealArray | StepReader = positions if isinstance(positions, StepReader) else np.asarray(positions)
+    given: RealArray | StepReader = positions if isinstance(positions, StepReader) else as_array(positions, "positions")
     if given.dtype.kind not in "iuf":
         raise ValueError(f"positions must be real numbers, not {given.dtype}")
     if given.ndim not in {2, 3} or given.shape[-2:] != (nodes, 3):
@@ -340,7 +360,7 @@ def _as_mask(present: ArrayLike | None, nodes: int) -> BoolArray:
     """
     if present is None:
         return np.ones(nodes, np.bool_)
-    mask = np.array(present)
+    mask = as_array(present, "present").copy()
     if mask.dtype != np.bool_ or mask.shape != (nodes,):
         raise ValueError(f"present must be booleans of shape ({nodes},), not {mask.dtype} of shape {mask.shape}")
     return mask
@@ -370,10 +390,11 @@ def _as_velocities(velocities: ArrayLike | None, shape: tuple[int, ...]) -> Real
     """
     if velocities is None:
         return None
-    given: RealArray = np.asarray(velocities)
+    given: RealArray = as_array(velocities, "velocities")
     same = given.shape == shape or (shape[0] == 1 and given.shape == shape[1:])
     if given.dtype.kind not in "iuf" or not same:
-        raise ValueError(f"velocities must be real numbers of the shape of the positions, {shape}, not {given.shape}")
+        found = f"{given.shape} of {given.dtype}"
+        raise ValueError(f"velocities must be real numbers of the shape of the positions, {shape}, not {found}")
     return given.reshape(shape)
 
 
@@ -385,7 +406,10 @@ def _as_times(times: ArrayLike | None, steps: int) -> FloatArray | None:
     """
     if times is None:
         return None
-    given = np.asarray(times, dtype=np.float64)
+    given = as_array(times, "times")
+    if given.dtype.kind not in "iuf":
+        raise ValueError(f"times must be real numbers, not {given.dtype}")
+    given = given.astype(np.float64)
     if given.shape != (steps,) or not np.isfinite(given).all() or not (np.diff(given) > 0.0).all():
         raise ValueError(f"times must be {steps} finite numbers, each later than the one before")
     return given

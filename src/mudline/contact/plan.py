@@ -7,10 +7,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.util import find_spec
+from types import NoneType
 from typing import Literal
 
 import numpy as np
 
+from mudline.arguments import expect
 from mudline.contact.arrays import FloatArray
 from mudline.contact.input import ContactInput, LawKind
 from mudline.contact.laws import NormalLaw
@@ -234,6 +236,7 @@ class BackendChoice:
             raise ValueError(f"backend must be auto, numpy or fast, not {backend!r}")
         if backend == "fast":
             import_module("numba")
+        expect(threads, "threads", (int, NoneType), "a whole number")
         if threads is not None and threads < 1:
             raise ValueError(f"threads must be 1 or more, not {threads}")
         self._backend, self._nodes = backend, len(tables.given.node_ids)

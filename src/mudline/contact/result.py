@@ -8,16 +8,17 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from importlib import import_module
 from operator import attrgetter
-from types import ModuleType
+from types import ModuleType, NoneType
 from typing import TYPE_CHECKING, Any, Literal, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mudline.arguments import expect, several
 from mudline.contact.arrays import BoolArray, FloatArray, IdArray, StateArray
 from mudline.contact.input import ContactInput, ElementError, PositionError
 from mudline.contact.tables import Tables
-from mudline.short_repr import outline, short_repr
+from mudline.short_repr import counted, outline, short_repr
 
 if TYPE_CHECKING:  # each is imported when it is asked for
     import pandas as pd
@@ -102,13 +103,15 @@ class ContactResult:
 
     def friction_state_of(self, side: int) -> StateArray:
         """Return the states (..., n) along u1 (0) or u2 (1); -1 without friction."""
+        if side not in (0, 1):
+            raise ValueError(f"side must be 0 or 1, not {side!r}")
         if self.friction_state is None:
             return np.full(self.gap.shape, -1, np.int8)
         return self.friction_state[..., side]
 
     def step(self, index: int) -> ContactResult:
-        """Return one step of a series, as views."""
-        return self._cut(index)
+        """Return one step of a series, as views; IndexError where it has no such step."""
+        return self._cut(_whole(index, "index"))
 
     def to_dataframe(self, table: TableName = "elements") -> pd.DataFrame:
         """Return the elements, nodes or lines ("summary") as a pandas frame, a row for each at each step.
@@ -166,7 +169,7 @@ class ContactResult:
 
     def steps(self, start: int, stop: int) -> ContactResult:
         """Return the steps start <= step < stop of a series, as views."""
-        return self._cut(slice(start, stop))
+        return self._cut(slice(_whole(start, "start"), _whole(stop, "stop")))
 
     def plot(
         self,
@@ -185,6 +188,8 @@ class ContactResult:
             OSError: the file cannot be written.
             ImportError: matplotlib is not installed.
         """
+        expect(path, "path", (str, os.PathLike, NoneType), "a path")
+        elements = several(elements, "elements", (int, np.integer), "several numbers of elements")
         try:
             plots = _module("mudline.results.plots")
         except ImportError as error:
@@ -201,11 +206,20 @@ class ContactResult:
         return found
 
     def _cut(self, key: int | slice) -> ContactResult:
+        if self.depth.ndim != 2:
+            raise ValueError("a single state has no steps")
+        if isinstance(key, int) and not -len(self.depth) <= key < len(self.depth):
+            raise IndexError(f"index {key} is out of range: the series has {counted(len(self.depth), 'step')}")
         return self._each(lambda values: values[key])
 
     def _each(self, cut: Callable[[NDArray[Any]], NDArray[Any]]) -> ContactResult:
         arrays: list[Any] = [None if values is None else cut(values) for values in _get_by_step(self)]
         return ContactResult(**dict(zip((*_BY_STEP, *_OF_ALL_STEPS), (*arrays, *_get_rest(self)), strict=True)))
+
+
+def _whole(value: int, name: str) -> int:
+    expect(value, name, (int, np.integer), "a whole number")
+    return int(value)
 
 
 def _module(name: str) -> ModuleType:

@@ -57,6 +57,15 @@ class ContactState:
         held = ", ".join(name for name in names if getattr(self, name) is not None)
         return outline(f"ContactState {when}", held or "nothing to remember")
 
+    @property
+    def shapes(self) -> tuple[object, ...]:
+        """The shapes of all that is remembered beside positions, by which states of different models differ."""
+        parts = (self.unloading, self.suction, self.friction)
+        found = [part and tuple(getattr(part, name).shape for name in part.__dataclass_fields__) for part in parts]
+        return *found, *(
+            None if array is None else array.shape for array in (self.touchdown, self.breakout, self.paths)
+        )
+
     def copied(self) -> ContactState:
         """Return a state whose arrays may be written; positions stay as they are."""
         return ContactState(
@@ -209,6 +218,7 @@ class Tables:
         if "rigid" in given.assigned:
             self.rigid = np.zeros(len(given.node_ids), np.bool_)
             self.rigid[given.element_nodes[given.assigned["rigid"].rows]] = True
+            self.rigid.flags.writeable = False  # results have it too
         parts = (self.unloading, self.suction, self.lateral, self.friction, self.level)
         # velocities are differences to the step before where none are given
         self.history = (

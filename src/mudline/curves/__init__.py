@@ -15,11 +15,13 @@ The force is exact at every point and nothing is clamped.
 
 from __future__ import annotations
 
+from types import NoneType
 from typing import NoReturn
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mudline.arguments import expect
 from mudline.curves.points import (
     CurveError,
     FloatArray,
@@ -61,6 +63,7 @@ class ForceCurve:
             CurveError: the points do not make a curve; its `code` and `index` say why and which.
             ValueError: `points` are not pairs of real numbers.
         """
+        expect(name, "name", (str, NoneType), "a str or None")
         ratios, forces, slopes = (read_only(array) for array in checked_points(points))
         fields = {
             "name": name,
@@ -158,6 +161,8 @@ class ForceCurve:
         Raises:
             ValueError: `force` is NaN or infinite.
         """
+        if (shape := real_numbers(force, "force").shape) != ():
+            raise ValueError(f"force must be one number, not an array of shape {shape}")
         if not np.isfinite(force):
             raise ValueError(f"no ratio has the force {force}")
         reached = self.ratios[self.forces == force]
@@ -225,7 +230,13 @@ class ForceCurve:
 
 
 def _checked_out(out: tuple[FloatArray, FloatArray], shape: tuple[int, ...]) -> tuple[FloatArray, FloatArray]:
+    expect(out, "out", tuple, "two arrays (force, slope)")
+    if len(out) != 2:
+        raise ValueError(f"out must be two arrays (force, slope), not {len(out)}")
     for array in out:
+        expect(array, "out", np.ndarray, "two arrays (force, slope)")
+        if not array.flags.writeable:
+            raise ValueError("out must be arrays that can be written")
         if array.shape != shape or array.dtype != np.float64:
             raise ValueError(f"out must be float64 of shape {shape}, not {array.dtype} of shape {array.shape}")
     return out

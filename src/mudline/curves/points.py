@@ -9,6 +9,8 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mudline.arguments import as_array
+
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.intp]
 
@@ -27,7 +29,7 @@ def real_numbers(values: ArrayLike, what: str) -> NDArray[np.generic]:
     Raises:
         ValueError: they are something else; `what` is what the message calls them.
     """
-    array: NDArray[np.generic] = np.asarray(values)
+    array: NDArray[np.generic] = as_array(values, what)
     if array.dtype.kind not in "biuf":
         raise ValueError(f"{what} must be real numbers, not {array.dtype}")
     return array

@@ -8,10 +8,12 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, NamedTuple, Self
 
+from mudline.arguments import expect
 from mudline.diagnostics import Blocks, Code, DeckError, Diagnostic, Edit, Fix, Problem, Repair, Severity, Where
 from mudline.keywords.model import Block, Comment, Part, record_schema
 from mudline.keywords.values import Text
 from mudline.limits import LONGEST_MESSAGE
+from mudline.quantities import checked_units
 from mudline.short_repr import counted, cut, listed, outline, short_repr
 
 
@@ -119,6 +121,13 @@ class Deck:
     folder: Path | None = field(default=None, compare=False)
     bases: tuple[Base, ...] = ()
     incomplete: bool = False
+
+    def __post_init__(self) -> None:
+        """Raise TypeError or ValueError for what a caller of `mudline.Deck` gave in the place of a text or a list."""
+        expect(self.file, "file", str, "a str")
+        expect(self.source, "source", str, "a str")
+        checked_units(self.units)
+        expect(self.sections, "sections", list, "a list")
 
     def __repr__(self) -> str:
         blocks = sum(len(section.blocks) for section in self.sections)

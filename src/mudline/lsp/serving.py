@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import io
 import logging
+import re
 import sys
 from typing import BinaryIO, Protocol
 
@@ -163,9 +165,21 @@ def quiet_logs() -> None:
     logging.getLogger("asyncio").setLevel(logging.CRITICAL)
 
 
+_NO_LENGTH = re.compile(rb"content-length:\s*[0-9]{12}", re.IGNORECASE)
+
+
+class _Input(io.BufferedReader):
+    """Standard input, in which a length that no memory holds is none: it would end the server."""
+
+    def readline(self, size: int | None = -1, /) -> bytes:
+        """Read a line of a header."""
+        line = super().readline(size)
+        return b"Length: too large\r\n" if _NO_LENGTH.match(line) else line
+
+
 def take_streams() -> tuple[BinaryIO, BinaryIO]:
     """Standard input and output of the protocol; what else is printed goes to standard error from now on."""
-    streams = sys.stdin.buffer, sys.stdout.buffer
+    streams = _Input(io.FileIO(sys.stdin.fileno(), closefd=False)), sys.stdout.buffer
     sys.stdout = sys.stderr
     return streams
 

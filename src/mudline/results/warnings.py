@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mudline.arguments import as_array
 from mudline.codes.contact import GEO005, RUN003, RUN004, SBD006
 from mudline.codes.lines import SYN009
 from mudline.contact import ContactResult, LawKind
@@ -75,7 +76,11 @@ def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | No
     `positions` are those that were evaluated, (nodes, 3) or (steps, nodes, 3); None stands for the deck's own
     coordinates, whose reaction is compared with the submerged weight.
     """
-    places = np.asarray(scene.coordinates if positions is None else positions)
+    places = as_array(scene.coordinates if positions is None else positions, "positions")
+    if places.dtype.kind not in "iuf" or places.ndim not in {2, 3} or places.shape[-2:] != (len(scene.node_ids), 3):
+        raise ValueError(f"positions must be numbers (nodes, 3) or (steps, nodes, 3), not of shape {places.shape}")
+    if not len(places):
+        raise ValueError("positions must have one step or more")
     watch = ContactWatch(scene, result.evaluated, places.reshape(-1, *places.shape[-2:])[0], own=positions is None)
     watch.look(0, result)
     return watch.warnings()

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar, overload
 import numpy as np
 from numpy.typing import NDArray
 
+from mudline.arguments import read_only
 from mudline.codes import RUN001
 from mudline.codes.references import REF001
 from mudline.contact.input import LawKind
@@ -216,7 +217,7 @@ class ResolvedDeck:
     def sets(self) -> ByName[Ids]:
         """Element numbers (k,) of every set by its name, found without case; ALL included."""
         named = self.set_table.named.values()
-        return ByName("set", ((entry.name, self.element_ids[entry.elements]) for entry in named), set_key)
+        return ByName("set", ((entry.name, read_only(self.element_ids[entry.elements])) for entry in named), set_key)
 
     @cached_property
     def curves(self) -> ByName[ForceCurve]:

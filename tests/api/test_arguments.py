@@ -1,0 +1,364 @@
+"""What public functions refuse: every argument of a wrong kind, shape or value, by its name; what cannot be written."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from types import NoneType
+from typing import Any, TypeAlias
+
+import numpy as np
+import pytest
+
+import mudline
+from mudline.contact.input import ContactInput
+from mudline.contact.plan import Backend
+from tests.builders.contact import everything, journey
+from tests.builders.decks import CLEAN
+
+Wrong: TypeAlias = Any
+Call = Callable[[Any], object]
+
+DECK = mudline.from_keyword(CLEAN)
+SCENE = DECK.scene()
+OTHER = mudline.from_keyword(
+    CLEAN.replace(" 3, 0.3, 20.0\n", " 3, 0.3, 20.0\n 4, 0.3, 30.0\n").replace(" 2, 2, 3\n", " 2, 2, 3\n 3, 3, 4\n")
+).scene()
+MODEL = SCENE.contact()
+STATE = MODEL.initial_state()
+RESULT = MODEL.evaluate()
+SERIES = MODEL.evaluate(np.array([SCENE.coordinates, SCENE.coordinates]))
+CURVE = SCENE.curves["Clay"]
+HISTORY = mudline.ContactModel(everything(4, 1))
+FULL, _, _ = journey(4, 2, 1)
+WHERE = SCENE.coordinates
+
+
+def instead(bad: Wrong, kind: type) -> Wrong:
+    """What is given, and something else where that would be right."""
+    return object() if isinstance(bad, kind) else bad
+
+
+NO_OBJECT: dict[str, Wrong] = {
+    "none": None,
+    "number": 3,
+    "nan": math.nan,
+    "text": "x",
+    "bytes": b"x",
+    "list": [1, 2],
+    "ragged": [[1, 2], [3]],
+    "mapping": {},
+    "set": {1},
+    "complex": 1j,
+    "class": object,
+    "objects": np.array([object()]),
+    "date": np.datetime64("2020-01-01"),
+}
+"""Values that are no deck, scene, model, state or result."""
+
+OBJECTS: dict[str, tuple[str, Call]] = {
+    "read_positions scene": ("scene", lambda bad: mudline.read_positions("x.csv", bad)),
+    "contact_warnings scene": ("scene", lambda bad: mudline.contact_warnings(bad, RESULT)),
+    "contact_warnings result": ("result", lambda bad: mudline.contact_warnings(SCENE, bad)),
+    "Scene": ("resolved", mudline.Scene),
+    "ContactModel": ("given", mudline.ContactModel),
+    "step state": ("state", lambda bad: MODEL.step(WHERE, None, bad)),
+    "tangent state": ("state", lambda bad: MODEL.tangent(WHERE, None, bad)),
+    "Deck sections": ("sections", lambda bad: mudline.Deck("x", sections=instead(bad, list))),
+}
+
+
+@pytest.mark.parametrize("bad", NO_OBJECT.values(), ids=NO_OBJECT)
+@pytest.mark.parametrize("name", OBJECTS)
+def test_what_is_not_one_of_our_objects(name: str, bad: Wrong) -> None:
+    argument, call = OBJECTS[name]
+    with pytest.raises(TypeError, match=f"^{argument} must be "):
+        call(bad)
+
+
+NO_TEXT = {name: bad for name, bad in NO_OBJECT.items() if name not in {"text", "bytes"}}
+TEXTS: dict[str, tuple[str, Call]] = {
+    "from_keyword": ("text", mudline.from_keyword),
+    "from_json": ("text", mudline.from_json),
+    "from_yaml": ("text", mudline.from_yaml),
+    "read": ("path", mudline.read),
+    "lint": ("path", mudline.lint),
+    "read_positions": ("path", lambda bad: mudline.read_positions(bad, SCENE)),
+    "plot": ("path", lambda bad: RESULT.plot(instead(bad, NoneType))),
+    "Deck": ("file", mudline.Deck),
+    "Deck source": ("source", lambda bad: mudline.Deck("x", bad)),
+    "ForceCurve name": ("name", lambda bad: mudline.ForceCurve([(0, 0), (1, 1)], instead(bad, NoneType))),
+}
+
+
+@pytest.mark.parametrize("bad", NO_TEXT.values(), ids=NO_TEXT)
+@pytest.mark.parametrize("name", TEXTS)
+def test_what_is_no_text_or_path(name: str, bad: Wrong) -> None:
+    argument, call = TEXTS[name]
+    with pytest.raises(TypeError, match=argument):
+        call(bad)
+
+
+NO_NUMBERS = {name: bad for name, bad in NO_OBJECT.items() if name not in {"none", "number", "nan", "list"}}
+NUMBERS: dict[str, tuple[str, Call]] = {
+    "ForceCurve": ("points", mudline.ForceCurve),
+    "curve.evaluate": ("ratios", CURVE.evaluate),
+    "curve.segment": ("ratios", CURVE.segment),
+    "curve.extrapolated": ("ratios", CURVE.extrapolated),
+    "curve.ratios_at_force": ("force", CURVE.ratios_at_force),
+    "evaluate": ("positions", MODEL.evaluate),
+    "evaluate present": ("present", lambda bad: MODEL.evaluate(present=bad)),
+    "evaluate velocities": ("velocities", lambda bad: MODEL.evaluate(velocities=bad)),
+    "evaluate times": ("times", lambda bad: MODEL.evaluate(times=bad)),
+    "stream": ("positions", lambda bad: list(MODEL.stream(bad))),
+    "stream present": ("present", lambda bad: list(MODEL.stream(WHERE, present=bad))),
+    "stream velocities": ("velocities", lambda bad: list(MODEL.stream(WHERE, velocities=bad))),
+    "stream times": ("times", lambda bad: list(MODEL.stream(WHERE, times=bad))),
+    "step": ("positions", lambda bad: MODEL.step(bad, None, STATE)),
+    "step velocities": ("velocities", lambda bad: MODEL.step(WHERE, bad, STATE)),
+    "tangent": ("positions", lambda bad: MODEL.tangent(bad, None, STATE)),
+    "tangent velocities": ("velocities", lambda bad: MODEL.tangent(WHERE, bad, STATE)),
+    "stiffest": ("positions", MODEL.stiffest),
+    "stiffest velocities": ("velocities", lambda bad: MODEL.stiffest(WHERE, bad)),
+    "stiffest velocities alone": ("velocities", lambda bad: MODEL.stiffest(None, bad)),
+    "contact_warnings": ("positions", lambda bad: mudline.contact_warnings(SCENE, RESULT, bad)),
+}
+
+
+@pytest.mark.parametrize("bad", NO_NUMBERS.values(), ids=NO_NUMBERS)
+@pytest.mark.parametrize("name", NUMBERS)
+def test_what_are_no_numbers(name: str, bad: Wrong) -> None:
+    argument, call = NUMBERS[name]
+    with pytest.raises(ValueError, match=argument):
+        call(bad)
+
+
+SHAPES = [(), (0,), (3,), (2, 3), (3, 2), (0, 3), (1, 1, 1, 1), (2, 3, 2)]
+
+
+@pytest.mark.parametrize("shape", SHAPES, ids=str)
+@pytest.mark.parametrize("name", [name for name in NUMBERS if "curve" not in name.lower()])
+def test_numbers_of_another_shape(name: str, shape: tuple[int, ...]) -> None:
+    argument, call = NUMBERS[name]
+    with pytest.raises(ValueError, match=argument):
+        call(np.zeros(shape))
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+def test_numbers_that_are_not_finite(bad: float) -> None:
+    calls: dict[str, Callable[[], object]] = {
+        "point 2 is not finite": lambda: mudline.ForceCurve([(0, 0), (1, bad)]),
+        "ratio": lambda: CURVE.evaluate([0.1, bad]),
+        r"ratio .*\(index 1\)": lambda: CURVE.segment([0.1, bad]),
+        r"ratio .* \(index 1\)": lambda: CURVE.extrapolated([0.1, bad]),
+        "the force": lambda: CURVE.ratios_at_force(bad),
+        "its position": lambda: MODEL.evaluate(np.full((3, 3), bad)),
+        "^node 1 at step 0: its position": lambda: MODEL.step(np.full((3, 3), bad), None, STATE),
+        "its velocity": lambda: HISTORY.evaluate(FULL[0], velocities=np.full(FULL[0].shape, bad)),
+        "times": lambda: MODEL.evaluate([WHERE, WHERE], times=[0.0, bad]),
+        "dt": lambda: MODEL.step(WHERE, None, STATE, bad),
+    }
+    for message, call in calls.items():
+        with pytest.raises(ValueError, match=message):
+            call()
+
+
+# ---------------------------------------------------------------------------------------------- words and whole numbers
+
+
+@pytest.mark.parametrize("bad", [3, -1, "", "x", "Metric", b"metric", [], ["metric"], {}, np.array(["metric", "user"])])
+def test_units_that_are_none(bad: Wrong, tmp_path: Path) -> None:
+    path = tmp_path / "deck.keyxm"
+    path.write_text(CLEAN, encoding="utf-8")
+    calls: list[Callable[[], object]] = [
+        lambda: mudline.read(path, units=bad),
+        lambda: mudline.lint(path, units=bad),
+        lambda: mudline.from_keyword(CLEAN, units=bad),
+        lambda: mudline.Deck("x", units=bad),
+    ]
+    for call in calls:
+        with pytest.raises(ValueError, match=r"^units must be one of metric, imperial, user, not "):
+            call()
+
+
+@pytest.mark.parametrize("bad", [None, 3, "", "SYN", b"SYN", [3], ["SYN", None], {1}, 1j])
+@pytest.mark.parametrize("argument", ["select", "ignore"])
+def test_rules_are_several_words(argument: str, bad: Wrong, tmp_path: Path) -> None:
+    path = tmp_path / "deck.keyxm"
+    path.write_text(CLEAN, encoding="utf-8")
+    with pytest.raises(TypeError, match=f"^{argument} must be several str, not "):
+        mudline.lint(path, **{argument: bad})
+
+
+WORDS: dict[str, tuple[str, Call]] = {
+    "tension": ("tension", SCENE.contact),
+    "backend": ("backend", lambda bad: SCENE.contact(backend=bad)),
+    "ContactModel backend": ("backend", lambda bad: mudline.ContactModel(MODEL.input, backend=bad)),
+    "table": ("table", RESULT.to_dataframe),
+    "arrow table": ("table", RESULT.to_arrow),
+    "side": ("side", RESULT.friction_state_of),
+}
+
+
+@pytest.mark.parametrize("bad", [None, 3, -1, math.nan, "", "x", b"x", [], [1], {}, {1}, 1j], ids=repr)
+@pytest.mark.parametrize("name", WORDS)
+def test_words_that_are_none_of_those_expected(name: str, bad: Wrong) -> None:
+    argument, call = WORDS[name]
+    with pytest.raises(ValueError, match=argument):
+        call(bad)
+
+
+WHOLE: dict[str, tuple[str, Call]] = {
+    "step of a series": ("index", SERIES.step),
+    "steps from": ("start", lambda bad: SERIES.steps(bad, 1)),
+    "steps to": ("stop", lambda bad: SERIES.steps(0, bad)),
+    "threads": ("threads", lambda bad: mudline.ContactModel(MODEL.input, threads=instead(bad, NoneType))),
+    "plot": ("elements", lambda bad: SERIES.plot(elements=instead(bad, list))),
+}
+
+
+@pytest.mark.parametrize("bad", [None, math.nan, 0.5, "", "x", b"x", [], {"x": 1}, 1j, np.array([0.5])], ids=repr)
+@pytest.mark.parametrize("name", WHOLE)
+def test_whole_numbers_that_are_none(name: str, bad: Wrong) -> None:
+    argument, call = WHOLE[name]
+    with pytest.raises(TypeError, match=argument):
+        call(bad)
+
+
+@pytest.mark.parametrize("bad", ["", "x", b"x", [], [0.1], {}, 1j, np.datetime64("2020-01-01")], ids=repr)
+def test_a_time_step_that_is_no_number(bad: Wrong) -> None:
+    for call in (MODEL.step, MODEL.tangent):
+        with pytest.raises(TypeError, match=r"^dt must be a number, not "):
+            call(WHERE, None, STATE, bad)
+
+
+@pytest.mark.parametrize("bad", [0, -1, -0.5])
+def test_numbers_out_of_range(bad: float) -> None:
+    with pytest.raises(ValueError, match="dt must be finite and above 0"):
+        MODEL.step(WHERE, None, STATE, bad)
+    with pytest.raises(IndexError, match="index 2 is out of range: the series has 2 steps"):
+        SERIES.step(2)
+    with pytest.raises(ValueError, match="a single state has no steps"):
+        RESULT.step(0)
+    with pytest.raises(ValueError, match="a single state has no steps"):
+        RESULT.steps(0, 1)
+
+
+OUT: list[Any] = [
+    3,
+    "xy",
+    [np.empty(1), np.empty(1)],
+    (),
+    (np.empty(1),),
+    (np.empty(1), None),
+    (np.empty(1), [0.0]),
+    (np.empty(1), np.empty(2)),
+    (np.empty(1), np.empty(1, np.float32)),
+    (np.empty(1), np.broadcast_to(0.0, (1,))),
+]
+
+
+@pytest.mark.parametrize("bad", OUT, ids=range(len(OUT)))
+def test_what_cannot_take_the_values_of_a_curve(bad: Wrong) -> None:
+    with pytest.raises((TypeError, ValueError), match=r"^out must be "):
+        CURVE.evaluate([0.1], out=bad)
+
+
+# ---------------------------------------------------------------------------------------- what belongs to another model
+
+
+def test_a_state_of_another_model_is_refused() -> None:
+    _, after = OTHER.contact().step(OTHER.coordinates, None, OTHER.contact().initial_state())
+    history = OTHER.contact().initial_state() if OTHER.contact().plan.history else HISTORY.initial_state()
+    for state in (dataclasses.replace(after, positions=OTHER.coordinates), history):
+        with pytest.raises(ValueError, match=r"^state must be one of this model"):
+            MODEL.step(WHERE, None, state)
+    longer = mudline.ContactModel(everything(5, 1))
+    with pytest.raises(ValueError, match=r"^state must be one of this model"):
+        HISTORY.step(FULL[0], np.zeros(FULL[0].shape), longer.initial_state())
+
+
+def test_a_result_of_another_scene_is_refused() -> None:
+    assert len(OTHER.node_ids) != len(SCENE.node_ids)
+    with pytest.raises(ValueError, match=r"^result must be that of the scene"):
+        mudline.contact_warnings(SCENE, OTHER.contact().evaluate())
+
+
+FIELDS = [
+    each.name for each in dataclasses.fields(ContactInput) if each.init and each.name not in {"left_out", "names"}
+]
+
+
+@pytest.mark.parametrize("bad", [3, "x", [1.0], [None], np.array(["x"]), {}], ids=repr)
+@pytest.mark.parametrize("name", [name for name in FIELDS if name != "seabed"])
+def test_an_input_is_made_of_arrays(name: str, bad: Wrong) -> None:
+    if name == "curves" and isinstance(bad, list):
+        bad = np.zeros(2)
+    with pytest.raises((TypeError, ValueError), match=name):
+        dataclasses.replace(MODEL.input, **{name: bad})
+
+
+# ---------------------------------------------------------------------------------------- what is shared is not written
+
+
+def arrays_of(thing: Wrong) -> dict[str, np.ndarray[Any, Any]]:
+    found = {each.name: getattr(thing, each.name) for each in dataclasses.fields(thing)}
+    return {name: value for name, value in found.items() if isinstance(value, np.ndarray)}
+
+
+def test_arrays_of_a_scene_cannot_be_written() -> None:
+    names = ("node_ids", "coordinates", "element_ids", "element_nodes", "length", "diameter")
+    held = {name: getattr(SCENE, name) for name in names} | dict(SCENE.sets) | arrays_of(MODEL.input)
+    held |= {"ratios": CURVE.ratios, "forces": CURVE.forces, "slopes": CURVE.slopes}
+    for name, array in held.items():
+        assert not array.flags.writeable, name
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 1
+
+
+def test_the_arrays_that_an_input_was_made_of_stay_as_they_were() -> None:
+    ids = np.array(MODEL.input.node_ids)
+    assert np.shares_memory(dataclasses.replace(MODEL.input, node_ids=ids).node_ids, ids)
+    assert ids.flags.writeable
+
+
+def test_writing_into_results_changes_nothing_else() -> None:
+    model = mudline.ContactModel(everything(4, 1), backend="numpy")
+    places, rates, _ = journey(4, 3, 1)
+    wanted = [each.tobytes() for each in arrays_of(model.evaluate(places, velocities=rates)).values()]
+    result, state = model.step(places[0], rates[0], model.initial_state())
+    for made in (result, model.evaluate(places.copy(), velocities=rates)):  # a series keeps the positions themselves
+        for array in arrays_of(made).values():
+            if array.flags.writeable:
+                array[...] = 1
+    _, once_more = model.step(places[0], rates[0], model.initial_state())
+    for one, other in zip(arrays_of(state).values(), arrays_of(once_more).values(), strict=True):
+        assert one.tobytes() == other.tobytes()
+    assert [each.tobytes() for each in arrays_of(model.evaluate(places, velocities=rates)).values()] == wanted
+
+
+# ------------------------------------------------------------------------------------------------------------- threads
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("backend", ["numpy", "fast"])
+def test_eight_threads_give_the_bits_of_one(backend: Backend) -> None:
+    if backend == "fast":
+        pytest.importorskip("numba")
+    model = mudline.ContactModel(everything(40, 2), backend=backend, threads=2)
+    runs = [journey(40, 60, seed) for seed in range(8)]
+
+    def bits(number: int) -> list[bytes]:
+        places, rates, _ = runs[number % 8]
+        whole = model.evaluate(places, velocities=rates)
+        state = model.initial_state()
+        for place, rate in zip(places[:5], rates[:5], strict=True):
+            last, state = model.step(place, rate, state)
+        return [each.tobytes() for each in (*arrays_of(whole).values(), *arrays_of(last).values())]
+
+    with ThreadPoolExecutor(8) as pool:
+        together = list(pool.map(bits, range(32)))
+    assert together == [bits(number) for number in range(8)] * 4
