@@ -151,6 +151,8 @@ def _keyword_line(
 @recovers_from(*_OF_FOREIGN_LINES, always=True)
 def swallowed_curves(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Curves that the deck lacks, in a block that takes them for others, which nothing uses, or passes them through."""
+    if blocks.keywords.isdisjoint(catalogue.users(Names.CURVE)):
+        return
     unified = blocks.text.source.unified
     wrong = {blocks.block_at(start_of(blocks.text, one)).start for one in problems}  # looked at for that
     placed = ((line, blocks.raw_at(line.start(1))) for line in _name_of_curve().finditer(unified))
