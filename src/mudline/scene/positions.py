@@ -211,16 +211,24 @@ def _load_npz(path: Path) -> dict[str, Reals]:
             with _from_old_python(), zipfile.ZipFile(stream) as archive:
                 names = [name.removesuffix(".npy") for name in archive.namelist()]
                 _check_names(file, names)
-                return {name: _real(file, name, _member(archive, name)) for name in names}
+                most = _DEFLATED * path.stat().st_size
+                return {name: _real(file, name, _member(archive, name, most)) for name in names}
         except DeckError:
             raise
         except (*_UNREADABLE, OSError) as error:
             raise data_error(file, f"not an NPZ archive: {error}") from error
 
 
-def _member(archive: zipfile.ZipFile, name: str) -> NDArray[np.generic]:
-    """An array; raises ValueError for one that promises more than there is, before memory is taken for it."""
-    held = archive.getinfo(f"{name}.npy").file_size
+_DEFLATED = 1032
+"""A byte of a compressed file gives at most so many."""
+
+
+def _member(archive: zipfile.ZipFile, name: str, most: int) -> NDArray[np.generic]:
+    """An array; raises ValueError for one that promises more than there is, before memory is taken for it.
+
+    `most` is what a file of this size can hold: what it says of its members need not be true.
+    """
+    held = min(archive.getinfo(f"{name}.npy").file_size, most)
     with archive.open(f"{name}.npy") as stream:
         read_header = _HEADERS.get(np.lib.format.read_magic(stream))
         shape, _, kind = read_header(stream) if read_header else ((), False, np.dtype(np.float64))
