@@ -18,13 +18,14 @@ Cell = str | float | None
 
 
 class Table(NamedTuple):
-    """A table: its caption, heads and rows; what it says of rows that are left out."""
+    """A table: its caption, heads and rows; what it says of rows that are left out; anchors of its rows and its own."""
 
     caption: str
     heads: Sequence[str]
     rows: Sequence[Sequence[Cell]]
     note: str = ""
     anchors: Sequence[str] = ()
+    anchor: str = ""
 
 
 def _table(
@@ -73,13 +74,13 @@ def _curves(found: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
     ]
     heads = ("law", "set", "elements", "values", "deck line")
     yield _table("Laws and resistance by set", heads, rows, MOST_CURVES, "law")
-    for row in found["curves"][:MOST_CURVES]:
+    for number, row in enumerate(found["curves"][:MOST_CURVES], 1):
         over, value = row["axes"]
         slopes = [one["slope"] for one in row["segments"]]
         points = [(x, y, slope) for (x, y), slope in zip(row["points"], [*slopes, None], strict=True)]
         caption = f"{row['kind']} {cut(row['name'], LONGEST_NAME)} (*{row['keyword']}): {counted(len(points), 'point')}"
         ends = f"; slope {shown(slopes[0])} below the first, {shown(slopes[-1])} above the last" if slopes else ""
-        yield _table(caption + ends, (over, value, "slope to the next"), points)
+        yield _table(caption + ends, (over, value, "slope to the next"), points)._replace(anchor=f"curve-{number}")
     yield Table("", (), (), _more(len(found["curves"]) - MOST_CURVES, "curve"))
 
 
