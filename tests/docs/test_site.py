@@ -37,6 +37,8 @@ VISITED = (
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 NO_OTHER_HOST = "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1"
+SLOW = 120_000
+"""Milliseconds: the index of a search is read beside other tests."""
 PHONE = 390
 """Pixels across."""
 
@@ -132,6 +134,7 @@ def test_a_browser_shows_pages_without_errors_and_without_other_hosts(address: s
         context.on("console", lambda message: faults.append(f"{message.type}: {message.text}"))
         context.on("weberror", lambda error: faults.append(str(error.error)))
         page = context.new_page()
+        page.set_default_timeout(SLOW)
         for name in VISITED:
             page.goto(address + name)
             assert page.evaluate("document.documentElement.scrollWidth") == PHONE, name
