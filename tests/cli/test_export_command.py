@@ -98,3 +98,14 @@ def test_wrong_usage(arguments: tuple[str, ...], message: str, tmp_path: Path, m
     assert outcome.code == 2
     assert message in outcome.err
     assert Path("deck.keyxm").read_text() == PLAIN
+
+
+def test_a_refusal_names_the_cause(tmp_path: Path) -> None:
+    deck = tmp_path / "deck.keyxm"
+    deck.write_text(PLAIN.replace("*GEOMETRIC SETS", "GEOMETRIC SETS"), encoding="utf-8")
+    out = tmp_path / "model.txt"
+    outcome = run("export", str(deck), "--to", "moordyn", "-o", str(out))
+    assert outcome.code == 1
+    assert "without its star" in outcome.err
+    assert outcome.err.count("error:") == 1
+    assert not out.exists()

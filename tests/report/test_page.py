@@ -120,7 +120,9 @@ def test_the_content_is_what_the_other_commands_say() -> None:
 def test_a_study_is_on_the_page_only_where_it_is_asked_for(tmp_path: Path) -> None:
     deck = str(SAMPLES / "legacy-flowline.keyxm")
     page = checked(made(tmp_path, deck, sections="verdict,study"))
-    assert "Stable steps" in page.text
+    assert "Stable steps of velocity Verlet" in page.text
+    assert re.search(r"Extremes of this deck: \d+ of \d+ held \(at the mudline", page.text)
+    assert "What the deck needs: a step of" in page.text
     assert "model" not in page.ids
 
 
@@ -148,6 +150,7 @@ def test_suppressed_findings_stand_with_their_reason(tmp_path: Path) -> None:
     page = checked(made(tmp_path, str(deck)))
     assert "hidden-1" in page.ids
     assert "Reason given in the deck: kept <for> the old run" in page.text
+    assert "1 finding." in page.text
     (hidden,) = content(str(deck))["sections"]["findings"]["hidden"]
     assert (hidden["code"], hidden["reason"]) == ("TIM005", "kept <for> the old run")
 

@@ -54,7 +54,7 @@ class EvaluateInputs:
         return prepare(scene, self._placed(scene), self.tension)
 
     def _read(self, path: Path, scene: Scene) -> Positions:
-        """Positions from a file in our form, or in one of another program that its headings tell."""
+        """Positions from a file in our form, or in that of another program, known by its headings."""
         if not self.headings and path.suffix.lower() not in {".npz", ".npy"}:
             from mudline.export.returned import read_returned  # noqa: PLC0415 - needs the shape of the lines
 

@@ -16,7 +16,7 @@ from mudline.contact.result import Part
 from mudline.quantities import SLIDING, STATES, UnitNames, headed, shown, unit_names
 from mudline.results.against import Comparison
 from mudline.results.evaluation import Evaluation
-from mudline.results.totals import LineWatch, StepSummary, Total, acted_on, counts, reaction, totals
+from mudline.results.totals import LineWatch, StepSummary, Total, acted_on, reaction, states, totals
 from mudline.scene.numbering import Floats, Indices
 from mudline.short_repr import counted
 
@@ -130,17 +130,7 @@ def _depth(total: Total) -> float | None:
 
 def _print_states(printer: Printer, evaluation: Evaluation, part: Part) -> None:
     """How many elements and nodes are in each state, where a law has states."""
-    result = part.result.step(0)
-    rows: list[tuple[Cell, ...]] = []
-    if result.state is not None:
-        found = counts(result.state[evaluation.elements], STATES)
-        rows += [("suction of elements", name, count) for name, count in found]
-    if result.friction_state is not None:
-        for axis, direction in enumerate(("axial", "lateral")):
-            found = counts(result.friction_state[evaluation.nodes, axis], SLIDING)
-            rows += [(f"{direction} friction of nodes", name, count) for name, count in found]
-    if result.restrained is not None:
-        rows.append(("rigid seabed", "restrained nodes", int(result.restrained.sum())))
+    rows = states(evaluation, part.result.step(0))
     if rows:
         printer.table("States", ("law", "state", "count"), rows, left=("law", "state"))
 

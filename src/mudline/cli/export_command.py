@@ -14,6 +14,9 @@ from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDeck, takes_deck
 from mudline.cli.streams import emit_json, notify, write_text
 from mudline.cli.view import View
+from mudline.export.line_model import build
+from mudline.linting.engine import naming_causes
+from mudline.scene.model import resolve
 
 if TYPE_CHECKING:
     from mudline.export.report import Report
@@ -29,16 +32,12 @@ _TARGETS = ("moordyn", "orcaflex", "riflex")
 @takes_deck
 def command(*, deck: GivenDeck, target: str, output: str, strict: bool, output_format: str, view: View) -> int:
     """Export seabed, line and soil of a deck as the input of another program, and list what does not carry over."""
-    from mudline.export.line_model import build  # noqa: PLC0415 - help reads no deck
-    from mudline.linting.engine import naming_causes  # noqa: PLC0415 - as above
-    from mudline.scene.model import resolve  # noqa: PLC0415 - as above
-
     path = Path(output)
     if output == STDIN:
         raise click.UsageError("-o -: a model may need several files; give the name of a file")
     if os.path.exists(deck.path) and os.path.exists(output) and os.path.samefile(deck.path, output):  # noqa: PTH110, PTH121 - Path raises for long names
         raise click.UsageError(f"-o {output} is the deck itself: give another name")
-    read = deck.load().require()
+    read = deck.load()
     with naming_causes(read):
         scene = resolve(read).require_evaluable()
     model = build(scene)

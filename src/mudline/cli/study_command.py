@@ -19,20 +19,17 @@ from mudline.cli.view import View, tracked
 from mudline.files import suffix_of
 from mudline.linting.engine import naming_causes
 from mudline.linting.output import visible
-from mudline.quantities import csv_lines, headed, shown, unit_names
+from mudline.quantities import csv_lines
 from mudline.scene.model import resolve
-from mudline.short_repr import cut
 from mudline.study import PARTS, Study, jump_note, study
+from mudline.study.screen import ScreenTable, extremes_sentences, precision_table, stability_table, stages_table
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
 
 _PICTURES = ("png", "svg")
 _WIDTH = 100
-_MOST_CONTACTS, _MOST_NOTES, _MOST_FAILURES = 8, 3, 5
-_NAME, _WHY = 34, 90
-"""Columns of the name of a contact and of the reason of a stage, which is folded."""
-_DIGITS = 3
+_MOST_NOTES = 3
 
 
 @options.command("study")
@@ -140,6 +137,11 @@ def _paragraph(printer: Printer, text: str, style: str = "", indent: str = "") -
         printer.line((line, style), fold=False)
 
 
+def _print_table(table: ScreenTable | None, printer: Printer) -> None:
+    if table is not None:
+        printer.table(table.title, table.heads, table.rows, left=table.left, note=table.note)
+
+
 def _print_notes(found: Study, part: str, printer: Printer) -> None:
     notes = found.notes[part]
     for note in notes[:_MOST_NOTES]:
@@ -150,123 +152,26 @@ def _print_notes(found: Study, part: str, printer: Printer) -> None:
         printer.line("")
 
 
-def _at_own(found: Study) -> str:
-    """The heading of what the deck's own step does; "" without one."""
-    if found.own is None:
-        return ""
-    return f"at {shown(found.own.step * (1e3 if found.step_unit else 1.0))} {found.step_unit}".rstrip()
-
-
-def _number(value: float) -> str:
-    """Three digits, as people write them."""
-    if 1e3 <= value < 1e4:
-        return f"{value:.0f}"
-    return shown(value, _DIGITS).replace("e+0", "e").replace("e+", "e").replace("e-0", "e-")
-
-
-def _name(contact: str) -> str:
-    """The name of a contact without the word for its law, which its line shows."""
-    return cut(contact.removeprefix("curve:"), _NAME)
-
-
 def _print_precision(found: Study, printer: Printer) -> None:
-    """A line for each motion and scheme; a motion is named in its first."""
-    precision, unit = found.precision, found.step_unit
-    rows = [] if precision is None else precision.rows
-    cells, last = [], ""
-    for one, tenth in zip(rows[::2], rows[1::2], strict=True):
-        name = "" if one.contact == last else _name(one.contact)
-        last = one.contact
-        pairs = [(found.milliseconds(row.step), _micro(row.run_time)) for row in (one, tenth)]
-        own = "diverges" if one.error_at_own_step is None else f"{_number(100.0 * one.error_at_own_step)} %"
-        cells.append((name, one.scheme, *pairs[0], *pairs[1], *([own] if found.own else [])))
-    names = ["contact", "scheme", headed("step,\n1 %", unit), "run time\n[us per s]"]
-    names += [
-        headed("step,\n0.1 %", unit),
-        "run\ntime",
-        *([f"error\n{_at_own(found)}"] if found.own else []),
-    ]
-    if cells:
-        title = "Error of speed, duration and largest force, relative to the exact ones, against run time"
-        printer.table(title, names, cells, left=names[:2])
+    _print_table(precision_table(found), printer)
     _print_notes(found, "precision", printer)
 
 
-def _micro(seconds: float | None) -> str:
-    return "-" if seconds is None else _number(1e6 * seconds)
-
-
 def _print_stability(found: Study, printer: Printer) -> None:
-    judged, units = found.stability or [], unit_names(found.units)
-    mass = {"metric": "kg/m", "imperial": "slug/ft"}.get(found.units, "")
-    names = ["contact", "deck line", headed("stiffness", units.stiffness), headed("mass", mass)]
-    names += [headed("explicit", found.step_unit), headed("landings\nwithin 1 %", found.step_unit)]
-    names += [_at_own(found)] if found.own else []
-    files = {one.row.file for one in judged}
-    elsewhere = len(files) == 1 and not found.deck.endswith(next(iter(files)))
-    cells = []
-    for row, words in judged[:_MOST_CONTACTS]:
-        line = str(row.deck_line) if len(files) == 1 else f"{row.file}:{row.deck_line}"
-        landing = f"{found.milliseconds(row.landing_step)}{' (jump)' if row.jump else ''}"
-        numbers = (_number(row.stiffness), _number(row.mass), found.milliseconds(row.explicit_step))
-        cells.append((_name(row.contact), line, *numbers, landing, *([words] if found.own else [])))
-    if cells:
-        more = len(judged) - len(cells)
-        note = [f"Lines are those of {next(iter(files))}."] if elsewhere else []
-        note += [f"{more} more contacts have larger critical steps; JSON has all."] if more else []
-        left = [names[0], *names[6:]]
-        printer.table(
-            "Stable steps of velocity Verlet (explicit), and of landings with HHT (-0.3)",
-            names,
-            cells,
-            left=left,
-            note=" ".join(note),
-        )
-    for one in judged[:_MOST_NOTES]:
+    _print_table(stability_table(found), printer)
+    for one in (found.stability or [])[:_MOST_NOTES]:
         if one.row.jump:
             _paragraph(printer, jump_note(found, one.row))
             printer.line("")
-    _print_extremes(found, printer)
+    if sentences := extremes_sentences(found):
+        _paragraph(printer, sentences[0])
+        for failure in sentences[1:]:
+            _paragraph(printer, f"  {failure}", "red", indent="    ")
+        printer.line("")
     _print_notes(found, "stability", printer)
 
 
-def _print_extremes(found: Study, printer: Printer) -> None:
-    extremes = found.extremes
-    if extremes is None or not extremes.tried:
-        return
-    counts = f"Extremes of this deck: {extremes.held} of {extremes.tried} held ({', '.join(extremes.cases)})"
-    _paragraph(printer, counts)
-    for failure in extremes.failed[:_MOST_FAILURES]:
-        place = f"line {failure.deck_line} of {failure.file}"
-        _paragraph(printer, f"  {failure.case} ({place}): {failure.message}", "red", indent="    ")
-    if len(extremes.failed) > _MOST_FAILURES:
-        printer.line(f"  {len(extremes.failed) - _MOST_FAILURES} more failed: JSON has all")
-    printer.line("")
-
-
 def _print_stages(found: Study, printer: Printer) -> None:
-    pruning = found.stages
-    if pruning is None:
-        return
-    cells = []
-    for row in pruning.rows:
-        share = "" if row.share is None else f"{100.0 * row.share:.0f} %"
-        optional = row.stage not in {"floor", "normal law"} and row.time is not None
-        without = _time(pruning.step - row.time) if optional and row.time is not None else ""
-        if row.cost_if_added is not None:
-            without = f"+ {_time(row.cost_if_added)} a node"
-        why = cut(row.why.partition(";")[0].partition(" (inferred)")[0], _WHY)
-        line = "" if row.deck_line is None else str(row.deck_line)
-        cells.append((row.stage, "yes" if row.active else "no", line, share, without, why))
-    names = ("stage", "in", "deck line", "share", "without it", "why")
-    title = f"What the deck needs: a step of {pruning.elements} elements takes {_time(pruning.step)}"
-    printer.table(title, names, cells, left=("stage", "in", "why"))
-    _print_notes(found, "pruning", printer)
-
-
-def _time(seconds: float) -> str:
-    """A time with its unit, to three digits."""
-    for scale, unit in ((1.0, "s"), (1e3, "ms"), (1e6, "us")):
-        if seconds * scale >= 1.0:
-            return f"{shown(seconds * scale, _DIGITS)} {unit}"
-    return f"{shown(seconds * 1e9, _DIGITS)} ns"
+    if found.stages is not None:
+        _print_table(stages_table(found), printer)
+        _print_notes(found, "pruning", printer)

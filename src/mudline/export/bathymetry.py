@@ -9,6 +9,7 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
 from mudline.contact.seabed.scattered import ScatteredSeabed
+from mudline.export.report import one_line
 from mudline.limits import LARGEST_FILE, MOST_CELLS
 from mudline.quantities import shown
 from mudline.scene.csv_file import data_error
@@ -149,8 +150,8 @@ def bed_deck(path: Path, form: str, output: str, within: float, origin: tuple[fl
     worst = float(np.nan_to_num(off, nan=np.inf).max())
     elevation, east, north = map(shown, origin, (12, 12, 12))
     head = [
-        f"Seabed of a {form}: {len(kept)} of {len(given)} points; all of them lie within {shown(within)} m of it,",
-        f"the farthest {shown(worst, 3)} m off",
+        f"Seabed of {one_line(path.name)}: {len(kept)} of {len(given)} points of the grid",
+        f"No point of the grid is more than {shown(worst, 3)} m off, {shown(within)} m were allowed",
         f"X = 0 is at elevation {elevation}; Y is easting - {east}, Z northing - {north}. Metres",
     ]
     deck = [*(f"C {line}" for line in head), "$MODEL", "*SEABED PROFILE", " TYPE=3D", f" FILE={output}"]

@@ -14,7 +14,7 @@ import numpy as np
 from mudline.export.held import report_ends
 from mudline.export.line_model import LineModel, PipeSection, Stretch, report_sections
 from mudline.export.report import Names, Status
-from mudline.export.soil import governing, report_friction, report_resistance, report_stiffness
+from mudline.export.soil import distance, governing, report_friction, report_resistance, report_stiffness
 from mudline.quantities import shown
 from mudline.scene.numbering import Floats
 from mudline.scene.seabed import SeabedKind
@@ -195,7 +195,7 @@ def _report(model: LineModel, types: list[str], stiffness: float, width: dict[in
         if (below := float(bed[end.node] - model.places[end.node, 2])) > 0.0 and not end.vessel:
             effect = "MoorDyn lowers its seabed to a point that is below it"
             place = model.scene.nodes.where(end.node)
-            report.add(place, Status.APPROXIMATED, f"{shown(1e3 * below, 3)} mm higher, on the mudline", effect, "end")
+            report.add(place, Status.APPROXIMATED, f"{distance(below)} higher, on the mudline", effect, "end")
     blocks = [where for where, _ in model.scene.deck.blocks("ELEMENT")]
     for part in (part for parts in pieces(model) for part in parts):
         lengths, count = part.lengths, segments(part)

@@ -15,7 +15,7 @@ from mudline.contact.input import LawKind
 from mudline.export.held import report_ends
 from mudline.export.line_model import LineModel, Stretch, report_sections
 from mudline.export.report import Names, Status, one_line, short_name
-from mudline.export.soil import Soil, governing, report_friction, report_resistance, report_stiffness
+from mudline.export.soil import Soil, distance, governing, report_friction, report_resistance, report_stiffness
 from mudline.quantities import shown
 from mudline.scene.seabed import SeabedKind
 
@@ -245,7 +245,7 @@ def _report(model: LineModel, names: dict[Key, str], soil: Soil) -> None:
     report_resistance(report, "none")
     for section in model.sections:
         if off := 0.5 * (section.diameter - soil.diameter):
-            effect = f"its axis touches {shown(1e3 * off, 3)} mm higher than in the deck, as the diameters differ"
+            effect = f"its axis touches {distance(off)} higher than in the deck, as the diameters differ"
             report.add(section.where, Status.APPROXIMATED, "one seabed", effect, "diameter")
     for where, _ in model.scene.deck.blocks("ELEMENT"):
         effect = "segments as long as the shortest of a section"

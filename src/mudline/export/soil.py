@@ -80,9 +80,14 @@ class Soil(NamedTuple):
         law = f"{kind} {short_name(name)}" if name else self.law
         if self.kind is LawKind.LINEAR:
             return f"{law}: {kilo(self.stiffness)}"
-        at = f"at W ({shown(1e3 * self.penetration, 3)} mm)"
+        at = f"at W ({distance(self.penetration)})"
         at = at if self.weight > 0.0 else "of its first point, as W is not above 0"
         return f"{law}: secant {kilo(self.stiffness)} {at}, tangent there {kilo(self.tangent)}"
+
+
+def distance(metres: float) -> str:
+    """A distance in mm, or in m from 1 m on."""
+    return f"{shown(metres, 3)} m" if abs(metres) >= 1.0 else f"{shown(1e3 * metres, 3)} mm"
 
 
 def kilo(stiffness: float) -> str:
@@ -219,7 +224,7 @@ def report_stiffness(report: Report, soils: list[Soil], name: str, used: list[fl
         if soil.stiffness <= 0.0:
             effect = "no law in the deck: the one seabed of the target acts here too"
         elif not same and soil.weight > 0.0 and stiffness > 0.0:
-            effect += f"; sinks {shown(1e3 * soil.weight / stiffness, 3)} mm here, as the target has one stiffness"
+            effect += f"; sinks {distance(soil.weight / stiffness)} here, as the target has one stiffness"
         report.add(soil.where, status, target, effect)
         curve = soil.law.partition(":")[2]
         for entry in report.scene.laws.curves if curve else ():
@@ -228,13 +233,13 @@ def report_stiffness(report: Report, soils: list[Soil], name: str, used: list[fl
     _report_unfollowed(report, {soil.where for soil in soils})
 
 
-def _report_unfollowed(report: Report, told: set[Where | None]) -> None:
+def _report_unfollowed(report: Report, reported: set[Where | None]) -> None:
     """Add the laws and curves that no element follows."""
     laws = report.scene.laws
     for law in laws.set_laws:
-        if law.where not in told:
+        if law.where not in reported:
             report.add(law.where, Status.LEFT_OUT, "none", "no element follows this law")
-    followed = {law.curve for law in laws.set_laws if law.where in told}
+    followed = {law.curve for law in laws.set_laws if law.where in reported}
     for number, entry in enumerate(laws.curves):
         if number not in followed:
             report.add(entry.where, Status.LEFT_OUT, "none", "no element follows this curve")

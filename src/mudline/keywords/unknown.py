@@ -63,7 +63,7 @@ UNKNOWN: Final[Any] = Unknown()
 
 
 class UnknownName(str):
-    """The value of `UNKNOWN_NAME`: a text without a letter, which is no name of anything."""
+    """The value of `UNKNOWN_NAME`: an empty text, which names nothing."""
 
     __slots__ = ()
 

@@ -15,7 +15,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mudline.codes.contact import SBD025
-from mudline.contact import ContactResult
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
@@ -27,14 +26,14 @@ from mudline.linting.registry import rules
 from mudline.linting.rule import LintContext
 from mudline.linting.suppression import suppressions
 from mudline.linting.verdict import Verdict, judge, refused
-from mudline.quantities import SLIDING, STATES, finite
+from mudline.quantities import finite
 from mudline.report.inferred import inferences
 from mudline.results.curve_rows import curve_rows
-from mudline.results.evaluation import Evaluation, Tension, evaluate_scene, prepare
+from mudline.results.evaluation import Tension, evaluate_scene, prepare
 from mudline.results.forms import plan_rows
 from mudline.results.plot_data import PlotData
 from mudline.results.summary import summarise
-from mudline.results.totals import LineWatch, counts, reaction, totals
+from mudline.results.totals import LineWatch, reaction, states, totals
 from mudline.results.warnings import ContactWatch, caption
 from mudline.scene.model import Scene, resolve
 from mudline.scene.numbering import Mask
@@ -295,20 +294,9 @@ def _contact(scene: Scene, made: Report) -> dict[str, Any]:
         "ratio": None if watch.balance is None else finite(watch.balance.ratio),
         "deepest": {"depth": float(depth[deepest]), "element": int(scene.element_ids[deepest])} if touches else None,
         "lines": [row.row() for row in lines.rows],
-        "states": _states(evaluation, result),
+        "states": [{"law": law, "state": state, "count": count} for law, state, count in states(evaluation, result)],
         "warnings": [one.row() for one in warnings],
     }
-
-
-def _states(evaluation: Evaluation, result: ContactResult) -> list[dict[str, Any]]:
-    rows = []
-    if result.state is not None:
-        rows += [("suction of elements", *one) for one in counts(result.state[evaluation.elements], STATES)]
-    if result.friction_state is not None:
-        for axis, direction in enumerate(("axial", "lateral")):
-            found = counts(result.friction_state[evaluation.nodes, axis], SLIDING)
-            rows += [(f"{direction} friction of nodes", *one) for one in found]
-    return [{"law": law, "state": state, "count": count} for law, state, count in rows]
 
 
 def _plan(scene: Scene) -> dict[str, Any]:

@@ -16,8 +16,9 @@ from mudline.linting.output import visible
 from mudline.quantities import shown, unit_names
 from mudline.report.content import Look, Report
 from mudline.report.pictures import Picture
-from mudline.report.tables import LONGEST, TABLES, Cell
-from mudline.short_repr import cut
+from mudline.report.tables import LONGEST, TABLES, Cell, study_tables
+from mudline.short_repr import counted, cut
+from mudline.study.screen import extremes_sentences
 
 MOST_FINDINGS = 500
 _LONGEST_LINE = 160
@@ -36,11 +37,14 @@ def page(report: Report, pictures: Sequence[Picture], left_out: int, look: Look)
     sections = given["sections"]
     names = unit_names(given["units"])
     tables = {name: list(shape(sections[name], names)) for name, shape in TABLES.items() if sections.get(name)}
+    if report.study is not None:
+        tables["study"] = study_tables(report.study)
     return _rendered(
         look,
         "page.html",
         report=given,
         tables=tables,
+        extremes=extremes_sentences(report.study) if report.study is not None else [],
         findings=_groups(report, "reported"),
         hidden=_groups(report, "hidden"),
         rules=report.named,
@@ -69,7 +73,7 @@ def _rendered(look: Look, name: str, **values: object) -> str:
         lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )
-    environment.filters["number"] = _number
+    environment.filters |= {"number": _number, "counted": counted}
     values["logo"] = _logo(look.logo)
     try:
         return environment.get_template(name).render(values)

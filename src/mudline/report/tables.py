@@ -8,6 +8,8 @@ from typing import Any, NamedTuple
 from mudline.limits import SHOWN_ROWS
 from mudline.quantities import UnitNames, headed, labelled, shown
 from mudline.short_repr import counted, cut
+from mudline.study import Study
+from mudline.study.screen import precision_table, stability_table, stages_table
 
 MOST_CURVES = 50
 """Curves and sets that a page shows."""
@@ -18,7 +20,10 @@ Cell = str | float | None
 
 
 class Table(NamedTuple):
-    """A table: its caption, heads and rows; what it says of rows that are left out; anchors of its rows and its own."""
+    """A table: its caption, heads and rows; what it says of rows that are left out; anchors of its rows and its own.
+
+    `numeric` columns are set to the right also where their cells are texts.
+    """
 
     caption: str
     heads: Sequence[str]
@@ -26,6 +31,7 @@ class Table(NamedTuple):
     note: str = ""
     anchors: Sequence[str] = ()
     anchor: str = ""
+    numeric: frozenset[int] = frozenset()
 
 
 def _table(
@@ -131,23 +137,16 @@ def _contact(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
     yield Table("Warnings about these results", ("code", "deck line", "message"), warnings[:SHOWN_ROWS])
 
 
-def _study(found: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
-    rows = [
-        (one["contact"], one["scheme"], f"{100 * one['goal']:g} %", one["step"], one["run_time"], one["deck_line"])
-        for one in found["precision"] or ()
+def study_tables(found: Study) -> list[Table]:
+    """The tables of the screen of a study."""
+    screens = [screen for make in (precision_table, stability_table, stages_table) if (screen := make(found))]
+    return [
+        _table(screen.title, screen.heads, screen.rows)._replace(
+            note=screen.note,
+            numeric=frozenset(at for at, head in enumerate(screen.heads) if head not in screen.left),
+        )
+        for screen in screens
     ]
-    heads = ("contact", "scheme", "error", "step [s]", "run time per s [s]", "deck line")
-    yield _table("Error of speed, duration and largest force against run time", heads, rows)
-    rows = [
-        tuple(one[key] for key in ("contact", "deck_line", "stiffness", "mass", "explicit_step", "landing_step"))
-        for one in found["stability"] or ()
-    ]
-    heads = ("contact", "deck line", "stiffness", "mass", "explicit step [s]", "landing step [s]")
-    yield _table("Stable steps", heads, rows)
-    extremes = found["extremes"]
-    if extremes:
-        failed = [(one["case"], one["deck_line"], one["message"]) for one in extremes["failed"]]
-        yield _table(f"Extreme cases: {extremes['held']} of {extremes['tried']} held", ("case", "line", "what"), failed)
 
 
 def _plan(found: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
@@ -159,7 +158,6 @@ TABLES: dict[str, Callable[[dict[str, Any], UnitNames], Iterator[Table]]] = {
     "model": _model,
     "curves": _curves,
     "contact": _contact,
-    "study": _study,
     "plan": _plan,
 }
 """What makes the tables of a section."""

@@ -153,6 +153,28 @@ def counts(states: NDArray[np.int8], names: Names) -> list[tuple[str, int]]:
     return [(name, int(count)) for name, count in zip(names, found, strict=False) if name is not None and count]
 
 
+class InState(NamedTuple):
+    """How many elements or nodes are in a state of a law."""
+
+    law: str
+    state: str
+    number: int
+
+
+def states(evaluation: Evaluation, result: ContactResult) -> list[InState]:
+    """The states that occur at a step, of suction by element and of friction by node and direction."""
+    rows = []
+    if result.state is not None:
+        rows += [InState("suction of elements", *one) for one in counts(result.state[evaluation.elements], STATES)]
+    if result.friction_state is not None:
+        for axis, direction in enumerate(("axial", "lateral")):
+            found = counts(result.friction_state[evaluation.nodes, axis], SLIDING)
+            rows += [InState(f"{direction} friction of nodes", *one) for one in found]
+    if result.restrained is not None:
+        rows.append(InState("rigid seabed", "restrained nodes", int(result.restrained.sum())))
+    return rows
+
+
 def _deepest(depth: Floats) -> float | None:
     known = depth[~np.isnan(depth)]
     return finite(float(known.max())) if known.size else None

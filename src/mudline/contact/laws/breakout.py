@@ -6,7 +6,7 @@ place of first contact, and d the displacement of the peak:
     share = 1 up to d, falls linearly to r at the displacement of the residual, r from then on.
 
 Up to d the node does not slip: the spring mu_2 N / d reaches the limit there. It is the spring of unloading too. s
-never falls; a node that loses its normal force begins anew. d and r may grow with the embedment w = z/D of the node,
+never falls; a node that loses its normal force starts again. d and r may grow with the embedment w = z/D of the node,
 the largest before s passed d, at the given positions: d = d_0 + d_1 w, r = min(1, r_0 + r_1 w^0.8). Beyond w = 1 they
 are those of 1 (inferred).
 """

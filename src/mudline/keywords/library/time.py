@@ -59,7 +59,7 @@ class TimeSpan(Block):
     keyword: Literal["TIME"] = "TIME"
     step: Annotated[
         Literal["FIXED", "VARIABLE"] | None,
-        setting("STEP", "one length of the steps, or limits", default="FIXED", inferred="the default"),
+        setting("STEP", "one length of the steps, or limits", default="FIXED", inferred="its default, FIXED"),
     ] = None
     fixed: Annotated[FixedSpan | None, about("span under STEP=FIXED")] = None
     variable: Annotated[VariableSpan | None, about("span under STEP=VARIABLE")] = None

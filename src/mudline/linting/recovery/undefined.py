@@ -1,4 +1,4 @@
-"""Names and numbers that the resolved deck uses and nothing defines: those that were meant, where that can be told."""
+"""Names and numbers that the resolved deck uses and nothing defines: those that were meant, where that is known."""
 
 from __future__ import annotations
 
