@@ -141,8 +141,11 @@ def study_tables(found: Study) -> list[Table]:
     """The tables of the screen of a study."""
     screens = [screen for make in (precision_table, stability_table, stages_table) if (screen := make(found))]
     return [
-        _table(screen.title, screen.heads, screen.rows)._replace(
-            note=screen.note,
+        Table(
+            screen.title,
+            [head.replace("\n", " ") for head in screen.heads],
+            screen.rows,
+            screen.note,
             numeric=frozenset(at for at, head in enumerate(screen.heads) if head not in screen.left),
         )
         for screen in screens
