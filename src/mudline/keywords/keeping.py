@@ -115,6 +115,7 @@ class _Opener:
     """
 
     known: set[str] = field(default_factory=set)
+    choices: set[str] = field(default_factory=set)
     ends: set[str] = field(default_factory=set)
     far: set[str] = field(default_factory=set)
 
@@ -133,6 +134,7 @@ def _add_openers(part: type[Part], near: Sequence[str], far: Sequence[str], foun
     for key, slot in schema.keys.items():
         if slot.about.opaque is not None:
             opener = found.setdefault(key, _Opener())
+            opener.choices.update(slot.choices)
             opener.known.update(set(slot.choices) - set(slot.about.opaque))
             opener.far.update([key, *far])
             opener.ends.update([key, *far, *near])
@@ -147,6 +149,12 @@ def _first_keys(record: type[Record]) -> Iterable[str]:
     """The keys with which the lines of a record may begin."""
     terminals = grammar.first_terminals(record.rule)
     return [key for key in record_schema(record).keys if grammar.terminal_of(key) in terminals]
+
+
+def is_choice(block: type[Block], key: str, value: str) -> bool:
+    """Whether a setting behind which lines may be kept has one of the values that are declared for it."""
+    opener = openers(block).get(key)
+    return opener is not None and " ".join(value.partition(",")[0].upper().split()) in opener.choices
 
 
 def opened(block: type[Block], key: str, fields: str) -> frozenset[str]:

@@ -16,7 +16,7 @@ from mudline.keywords.attaching import Between, attach
 from mudline.keywords.builder import Builder, ParsedRecord
 from mudline.keywords.constructing import construct, lose
 from mudline.keywords.grammar import END, ROW, Content, Mismatch
-from mudline.keywords.keeping import opened
+from mudline.keywords.keeping import is_choice, opened
 from mudline.keywords.kept_lines import doubtful, of_other_form
 from mudline.keywords.model import AS_TEXT, Block, Part, RecordSchema, record_schema
 from mudline.keywords.places import Places
@@ -85,16 +85,26 @@ def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -
 
 
 def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
-    """Whether a block reads without an error, and all of it; sooner known than what is wrong in it."""
+    """Whether a block reads without an error, and all of it but what its declaration says to be of unknown form.
+
+    That is sooner known than what is wrong in it.
+    """
+    ends: frozenset[str] = frozenset()
     keys = all_keys(declared)
-    if any(leaf.kind is Kind.SETTING and first_key(text, leaf.span) not in keys for leaf in raw.leaves):
-        return False
+    for leaf in raw.leaves:
+        key = first_key(text, leaf.span) if leaf.kind is Kind.SETTING else ""
+        if key and (not ends or key in ends):
+            value = text[slice(*leaf.span)].partition("=")[2]
+            ends = opened(declared, key, value)
+            if key not in keys or (ends and not is_choice(declared, key, value)):
+                return False
     reader = _Reader(text, raw, declared, last=False)
     fits = _plain(text, raw, declared, reader.nowhere) is not None
     if not fits and grammar.tree_of(declared.rule, reader.contents()) is not None and not reader.lost:
+        told = len(reader.kept)
         reader = _Reader(text, raw, declared, last=False)
         found = reader.read()
-        fits = not found.lost and not reader.kept and not any(one.weight is Severity.ERROR for one in found.problems)
+        fits = found.lost == told and not any(one.weight is Severity.ERROR for one in found.problems)
     return fits
 
 

@@ -148,30 +148,25 @@ class _Round:
     def taken(self, problems: Sequence[Problem]) -> list[Correction]:
         """The first one of each fault that makes its block better."""
         taken: list[Correction] = []
-        for one in sorted(self._made(problems), key=lambda each: (each.edits[0].span.start, each.cause.code is SYN002)):
-            line = line_at(self.text, one.edits[0].span.start)
-            unsaid = one.cause.code.code not in self.codes
-            if (
-                unsaid
-                or line.end - line.start > LONGEST_LINE
-                or any(_meet(one.region, other.region) for other in taken)
-            ):
-                continue
-            if self._is_better(one):
-                taken.append(one)
+        for last in (False, True):
+            made: list[Correction] = []
+            for recovery in (one for one in RECOVERIES if one.last is last):
+                asked = [one for one in problems if one.code in recovery.codes]
+                if asked or recovery.always:
+                    made += recovery.corrector(self.blocks, asked)
+            made.sort(key=lambda each: (each.edits[0].span.start, each.cause.code is SYN002))
+            for one in made:
+                if self._is_sayable(one) and not any(_meet(one.region, other.region) for other in taken):
+                    if self._is_better(one):
+                        taken.append(one)
+            explained = {id(one.cause) for one in taken}
+            problems = [one for one in problems if one.repair is None and id(one) not in explained]
         return taken
 
-    def _made(self, problems: Sequence[Problem]) -> list[Correction]:
-        """What every corrector makes of the problems under its codes."""
-        made: list[Correction] = []
-        for recovery in sorted(RECOVERIES, key=lambda one: one.last):
-            asked = [one for one in problems if one.code in recovery.codes]
-            if recovery.last:
-                explained = {id(one.cause) for one in made}
-                asked = [one for one in asked if one.repair is None and id(one) not in explained]
-            if asked or recovery.always:
-                made += recovery.corrector(self.blocks, asked)
-        return made
+    def _is_sayable(self, correction: Correction) -> bool:
+        """Whether the finding of a correction is wanted, and its line is not too long."""
+        line = line_at(self.text, correction.edits[0].span.start)
+        return correction.cause.code.code in self.codes and line.end - line.start <= LONGEST_LINE
 
     def _is_better(self, correction: Correction) -> bool:
         """Whether the blocks around a correction have fewer faults with it, and its own is gone."""

@@ -126,7 +126,10 @@ def _missing_line(blocks: Blocks, section: str, block: RawBlock, cause: Problem,
     settings = [leaf.span.start for leaf in block.leaves if leaf.kind is Kind.SETTING and leaf.span.start < line]
     first = next((leaf.span.start for leaf in data_of(block.leaves)), end)
     for place in (at for at in (line, *settings[-1:]) if at > first):  # the block has lines of its own before it
-        yield from _keyword_line(blocks, section, block.name, cause, Span(place, end), above=place < line)
+        found = [*_keyword_line(blocks, section, block.name, cause, Span(place, end), above=place < line)]
+        if found:
+            yield from found
+            return
 
 
 def _keyword_line(

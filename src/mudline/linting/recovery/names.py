@@ -74,8 +74,9 @@ def key_of_points(declared: type[Block]) -> tuple[str, Names | None]:
     """The setting above the points of a curve that names it, and what the name is one of; "" for other keywords."""
     for slot in record_schema(declared).slots:
         for record in map(record_schema, slot.record.values()):
-            if record.table and record.slots and isinstance(about := record.slots[0].about, Setting):
-                return about.key, about.names or about.defines
+            about = record.slots[0].about if record.table and record.slots else None
+            if isinstance(about, Setting) and (kind := about.names or about.defines):
+                return about.key, kind
     return "", None
 
 
@@ -191,7 +192,7 @@ def other_settings(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Corr
         line = line_at(text, at)
         key, _, value = text.source.unified[slice(*line)].strip().partition("=")
         name, _ = key_of_points(declared)
-        if name and key.strip().upper() in _names_of_curves() - {name}:
+        if name and key.strip().upper() in _names_of_curves() - {name} and _first_number(blocks, line.end + 1) is not None:
             yield Correction(problem, (TextEdit(line, f" {name}={value.strip()}"),), whole(block))
         elif problem.code is SYN004 and not all_keys(declared) and (row := _as_row(blocks, block)):
             edits = (TextEdit(Span(block.leaves[0].span.start, whole(block).end), f" {row}\n"),)
