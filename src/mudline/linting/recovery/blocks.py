@@ -13,7 +13,7 @@ from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Span
 from mudline.keywords import catalogue
 from mudline.keywords.model import Block
-from mudline.keywords.naming import names_given
+from mudline.keywords.naming import kinds_of, names_given
 from mudline.keywords.values import Names
 from mudline.scene.references import given_names
 from mudline.scene.sets import ALL, set_key
@@ -128,6 +128,7 @@ class Blocks:
         self.deck = deck
         self.text = text
         self.end = len(text.source.unified)
+        self._missing: dict[Names, list[str]] = {}
 
     @cached_property
     def _sections(self) -> tuple[RawSection, ...]:
@@ -188,13 +189,13 @@ class Blocks:
         """The name of the section around an offset, "" before the first."""
         return self._sections[max(bisect_right(self._heads, offset) - 1, 0)].name
 
-    @cached_property
-    def missing(self) -> dict[Names, list[str]]:
-        """The names of sets and of curves that are used and nothing defines."""
-        return {what: self._missing(what, known) for what, known in ((Names.SET, {ALL}), (Names.CURVE, set[str]()))}
-
-    def _missing(self, what: Names, defined: set[str]) -> list[str]:
-        for _, block in self.deck.blocks_that(lambda declared: declared.facts.defines):
-            defined |= {set_key(name) for _, name in names_given(block, what, "defines")}
-        given = (name for _, _, name in given_names(self.deck, what))
-        return list(dict.fromkeys(name for name in given if name and set_key(name) not in defined))
+    def missing(self, what: Names) -> list[str]:
+        """The names of a kind that are used and nothing defines."""
+        if what not in self._missing:
+            defined = {ALL} if what is Names.SET else set[str]()
+            for _, block in self.deck.blocks_that(lambda declared: what in kinds_of(declared, "defines")):
+                defined |= {set_key(name) for _, name in names_given(block, what, "defines")}
+            given = (name for _, _, name in given_names(self.deck, what))
+            missing = dict.fromkeys(name for name in given if name and set_key(name) not in defined)
+            self._missing[what] = list(missing)
+        return self._missing[what]

@@ -156,9 +156,9 @@ class _Round:
                     made += recovery.corrector(self.blocks, asked)
             made.sort(key=lambda each: (each.edits[0].span.start, each.cause.code is SYN002))
             for one in made:
-                if self._is_sayable(one) and not any(_meet(one.region, other.region) for other in taken):
-                    if self._is_better(one):
-                        taken.append(one)
+                apart = self._is_sayable(one) and not any(_meet(one.region, other.region) for other in taken)
+                if apart and self._is_better(one):
+                    taken.append(one)
             explained = {id(one.cause) for one in taken}
             problems = [one for one in problems if one.repair is None and id(one) not in explained]
         return taken

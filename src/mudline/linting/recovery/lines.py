@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from functools import cache, lru_cache
+from itertools import pairwise
 from typing import NamedTuple
 
 from mudline.codes.contact import SBD006
 from mudline.codes.fields import SYN002, SYN003, SYN016
 from mudline.codes.lines import SYN001, SYN004, SYN011, SYN013
 from mudline.codes.references import REF007
+from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Problem, Repair, Severity, Span
 from mudline.keywords import catalogue
+from mudline.keywords.keeping import is_choice, opened
 from mudline.keywords.model import Block, FieldSpec, record_schema
-from mudline.keywords.naming import set_slots
+from mudline.keywords.naming import kinds_of, set_slots
 from mudline.keywords.reader import all_keys, reads, schemas_of
 from mudline.keywords.values import Kind as Value
 from mudline.keywords.values import Names
@@ -30,8 +33,7 @@ from mudline.linting.recovery.blocks import (
     whole,
 )
 from mudline.linting.recovery.names import key_of_points
-from mudline.scene.names import CURVES
-from mudline.scene.references import given_names
+from mudline.scene.names import CURVES, THINGS
 from mudline.scene.sets import set_key
 from mudline.syntax.edits import TextEdit
 from mudline.syntax.fields import first_key, trimmed
@@ -43,6 +45,9 @@ LONGEST_PIECE = 600
 
 MOST_NAMED = 5
 """Keywords that a finding names."""
+
+NAMED = CURVES | THINGS | {Names.SET, Names.CURVE}
+"""Kinds of names that tell whose lines some are: one that is used, and that nothing defines."""
 
 _OF_FOREIGN_LINES = (SYN001, SYN002, SYN003, SYN004)
 """What the lines of another keyword give in a block."""
@@ -126,61 +131,60 @@ def _missing_line(blocks: Blocks, section: str, block: RawBlock, cause: Problem,
     settings = [leaf.span.start for leaf in block.leaves if leaf.kind is Kind.SETTING and leaf.span.start < line]
     first = next((leaf.span.start for leaf in data_of(block.leaves)), end)
     for place in (at for at in (line, *settings[-1:]) if at > first):  # the block has lines of its own before it
-        found = [*_keyword_line(blocks, section, block.name, cause, Span(place, end), above=place < line)]
+        legal = () if place == line else blocks.keywords
+        found = [*_keyword_line(blocks, section, block.name, cause, Span(place, end), legal)]
         if found:
             yield from found
             return
 
 
 def _keyword_line(
-    blocks: Blocks, section: str, own: str, cause: Problem, lines: Span, *, above: bool = False
+    blocks: Blocks, section: str, own: str, cause: Problem, lines: Span, present: Collection[str] = ()
 ) -> Iterator[Correction]:
-    """The keyword that some lines read as in front of them; of several, none: they are passed over."""
-    found = reads_as(blocks, section, own, blocks.text.source.unified[slice(*lines)], legal=above)
-    which = (
-        f"the lines from line {blocks.text.source.position(lines.start)[0]} on"
-        if above
-        else "this line and those below it"
-    )
+    """The keyword that some lines read as in front of them; of several, none: they are passed over.
+
+    For `present` see `reads_as`.
+    """
+    unified = blocks.text.source.unified
+    found = reads_as(blocks, section, own, unified[slice(*lines)], present)
+    which = "this line and those below it"
+    if unified.count("\n", lines.start, start_of(blocks.text, cause)):
+        which = f"the lines from line {blocks.text.source.position(lines.start)[0]} on"
+    above = Span(lines.start, lines.start)
     if len(found) == 1:
         message = f"{which} read as *{found[0]}: that line seems to be missing above them"
-        yield Correction(cause, (TextEdit(Span(lines.start, lines.start), f"*{found[0]}\n"),), lines, message)
+        yield Correction(cause, (TextEdit(above, f"*{found[0]}\n"),), lines, message)
     elif found:
         names = " or ".join(f"*{keyword}" for keyword in found[:MOST_NAMED])
         message = f"{which} are of another keyword, {names}: its line seems to be missing above them"
-        yield Correction(cause, (TextEdit(lines, ""),), lines, message)
+        lacked = any(map(blocks.missing, _defined_by(section, found[0])))  # all of them define such names
+        edit = TextEdit(above, f"*{found[0]}\n") if lacked else TextEdit(lines, "")
+        yield Correction(cause, (edit,), lines, message)
 
 
 @recovers_from(*_OF_FOREIGN_LINES, always=True)
 def swallowed_curves(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Curves that the deck lacks, in a block that takes them for others, which nothing uses, or passes them through."""
-    if blocks.keywords.isdisjoint(catalogue.users(Names.CURVE)):
-        return
     unified = blocks.text.source.unified
     wrong = {blocks.block_at(start_of(blocks.text, one)).start for one in problems}  # looked at for that
-    placed = ((line, blocks.raw_at(line.start(1))) for line in _name_of_curve().finditer(unified))
-    others = [(line, block) for line, block in placed if block and _may_swallow(block.name)]
-    lacked = {set_key(name) for name in blocks.missing[Names.CURVE]} if others else set()
-    if lacked:
-        lacked -= {set_key(name) for kind in CURVES for _, _, name in given_names(blocks.deck, kind)}
-    for line, block in others:
-        if set_key(line[1]) in lacked and block.head.span.start not in wrong:
+    lacked = {kind: {set_key(name) for name in blocks.missing(kind)} for kind in (Names.CURVE, *CURVES)}
+    for line in _name_of_curve().finditer(unified) if any(lacked.values()) else ():
+        block = blocks.raw_at(line.start(1))
+        kinds = [kind for kind, names in lacked.items() if set_key(line[1]) in names]
+        if block is None or len(kinds) != 1 or block.head.span.start in wrong or not catalogue.sections_of(block.name):
+            continue
+        if block.name not in catalogue.definers(kinds[0]):
             wrong.add(block.head.span.start)
             cause = Problem(SYN001, "", trimmed(unified, *line.span()))
             lines = Span(line.start(), whole(block).end)
             yield from _keyword_line(blocks, blocks.section_name(line.start(1)), block.name, cause, lines)
 
 
-def _may_swallow(keyword: str) -> bool:
-    """Whether a keyword is known, and defines no curve of the seabed."""
-    return keyword not in catalogue.definers(Names.CURVE) and bool(catalogue.sections_of(keyword))
-
-
 @cache
 def _name_of_curve() -> re.Pattern[str]:
-    """The line above the points of a curve of the seabed, with its name."""
-    definers = filter(None, map(catalogue.declared, catalogue.definers(Names.CURVE)))
-    keys = "|".join(filter(None, (key_of_points(declared)[0] for declared in definers)))
+    """The line above the points of a curve, with its name."""
+    definers = {catalogue.declared(keyword) for kind in (Names.CURVE, *CURVES) for keyword in catalogue.definers(kind)}
+    keys = "|".join(sorted({key_of_points(declared)[0] for declared in definers if declared} - {""}))
     return re.compile(rf"^[ \t]*(?:{keys})[ \t]*=([^,\r\n]*)", re.MULTILINE | re.IGNORECASE)
 
 
@@ -203,12 +207,13 @@ def elements_among_nodes(blocks: Blocks, problems: Sequence[Problem]) -> Iterato
             given.update(number.groups() if number else ())
 
 
-def reads_as(blocks: Blocks, section: str, own: str, lines: str, *, legal: bool = False) -> list[str]:
+def reads_as(blocks: Blocks, section: str, own: str, lines: str, present: Collection[str] = ()) -> list[str]:
     """The keywords of a section that take some lines as they stand, in the order of the alphabet.
 
     Those that define names which the deck lacks go before others, and those that it has not yet before those it has.
     Numbers alone fit many keywords: they are of one that stands beside others of the deck. Where the block above can
-    have the first line (`legal`), only such names or a new keyword say that it is another one's.
+    have the first line, and the keywords `present` are given, only such names or a keyword that is not among these say
+    that it is another one's.
     """
     piece = lines if len(lines) <= LONGEST_PIECE else lines[: lines.rfind("\n", 0, LONGEST_PIECE) + 1]
     text, block = _block(section, own or "-", piece)
@@ -226,10 +231,10 @@ def reads_as(blocks: Blocks, section: str, own: str, lines: str, *, legal: bool 
         for keyword, declared in candidates.items()
         if keyword != own and reads(*_block(section, keyword, piece), declared)
     ]
-    defining = {each: [what for what in blocks.missing if _defines(each, what)] for each in fitting}
-    lacked = [each for each, kinds in defining.items() if any(blocks.missing[what] for what in kinds)]
-    new = [each for each in fitting if each not in blocks.keywords and not (legal and defining[each])]
-    return lacked or new or ([] if legal else fitting)
+    lacked = [each for each in fitting if any(map(blocks.missing, _defined_by(section, each)))]
+    if present:
+        return lacked or [each for each in fitting if each not in present and not _defined_by(section, each)]
+    return lacked or [each for each in fitting if each not in blocks.keywords] or fitting
 
 
 @lru_cache(256)
@@ -245,11 +250,10 @@ def _block(section: str, keyword: str, lines: str) -> tuple[str, RawBlock]:
     return text, parse(Source("", text, clean=True)).sections[0].blocks[0]
 
 
-def _defines(keyword: str, what: Names) -> bool:
-    declared = catalogue.declared(keyword)
-    return declared is not None and any(
-        slot.about.defines is what for one in schemas_of(declared) for slot in one.slots
-    )
+def _defined_by(section: str, keyword: str) -> frozenset[Names]:
+    """The kinds of names that the lines of a keyword define."""
+    declared = catalogue.declared(keyword, section)
+    return (kinds_of(declared, "defines") & NAMED) if declared else frozenset()
 
 
 def _of_whole_numbers(declared: type[Block]) -> bool:
@@ -288,6 +292,43 @@ def _passed_through(blocks: Blocks) -> Iterator[tuple[str, RawBlock, Span]]:
             yield from (
                 (section.name, block, line) for line in lines_of(text, block) if kept is None or line.start in kept
             )
+
+
+@recovers_from(SYN001, always=True)
+def lines_of_unknown_form(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Lines that an open block passes through, and that another keyword has, which its section lacks."""
+    text = blocks.text
+    wrong = {blocks.block_at(start_of(text, one)).start for one in problems}
+    for number, section in enumerate(text.tree.sections):
+        present = {block.name for block in section.blocks}
+        for index, block in enumerate(section.blocks):
+            read = text.read.get((number, index))
+            if read is None or not read.lost or block.head.span.start in wrong:
+                continue
+            for start in _foreign_lines(text, block, type(read.model), read.places.kept):
+                line, lines = line_at(text, start), Span(start, whole(block).end)
+                cause = Problem(SYN001, "", trimmed(text.source.unified, *line), Severity.WARNING)
+                if found := [*_keyword_line(blocks, section.name, block.name, cause, lines, present)]:
+                    yield from found
+                    break
+
+
+def _foreign_lines(text: TextOrigin, block: RawBlock, declared: type[Block], kept: Collection[int]) -> list[int]:
+    """Where a block has settings that it passes through, or that open lines by a value which is not known.
+
+    Before each of them the setting on the line above it.
+    """
+    unified = text.source.unified
+    leaves = data_of(block.leaves)
+    found: list[int] = []
+    for above, leaf in pairwise(leaves):
+        line = line_at(text, leaf.span.start)
+        key, value = first_key(unified, line), unified[slice(*line)].partition("=")[2]
+        unknown = bool(opened(declared, key, value)) and not is_choice(declared, key, value)
+        if leaf.kind is Kind.SETTING and (unknown or line.start in kept):
+            begins = above.kind is Kind.SETTING and above is not leaves[0]
+            found += [line_at(text, above.span.start).start, line.start] if begins else [line.start]
+    return list(dict.fromkeys(found))[:MOST_NAMED]
 
 
 @recovers_from(SYN001, last=True)
@@ -343,6 +384,7 @@ def options(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]
     """Rows with as many values as another option has: that option above them."""
     text = blocks.text
     seen: set[int] = set()
+    starts = {start_of(text, one) for one in blocks.deck.problems}
     for problem in sorted(problems, key=lambda one: start_of(text, one)):
         at = start_of(text, problem)
         block, declared = blocks.raw_at(at), blocks.declared_at(at)
@@ -352,7 +394,10 @@ def options(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]
         seen.add(block.head.span.start)
         line = line_at(text, at)
         count = text.source.unified[slice(*line)].count(",") + 1
-        above = [leaf.span for leaf in block.leaves if leaf.kind is Kind.SETTING and leaf.span.start < at]
+        leaves = [leaf for leaf in data_of(block.leaves) if leaf.span.start < line.start]
+        above = [leaf.span for leaf in leaves if leaf.kind is Kind.SETTING]
+        if not above or leaves[-1].span != above[-1] or any(above[-1].start <= each < at for each in starts):
+            continue  # the row is not the first of its set, or the line above it has a fault of its own
         given = [span for span in above if first_key(text.source.unified, span) == formats.setting.key]
         chosen = text.source.unified[slice(*given[-1])].partition("=")[2].strip().upper() if given else ""
         chosen = chosen or formats.setting.about.default
@@ -362,7 +407,7 @@ def options(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]
         fitting = [name for name, counts in formats.counts.items() if count in counts and name != chosen]
         most = max((formats.counts[name].start for name in fitting), default=0)
         fitting = [name for name in fitting if formats.counts[name].start == most]
-        if not fitting or not above:
+        if not fitting:
             continue
         option = f"{formats.setting.key}={fitting[0]}"
         names = " or ".join(f"{formats.setting.key}={name}" for name in fitting)

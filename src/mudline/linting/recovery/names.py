@@ -108,14 +108,15 @@ def points_with_names(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[C
 def lacking_names(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """A setting without its name, or points in front of it: the names that nothing defines."""
     text = blocks.text
-    missing = {what: [*names] for what, names in blocks.missing.items()}
+    unclaimed: dict[Names, list[str]] = {}
     for problem in problems:
         found = _LACKS_NAME.match(problem.message)
         declared = blocks.declared_at(problem.span.start) if found and problem.span else None
         if found is None or problem.span is None or declared is None:
             continue
         key = found[1] or found[2]
-        names = missing.get(_defined_by(declared, key) or Names.FILE, [])
+        kind = _defined_by(declared, key)
+        names = unclaimed.setdefault(kind, [*blocks.missing(kind)]) if kind else []
         if found[1] and not names and (moved := _name_below(blocks, problem, key)):
             yield moved
         if names:
@@ -165,7 +166,7 @@ def _first_number(blocks: Blocks, offset: int) -> float | None:
 @recovers_from(SYN014)
 def cut_off(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """A file that ends behind the keyword of curves: those that nothing defines."""
-    names = blocks.missing[Names.CURVE]
+    names = blocks.missing(Names.CURVE)
     for problem in problems if names else ():
         at = start_of(blocks.text, problem)
         block, declared = blocks.raw_at(at), blocks.declared_at(at)
@@ -192,7 +193,11 @@ def other_settings(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Corr
         line = line_at(text, at)
         key, _, value = text.source.unified[slice(*line)].strip().partition("=")
         name, _ = key_of_points(declared)
-        if name and key.strip().upper() in _names_of_curves() - {name} and _first_number(blocks, line.end + 1) is not None:
+        if (
+            name
+            and key.strip().upper() in _names_of_curves() - {name}
+            and _first_number(blocks, line.end + 1) is not None
+        ):
             yield Correction(problem, (TextEdit(line, f" {name}={value.strip()}"),), whole(block))
         elif problem.code is SYN004 and not all_keys(declared) and (row := _as_row(blocks, block)):
             edits = (TextEdit(Span(block.leaves[0].span.start, whole(block).end), f" {row}\n"),)
