@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from mudline.codes.contact import SBD006
 from mudline.codes.fields import SYN002, SYN003, SYN016
-from mudline.codes.lines import SYN001, SYN004, SYN011, SYN013
+from mudline.codes.lines import SYN001, SYN004, SYN005, SYN011, SYN013
 from mudline.codes.references import REF007
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Problem, Repair, Severity, Span
@@ -294,7 +294,7 @@ def _passed_through(blocks: Blocks) -> Iterator[tuple[str, RawBlock, Span]]:
             )
 
 
-@recovers_from(SYN001, always=True)
+@recovers_from(*_OF_FOREIGN_LINES, SYN005, always=True)
 def lines_of_unknown_form(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Lines that an open block passes through, and that another keyword has, which its section lacks."""
     text = blocks.text
@@ -316,12 +316,12 @@ def lines_of_unknown_form(blocks: Blocks, problems: Sequence[Problem]) -> Iterat
 def _foreign_lines(text: TextOrigin, block: RawBlock, declared: type[Block], kept: Collection[int]) -> list[int]:
     """Where a block has settings that it passes through, or that open lines by a value which is not known.
 
-    Before each of them the setting on the line above it.
+    Before each of them the setting on the line above it; its last line alone tells too little.
     """
     unified = text.source.unified
     leaves = data_of(block.leaves)
     found: list[int] = []
-    for above, leaf in pairwise(leaves):
+    for above, leaf in pairwise(leaves[:-1]):
         line = line_at(text, leaf.span.start)
         key, value = first_key(unified, line), unified[slice(*line)].partition("=")[2]
         unknown = bool(opened(declared, key, value)) and not is_choice(declared, key, value)
