@@ -110,3 +110,14 @@ def set_slots(block: type[Block]) -> tuple[tuple[FieldSpec, FieldSpec], ...]:
         for named in record_schema(record).slots
         if named.about.names is Names.SET
     )
+
+
+def repeated_set(block: Block) -> Path:
+    """The place of the first element set that a block gives a second time with other values; () where none is."""
+    for listed, named in set_slots(type(block)) if block.facts.later_wins else ():
+        given: dict[str, Part] = {}
+        for index, entry in enumerate(getattr(block, listed.name)):
+            name = getattr(entry, named.name, None)
+            if isinstance(name, str) and name and given.setdefault(name.casefold(), entry) != entry:
+                return listed.json, index, named.json
+    return ()

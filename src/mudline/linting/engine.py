@@ -17,6 +17,7 @@ from mudline.deck.model import BaseProblem, Deck, Opaque
 from mudline.deck.reading import TextOrigin, units_of
 from mudline.diagnostics import Blocks, Coverage, DeckError, Diagnostic, Problem, Severity
 from mudline.keywords.model import Block
+from mudline.keywords.naming import repeated_set
 from mudline.keywords.reader import ReadBlock, read_block, read_piece
 from mudline.linting.rule import LintContext, Noticed, Rule
 from mudline.linting.suppression import suppressions
@@ -131,6 +132,8 @@ def may_recover(deck: Deck) -> bool:
             return True
         facts = block.facts
         if facts.defines and (keywords.count(block.keyword) > 1 or not {*facts.beside} <= {*keywords}):
+            return True
+        if repeated_set(block):
             return True
     return False
 

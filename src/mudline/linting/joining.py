@@ -45,10 +45,11 @@ def joined_findings(context: LintContext, problems: list[Problem]) -> list[Probl
     under: dict[int, Problem] = {}
     hidden: set[int] = set()
     for one in chain(*declared, _repeated(text, by_code), _alike(text, by_code)):
-        if id(one.first) not in hidden and one.others:
+        if id(one.first) not in hidden and (one.others or one.message):
             cause = under.get(id(one.first), one.first)
             cause = replace(cause, message=one.message or cause.message, span=one.place or cause.span)
-            under[id(one.first)] = _joined(cause, [under.get(id(each), each) for each in one.others], one.words)
+            others = [under.get(id(each), each) for each in one.others]
+            under[id(one.first)] = _joined(cause, others, one.words) if others else cause
             hidden.update(map(id, one.others))
     return [under.get(id(one), one) for one in problems if id(one) not in hidden]
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
 from functools import cache, lru_cache
 from itertools import pairwise
 from typing import NamedTuple
@@ -17,7 +18,7 @@ from mudline.diagnostics import Problem, Repair, Severity, Span
 from mudline.keywords import catalogue
 from mudline.keywords.keeping import is_choice, opened
 from mudline.keywords.model import Block, FieldSpec, record_schema
-from mudline.keywords.naming import kinds_of, set_slots
+from mudline.keywords.naming import kinds_of, repeated_set, set_slots
 from mudline.keywords.reader import all_keys, reads, schemas_of
 from mudline.keywords.values import Kind as Value
 from mudline.keywords.values import Names
@@ -33,6 +34,7 @@ from mudline.linting.recovery.blocks import (
     whole,
 )
 from mudline.linting.recovery.names import key_of_points
+from mudline.linting.rules.seabed_overlaps import SBD008
 from mudline.scene.names import CURVES, THINGS
 from mudline.scene.sets import set_key
 from mudline.syntax.edits import TextEdit
@@ -211,9 +213,9 @@ def reads_as(blocks: Blocks, section: str, own: str, lines: str, present: Collec
     """The keywords of a section that take some lines as they stand, in the order of the alphabet.
 
     Those that define names which the deck lacks go before others, and those that it has not yet before those it has.
-    Numbers alone fit many keywords: they are of one that stands beside others of the deck. Where the block above can
-    have the first line, and the keywords `present` are given, only such names or a keyword that is not among these say
-    that it is another one's.
+    Rows alone fit many keywords: they are of one that stands beside others of the deck, or is behind its equations.
+    Where the block above can have the first line, and the keywords `present` are given, only such names or a keyword
+    that is not among these say that it is another one's.
     """
     piece = lines if len(lines) <= LONGEST_PIECE else lines[: lines.rfind("\n", 0, LONGEST_PIECE) + 1]
     text, block = _block(section, own or "-", piece)
@@ -224,6 +226,7 @@ def reads_as(blocks: Blocks, section: str, own: str, lines: str, present: Collec
         candidates = _taking(section, first_key(text, first.span))
     else:
         beside = {other for each in blocks.keywords for other in catalogue.facts_of(each).beside}
+        beside.update(catalogue.definers(Names.PARAMETER) if "=[" in blocks.text.source.unified else ())
         read = ((each, catalogue.block_class(section, each)) for each in sorted(beside - blocks.keywords))
         candidates = {each: one for each, one in read if one and not ("." in piece and _of_whole_numbers(one))}
     fitting = [
@@ -295,21 +298,31 @@ def _passed_through(blocks: Blocks) -> Iterator[tuple[str, RawBlock, Span]]:
 
 
 @recovers_from(*_OF_FOREIGN_LINES, SYN005, always=True)
-def lines_of_unknown_form(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """Lines that an open block passes through, and that another keyword has, which its section lacks."""
+def legal_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Lines that a block can have, and that another keyword has, which its section lacks.
+
+    Those from a set on that the block gives a second time and otherwise, or from one on that it passes through.
+    """
     text = blocks.text
     wrong = {blocks.block_at(start_of(text, one)).start for one in problems}
     for number, section in enumerate(text.tree.sections):
         present = {block.name for block in section.blocks}
         for index, block in enumerate(section.blocks):
             read = text.read.get((number, index))
-            if read is None or not read.lost or block.head.span.start in wrong:
+            if read is None or block.head.span.start in wrong:
                 continue
-            for start in _foreign_lines(text, block, type(read.model), read.places.kept):
-                line, lines = line_at(text, start), Span(start, whole(block).end)
-                cause = Problem(SYN001, "", trimmed(text.source.unified, *line), Severity.WARNING)
-                if found := [*_keyword_line(blocks, section.name, block.name, cause, lines, present)]:
-                    yield from found
+            is_of_settings = all(leaf.kind is Kind.SETTING for leaf in data_of(block.leaves))  # rows fit many keywords
+            path = repeated_set(read.model) if is_of_settings else ()
+            again = read.places.find(path) if path else None
+            foreign = _foreign_lines(text, block, type(read.model), read.places.kept) if read.lost else []
+            for start in [again.start] if again else foreign:
+                line = line_at(text, start)
+                known = f"*{block.name} has {text.source.unified[slice(*line)].strip()} above, and " if again else ""
+                cause = Problem(SBD008 if again else SYN001, "", trimmed(text.source.unified, *line), Severity.WARNING)
+                lines = Span(line.start, whole(block).end)
+                found = [*_keyword_line(blocks, section.name, block.name, cause, lines, present)]
+                yield from (replace(one, message=f"{known}{one.message}") for one in found)
+                if found:
                     break
 
 

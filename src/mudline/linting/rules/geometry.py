@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,16 +13,22 @@ from mudline.contact.input import LawKind
 from mudline.deck.model import Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity
-from mudline.keywords.model import Part, record_schema
+from mudline.keywords.model import FieldSpec, Part, record_schema
 from mudline.keywords.naming import names_given
 from mudline.keywords.text import shown
+from mudline.keywords.unknown import is_partly_unknown
 from mudline.keywords.values import Names
+from mudline.linting.joints import Found, Joined, joint
 from mudline.linting.rule import LintContext, entries_of_sets, limited, rule
+from mudline.linting.rules.coordinates import UNT006
+from mudline.linting.rules.unit_densities import UNT004, UNT005
+from mudline.scene.checks.fields import GEO001
 from mudline.scene.numbering import Mask
 from mudline.scene.sections import Section, format_of
 from mudline.scene.sets import set_key
 
 if TYPE_CHECKING:
+    from mudline.keywords.library.geometric_sets import GeometricSet
     from mudline.scene.model import Scene
 
 GEO002 = Code("GEO002", "number-and-curve", Severity.WARNING)
@@ -182,6 +190,60 @@ def repeated_section(context: LintContext) -> Iterator[Problem]:
         if one.where is not None and not on_curve and folded(one.name) not in _passed_through(scene):
             message = f"the elements of SET={shown(one.name)} have no section: give one in *GEOMETRIC SETS"
             yield Problem(GEO006, message, where=one.where)
+
+
+MOST_LENGTHS, USUAL_LENGTHS = 25.0, 8.0
+"""The longest of the lengths of a section to the shortest one."""
+
+
+@joint(GEO001, UNT004, UNT005, UNT006)
+def row_of_another_option(context: LintContext, found: Found) -> Iterator[Joined]:
+    """What is said of the property lines under one OPTION=, whose lengths fit each other only under another one."""
+    text = context.text
+    lines: dict[int, list[Problem]] = {}
+    for problem in chain.from_iterable(found.values()) if text else ():
+        lines.setdefault(text.place(problem).line if text else 0, []).append(problem)
+    runs: list[tuple[str, list[Problem]]] = []
+    for where, entry in entries_of_sets(context.blocks("GEOMETRIC SETS")):
+        own = format_of(entry)
+        others = _other_formats(entry, own)
+        span = text.span(where.inside(own)) if text and others else None
+        if entry.option or not runs:
+            runs.append(("", []))
+        if text and span:
+            known, problems = runs[-1]
+            message = f"the lengths of this row fit each other under {others}, not under OPTION={own.upper()}"
+            here = lines.pop(text.source.position(span.start)[0], [])
+            runs[-1] = known or f"{message}: correct OPTION= above it", problems + here
+    for message, problems in runs:
+        if problems:
+            yield Joined(problems[0], problems[1:], message=message)
+
+
+def _other_formats(entry: GeometricSet, own: str) -> str:
+    """The other formats of a property line in which its lengths fit each other, in words; "" where its own may be."""
+    section: Part | None = entry.section
+    if section is None or is_partly_unknown(section):
+        return ""
+    values = [getattr(section, slot.name) for slot in record_schema(type(section)).columns]
+    while values[-1] is None:
+        values.pop()
+    formats = {slot.name: record_schema(slot.row).columns for slot in record_schema(type(entry)).slots if slot.row}
+    if _lengths_fit(values, formats.pop(own), MOST_LENGTHS):
+        return ""
+    fitting = (name for name, columns in formats.items() if _lengths_fit(values, columns, USUAL_LENGTHS))
+    return " or ".join(f"OPTION={name.upper()}" for name in fitting)
+
+
+def _lengths_fit(values: Sequence[object], columns: Sequence[FieldSpec], most: float) -> bool:
+    """Whether a property line may have some values, the longest of its lengths at most `most` times the shortest."""
+    given = {slot.name: value for slot, value in zip(columns, values, strict=False) if value is not None}
+    units = {slot.name: slot.about.unit for slot in columns}
+    numbers = {name: value for name, value in given.items() if isinstance(value, int | float)}
+    lengths = [value for name, value in numbers.items() if units[name] == "L" and value > 0.0]
+    complete = len(values) <= len(columns) and all(slot.name in given for slot in columns if slot.required)
+    has_wall = numbers.get("di", 0.0) < numbers.get("do", math.inf)
+    return complete and has_wall and max(lengths, default=0.0) <= most * min(lengths, default=0.0)
 
 
 def _without_sections(scene: Scene) -> Mask:
