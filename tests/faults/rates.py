@@ -19,13 +19,14 @@ from tests.faults.kinds_copies import COPIES, NUMBERS
 from tests.faults.kinds_curves import CURVES
 from tests.faults.kinds_keywords import KEYWORDS
 from tests.faults.kinds_lengths import LENGTHS
+from tests.faults.kinds_lines import LINES
 from tests.faults.kinds_seabed import SEABED
 from tests.faults.kinds_typing import TYPING
 from tests.faults.kinds_units import UNITS
 from tests.faults.legal import LegalDeck, legal_decks
 
 KINDS: list[Kind] = [
-    kind for group in (UNITS, LENGTHS, TYPING, KEYWORDS, COPIES, NUMBERS, CURVES, SEABED) for kind in group.kinds
+    kind for group in (UNITS, LENGTHS, TYPING, KEYWORDS, COPIES, NUMBERS, CURVES, SEABED, LINES) for kind in group.kinds
 ]
 
 PER_KIND = 4
