@@ -20,7 +20,7 @@ from mudline.diagnostics import Coverage, Diagnostic, Problem, Repair, Severity,
 from mudline.files import recording_looks
 from mudline.limits import MOST_PASSES, MOST_TRIES
 from mudline.linting.engine import Fixing, LintSettings, covered_findings, problems_in, repairs_of_causes, unsuppressed
-from mudline.linting.rule import LintContext
+from mudline.linting.rule import LintContext, Rule
 from mudline.linting.suppression import MARK
 from mudline.outside import refusing_outside
 from mudline.syntax.edits import TextEdit, edited_bytes
@@ -125,32 +125,38 @@ class _Run:
         self.reader = reader
         self.settings = settings
         self.fixed: list[Diagnostic] = []
-        self.refused: set[tuple[str, str, int]] = set()
+        self.refused: set[tuple[str, str, str]] = set()
+        self.left = 0
         self.tries = MOST_TRIES
         self.stopped = False
 
     def fix(self, state: FixState) -> FixState:
         """The deck when nothing is left to repair."""
         passes = 0
-        while problems := self._next(state):
+        changed = False
+        while (problems := self._next(state)) or changed:
+            if not problems:
+                self.refused.clear()  # what could not be done then may be possible now
+                changed = False
+                continue
             if passes == MOST_PASSES or self.tries <= 0:
                 self.stopped = True
                 break
             made, after = self._accepted(state, problems)
-            if after is None:
-                self.refused |= {_key(problem) for problem in problems}
-                continue
-            self.fixed += state.deck.diagnose(made)
-            self.refused.clear()  # what could not be done then may be possible now
-            passes += 1
-            state = after
+            done = {id(one) for one in made} if after else set()
+            self.refused |= {_key(state, one) for one in problems if id(one) not in done}
+            if after is not None:
+                self.fixed += state.deck.diagnose(made)
+                passes += 1
+                changed, state = True, after
+        self.left = sum(_key(state, one) in self.refused for one in self.wanted(state))
         return state
 
     def note(self) -> str:
         """What could not be fixed, or ""."""
         if self.stopped:
             return f"fixing was stopped after {MOST_PASSES} passes: run it again to see what is left"
-        count = len(self.refused)
+        count = self.left
         if not count:
             return ""
         return f"{count} fix{'es' * (count != 1)} not made: the deck would have had a new error or lost something"
@@ -168,7 +174,7 @@ class _Run:
 
     def _next(self, state: FixState) -> list[Problem]:
         """Findings whose repairs do not overlap: errors of reading first, then safe ones, then the others."""
-        wanted = [problem for problem in self.wanted(state) if _key(problem) not in self.refused]
+        wanted = [problem for problem in self.wanted(state) if _key(state, problem) not in self.refused]
         if state.unreadable:
             codes = {error.code.code for error in state.unreadable}
             cleared = [one for one in wanted if one.code.code in codes and one.weight is Severity.ERROR]
@@ -202,8 +208,10 @@ def _repair(problem: Problem) -> Repair:
     return problem.repair
 
 
-def _key(problem: Problem) -> tuple[str, str, int]:
-    return problem.code.code, problem.message, _repair(problem).edits[0][0].start
+def _key(state: FixState, problem: Problem) -> tuple[str, str, str]:
+    """What is said of which line: the same after others are longer or shorter."""
+    line = state.source.position(_repair(problem).edits[0][0].start)[0]
+    return problem.code.code, problem.message, state.source.line(line)
 
 
 def _disjoint(problems: list[Problem]) -> list[Problem]:
@@ -233,13 +241,32 @@ def _overlap(one: Span, other: Span) -> bool:
 
 @dataclass
 class FixState:
-    """One stage of a deck. `findings` are those that its comments do not suppress."""
+    """One stage of a deck, and what rules find in it."""
 
     data: bytes
     source: Source
-    deck: Deck
-    findings: list[Problem]
-    errors: Counter[str]
+    context: LintContext
+    rules: Sequence[Rule]
+    found: list[Problem]
+
+    @property
+    def deck(self) -> Deck:
+        """The deck."""
+        return self.context.deck
+
+    @cached_property
+    def errors(self) -> Counter[str]:
+        """How many errors of each code it has."""
+        everything = [*self.deck.problems, *self.context.scene.problems, *self.found]
+        return Counter(problem.code.code for problem in everything if problem.weight is Severity.ERROR)
+
+    @cached_property
+    def findings(self) -> list[Problem]:
+        """Those that its comments do not suppress, and those of causes that a repair clears."""
+        found = unsuppressed(self.context, self.found, self.rules)
+        made = {edit for one in found if one.repair for edit in one.repair.edits}
+        causes = repairs_of_causes(self.context, self.rules)
+        return found + [one for one in causes if one.repair and not made.issuperset(one.repair.edits)]
 
     @property
     def unreadable(self) -> list[Problem]:
@@ -285,14 +312,7 @@ class Reader:
         deck = read_source(source, units=self.settings.units)
         deck.folder = self.folder
         context = LintContext(deck, dialect=self.settings.dialect, fixing=True)
-        problems = problems_in(context, self.settings.rules)
-        everything = [*deck.problems, *context.scene.problems, *problems]
-        errors = Counter(problem.code.code for problem in everything if problem.weight is Severity.ERROR)
-        found = unsuppressed(context, problems, self.settings.rules)
-        made = {edit for one in found if one.repair for edit in one.repair.edits}
-        causes = repairs_of_causes(context, self.settings.rules)
-        found += [one for one in causes if one.repair and not made.issuperset(one.repair.edits)]
-        return FixState(data, source, deck, found, errors)
+        return FixState(data, source, context, self.settings.rules, problems_in(context, self.settings.rules))
 
     def after(self, before: FixState, repairs: Sequence[Repair]) -> FixState | None:
         """The stage after some repairs; None if they cannot be made, change nothing, or make the deck worse."""
