@@ -97,3 +97,13 @@ def test_what_can_be_said_is_said_beside_a_row_that_cannot_be_read() -> None:
 def test_a_force_at_ratio_zero_is_told_beside_a_point_that_cannot_be_read() -> None:
     text = HEAD + "*SEABED STIFFNESS\n CURVE=Clay\n 0.0, 10.0\n 0.2, 100.0\n 0.3, 4x0.0\n 0.5, 900.0\n"
     assert found(text, "CRV007", "SYN002") == [("CRV007", 4, 2), ("SYN002", 6, 7)]
+
+
+@pytest.mark.filterwarnings("ignore:Pydantic serializer warnings")
+def test_a_block_with_unknown_values_is_written_as_values() -> None:
+    text = f"$PREPROCESSOR\n*VARIATION\n PARA=su, GEN=1, 2, 3, 4, 5\n{HEAD}*OCEAN\n 35O.0, 1025.0\n*ELASTIC SURFACE\n"
+    deck = load_bytes(text.encode(), "deck.keyxm")
+    variation, ocean, surface = (block for section in deck.sections for block in section.blocks)
+    assert '"generate":null' in variation.model_dump_json()
+    assert ocean.model_dump()["depth"] is UNKNOWN
+    assert surface.model_dump()["properties"] is UNKNOWN

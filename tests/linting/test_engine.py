@@ -167,6 +167,15 @@ def test_json_and_yaml_decks_have_places_too() -> None:
         assert "RIGID SURFACE" in "".join(lines[found[1].line - 1 : found[1].end_line])
 
 
+def test_a_name_that_is_not_defined_is_one_finding_in_every_form() -> None:
+    text = PLAIN + "".join(f"*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=Wets\n STIFFNESS={at}000.0\n" for at in (5, 6, 7))
+    deck = load_bytes(text.encode(), "deck.keyxm")
+    for written, name in ((text, "deck.keyxm"), (to_json(deck), "deck.json"), (to_yaml(deck), "deck.yaml")):
+        (found,) = lint_bytes(written.encode(), name, select(["REF001"]))
+        assert "the same in 2 more lines" in found.message
+        assert "Wets" in written.split("\n")[found.line - 1]
+
+
 @pytest.mark.parametrize(
     ("content", "name", "code"),
     [

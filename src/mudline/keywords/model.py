@@ -33,6 +33,7 @@ from mudline.keywords.table import (
     read_table,
     row_format,
 )
+from mudline.keywords.unknown import is_unknown
 from mudline.keywords.values import Contents, Count, Facts, Kind, Names, Subject, Text
 from mudline.limits import MOST_KEYS
 from mudline.short_repr import counted, with_fields
@@ -261,7 +262,9 @@ class ListRow(Row):
         return {slot.json: value for slot, value in zip(columns, given, strict=False)}
 
     @model_serializer
-    def _to_list(self) -> list[object]:
+    def _to_list(self) -> list[object] | None:
+        if is_unknown(self):
+            return None
         given = [slot.name for slot in record_schema(type(self)).columns if slot.name in self.model_fields_set]
         values = (getattr(self, name) for name in given)
         return [str(value) if isinstance(value, str) else value for value in values]

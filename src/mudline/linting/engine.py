@@ -78,7 +78,7 @@ def joined_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: b
         found = [*meant.as_written(found)]
         found = [*_as_severe(context, meant.causes, found), *found]
     found = unsuppressed(context, found, chosen) if suppress else found
-    if not found or context.text is None:
+    if not found:
         return found
     from mudline.linting.joining import joined_findings  # noqa: PLC0415 - most decks are without a finding
 

@@ -13,6 +13,7 @@ from itertools import chain
 from mudline.codes.fields import SYN002, SYN003, SYN015
 from mudline.codes.lines import SYN001, SYN004, SYN014
 from mudline.codes.references import REF007
+from mudline.deck.model import Origin
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import MORE, Blocks, Problem, Repair, Severity
 from mudline.linting.joints import JOINTS, Joined
@@ -34,17 +35,18 @@ _STRENGTH = (Blocks.NEVER, Blocks.WITH_TENSION, Blocks.ALWAYS)
 
 def joined_findings(context: LintContext, problems: list[Problem]) -> list[Problem]:
     """Return the findings with those under another one that say no more (`Problem.following`)."""
-    text = context.text
-    if text is None:
+    text, origin = context.text, context.deck.origin
+    if type(origin) is Origin:  # a program made the deck, which has no lines
         return problems
     by_code: dict[str, list[Problem]] = {}
     for problem in problems:
         if problem.message != MORE:
             by_code.setdefault(problem.code.code, []).append(problem)
-    declared = (join(context, by_code) for codes, join in JOINTS if not codes.isdisjoint(by_code))
+    declared = (join(context, by_code) for codes, join in JOINTS if text and not codes.isdisjoint(by_code))
+    repeated = _repeated(text, by_code) if text else ()
     under: dict[int, Problem] = {}
     hidden: set[int] = set()
-    for one in chain(*declared, _repeated(text, by_code), _alike(text, by_code)):
+    for one in chain(*declared, repeated, _alike(origin, by_code)):
         if id(one.first) not in hidden and (one.others or one.message):
             cause = under.get(id(one.first), one.first)
             cause = replace(cause, message=one.message or cause.message, span=one.place or cause.span)
@@ -120,15 +122,19 @@ def _counts(text: TextOrigin, same: Sequence[Problem], below: Sequence[Sequence[
         yield f"{len(below)} more rows of this block{named}, the last in line {lines[-1]}"
 
 
-def _alike(text: TextOrigin, by_code: dict[str, list[Problem]]) -> Iterator[Joined]:
-    """Further lines that use a name which is not defined; further fields of a row of which the same is said."""
+def _alike(origin: Origin, by_code: dict[str, list[Problem]]) -> Iterator[Joined]:
+    """Further lines that use a name which is not defined; further fields of a row of which the same is said.
+
+    A line of JSON may be the whole deck.
+    """
+    has_rows = isinstance(origin, TextOrigin)
     for code, problems in by_code.items():
         alike: dict[tuple[str, int], list[Problem]] = {}
         for problem in problems if len(problems) > 1 else ():
             if problem.lacks:
                 alike.setdefault((problem.lacks.casefold(), 0), []).append(problem)
-            elif code not in _OF_ROWS:
-                alike.setdefault((problem.message, text.place(problem).line), []).append(problem)
-        for first, *others in (sorted(found, key=lambda one: text.place(one).line) for found in alike.values()):
+            elif has_rows and code not in _OF_ROWS:
+                alike.setdefault((problem.message, origin.place(problem).line), []).append(problem)
+        for first, *others in (sorted(found, key=lambda one: origin.place(one).line) for found in alike.values()):
             fields = f"and {counted(len(others), 'more field')} of it"
-            yield Joined(first, others, also_in(text, others) if others and first.lacks else fields)
+            yield Joined(first, others, also_in(origin, others) if others and first.lacks else fields)

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from mudline.deck.model import Deck
+from mudline.deck.model import Deck, Origin
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Span
 from mudline.keywords import catalogue
@@ -113,9 +113,9 @@ def lines_of(text: TextOrigin, block: RawBlock) -> Iterator[Span]:
         at = text.source.unified.find("\n", at) + 1 or end
 
 
-def also_in(text: TextOrigin, others: Sequence[Problem]) -> str:
+def also_in(origin: Origin, others: Sequence[Problem]) -> str:
     """Where else the same is found, in words."""
-    *lines, last = sorted({text.place(one).line for one in others})
+    *lines, last = sorted({origin.place(one).line for one in others})
     if not lines:
         return f"the same in line {last}"
     return f"the same in {len(lines) + 1} more lines, the last of them line {last}"
