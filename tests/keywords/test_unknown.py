@@ -101,7 +101,7 @@ def test_a_force_at_ratio_zero_is_told_beside_a_point_that_cannot_be_read() -> N
 
 @pytest.mark.filterwarnings("ignore:Pydantic serializer warnings")
 def test_a_block_with_unknown_values_is_written_as_values() -> None:
-    text = f"$PREPROCESSOR\n*VARIATION\n PARA=su, GEN=1, 2, 3, 4, 5\n{HEAD}*OCEAN\n 35O.0, 1025.0\n*ELASTIC SURFACE\n"
+    text = f"$PREPROCESSOR\n*VARIATION\n PARA=su, GEN\n{HEAD}*OCEAN\n 35O.0, 1025.0\n*ELASTIC SURFACE\n"
     deck = load_bytes(text.encode(), "deck.keyxm")
     variation, ocean, surface = (block for section in deck.sections for block in section.blocks)
     assert '"generate":null' in variation.model_dump_json()
