@@ -98,7 +98,7 @@ ONE_CAUSE = {
     "a number used twice": ((" 7, -0.05", " 6, -0.05"), "REF007", 11),
     "nodes pasted twice": ((ROWS, ROWS + ROWS), "REF007", 17),
     "a letter in a density": ((" 500.0, 1025.0", " 500.0, l025.0"), "SYN002", 3),
-    "laws without their keyword line": (("*SEABED PROPERTIES\n TYPE", "*LINE PATHS\n x\n TYPE"), "SBD006", 36),
+    "laws without their keyword line": (("*SEABED PROPERTIES\n TYPE", "*LINE PATHS\n x\n TYPE"), "SYN001", 36),
 }
 
 
@@ -268,7 +268,13 @@ CAUSES_OF_LINES = {
 def test_a_line_of_another_keyword_is_one_finding(right: str, wrong: str, code: str, line: int) -> None:
     (one,) = (each for each in found(DECK.replace(right, wrong, 1)) if each.code != "GEO008")  # of the current itself
     assert (one.code, one.line) == (code, line)
-    assert (one.fix is None) == (wrong == "")
+    assert one.fix is not None
+
+
+def test_a_missing_keyword_line_is_put_in_by_an_unsafe_fix() -> None:
+    wrong = DECK.replace("*GEOMETRIC SETS\n", "").encode()
+    done = lint_one("deck.keyxm", wrong, LintSettings(rules(), fixing=Fixing.UNSAFE))
+    assert done.changed == DECK.encode()
 
 
 def test_a_line_that_several_keywords_can_have_names_them() -> None:

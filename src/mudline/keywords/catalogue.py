@@ -161,9 +161,9 @@ def users(what: Names) -> list[str]:
 
 
 @cache
-def telling_lines() -> dict[str, str]:
-    """The lines that one keyword alone has, with that keyword."""
-    return {line: entry.keyword for entry in index.ENTRIES for line in entry.telling}
+def telling_lines() -> frozenset[str]:
+    """The lines that one keyword alone has."""
+    return frozenset(line for entry in index.ENTRIES for line in entry.telling)
 
 
 def may_have_no_length(keyword: str) -> bool:

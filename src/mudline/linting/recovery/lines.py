@@ -9,7 +9,6 @@ from functools import cache, lru_cache
 from itertools import pairwise
 from typing import NamedTuple
 
-from mudline.codes.contact import SBD006
 from mudline.codes.fields import SYN002, SYN003, SYN016
 from mudline.codes.lines import SYN001, SYN004, SYN005, SYN011, SYN013
 from mudline.codes.references import REF007
@@ -19,7 +18,7 @@ from mudline.keywords import catalogue
 from mudline.keywords.keeping import is_choice, opened
 from mudline.keywords.model import Block, FieldSpec, record_schema
 from mudline.keywords.naming import kinds_of, repeated_set, set_slots
-from mudline.keywords.reader import all_keys, reads, schemas_of
+from mudline.keywords.reader import ReadBlock, all_keys, reads, schemas_of
 from mudline.keywords.values import Kind as Value
 from mudline.keywords.values import Names
 from mudline.linting.recovery.blocks import (
@@ -155,7 +154,8 @@ def _keyword_line(
     above = Span(lines.start, lines.start)
     if len(found) == 1:
         message = f"{which} read as *{found[0]}: that line seems to be missing above them"
-        yield Correction(cause, (TextEdit(above, f"*{found[0]}\n"),), lines, message)
+        repair = Repair("unsafe", f"write *{found[0]} above them", ((above, f"*{found[0]}\n"),))
+        yield Correction(replace(cause, repair=repair), (TextEdit(above, f"*{found[0]}\n"),), lines, message)
     elif found:
         names = " or ".join(f"*{keyword}" for keyword in found[:MOST_NAMED])
         message = f"{which} are of another keyword, {names}: its line seems to be missing above them"
@@ -266,37 +266,6 @@ def _of_whole_numbers(declared: type[Block]) -> bool:
     return bool(columns) and all(slot.kind in (Value.WHOLE, Value.IDENT) for slot in columns)
 
 
-@recovers_from(SBD006, always=True)
-def telling_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:  # noqa: ARG001 - of text
-    """Lines that one keyword alone has, among those that are passed through: that keyword above them."""
-    unified = blocks.text.source.unified
-    seen: set[int] = set()
-    for section, block, line in _passed_through(blocks):
-        keyword = catalogue.telling_lines().get("".join(unified[slice(*line)].split()).upper())
-        if not keyword or block.head.span.start in seen or not catalogue.block_class(section, keyword):
-            continue
-        seen.add(block.head.span.start)
-        message = f"*{block.name} has no such line: begin *{keyword} above it, else no seabed law applies"
-        place = Span(line.start, line.start)
-        repair = Repair("unsafe", f"begin *{keyword} above this line", ((place, f"*{keyword}\n"),))
-        cause = Problem(SBD006, message, trimmed(unified, *line), repair=repair)
-        yield Correction(cause, (TextEdit(place, f"*{keyword}\n"),), blocks.block_at(line.start), certain=True)
-
-
-def _passed_through(blocks: Blocks) -> Iterator[tuple[str, RawBlock, Span]]:
-    """The lines that are passed through in a section where their keyword belongs, with its name and their block."""
-    text = blocks.text
-    for number, section in enumerate(text.tree.sections):
-        for index, block in enumerate(section.blocks):
-            read = text.read.get((number, index))
-            if (read is not None and not read.lost) or section.name not in (catalogue.sections_of(block.name) or ()):
-                continue
-            kept = read.places.kept if read else None
-            yield from (
-                (section.name, block, line) for line in lines_of(text, block) if kept is None or line.start in kept
-            )
-
-
 @recovers_from(*_OF_FOREIGN_LINES, SYN005, always=True)
 def legal_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Lines that a block can have, and that another keyword has, which its section lacks.
@@ -304,21 +273,19 @@ def legal_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correct
     Those from a set on that the block gives a second time and otherwise, or from one on that it passes through.
     """
     text = blocks.text
+    unified = text.source.unified
     wrong = {blocks.block_at(start_of(text, one)).start for one in problems}
     for number, section in enumerate(text.tree.sections):
         present = {block.name for block in section.blocks}
         for index, block in enumerate(section.blocks):
-            read = text.read.get((number, index))
-            if read is None or block.head.span.start in wrong:
+            if block.head.span.start in wrong or section.name not in (catalogue.sections_of(block.name) or ()):
                 continue
-            is_of_settings = all(leaf.kind is Kind.SETTING for leaf in data_of(block.leaves))  # rows fit many keywords
-            path = repeated_set(read.model) if is_of_settings else ()
-            again = read.places.find(path) if path else None
-            foreign = _foreign_lines(text, block, type(read.model), read.places.kept) if read.lost else []
-            for start in [again.start] if again else foreign:
+            read = text.read.get((number, index))
+            again = _given_again(block, read) if read else None
+            for start in [again.start] if again else _foreign_lines(text, block, read):
                 line = line_at(text, start)
-                known = f"*{block.name} has {text.source.unified[slice(*line)].strip()} above, and " if again else ""
-                cause = Problem(SBD008 if again else SYN001, "", trimmed(text.source.unified, *line), Severity.WARNING)
+                known = f"*{block.name} has {unified[slice(*line)].strip()} above, and " if again else ""
+                cause = Problem(SBD008 if again else SYN001, "", trimmed(unified, *line), Severity.WARNING)
                 lines = Span(line.start, whole(block).end)
                 found = [*_keyword_line(blocks, section.name, block.name, cause, lines, present)]
                 yield from (replace(one, message=f"{known}{one.message}") for one in found)
@@ -326,17 +293,31 @@ def legal_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correct
                     break
 
 
-def _foreign_lines(text: TextOrigin, block: RawBlock, declared: type[Block], kept: Collection[int]) -> list[int]:
+def _given_again(block: RawBlock, read: ReadBlock) -> Span | None:
+    """The set that a block of settings alone gives again: rows fit many keywords."""
+    path = repeated_set(read.model) if all(leaf.kind is Kind.SETTING for leaf in data_of(block.leaves)) else ()
+    return read.places.find(path) if path else None
+
+
+def _foreign_lines(text: TextOrigin, block: RawBlock, read: ReadBlock | None) -> list[int]:
     """Where a block has settings that it passes through, or that open lines by a value which is not known.
 
-    Before each of them the setting on the line above it; its last line alone tells too little.
+    Before each of them the setting on the line above it; its last line alone tells too little. In a block that is not
+    read at all lines that one keyword alone has.
     """
     unified = text.source.unified
-    leaves = data_of(block.leaves)
+    if read is None:
+        telling = catalogue.telling_lines()
+        return [
+            line.start for line in lines_of(text, block) if "".join(unified[slice(*line)].split()).upper() in telling
+        ]
+    leaves = data_of(block.leaves) if read.lost else []
+    kept = read.places.kept if leaves else frozenset()
     found: list[int] = []
     for above, leaf in pairwise(leaves[:-1]):
         line = line_at(text, leaf.span.start)
         key, value = first_key(unified, line), unified[slice(*line)].partition("=")[2]
+        declared = type(read.model)
         unknown = bool(opened(declared, key, value)) and not is_choice(declared, key, value)
         if leaf.kind is Kind.SETTING and (unknown or line.start in kept):
             begins = above.kind is Kind.SETTING and above is not leaves[0]
