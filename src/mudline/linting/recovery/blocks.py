@@ -15,6 +15,7 @@ from mudline.keywords import catalogue
 from mudline.keywords.model import Block
 from mudline.keywords.naming import kinds_of, names_given
 from mudline.keywords.values import Names
+from mudline.scene.names import CURVES
 from mudline.scene.references import given_names
 from mudline.scene.sets import ALL, set_key
 from mudline.syntax.edits import TextEdit
@@ -199,3 +200,12 @@ class Blocks:
             missing = dict.fromkeys(name for name in given if name and set_key(name) not in defined)
             self._missing[what] = list(missing)
         return self._missing[what]
+
+    @cached_property
+    def lacked_curves(self) -> dict[str, list[Names]]:
+        """The names of curves that are used and nothing defines, each with the kinds of curves that it is one of."""
+        found: dict[str, list[Names]] = {}
+        for kind in (Names.CURVE, *CURVES):
+            for name in self.missing(kind):
+                found.setdefault(set_key(name), []).append(kind)
+        return found

@@ -1,4 +1,4 @@
-"""Lines that another keyword or option has: a `*KEYWORD` line, its star, or an OPTION= is missing above them."""
+"""Lines that another keyword has: a `*KEYWORD` line or its star is missing above them, or the name of their set."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from functools import cache, lru_cache
 from itertools import pairwise
-from typing import NamedTuple
 
 from mudline.codes.fields import SYN002, SYN003, SYN016
 from mudline.codes.lines import SYN001, SYN004, SYN005, SYN011, SYN013
@@ -16,11 +15,11 @@ from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Problem, Repair, Severity, Span
 from mudline.keywords import catalogue
 from mudline.keywords.keeping import is_choice, opened
-from mudline.keywords.model import Block, FieldSpec, record_schema
+from mudline.keywords.model import Block, record_schema
 from mudline.keywords.naming import kinds_of, repeated_set, set_slots
 from mudline.keywords.reader import ReadBlock, all_keys, reads, schemas_of
+from mudline.keywords.values import Facts, Names
 from mudline.keywords.values import Kind as Value
-from mudline.keywords.values import Names
 from mudline.linting.recovery.blocks import (
     ROW_NUMBER,
     Blocks,
@@ -164,51 +163,6 @@ def _keyword_line(
         yield Correction(cause, (edit,), lines, message)
 
 
-@recovers_from(*_OF_FOREIGN_LINES, always=True)
-def swallowed_curves(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """Curves that the deck lacks, in a block that takes them for others, which nothing uses, or passes them through."""
-    unified = blocks.text.source.unified
-    wrong = {blocks.block_at(start_of(blocks.text, one)).start for one in problems}  # looked at for that
-    lacked = {kind: {set_key(name) for name in blocks.missing(kind)} for kind in (Names.CURVE, *CURVES)}
-    for line in _name_of_curve().finditer(unified) if any(lacked.values()) else ():
-        block = blocks.raw_at(line.start(1))
-        kinds = [kind for kind, names in lacked.items() if set_key(line[1]) in names]
-        if block is None or len(kinds) != 1 or block.head.span.start in wrong or not catalogue.sections_of(block.name):
-            continue
-        if block.name not in catalogue.definers(kinds[0]):
-            wrong.add(block.head.span.start)
-            cause = Problem(SYN001, "", trimmed(unified, *line.span()))
-            lines = Span(line.start(), whole(block).end)
-            yield from _keyword_line(blocks, blocks.section_name(line.start(1)), block.name, cause, lines)
-
-
-@cache
-def _name_of_curve() -> re.Pattern[str]:
-    """The line above the points of a curve, with its name."""
-    definers = {catalogue.declared(keyword) for kind in (Names.CURVE, *CURVES) for keyword in catalogue.definers(kind)}
-    keys = "|".join(sorted({key_of_points(declared)[0] for declared in definers if declared} - {""}))
-    return re.compile(rf"^[ \t]*(?:{keys})[ \t]*=([^,\r\n]*)", re.MULTILINE | re.IGNORECASE)
-
-
-@recovers_from(REF007, always=True)
-def elements_among_nodes(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:  # noqa: ARG001 - of text
-    """Rows that begin the numbers of their block again, where the deck lacks the keyword that they read as."""
-    text = blocks.text
-    for block, declared in blocks.declared():
-        lacking = [keyword for keyword in declared.facts.beside if keyword not in blocks.keywords]
-        rows = bool(catalogue.facts_of(lacking[0]).defines) if lacking and declared.facts.defines else False
-        given: set[str] = set()
-        for line in lines_of(text, block) if rows and block.leaves else ():
-            number = ROW_NUMBER.match(text.source.unified, *line)
-            if number and number[1] in given:
-                lines = Span(line.start, block.leaves[-1].span.end)
-                thing = declared.facts.defines.removesuffix("s")
-                cause = Problem(REF007, f"{thing} {number[1]} is defined twice", Span(*number.span(1)))
-                yield from _keyword_line(blocks, "MODEL", block.name, cause, lines)
-                break
-            given.update(number.groups() if number else ())
-
-
 def reads_as(blocks: Blocks, section: str, own: str, lines: str, present: Collection[str] = ()) -> list[str]:
     """The keywords of a section that take some lines as they stand, in the order of the alphabet.
 
@@ -268,35 +222,60 @@ def _of_whole_numbers(declared: type[Block]) -> bool:
 
 @recovers_from(*_OF_FOREIGN_LINES, SYN005, always=True)
 def legal_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """Lines that a block can have, and that another keyword has, which its section lacks.
-
-    Those from a set on that the block gives a second time and otherwise, or from one on that it passes through.
-    """
+    """Lines that a block can have, and that another keyword has, which its section or the deck lacks."""
     text = blocks.text
-    unified = text.source.unified
     wrong = {blocks.block_at(start_of(text, one)).start for one in problems}
     for number, section in enumerate(text.tree.sections):
         present = {block.name for block in section.blocks}
         for index, block in enumerate(section.blocks):
             if block.head.span.start in wrong or section.name not in (catalogue.sections_of(block.name) or ()):
                 continue
-            read = text.read.get((number, index))
-            again = _given_again(block, read) if read else None
-            for start in [again.start] if again else _foreign_lines(text, block, read):
-                line = line_at(text, start)
-                known = f"*{block.name} has {unified[slice(*line)].strip()} above, and " if again else ""
-                cause = Problem(SBD008 if again else SYN001, "", trimmed(unified, *line), Severity.WARNING)
-                lines = Span(line.start, whole(block).end)
+            for cause in _first_lines(blocks, block, text.read.get((number, index))):
+                lines = Span(line_at(text, start_of(text, cause)).start, whole(block).end)
                 found = [*_keyword_line(blocks, section.name, block.name, cause, lines, present)]
-                yield from (replace(one, message=f"{known}{one.message}") for one in found)
+                yield from (replace(one, message=f"{cause.message}{one.message}") for one in found)
                 if found:
                     break
 
 
-def _given_again(block: RawBlock, read: ReadBlock) -> Span | None:
-    """The set that a block of settings alone gives again: rows fit many keywords."""
-    path = repeated_set(read.model) if all(leaf.kind is Kind.SETTING for leaf in data_of(block.leaves)) else ()
-    return read.places.find(path) if path else None
+def _first_lines(blocks: Blocks, block: RawBlock, read: ReadBlock | None) -> Iterator[Problem]:
+    """Where lines of another keyword may begin in a block, and what is said of them there.
+
+    With the name of a curve that nothing of its kind defines, or a number that the block has above; else with a set
+    that it gives a second time and otherwise, or a line that it passes through.
+    """
+    text = blocks.text
+    unified = text.source.unified
+    facts = read.model.facts if read else Facts()
+    lacking = [keyword for keyword in facts.beside if facts.defines and keyword not in blocks.keywords]
+    numbers: set[str] = set()
+    for line in lines_of(text, block) if blocks.lacked_curves or lacking else ():
+        name = _name_of_curve().match(unified, *line)
+        kinds = blocks.lacked_curves.get(set_key(name[1]), []) if name else []
+        if len(kinds) == 1 and block.name not in catalogue.definers(kinds[0]):
+            yield Problem(SYN001, "", trimmed(unified, *line))
+            return
+        number = ROW_NUMBER.match(unified, *line) if lacking else None
+        if number and number[1] in numbers:
+            said = f"{facts.defines.removesuffix('s')} {number[1]} is defined twice, and "
+            yield Problem(REF007, said, Span(*number.span(1)))
+            return
+        numbers.update(number.groups() if number else ())
+    # Rows fit many keywords.
+    path = repeated_set(read.model) if read and all(each.kind is Kind.SETTING for each in data_of(block.leaves)) else ()
+    again = read.places.find(path) if read and path else None
+    for start in [again.start] if again else _foreign_lines(text, block, read):
+        line = trimmed(unified, *line_at(text, start))
+        said = f"*{block.name} has {unified[slice(*line)]} above, and " if again else ""
+        yield Problem(SBD008 if again else SYN001, said, line, Severity.WARNING)
+
+
+@cache
+def _name_of_curve() -> re.Pattern[str]:
+    """The line above the points of a curve, with its name."""
+    definers = {catalogue.declared(keyword) for kind in (Names.CURVE, *CURVES) for keyword in catalogue.definers(kind)}
+    keys = "|".join(sorted({key_of_points(declared)[0] for declared in definers if declared} - {""}))
+    return re.compile(rf"[ \t]*(?:{keys})[ \t]*=([^,\r\n]*)", re.IGNORECASE)
 
 
 def _foreign_lines(text: TextOrigin, block: RawBlock, read: ReadBlock | None) -> list[int]:
@@ -341,78 +320,3 @@ def lost_names(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correcti
             edit = TextEdit(Span(line.start, line.start), f" {min(keys)}=\n")
             yield Correction(problem, (edit,), line, message, certain=True)
         seen.add(block)
-
-
-# -------------------------------------------------------------------------------------------------- the OPTION= of rows
-
-
-class _Formats(NamedTuple):
-    """The setting that chooses the format of the rows of a keyword, and how many values a row of each has."""
-
-    setting: FieldSpec
-    counts: dict[str, range]
-
-
-@cache
-def _formats(declared: type[Block]) -> _Formats | None:
-    """The formats of rows that a keyword has; None where it has one."""
-    for slot in record_schema(declared).slots:
-        for record in slot.record.values():
-            known = {one.name: one for one in record_schema(record).slots}
-            chosen = known.get(record.sticky)
-            rows = {
-                name: known[name.lower()].row for name in (chosen.choices if chosen else ()) if name.lower() in known
-            }
-            counts = {
-                name: range(record_schema(row).fewest, len(record_schema(row).columns) + 1)
-                for name, row in rows.items()
-                if row
-            }
-            if chosen and counts:
-                return _Formats(chosen, counts)
-    return None
-
-
-@recovers_from(SYN003)
-def options(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """Rows with as many values as another option has: that option above them."""
-    text = blocks.text
-    seen: set[int] = set()
-    starts = {start_of(text, one) for one in blocks.deck.problems}
-    for problem in sorted(problems, key=lambda one: start_of(text, one)):
-        at = start_of(text, problem)
-        block, declared = blocks.raw_at(at), blocks.declared_at(at)
-        formats = _formats(declared) if declared else None
-        if block is None or formats is None or block.head.span.start in seen:
-            continue
-        seen.add(block.head.span.start)
-        line = line_at(text, at)
-        count = text.source.unified[slice(*line)].count(",") + 1
-        leaves = [leaf for leaf in data_of(block.leaves) if leaf.span.start < line.start]
-        above = [leaf.span for leaf in leaves if leaf.kind is Kind.SETTING]
-        if not above or leaves[-1].span != above[-1] or any(above[-1].start <= each < at for each in starts):
-            continue  # the row is not the first of its set, or the line above it has a fault of its own
-        given = [span for span in above if first_key(text.source.unified, span) == formats.setting.key]
-        chosen = text.source.unified[slice(*given[-1])].partition("=")[2].strip().upper() if given else ""
-        chosen = chosen or formats.setting.about.default
-        own = formats.counts.get(chosen, range(0))
-        if not own or (given and own.start - 1 <= count <= own.stop):
-            continue  # a value or a comma is missing
-        fitting = [name for name, counts in formats.counts.items() if count in counts and name != chosen]
-        most = max((formats.counts[name].start for name in fitting), default=0)
-        fitting = [name for name in fitting if formats.counts[name].start == most]
-        if not fitting:
-            continue
-        option = f"{formats.setting.key}={fitting[0]}"
-        names = " or ".join(f"{formats.setting.key}={name}" for name in fitting)
-        wrong = f"this is no row of {chosen}" if count in own else f"{count} values are not {chosen}'s"
-        place = line_at(text, above[-1].start)
-        number = text.source.position(place.start)[0]
-        if given and len(above) > 1 and given[-1] == above[-2]:
-            place = line_at(text, given[-1].start)
-            message = f"{wrong}: write {names} in line {number - 1}"
-            edit = TextEdit(place, f" {option}")
-        else:
-            message = f"{wrong}: {names} seems to be missing above line {number}"
-            edit = TextEdit(Span(place.start, place.start), f" {option}\n")
-        yield Correction(problem, (edit,), Span(place.start, whole(block).end), message)
