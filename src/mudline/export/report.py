@@ -138,7 +138,9 @@ class Report:
         rows = self.rows()
         lines = [f"{target} model of {self.scene.source}, written by mudline export"]
         lines += ["What does not carry over (keyword, line of the deck, what is here, effect):"] * bool(rows)
-        lines += [f"{keyword} ({place}) {status}: {target}; {effect}" for keyword, place, status, target, effect in rows]
+        lines += [
+            f"{keyword} ({place}) {status}: {target}; {effect}" for keyword, place, status, target, effect in rows
+        ]
         return [one_line(line) for line in lines]
 
 
