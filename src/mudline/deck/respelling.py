@@ -49,14 +49,12 @@ def respelt(given: dict[str, Any], declared: type[Block], error: ValidationError
 
 def _path(value: Any, steps: DocumentPath) -> DocumentPath:
     """The steps that a document has: pydantic puts the names of alternatives between them."""
-    path = []
+    path: list[str | int] = []
     for step in steps:
-        if isinstance(value, dict | list):
-            try:
-                value = value[step]
-            except (LookupError, TypeError):
-                continue
+        here = step in value if isinstance(value, dict) else isinstance(value, list) and isinstance(step, int)
+        if here:
             path.append(step)
+            value = value[step]
     return tuple(path)
 
 
