@@ -130,7 +130,11 @@ def _missing_line(blocks: Blocks, section: str, block: RawBlock, cause: Problem,
     line = blocks.text.source.unified.rfind("\n", 0, at) + 1
     settings = [leaf.span.start for leaf in block.leaves if leaf.kind is Kind.SETTING and leaf.span.start < line]
     first = next((leaf.span.start for leaf in data_of(block.leaves)), end)
-    for place in (at for at in (line, *settings[-1:]) if at > first):  # the block has lines of its own before it
+    declared = blocks.declared_at(at)
+    key = first_key(blocks.text.source.unified, line_at(blocks.text, line))
+    is_own = declared is not None and cause.code in (SYN002, SYN003) and key in all_keys(declared)  # a value is wrong
+    places = [*([] if is_own else [line]), *settings[-1:]]
+    for place in (at for at in places if at > first):  # the block has lines of its own before it
         legal = () if place == line else blocks.keywords
         found = [*_keyword_line(blocks, section, block.name, cause, Span(place, end), legal)]
         if found:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, cast
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.text import shown
+from mudline.keywords.unknown import is_unknown
 from mudline.linting.rule import LintContext, limited, rule
 from mudline.scene.deck_values import bare
 
@@ -93,7 +94,7 @@ def step_limits_out_of_order(context: LintContext) -> Iterator[Problem]:
 
 def _disordered(limits: StepLimits, where: Where) -> Iterator[Problem]:
     suggested, least, largest = limits.suggested, limits.least, limits.largest
-    known = all(isinstance(value, int | float) for value in (suggested, least, largest))
+    known = all(isinstance(value, int | float) and not is_unknown(value) for value in (suggested, least, largest))
     if known and not cast("float", least) <= cast("float", suggested) <= cast("float", largest):
         message = (
             f"the suggested step {suggested!r} does not lie between the least {least!r} and the largest {largest!r}: "
