@@ -9,7 +9,7 @@ from dataclasses import replace
 from mudline.codes.fields import SYN002, SYN003, SYN015
 from mudline.codes.lines import SYN001
 from mudline.diagnostics import Problem, Repair, Severity, Span
-from mudline.keywords.model import record_schema
+from mudline.keywords.model import Block, record_schema
 from mudline.keywords.reader import schemas_of
 from mudline.keywords.values import Kind
 from mudline.linting.recovery.blocks import Blocks, Correction, line_at, recovers_from, start_of
@@ -28,18 +28,17 @@ def numbers(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]
     """Numbers by which other values are known, with a wrong letter: what they were to be, where that can be seen."""
     for problem in problems:
         span = problem.span
-        if span is None or problem.weight is not Severity.ERROR or not _is_known_by(blocks, span):
+        declared = blocks.declared_at(span.start) if span and problem.weight is Severity.ERROR else None
+        if span is None or declared is None or not _is_known_by(blocks, declared, span):
             continue
-        written = blocks.text.source.unified[slice(*span)]
-        for other in _read_as(written):
+        for other in _read_as(blocks.text.source.unified[slice(*span)], with_unit=declared.facts.tells_units):
             yield Correction(problem, (TextEdit(span, other),), line_at(blocks.text, span.start), certain=True)
 
 
-def _is_known_by(blocks: Blocks, span: Span) -> bool:
+def _is_known_by(blocks: Blocks, declared: type[Block], span: Span) -> bool:
     """Whether other values are known by a value: it is a whole number, or says what the units are."""
-    declared = blocks.declared_at(span.start)
-    if declared is None or declared.facts.tells_units:
-        return declared is not None
+    if declared.facts.tells_units:
+        return True
     before = blocks.text.source.unified[line_at(blocks.text, span.start).start : span.start]
     key = before.partition("=")[0].strip().upper() if "=" in before else ""
     index = before.rpartition("=")[2].count(",")
@@ -50,12 +49,12 @@ def _is_known_by(blocks: Blocks, span: Span) -> bool:
     return False
 
 
-def _read_as(written: str) -> Iterator[str]:
-    """The numbers that a word with a wrong letter may be."""
+def _read_as(written: str, *, with_unit: bool) -> Iterator[str]:
+    """The numbers that a word with a wrong letter may be, or one with its unit."""
     translated = written.translate(_MISREAD)
     if translated != written and NUMBER.fullmatch(translated):
         yield translated
-    if (begun := NUMBER.match(written)) and _UNIT.match(written, begun.end()):
+    if with_unit and (begun := NUMBER.match(written)) and _UNIT.match(written, begun.end()):
         yield begun[0]
 
 
