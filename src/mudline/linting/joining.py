@@ -122,6 +122,13 @@ def _counts(text: TextOrigin, same: Sequence[Problem], below: Sequence[Sequence[
         yield f"{len(below)} more rows of this block{named}, the last in line {lines[-1]}"
 
 
+def _lacking(problem: Problem) -> str:
+    """What a deck lacks; of numbers that a line may define which was not read, that line."""
+    doubt = problem.message.rpartition("; ")[2]
+    one_cause = problem.lacks.isdecimal() and doubt.endswith("could not be used may define it")
+    return doubt if one_cause else problem.lacks.casefold()
+
+
 def _alike(origin: Origin, by_code: dict[str, list[Problem]]) -> Iterator[Joined]:
     """Further lines that use a name which is not defined; further fields of a row of which the same is said.
 
@@ -132,7 +139,7 @@ def _alike(origin: Origin, by_code: dict[str, list[Problem]]) -> Iterator[Joined
         alike: dict[tuple[str, int], list[Problem]] = {}
         for problem in problems if len(problems) > 1 else ():
             if problem.lacks:
-                alike.setdefault((problem.lacks.casefold(), 0), []).append(problem)
+                alike.setdefault((_lacking(problem), 0), []).append(problem)
             elif has_rows and code not in _OF_ROWS:
                 alike.setdefault((problem.message, origin.place(problem).line), []).append(problem)
         for first, *others in (sorted(found, key=lambda one: origin.place(one).line) for found in alike.values()):

@@ -227,7 +227,9 @@ def _faulty_planes(scene: ResolvedDeck) -> Iterator[Problem]:
 
 def _known_planes(scene: ResolvedDeck) -> bool:
     """Whether all numbers of planes could be read; others are reported already."""
-    numbers = (value for plane in scene.seabed.planes for value in (*plane.point, plane.slope, plane.direction))
+    numbers = (
+        value for plane in scene.seabed.planes for value in (*plane.point, plane.slope, plane.direction, *plane.bounds)
+    )
     return not any(map(math.isnan, numbers))
 
 
