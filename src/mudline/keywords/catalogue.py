@@ -150,11 +150,13 @@ def has_certain_section(keyword: str) -> bool:
     return certain or bool(_read(keyword)) or sections_of(keyword) == ()
 
 
+@cache
 def definers(what: Names) -> list[str]:
     """The keywords that define things of a kind."""
     return [entry.keyword for entry in index.ENTRIES if what.name in entry.defines]
 
 
+@cache
 def users(what: Names) -> list[str]:
     """The keywords that name things of a kind."""
     return [entry.keyword for entry in index.ENTRIES if what.name in entry.names]

@@ -192,6 +192,8 @@ class Blocks:
 
     def missing(self, what: Names) -> list[str]:
         """The names of a kind that are used and nothing defines."""
+        if self.keywords.isdisjoint(catalogue.users(what)):
+            return []
         if what not in self._missing:
             defined = {ALL} if what is Names.SET else set[str]()
             for _, block in self.deck.blocks_that(lambda declared: what in kinds_of(declared, "defines")):

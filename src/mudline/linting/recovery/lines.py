@@ -252,14 +252,14 @@ def _first_lines(blocks: Blocks, block: RawBlock, read: ReadBlock | None) -> Ite
     unified = text.source.unified
     facts = read.model.facts if read else Facts()
     lacking = [keyword for keyword in facts.beside if facts.defines and keyword not in blocks.keywords]
-    numbers: set[str] = set()
-    for line in lines_of(text, block) if blocks.lacked_curves or lacking else ():
-        name = _name_of_curve().match(unified, *line)
-        kinds = blocks.lacked_curves.get(set_key(name[1]), []) if name else []
+    for name in _name_of_curve().finditer(unified, *whole(block)) if blocks.lacked_curves else ():
+        kinds = blocks.lacked_curves.get(set_key(name[1]), [])
         if len(kinds) == 1 and block.name not in catalogue.definers(kinds[0]):
-            yield Problem(SYN001, "", trimmed(unified, *line))
+            yield Problem(SYN001, "", trimmed(unified, *name.span()))
             return
-        number = ROW_NUMBER.match(unified, *line) if lacking else None
+    numbers: set[str] = set()
+    for line in lines_of(text, block) if lacking else ():
+        number = ROW_NUMBER.match(unified, *line)
         if number and number[1] in numbers:
             said = f"{facts.defines.removesuffix('s')} {number[1]} is defined twice, and "
             yield Problem(REF007, said, Span(*number.span(1)))
@@ -279,7 +279,7 @@ def _name_of_curve() -> re.Pattern[str]:
     """The line above the points of a curve, with its name."""
     definers = {catalogue.declared(keyword) for kind in (Names.CURVE, *CURVES) for keyword in catalogue.definers(kind)}
     keys = "|".join(sorted({key_of_points(declared)[0] for declared in definers if declared} - {""}))
-    return re.compile(rf"[ \t]*(?:{keys})[ \t]*=([^,\r\n]*)", re.IGNORECASE)
+    return re.compile(rf"^[ \t]*(?:{keys})[ \t]*=([^,\r\n]*)", re.MULTILINE | re.IGNORECASE)
 
 
 def _foreign_lines(text: TextOrigin, block: RawBlock, read: ReadBlock | None) -> list[int]:
