@@ -31,8 +31,9 @@ SUBJECTS = (names, sections, lines, values, copies)
 MOST_ROUNDS = 4
 """Times that the corrected lines are looked through for faults that the ones before them hid."""
 
-MOST_TRIALS = 200
-"""Corrections of a deck that are tried: a file of another kind would have as many as it has lines."""
+MOST_TRIALS, OF_A_TRIAL = 200, 2000
+"""Corrections of a deck that are tried, as a file of another kind would have as many as it has lines; and characters
+that are read for one: a longer block counts as several."""
 
 LONGEST_LINE, LONGEST_TRIED = 4096, 50_000
 """Characters of a line that is corrected, and of a block that is read again to see whether it is better."""
@@ -184,7 +185,7 @@ class _Round:
         region = Span(start, max(end, edits[-1].span.end))
         if not section or region.end - region.start > LONGEST_TRIED or self.trials <= 0:
             return False
-        self.trials -= 1
+        self.trials -= 1 + (region.end - region.start) // OF_A_TRIAL
         if region not in self.errors:
             self.errors[region] = Counter(self._faults(section, region, ()))
         before = self.errors[region]
