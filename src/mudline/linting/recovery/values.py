@@ -20,6 +20,10 @@ from mudline.syntax.rows import NUMBER
 _MISREAD = str.maketrans({"O": "0", "o": "0", "l": "1", "I": "1"})
 _GAP = re.compile(r"(?<=[0-9.])(?:[ \t]+|[ \t]*;[ \t]*)(?=[-+.0-9])")
 _HALVES = re.compile(r"([0-9]+),([0-9]+)")
+LONGEST_ABOVE = 500
+"""Characters that are looked through above a number."""
+
+_WHOLE = re.compile(r"(?<![0-9.])[0-9]+(?![0-9.])")
 _UNIT = re.compile(r"[ \t]*[A-Za-z%]")
 
 
@@ -31,8 +35,10 @@ def numbers(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]
         declared = blocks.declared_at(span.start) if span and problem.weight is Severity.ERROR else None
         if span is None or declared is None or not _is_known_by(blocks, declared, span):
             continue
-        for other in _read_as(blocks.text.source.unified[slice(*span)], with_unit=declared.facts.tells_units):
-            yield Correction(problem, (TextEdit(span, other),), line_at(blocks.text, span.start), certain=True)
+        unified = blocks.text.source.unified
+        for other in _read_as(unified[slice(*span)]):
+            if other[1] or declared.facts.tells_units or _goes_on(unified, span.start, other[0]):
+                yield Correction(problem, (TextEdit(span, other[0]),), line_at(blocks.text, span.start), certain=True)
 
 
 def _is_known_by(blocks: Blocks, declared: type[Block], span: Span) -> bool:
@@ -49,13 +55,19 @@ def _is_known_by(blocks: Blocks, declared: type[Block], span: Span) -> bool:
     return False
 
 
-def _read_as(written: str, *, with_unit: bool) -> Iterator[str]:
-    """The numbers that a word with a wrong letter may be, or one with its unit."""
+def _read_as(written: str) -> Iterator[tuple[str, bool]]:
+    """The numbers that a word with a wrong letter may be: with a digit in its place, which is likely, or without it."""
     translated = written.translate(_MISREAD)
     if translated != written and NUMBER.fullmatch(translated):
-        yield translated
-    if with_unit and (begun := NUMBER.match(written)) and _UNIT.match(written, begun.end()):
-        yield begun[0]
+        yield translated, True
+    if (begun := NUMBER.match(written)) and _UNIT.match(written, begun.end()):
+        yield begun[0], False
+
+
+def _goes_on(unified: str, at: int, number: str) -> bool:
+    """Whether a number is one more than another one of the two data lines above, as in ranges and rows of numbers."""
+    lines = unified[max(at - LONGEST_ABOVE, 0) : unified.rfind("\n", 0, at) + 1].rsplit("\n", 3)[-3:]
+    return number.isdecimal() and str(int(number) - 1) in _WHOLE.findall(" ".join(lines))
 
 
 @recovers_from(SYN001, SYN003)
