@@ -29,16 +29,16 @@ ROW_NUMBER = re.compile(r"[ \t]*([0-9]{1,10})[ \t]*(?=,)")
 class Correction:
     """Edits that may correct a finding, and the part of the text that is read differently then.
 
-    `message` is what the finding says where the correction holds, "" for its own message, and `place` where it is then,
-    None for its own place. One that is `certain` needs no trial; one that `joins` makes its lines part of the block
-    above.
+    `message` is what the finding says where the correction holds, "" for its own message. With `does`, the words for
+    what its edits do, the finding has them as an unsafe repair. One that is `certain` needs no trial; one that `joins`
+    makes its lines part of the block above.
     """
 
     cause: Problem
     edits: tuple[TextEdit, ...]
     region: Span
     message: str = ""
-    place: Span | None = None
+    does: str = ""
     certain: bool = False
     joins: bool = False
 

@@ -16,7 +16,7 @@ from mudline.codes.fields import SYN002
 from mudline.codes.lines import SYN007, SYN008, SYN009, SYN010, SYN013
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin, read_source
-from mudline.diagnostics import Code, Problem, Severity, Span
+from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.keywords.reader import BlockReader
 from mudline.linting.recovery import copies, lines, names, options, sections, undefined, values
 from mudline.linting.recovery.blocks import RECOVERIES, Blocks, Correction, line_at
@@ -132,7 +132,9 @@ def recovered(context: LintContext, codes: Collection[str], reading: Reading) ->
 
 def _cause(correction: Correction) -> Problem:
     cause = correction.cause
-    return replace(cause, message=correction.message or cause.message, span=correction.place or cause.span)
+    made = tuple((edit.span, edit.text) for edit in correction.edits)
+    repair = Repair("unsafe", correction.does, made) if correction.does else cause.repair
+    return replace(cause, message=correction.message or cause.message, repair=repair)
 
 
 class _Round:

@@ -13,7 +13,7 @@ from mudline.codes.fields import SYN002, SYN003, SYN016
 from mudline.codes.lines import SYN001, SYN004, SYN005, SYN011, SYN013
 from mudline.codes.references import REF007
 from mudline.deck.reading import TextOrigin
-from mudline.diagnostics import Problem, Repair, Severity, Span
+from mudline.diagnostics import Problem, Severity, Span
 from mudline.keywords import catalogue
 from mudline.keywords.keeping import is_choice, opened
 from mudline.keywords.model import Block, record_schema
@@ -71,19 +71,17 @@ def stars(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
             problem = said.get(line.start)
             if not name or (problem is None and written[:1].isspace()):
                 continue
-            star = Span(line.start, line.start)
             comment = problem.code is SYN013 if problem else leaf.kind is not Kind.TEXT
             read = "a comment" if comment else "data"
             message = f"{written.strip()} without its star is read as {read}: write *{name}"
-            repair = Repair("unsafe", f"write *{name}", ((Span(line.start, line.start + len(written)), f"*{name}"),))
-            place = problem.span if problem else Span(line.start, line.start + len(written))
+            own = Span(line.start, line.start + len(written))
+            place = problem.span if problem else own
             known = problem if problem and problem.code is not SYN016 else None
             code = SYN013 if comment else known.code if known else SYN001
-            cause = Problem(code, message, place, known.weight if known and not comment else None, repair=repair)
+            cause = Problem(code, message, place, known.weight if known and not comment else None)
             certain = section.name in (catalogue.sections_of(name) or ())
-            yield Correction(
-                cause, (TextEdit(star, "*"),), Span(line.start, blocks.block_at(line.start).end), certain=certain
-            )
+            lines = Span(line.start, blocks.block_at(line.start).end)
+            yield Correction(cause, (TextEdit(own, f"*{name}"),), lines, does=f"write *{name}", certain=certain)
 
 
 def starless(line: str, section: str) -> str:
@@ -158,8 +156,8 @@ def _keyword_line(
     above = Span(lines.start, lines.start)
     if len(found) == 1:
         message = f"{which} read as *{found[0]}: that line seems to be missing above them"
-        repair = Repair("unsafe", f"write *{found[0]} above them", ((above, f"*{found[0]}\n"),))
-        yield Correction(replace(cause, repair=repair), (TextEdit(above, f"*{found[0]}\n"),), lines, message)
+        edits = (TextEdit(above, f"*{found[0]}\n"),)
+        yield Correction(cause, edits, lines, message, does=f"write *{found[0]} above them")
     elif found:
         names = " or ".join(f"*{keyword}" for keyword in found[:MOST_NAMED])
         message = f"{which} are of another keyword, {names}: its line seems to be missing above them"

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 from mudline.codes.lines import SYN001
 from mudline.codes.references import REF001, REF005, REF006, REF007, REF008
 from mudline.deck.parameters import folded
 from mudline.deck.reading import TextOrigin
-from mudline.diagnostics import Problem, Repair, Severity, Span, Where
+from mudline.diagnostics import Problem, Severity, Span, Where
 from mudline.keywords.model import Part
 from mudline.keywords.naming import names_given
 from mudline.keywords.values import Names
@@ -73,10 +72,9 @@ def _names(
         if not spans or any(_own_name(context, where) == near[0] for where in uses):
             continue
         first, *others = sorted(found, key=lambda one: start_of(text, one))
-        repair = Repair("unsafe", f"write {meant}", tuple((span, meant) for span in spans))
-        message = f"{first.message}; {also_in(text, others)}" if others else first.message
+        message = f"{first.message}; {also_in(text, others)}" if others else ""
         edits = tuple(TextEdit(span, meant) for span in spans)
-        yield Correction(replace(first, message=message, repair=repair), edits, spans[0], certain=True)
+        yield Correction(first, edits, spans[0], message, does=f"write {meant}")
 
 
 def _own_name(context: LintContext, where: Where) -> str:
@@ -93,9 +91,8 @@ def _numbers(context: LintContext, text: TextOrigin) -> Iterator[Correction]:
         cause = next((one for one in context.deck.problems if span and one.span == span), None)
         if span is not None and cause is not None and len(given) == 1:
             number = str(min(given))
-            repair = Repair("unsafe", f"write {number}", ((span, number),))
             message = f"{cause.message} (did you mean {number}?)"
-            yield Correction(replace(cause, message=message, repair=repair), (TextEdit(span, number),), span)
+            yield Correction(cause, (TextEdit(span, number),), span, message, does=f"write {number}")
 
 
 def _given_twice(context: LintContext, text: TextOrigin) -> Iterator[Correction]:
@@ -119,8 +116,7 @@ def _given_twice(context: LintContext, text: TextOrigin) -> Iterator[Correction]
             number, span = meant.pop(), Span(*own.span(1))
             lacking.discard(number)
             message = f"number {own[1]} is given twice, and {number} is not defined: is this one {number}?"
-            repair = Repair("unsafe", f"write {number}", ((span, number),))
-            yield Correction(replace(problem, message=message, repair=repair), (TextEdit(span, number),), span)
+            yield Correction(problem, (TextEdit(span, number),), span, message, does=f"write {number}")
 
 
 def _rows_without_name(context: LintContext, text: TextOrigin, curves: list[str]) -> Iterator[Correction]:
@@ -136,9 +132,7 @@ def _rows_without_name(context: LintContext, text: TextOrigin, curves: list[str]
         line = f"{'SET' if curve.embedment else 'CURVE'}={names.pop(0)}"
         place = Span(line_at(text, span.start).start, line_at(text, span.start).start)
         message = f"the points begin again here: the line {line} seems to be missing above this one"
-        repair = Repair("unsafe", f"write {line}", ((place, f" {line}\n"),))
-        cause = Problem(SYN001, message, span, repair=repair)
-        yield Correction(cause, (TextEdit(place, f" {line}\n"),), span)
+        yield Correction(Problem(SYN001, message, span), (TextEdit(place, f" {line}\n"),), span, does=f"write {line}")
 
 
 def _unused_set(context: LintContext) -> list[str]:

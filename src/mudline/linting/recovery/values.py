@@ -91,9 +91,8 @@ def indented_comments(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[C
         if problem.weight is Severity.ERROR and (found := INDENTED_COMMENT.match(unified, start)):
             blanks = Span(start, start + len(found[0]) - len(found[0].lstrip(" \t")))
             words = "an indented line is data: if it is meant as a comment, put its C in column 1"
-            repair = Repair("unsafe", "put the C in column 1", ((blanks, ""),))
-            cause = replace(problem, message=f"{problem.message}; {words}", repair=repair)
-            yield Correction(cause, (TextEdit(blanks, ""),), line_at(blocks.text, start))
+            message, line = f"{problem.message}; {words}", line_at(blocks.text, start)
+            yield Correction(problem, (TextEdit(blanks, ""),), line, message, does="put the C in column 1")
 
 
 @recovers_from(SYN015)
