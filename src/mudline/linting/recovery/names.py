@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from functools import cache
 from itertools import chain
 
@@ -52,13 +51,11 @@ def misspelt(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction
         edits = tuple(TextEdit(span, written) for span, written in sorted(chain.from_iterable(repairs)))
         first = edits[0].span
         region = blocks.section_at(first.start) if problem.code is SYN010 else blocks.block_at(first.start)
-        words = ""
-        if others := [one for one in found if one is not problem]:
-            repair = problem.repair and replace(problem.repair, edits=tuple((each.span, each.text) for each in edits))
-            problem = replace(problem, repair=repair)
-            words = f"{problem.message}; {also_in(text, others)}"
+        others = [one for one in found if one is not problem]
+        message = f"{problem.message}; {also_in(text, others)}" if others else ""
+        does = problem.repair.message if problem.repair else ""
         if all(_differs(text.source.unified[slice(*edit.span)], edit.text) for edit in edits):
-            yield Correction(problem, edits, region, words, joins=edits[0].text.startswith("C "))
+            yield Correction(problem, edits, region, message, does, joins=edits[0].text.startswith("C "))
 
 
 def _differs(written: str, meant: str) -> bool:
