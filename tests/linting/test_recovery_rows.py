@@ -98,7 +98,7 @@ ONE_CAUSE = {
     "a number used twice": ((" 7, -0.05", " 6, -0.05"), "REF007", 11),
     "nodes pasted twice": ((ROWS, ROWS + ROWS), "REF007", 17),
     "a letter in a density": ((" 500.0, 1025.0", " 500.0, l025.0"), "SYN002", 3),
-    "laws without their keyword line": (("*SEABED PROPERTIES\n TYPE", "*LINE PATHS\n x\n TYPE"), "SYN001", 36),
+    "laws without their keyword line": (("*SEABED PROPERTIES\n TYPE", "*LINE PATHS\n x\n TYPE"), "SBD006", 36),
 }
 
 

@@ -9,6 +9,7 @@ from dataclasses import replace
 from functools import cache, lru_cache
 from itertools import pairwise
 
+from mudline.codes.contact import SBD006
 from mudline.codes.fields import SYN002, SYN003, SYN016
 from mudline.codes.lines import SYN001, SYN004, SYN005, SYN011, SYN013
 from mudline.codes.references import REF007
@@ -270,7 +271,13 @@ def _first_lines(blocks: Blocks, block: RawBlock, read: ReadBlock | None) -> Ite
     for start in [again.start] if again else _foreign_lines(text, block, read):
         line = trimmed(unified, *line_at(text, start))
         said = f"*{block.name} has {unified[slice(*line)]} above, and " if again else ""
-        yield Problem(SBD008 if again else SYN001, said, line, Severity.WARNING)
+        code = SBD008 if again else SBD006 if _is_telling(unified, line) else SYN001
+        yield Problem(code, said, line, Severity.WARNING)
+
+
+def _is_telling(unified: str, line: Span) -> bool:
+    """Whether one keyword alone has a line; it gives the laws of the seabed, which would be missing."""
+    return "".join(unified[slice(*line)].split()).upper() in catalogue.telling_lines()
 
 
 @cache
@@ -289,10 +296,7 @@ def _foreign_lines(text: TextOrigin, block: RawBlock, read: ReadBlock | None) ->
     """
     unified = text.source.unified
     if read is None:
-        telling = catalogue.telling_lines()
-        return [
-            line.start for line in lines_of(text, block) if "".join(unified[slice(*line)].split()).upper() in telling
-        ]
+        return [line.start for line in lines_of(text, block) if _is_telling(unified, line)]
     leaves = data_of(block.leaves) if read.lost else []
     kept = read.places.kept if leaves else frozenset()
     found: list[int] = []
