@@ -71,6 +71,8 @@ def test_equality_and_hash_are_those_of_name_and_points() -> None:
     assert hash(curve) == hash(same)
     assert curve != ForceCurve(POINTS, name="sand")
     assert curve != ForceCurve(POINTS[:2], name="clay")
+    assert curve != ForceCurve([(ratio, 2.0 * force) for ratio, force in POINTS], name="clay")
+    assert curve != ForceCurve([(2.0 * ratio, force) for ratio, force in POINTS], name="clay")
     assert curve != "clay"
     assert len({curve, same, ForceCurve(POINTS)}) == 2
 
@@ -84,8 +86,28 @@ def test_copies_and_pickles_are_equal() -> None:
 
 def test_repr() -> None:
     assert repr(ForceCurve([(1, 2), (0, 1)], name="a")) == "ForceCurve([(0.0, 1.0), (1.0, 2.0)], name='a')"
-    many = ForceCurve([(ratio, ratio) for ratio in range(9)])
-    assert repr(many) == "ForceCurve(<9 points from (0.0, 0.0) to (8.0, 8.0)>, name=None)"
+    eight = [(float(ratio), float(ratio)) for ratio in range(8)]
+    assert repr(ForceCurve(eight)) == f"ForceCurve({eight}, name=None)"
+    assert repr(ForceCurve([*eight, (8, 8)])) == "ForceCurve(<9 points from (0.0, 0.0) to (8.0, 8.0)>, name=None)"
+
+
+def test_repr_is_of_a_length_that_can_be_read() -> None:
+    longest = [
+        (0.0, 1e-100),
+        (1.0, 1.0),
+        (2.0, 2.0),
+        (3.0, 3.0),
+        (4.0, 4.0),
+        (5.1234567, 5.1234567),
+        (6.0, 6.0),
+        (7.0, 1.2345678901),
+    ]
+    assert len(repr(longest)) == 120
+    assert repr(ForceCurve(longest)) == f"ForceCurve({longest}, name=None)"
+    longer = [*longest[:-1], (7.0, 1.23456789012)]
+    assert repr(ForceCurve(longer)) == "ForceCurve(<8 points from (0.0, 1e-100) to (7.0, 1.23456789012)>, name=None)"
+    assert repr(ForceCurve(longer, "c" * 60)).endswith(f"name='{'c' * 60}')")
+    assert repr(ForceCurve(longer, "c" * 61)).endswith(f"name='{'c' * 57}...')")
 
 
 @pytest.mark.parametrize("shape", [(), (0,), (1,), (0, 3), (2, 3, 4), (3, 7000)])
@@ -197,6 +219,8 @@ def test_a_root_too_far_away_for_a_float64_is_left_out() -> None:
     curve = ForceCurve([(0.0, 0.0), (1e10, 1.0), (2e10, 1e300)])
     assert curve.ratios_at_force(-1e300) == ()
     assert curve.ratios_at_force(1.0) == (1e10,)
+    # the distance is a float64, the ratio is none
+    assert ForceCurve([(1e308, 0.0), (1.5e308, 2.0)]).ratios_at_force(6.0) == ()
 
 
 def test_roots_between_forces_whose_difference_overflows() -> None:
