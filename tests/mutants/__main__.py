@@ -95,23 +95,34 @@ def passes(item: pytest.Item, following: pytest.Item | None = None) -> bool:
     return all(report.passed for report in runtestprotocol(item, log=False, nextitem=following))
 
 
-def time_of(item: pytest.Item, files: list[str]) -> Timed | None:
-    """Run a test alone under trace; None where it does not pass as the program is, or is slow."""
+def timed_tests(items: list[pytest.Item], files: list[str]) -> list[Timed]:
+    """The tests that pass as the program is and are not slow, the fastest first, run under trace."""
 
     def run() -> object:
         coverage = Coverage(data_file=None, include=files, config_file=False)
         coverage.set_option("run:disable_warnings", ["no-data-collected"])
-        begun = time.process_time()
         coverage.start()
-        passed = passes(item)
+        seconds = {}
+        for number, (item, following) in enumerate(zip_longest(items, items[1:])):
+            coverage.switch_context(str(number))
+            begun = time.process_time()
+            if passes(item, following) and (took := time.process_time() - begun) < SLOW:
+                seconds[number] = took
         coverage.stop()
         data = coverage.get_data()
-        return passed, time.process_time() - begun, {file: set(data.lines(file) or ()) for file in files}
+        return seconds, {file: data.contexts_by_lineno(file) for file in files}
 
     _, given = forked(run)
-    if not isinstance(given, tuple) or not given[0] or given[1] > SLOW:
-        return None
-    return Timed(item, *given[1:])
+    if not isinstance(given, tuple):
+        raise TypeError("the tests did not come to an end")
+    seconds, lines = given
+    reached: dict[str, dict[str, set[int]]] = {}
+    for file, contexts in lines.items():
+        for line, tests in contexts.items():
+            for test in tests:
+                reached.setdefault(test, {}).setdefault(file, set()).add(line)
+    tests = [Timed(items[number], took, reached.get(str(number), {})) for number, took in seconds.items()]
+    return sorted(tests, key=lambda test: test.seconds)
 
 
 def codes(code: CodeType) -> dict[tuple[object, ...], CodeType]:
@@ -173,7 +184,7 @@ class Runner:
                 ".".join(("mudline", *path.relative_to(SOURCE).with_suffix("").parts)).removesuffix(".__init__")
             )
         files = [str(path) for path in self.paths]
-        timed = sorted(filter(None, (time_of(item, files) for item in session.items)), key=lambda test: test.seconds)
+        timed = timed_tests(session.items, files)
         say(f"{len(timed)} of {len(session.items)} tests, {sum(test.seconds for test in timed):.1f} s")
         functions = [
             each for each in gc.get_objects() if type(each) is FunctionType and each.__code__.co_filename in files
@@ -199,7 +210,7 @@ class Runner:
     def _take(
         self, path: Path, mutant: Mutant, code: CodeType, functions: list[FunctionType], timed: list[Timed]
     ) -> None:
-        tests = [test for test in timed if not test.reached[str(path)].isdisjoint(mutant.lines)]
+        tests = [test for test in timed if not test.reached.get(str(path), set()).isdisjoint(mutant.lines)]
         ended, _ = forked(lambda: trial(code, functions, tests))
         if ended == IMPOSSIBLE:
             return
