@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import pickle
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -10,15 +14,16 @@ from hypothesis import strategies as st
 
 from mudline.deck.forms.json import to_json
 from mudline.deck.loading import load_bytes
-from mudline.diagnostics import Severity
+from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.limits import MOST_PASSES
+from mudline.linting import fixing as fixing_module
 from mudline.linting.engine import Fixing, LintSettings
-from mudline.linting.fixing import Fixed, fix_bytes, lint_one
+from mudline.linting.fixing import Fixed, fix_bytes, lint_one, with_severities
 from mudline.linting.registry import rules
-from mudline.linting.rule import Rule
+from mudline.linting.rule import LintContext, Rule
 from mudline.linting.suppression import STY010
 from tests.linting.findings import CLAY, CURVES, PIPE, PROPERTIES
-from tests.linting.made_rules import replacing
+from tests.linting.made_rules import finding, replacing
 
 DECK = f"C A riser\n{PIPE}{PROPERTIES} STIFFNESS=Clay\n*SEABED STIFFNESS\n{CLAY}"
 TABS = replacing(r"\t", " ")
@@ -151,7 +156,67 @@ def test_a_report_can_be_sent_to_another_process() -> None:
 def test_a_document_is_linted_and_not_fixed() -> None:
     data = to_json(load_bytes(DECK.encode(), "deck.keyxm")).encode()
     report = lint_one("deck.json", data, LintSettings(rules(), fixing=Fixing.UNSAFE))
-    assert (report.changed, report.fixed) == (None, ())
+    assert (report.changed, report.fixed, report.note) == (None, (), "")
+
+
+def test_units_folder_and_dialect_reach_the_rules_before_and_after_fixing(tmp_path: Path) -> None:
+    name = Code("TST001", "made-tst001", Severity.WARNING)
+
+    def told(context: LintContext) -> Iterator[Problem]:
+        message = f"{context.deck.units} {context.deck.folder} {context.dialect}"
+        assert context.text is not None
+        for match in re.finditer("Clay|sand", context.text.source.unified):
+            span = Span(*match.span())
+            yield Problem(name, message, span, repair=Repair("safe", "replace", ((span, "sand"),)))
+
+    rule = replace(TABS, check=told)
+    settings = LintSettings((rule,), units="imperial", dialect="flexcom", fixing=Fixing.SAFE)
+    report = lint_one("deck.keyxm", DECK.encode(), settings, tmp_path)
+    assert report.changed == DECK.replace("Clay", "sand").encode()
+    messages = {one.message for one in (*report.fixed, *report.found)}
+    assert len(report.fixed) == len(report.found) == 2
+    assert messages == {f"imperial {tmp_path} flexcom"}
+
+
+@pytest.mark.parametrize(
+    ("given", "above", "below"),
+    [
+        ({}, "info", "info"),
+        ({"TST002": Severity.ERROR}, "error", "error"),
+        ({"TST002": Severity.WARNING}, "warning", "warning"),
+        ({"TST001": Severity.ERROR}, "error", "info"),
+        ({"TST001": Severity.WARNING, "TST002": Severity.ERROR}, "error", "error"),
+        ({"TST001": Severity.ERROR, "TST002": Severity.WARNING}, "error", "warning"),
+    ],
+)
+def test_a_finding_is_as_severe_as_the_worst_below_it(given: dict[str, Severity], above: str, below: str) -> None:
+    info = Severity.INFO
+    following = finding(code="TST002", severity=info), finding(code="TST003", severity=info)
+    (one,) = with_severities(
+        [finding(code="TST001", severity=info, following=following)], LintSettings((), severities=given)
+    )
+    assert one.severity.value == above
+    assert [each.severity.value for each in one.following] == [below, "info"]
+
+
+@pytest.mark.parametrize(
+    ("tries", "count", "note"), [(1, 1, "fixing was stopped"), (2, 2, "fixing was stopped"), (3, 3, "")]
+)
+def test_a_deck_is_read_so_often_and_no_more(
+    monkeypatch: pytest.MonkeyPatch, tries: int, count: int, note: str
+) -> None:
+    monkeypatch.setattr(fixing_module, "MOST_TRIES", tries)
+    result = fix(
+        "C mudline: xxx1\n" + DECK,
+        replacing("xxx1", "xx2"),
+        replacing("xx2", "x3"),
+        replacing("x3", "4", code="TST003"),
+    )
+    assert result.changed is not None
+    assert result.changed.decode() == f"C mudline: {('xx2', 'x3', '4')[count - 1]}\n{DECK}"
+    assert len(result.fixed) == count
+    assert result.note.startswith(note)
+    assert bool(result.note) == bool(note)
 
 
 LINES = [*f"{DECK}".split("\n"), "\t1, 2", "C mudline: ignore CRV005", "C mudline: ignore-block X", " CURV=a", "C\t x"]
