@@ -27,6 +27,8 @@ from tests.linting.made_rules import finding, replacing
 
 DECK = f"C A riser\n{PIPE}{PROPERTIES} STIFFNESS=Clay\n*SEABED STIFFNESS\n{CLAY}"
 TABS = replacing(r"\t", " ")
+Replaced = tuple[str, str, str]
+"""Pattern, text and kind of a repair."""
 
 
 def fix(
@@ -95,6 +97,77 @@ def test_a_fix_that_makes_the_deck_worse_is_dropped_and_the_others_are_made(bad:
     assert result.changed == DECK.encode()
     assert {one.code for one in result.fixed} == {"TST009"}
     assert "not made" in result.note
+
+
+def test_of_two_repairs_of_one_place_the_second_is_made_where_the_first_cannot_be() -> None:
+    result = fix(DECK, replacing("4000.0", "4O00.0"), replacing("4000.0", "5000.0", code="TST002"))
+    assert result.changed == DECK.replace("4000.0", "5000.0").encode()
+    assert [one.code for one in result.fixed] == ["TST002"]
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "fixing", "made"),
+    [
+        # the one that begins first, whatever its text
+        (("0.5, 4000.0", "0.5, 6000.0", "safe"), ("4000.0", "+7000.0", "safe"), Fixing.SAFE, "0.5, 6000.0"),
+        (("4000.0", "+7000.0", "safe"), ("0.5, 4000.0", "0.5, 6000.0", "safe"), Fixing.SAFE, "0.5, 6000.0"),
+        # but a safe one before one that guesses
+        (("0.5, 4000.0", "0.5, 6000.0", "unsafe"), ("4000.0", "7000.0", "safe"), Fixing.UNSAFE, "0.5, 7000.0"),
+        # both, where one ends as the other begins
+        (("0.5, ", "0.6, ", "safe"), ("4000.0", "7000.0", "safe"), Fixing.SAFE, "0.6, 7000.0"),
+    ],
+)
+def test_of_repairs_that_overlap_one_is_made_at_once(
+    monkeypatch: pytest.MonkeyPatch, first: Replaced, second: Replaced, fixing: Fixing, made: str
+) -> None:
+    monkeypatch.setattr(fixing_module, "MOST_TRIES", 1)
+    chosen = [
+        replacing(old, new, code=f"TST00{index}", kind=kind) for index, (old, new, kind) in enumerate((first, second))
+    ]
+    result = fix(DECK, *chosen, fixing=fixing)
+    assert (result.changed, result.note) == (DECK.replace("0.5, 4000.0", made).encode(), "")
+
+
+def test_a_repair_that_was_refused_is_made_when_another_has_made_it_possible() -> None:
+    use = replacing("STIFFNESS=Clay$", "STIFFNESS=Sand")
+    curve = " 0.5, 4001.0\n CURVE=Sand\n 0.0, 0.0\n 0.5, 1000.0"
+    define = replacing(" 0.5, 4000.0$", curve, code="TST002", kind="unsafe")
+    expected = DECK.replace("STIFFNESS=Clay", "STIFFNESS=Sand").replace(" 0.5, 4000.0", curve)
+    assert changed(DECK, use, define, fixing=Fixing.UNSAFE) == expected
+
+
+def test_errors_of_reading_are_fixed_before_others() -> None:
+    text = DECK.replace("STIFFNESS=Clay", "STIFNESS=Clay")
+    mend = replacing("STIFNESS", "STIFFNESS", code="SYN004", kind="unsafe", severity=Severity.ERROR)
+    drop = replacing("\n STIFNESS=Clay", "\n FRICTION=0.3", kind="unsafe", severity=Severity.ERROR)
+    assert changed(text, mend, drop, fixing=Fixing.UNSAFE) == DECK
+
+
+ROWS = " 0.0, 0.0\n 0.1, 1.0\n 0.2, 2.0\n 0.3, 3.0\n 0.4, 4.0\n"
+FOUR = f"{CURVES} CURVE=Clay\n{ROWS}"
+
+
+def test_bad_repairs_among_good_ones_are_found_by_halving(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Four, two and two, each: six tries make good ones of halves with a bad one, and one more both together."""
+    bad, good = replacing(r"\b[13]\.0$", "x"), replacing(r"\b([24])\.0$", r"\g<1>.5", code="TST002")
+    monkeypatch.setattr(fixing_module, "MOST_TRIES", 8)
+    result = fix(FOUR, bad, good)
+    assert result.changed == FOUR.replace("2.0\n", "2.5\n").replace("4.0\n", "4.5\n").encode()
+    monkeypatch.setattr(fixing_module, "MOST_TRIES", 7)
+    assert fix(FOUR, bad, good).changed == FOUR.replace("2.0\n", "2.5\n").encode()
+
+
+def test_of_repairs_that_are_bad_together_one_is_made() -> None:
+    """Either row may be at the ratio 0.25, not both."""
+    result = fix(FOUR, replacing(r"0\.2, ", "0.25, "), replacing(r"0\.3, ", "0.25, ", code="TST002"))
+    assert result.changed == FOUR.replace("0.2, ", "0.25, ").encode()
+    assert [one.code for one in result.fixed] == ["TST001"]
+    assert result.note == "1 fix not made: the deck would have had a new error or lost something"
+
+
+def test_a_note_counts_what_was_not_made() -> None:
+    result = fix(FOUR, replacing(r"\b[13]\.0$", "x"))
+    assert result == Fixed(None, (), "2 fixes not made: the deck would have had a new error or lost something")
 
 
 def test_a_repair_that_changes_nothing_is_none() -> None:

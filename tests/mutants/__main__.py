@@ -127,7 +127,7 @@ def timed_tests(items: list[pytest.Item], files: list[str]) -> list[Timed]:
 
 def codes(code: CodeType) -> dict[tuple[object, ...], CodeType]:
     """The code of every function of a module, by name, line and variables."""
-    found = {(code.co_qualname, code.co_firstlineno, code.co_varnames): code}
+    found: dict[tuple[object, ...], CodeType] = {(code.co_qualname, code.co_firstlineno, code.co_varnames): code}
     for constant in code.co_consts:
         if isinstance(constant, CodeType):
             found |= codes(constant)

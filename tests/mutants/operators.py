@@ -94,7 +94,7 @@ def _edits(node: ast.AST) -> Iterator[tuple[str, object]]:
             yield "value", not value
         case ast.Constant(value=int() | float() as value):
             yield "value", value + 1
-        case ast.Return(value=ast.expr()):
+        case ast.Return(value=ast.expr() as given) if ast.unparse(given) != "None":
             yield "value", None
         case ast.Expr(value=ast.Call()):
             yield "value", ast.Constant(None)
