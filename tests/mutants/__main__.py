@@ -178,6 +178,7 @@ class Runner:
 
     def pytest_runtestloop(self, session: pytest.Session) -> bool:
         """Count the mutants, run a sample of them, print those that no test kills."""
+        sys.modules["numba"] = None  # type: ignore[assignment] # compiled loops are made of the source without a mutant
         gc.unfreeze()
         for path in self.paths:
             import_module(
@@ -259,8 +260,6 @@ def main() -> None:
         "--hypothesis-profile=mutants",
         "--continue-on-collection-errors",
     ]
-    # Compiled loops are made of the source, and have no mutant.
-    sys.modules["numba"] = None  # type: ignore[assignment]
     raise SystemExit(pytest.main([*options, *tests], plugins=[runner]))
 
 
