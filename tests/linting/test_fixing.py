@@ -165,9 +165,85 @@ def test_of_repairs_that_are_bad_together_one_is_made() -> None:
     assert result.note == "1 fix not made: the deck would have had a new error or lost something"
 
 
+def test_errors_that_were_there_before_keep_nothing_from_being_fixed() -> None:
+    text = DECK.replace("STIFFNESS=Clay", "STIFFNESS=Mud").replace(" CURVE", "\tCURVE")
+    result = fix(text, TABS)
+    assert (result.changed, result.note) == (text.replace("\t", " ").encode(), "")
+    other = replacing("STIFFNESS=Mud", "STIFFNESS=Clay\n LATERAL=-1", code="TST002")
+    assert fix(text, other).changed is None
+
+
 def test_a_note_counts_what_was_not_made() -> None:
     result = fix(FOUR, replacing(r"\b[13]\.0$", "x"))
     assert result == Fixed(None, (), "2 fixes not made: the deck would have had a new error or lost something")
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "overlap"),
+    [
+        ((0, 2), (2, 4), False),
+        ((0, 2), (3, 5), False),
+        ((0, 3), (2, 4), True),
+        ((0, 5), (2, 4), True),
+        ((2, 4), (2, 4), True),
+        ((2, 2), (0, 2), True),
+        ((2, 2), (2, 4), True),
+        ((2, 2), (1, 3), True),
+        ((2, 2), (2, 2), True),
+        ((2, 2), (0, 1), False),
+        ((2, 2), (3, 4), False),
+        ((2, 2), (3, 3), False),
+    ],
+)
+def test_what_an_insertion_touches_it_overlaps(one: tuple[int, int], other: tuple[int, int], overlap: bool) -> None:
+    assert fixing_module._overlap(Span(*one), Span(*other)) is overlap
+    assert fixing_module._overlap(Span(*other), Span(*one)) is overlap
+
+
+SPANS = st.builds(lambda start, length: Span(start, start + length), st.integers(0, 12), st.integers(0, 3))
+
+
+@given(st.lists(st.lists(SPANS, min_size=1, max_size=2), max_size=8))
+def test_repairs_that_are_made_together_do_not_overlap_and_no_other_fits(edits: list[list[Span]]) -> None:
+    name = Code("TST001", "made-tst001", Severity.WARNING)
+    problems = [
+        Problem(name, "", spans[0], repair=Repair("safe", "", tuple((span, "") for span in spans))) for spans in edits
+    ]
+    taken: list[Span] = []
+    expected = []
+    for problem in sorted(problems, key=lambda each: each.span or Span(0, 0)):
+        assert problem.repair is not None
+        spans = [span for span, _ in problem.repair.edits]
+        if not any(fixing_module._overlap(span, other) for span in spans for other in taken):
+            taken += spans
+            expected.append(problem)
+    assert fixing_module._disjoint(problems) == expected
+
+
+def test_a_safe_fix_moves_no_block_before_others() -> None:
+    """Of three curves in blocks of their own the last one comes first: the second is where it was not."""
+    mud, sand = (f"*SEABED STIFFNESS\n CURVE={name}\n 0.0, 0.0\n 0.5, 9000.0\n" for name in ("Mud", "Sand"))
+    text, start, end = DECK + mud + sand, DECK.index("\n*SEABED STIFFNESS"), len(DECK + mud)
+    edits = (Span(start, start), "\n" + sand.rstrip()), (Span(end, end + len(sand)), "")
+
+    def check(_context: LintContext) -> Iterator[Problem]:
+        yield Problem(TABS.code, "move this", edits[0][0], repair=Repair("safe", "move it", edits))
+
+    assert load_bytes(text.encode(), "deck.keyxm").problems == []
+    assert fix(text, replace(TABS, check=check)).changed is None
+
+
+def test_a_safe_fix_may_add_to_the_end_of_its_block() -> None:
+    assert changed(DECK, replacing(r"(?<=4000\.0)$(?!\n 0.6)", "\n 0.6, 5000.0")) == DECK.replace(
+        "4000.0", "4000.0\n 0.6, 5000.0"
+    )
+
+
+@pytest.mark.parametrize("comment", ["C riser", "C A", "C"])
+def test_a_comment_may_be_laid_out_anew_and_not_lost(comment: str) -> None:
+    text = DECK.replace("C A riser", "C A  riser")
+    assert changed(text, replacing("^C A  riser", "C\tA riser")) == DECK.replace("C A", "C\tA")
+    assert fix(text, replacing("^C A  riser", comment)).changed is None
 
 
 def test_a_repair_that_changes_nothing_is_none() -> None:

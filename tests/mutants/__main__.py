@@ -125,9 +125,14 @@ def timed_tests(items: list[pytest.Item], files: list[str]) -> list[Timed]:
     return sorted(tests, key=lambda test: test.seconds)
 
 
+def named(code: CodeType) -> tuple[object, ...]:
+    """What a function keeps when it gets a mutant: its name, place and arguments."""
+    return code.co_qualname, code.co_firstlineno, code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
+
+
 def codes(code: CodeType) -> dict[tuple[object, ...], CodeType]:
-    """The code of every function of a module, by name, line and variables."""
-    found: dict[tuple[object, ...], CodeType] = {(code.co_qualname, code.co_firstlineno, code.co_varnames): code}
+    """The code of every function of a module, and of those within."""
+    found = {named(code): code}
     for constant in code.co_consts:
         if isinstance(constant, CodeType):
             found |= codes(constant)
@@ -139,8 +144,7 @@ def trial(code: CodeType, functions: Iterable[FunctionType], tests: list[Timed])
     new = codes(code)
     try:
         for function in functions:
-            old = function.__code__
-            function.__code__ = new.get((old.co_qualname, old.co_firstlineno, old.co_varnames), old)
+            function.__code__ = new.get(named(function.__code__), function.__code__)
     except ValueError:
         return IMPOSSIBLE
     resource.setrlimit(resource.RLIMIT_AS, (8 << 30, 8 << 30))
