@@ -36,7 +36,16 @@ KILLED, SURVIVED, IMPOSSIBLE = 1, 0, 3
 SLOW = 1.0
 """Seconds of processor time, traced, beyond which a test is left out."""
 _LAWS = (
-    *("friction", "suction", "trench", "test_closed_forms.py", "test_damping.py", "test_errors.py", "test_lateral.py"),
+    *(
+        "friction",
+        "suction",
+        "trench",
+        "test_law_borders.py",
+        "test_closed_forms.py",
+        "test_damping.py",
+        "test_errors.py",
+        "test_lateral.py",
+    ),
     *("test_normal_laws.py", "test_plan.py", "test_registered_law.py", "test_soil.py", "test_stiffest.py"),
     *("test_tangent.py", "test_unloading.py"),
 )

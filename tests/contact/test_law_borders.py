@@ -1,0 +1,140 @@
+"""Laws as functions of single numbers: worked values at the borders of their cases, where scenes seldom come."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mudline.contact.laws import breakout, linear, soil
+from mudline.contact.laws.friction import FrictionHistory, FrictionLaw, in_ellipse, on_ellipse
+from tests.contact.single import anchored, coulomb, move
+
+
+def test_the_tangent_of_a_direction_without_a_limit_is_none() -> None:
+    held = coulomb((0.0, 0.5), 1e5, ellipse=True)
+    stuck = move(held, anchored(held), (0.5, 0.001), 1000.0)
+    assert stuck.by_position[0].tolist() == [[0.0, 0.0], [0.0, -1e5]]
+    slipping = move(held, anchored(held), (0.5, 0.01), 1000.0)
+    assert slipping.by_position[0].tolist() == [[0.0, 0.0], [0.0, 0.0]]
+    assert slipping.by_compression[0].tolist() == [0.0, -0.5]
+
+
+def test_a_node_that_touches_down_has_no_force_and_no_stiffness() -> None:
+    held = coulomb((0.4, 0.5), 1e5)
+    step = move(held, FrictionHistory.initial(held.active), (0.5, 0.3), 1000.0)
+    assert step.force[0].tolist() == [0.0, 0.0]
+    assert step.by_position[0].tolist() == [[0.0, 0.0], [0.0, 0.0]]
+    assert step.by_compression[0].tolist() == [0.0, 0.0]
+
+
+def test_what_is_at_the_ellipse_does_not_slip() -> None:
+    assert on_ellipse(3.0, 0.0, 3.0, 4.0) == (3.0, 0.0, False)
+    assert on_ellipse(0.0, -4.0, 3.0, 4.0) == (0.0, -4.0, False)
+    assert on_ellipse(np.nextafter(3.0, 4.0), 0.0, 3.0, 4.0)[2]
+
+
+def test_a_trial_far_beyond_the_ellipse_is_drawn_back_along_its_direction() -> None:
+    force_1, force_2, slips = on_ellipse(3e300, -4e300, 1e-5, 1e-5)
+    assert (float(force_1), float(force_2)) == pytest.approx((0.6e-5, -0.8e-5), rel=1e-14)
+    assert slips
+
+
+@pytest.mark.parametrize("trial", [1.0, -1.0, 5e-324])
+def test_a_direction_without_a_limit_slips_whenever_it_is_moved(trial: float) -> None:
+    assert in_ellipse(0.0, 1.0, 0.0, 2.0) == (0.0, 1.0, False, False)
+    assert in_ellipse(trial, 1.0, 0.0, 2.0) == (0.0, 1.0, True, False)
+    assert in_ellipse(1.0, trial, 2.0, 0.0) == (1.0, 0.0, False, True)
+    assert in_ellipse(1.0, 0.0, 2.0, 0.0) == (1.0, 0.0, False, False)
+
+
+def test_a_spring_beyond_numbers_is_infinite_without_a_warning() -> None:
+    every = np.array([True])
+    law = FrictionLaw(np.array([[0.5, 0.5]]), np.array([[np.nan, 7.0]]), np.array([[5e-324, np.nan]]), every, every)
+    assert law.rising.tolist() == [[np.inf, 0.0]]
+    assert law.springs(np.array([2.0])).tolist() == [[np.inf, 7.0]]
+
+
+LAW = (0.05, 0.1, 0.4, 0.2, 0.25)
+"""d_0, d_1, r_0, r_1 and where the residual is reached: at w = 0.5 the peak is at 0.1."""
+
+
+def test_the_embedment_grows_up_to_the_peak() -> None:
+    assert breakout.reached((0.1, 0.5), 0.02, 0.7, LAW) == (0.1, 0.7)
+    assert breakout.reached((0.1, 0.5), -0.3, 1.7, LAW) == (0.3, 1.0)
+    assert breakout.reached((0.1, 0.5), 0.12, 0.3, LAW) == (0.12, 0.5)
+    assert breakout.reached((np.nextafter(0.1, 1.0), 0.5), 0.02, 0.7, LAW)[1] == 0.5
+
+
+@pytest.mark.parametrize(
+    ("far", "share", "slope"),
+    [(0.0, 1.0, 0.0), (0.1, 1.0, 0.0), (0.175, 0.5, 1.0), (0.25, 0.0, 0.0), (0.4, 0.0, 0.0)],
+    ids=["start", "peak", "half way", "residual", "beyond"],
+)
+def test_the_share_falls_from_the_peak_to_the_residual(far: float, share: float, slope: float) -> None:
+    residual = 0.4 + 0.2 * 0.5**0.8
+    left, fall, spring = breakout.shares(far, 0.5, LAW)
+    assert float(left) == pytest.approx(residual + share * (1.0 - residual), rel=1e-12)
+    assert float(fall) == pytest.approx(slope * (1.0 - residual) / 0.15, rel=1e-12)
+    assert spring == pytest.approx(0.5)
+
+
+def test_a_residual_above_the_peak_is_the_peak() -> None:
+    assert breakout.shares(1.0, 1.0, (0.05, 0.0, 0.9, 0.3, 0.25)) == (1.0, 0.0, 1.0)
+
+
+CLAY = (5000.0, 1500.0, 6.0, 0.25, 200.0, 0.6, 1.0, 0.3, 0.0)
+"""The parameters of the soil law; the pipe has a diameter of 0.3 m."""
+PACE = 200.0 / 0.3
+
+
+@pytest.mark.parametrize(
+    ("ratio", "force", "slope"),
+    [
+        (0.01, 1067.9279169, 296966.73388),
+        (0.05, 3268.0204652, 129716.21422),
+        (0.2, 5977.5596821, 29097.960813),
+        (0.5, 7830.3275104, 15815.340064),
+        (1.0, 9761.1940299, 10982.772704),
+    ],
+)
+def test_the_initial_path_of_the_soil(ratio: float, force: float, slope: float) -> None:
+    assert soil.virgin(0.3 * ratio, 0.3, *CLAY) == pytest.approx((force, slope), rel=1e-9)
+    heavy = soil.virgin(0.3 * ratio, 0.3, *CLAY[:-1], 9000.0)
+    angle = np.arccos(1.0 - 2.0 * ratio)
+    area, width = 0.3**2 / 4.0 * (angle - 0.5 * np.sin(2.0 * angle)), 0.3 * np.sin(angle)
+    assert heavy == pytest.approx((force + 9000.0 * area, slope + 9000.0 * width), rel=1e-9)
+
+
+def test_above_the_mudline_there_is_no_soil() -> None:
+    assert soil.virgin(-0.1, 0.3, *CLAY[:-1], 9000.0)[0] == 0.0
+
+
+def test_the_steepest_stiffness_of_the_soil() -> None:
+    """K_max P_u/D; just below the mudline, where P_u grows as a root, the initial path has half as much again."""
+    assert soil.steepest(0.06, 0.3, *CLAY) == pytest.approx(4084665.7828, rel=1e-9)
+    resistance = 6.0 * 0.1**0.25 * np.sqrt(10.0 * 1e-9) * 5000.0 * 0.3
+    assert soil.steepest(0.3e-9, 0.3, *CLAY) == pytest.approx(1.5 * PACE * resistance, rel=1e-6)
+    assert soil.steepest(np.inf, 0.3, *CLAY) == soil.steepest(0.3, 0.3, *CLAY)
+    # the weight adds w D, where the pipe is half in the soil or more, else w times the width at the mudline
+    heavy = (*CLAY[:-1], 9000.0)
+    for depth, width in ((0.03, 0.18), (0.15, 0.3), (0.25, 0.3)):
+        added = float(soil.steepest(depth, 0.3, *heavy)) - float(soil.steepest(depth, 0.3, *CLAY))
+        assert added == pytest.approx(9000.0 * width, rel=1e-6)
+
+
+@pytest.mark.parametrize("gradient", [0.0, 1500.0, 8e4])
+@pytest.mark.parametrize("top", [0.01, 0.4, 3.0])
+@pytest.mark.parametrize("exponent", [0.25, 0.5])
+def test_the_peak_of_an_uplift_solves_its_equation(exponent: float, gradient: float, top: float) -> None:
+    z = float(soil._peak(exponent, 5000.0, gradient, top))
+    assert 0.0 < z < top
+    assert (exponent / z + gradient / (5000.0 + gradient * z)) * (top - z) == pytest.approx(1.0, rel=1e-10)
+
+
+@pytest.mark.parametrize("half_width", [0.0, 0.02])
+@pytest.mark.parametrize("one_sided", [0.0, 1.0])
+@pytest.mark.parametrize("force", [1.0, 99.0, 400.0, 401.0, 5e4])
+def test_the_penetration_under_a_force_has_that_force(force: float, half_width: float, one_sided: float) -> None:
+    z = linear.penetration_under(force, 1e4, half_width, one_sided)
+    assert linear.smoothed_reaction(z, 0.3, 1e4, half_width, one_sided)[0] == pytest.approx(force, rel=1e-12)
+    assert z > linear.zone_onset(1e4, half_width, one_sided)
