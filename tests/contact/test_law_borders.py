@@ -138,3 +138,51 @@ def test_the_penetration_under_a_force_has_that_force(force: float, half_width: 
     z = linear.penetration_under(force, 1e4, half_width, one_sided)
     assert linear.smoothed_reaction(z, 0.3, 1e4, half_width, one_sided)[0] == pytest.approx(force, rel=1e-12)
     assert z > linear.zone_onset(1e4, half_width, one_sided)
+
+
+def remembered(way: float, *, z0: float = 0.1, p0: float = 50.0, event: float = -1.0) -> tuple[float, ...]:
+    """An element that was 0.1 deep, and is at 0.06 with a force of 30."""
+    return 0.06, 30.0, way, 0.1, -1.0, z0, p0, event
+
+
+@pytest.mark.parametrize(
+    ("z", "memory", "event"),
+    [
+        (0.05, remembered(soil.UP), 1),
+        (0.1, remembered(soil.UP), 0),
+        (0.05, remembered(soil.UP, p0=0.0), 0),
+        (0.05, remembered(soil.UP, event=0.02), 0),
+        (0.05, remembered(soil.UP, event=0.0), 0),
+        (0.05, remembered(soil.DOWN), 0),
+        (0.2, remembered(soil.DOWN), 0),
+        (0.2, remembered(soil.AGAIN), 2),
+        (0.1, remembered(soil.AGAIN), 0),
+        (0.05, remembered(soil.AGAIN), 0),
+        (0.2, remembered(soil.AGAIN, event=0.3), 0),
+        (0.2, remembered(soil.UP), 0),
+    ],
+)
+def test_the_event_of_a_way_is_sought_where_a_step_may_come_to_it(
+    z: float, memory: tuple[float, ...], event: int
+) -> None:
+    assert int(soil.pending(z, memory)) == event
+
+
+@pytest.mark.parametrize(
+    ("z", "way", "after"),
+    [
+        (0.05, soil.DOWN, soil.UP),
+        (0.05, soil.AGAIN, soil.UP),
+        (0.07, soil.UP, soil.AGAIN),
+        (0.07, soil.DOWN, soil.DOWN),
+        (0.07, soil.AGAIN, soil.AGAIN),
+        (0.05, soil.UP, soil.UP),
+        (0.06, soil.DOWN, soil.DOWN),
+        (0.06, soil.UP, soil.UP),
+    ],
+)
+def test_a_reversal_is_remembered_and_its_event_is_unknown(z: float, way: float, after: float) -> None:
+    memory = remembered(way, event=0.02)
+    found = tuple(map(float, soil.begin(z, memory)))
+    turned = (0.06, 30.0, -1.0) if way != after else (0.1, 50.0, 0.02)
+    assert found == (0.06, 30.0, after, 0.1, -1.0, *turned)
