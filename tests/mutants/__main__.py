@@ -41,6 +41,7 @@ _LAWS = (
         "suction",
         "trench",
         "test_law_borders.py",
+        "test_law_pieces.py",
         "test_closed_forms.py",
         "test_damping.py",
         "test_errors.py",
