@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
-from mudline.contact.laws import breakout, linear, soil
+from mudline.contact.laws import Value, breakout, linear, soil
 from mudline.contact.laws.friction import FrictionHistory, FrictionLaw, in_ellipse, on_ellipse
 from tests.contact.single import anchored, coulomb, move
 
@@ -186,3 +188,22 @@ def test_a_reversal_is_remembered_and_its_event_is_unknown(z: float, way: float,
     found = tuple(map(float, soil.begin(z, memory)))
     turned = (0.06, 30.0, -1.0) if way != after else (0.1, 50.0, 0.02)
     assert found == (0.06, 30.0, after, 0.1, -1.0, *turned)
+
+
+@pytest.mark.parametrize("z", [0.01, 0.05, 0.2])
+def test_slopes_of_the_soil_against_differences(z: float) -> None:
+    """Also that of what a re-penetration lacks, which only says how soon its end is found."""
+    step = 1e-6
+
+    def slope(values: Callable[[float], Value]) -> float:
+        return float((values(z + step) - values(z - step)) / (2.0 * step))
+
+    assert soil.ultimate(z, 0.3, CLAY)[1] == pytest.approx(slope(lambda z: soil.ultimate(z, 0.3, CLAY)[0]), rel=1e-6)
+    assert soil.initial(z, 0.3, CLAY)[1] == pytest.approx(slope(lambda z: soil.initial(z, 0.3, CLAY)[0]), rel=1e-6)
+    assert soil.lift(z, 0.3, 9e3)[1] == pytest.approx(slope(lambda z: soil.lift(z, 0.3, 9e3)[0]), rel=1e-6)
+    memory, least = remembered(soil.AGAIN, z0=0.004), soil.ultimate(0.004, 0.3, CLAY)[0]
+    lacks, by_depth = soil._short(z, 0.3, memory, least, CLAY)
+    assert by_depth == pytest.approx(slope(lambda z: soil._short(z, 0.3, memory, least, CLAY)[0]), rel=1e-5)
+    most, initial = soil.ultimate(z, 0.3, CLAY)[0], soil.initial(z, 0.3, CLAY)[0]
+    gone, softness = PACE * (z - 0.004), (most - 50.0) / least
+    assert (lacks < 0.0) == (50.0 + gone / (softness + gone) * (most - 50.0) > initial)

@@ -110,6 +110,12 @@ def test_repr_is_of_a_length_that_can_be_read() -> None:
     assert repr(ForceCurve(longer, "c" * 61)).endswith(f"name='{'c' * 57}...')")
 
 
+def test_a_notebook_shows_the_points_with_their_slopes() -> None:
+    shown = ForceCurve(POINTS, name="clay <1>")._repr_html_()
+    assert "clay &lt;1&gt; 3 points" in shown
+    assert all(f">{number}<" in shown for number in ("0.1", "2000", "12500"))
+
+
 @pytest.mark.parametrize("shape", [(), (0,), (1,), (0, 3), (2, 3, 4), (3, 7000)])
 def test_results_have_the_shape_of_the_query(shape: tuple[int, ...]) -> None:
     curve = ForceCurve(POINTS)
