@@ -10,6 +10,7 @@ import pytest
 from mudline.contact.laws import Value, breakout, linear, soil
 from mudline.contact.laws.friction import FrictionHistory, FrictionLaw, in_ellipse, on_ellipse
 from tests.contact.single import anchored, coulomb, move
+from tests.contact.soil_program import Clay
 
 
 def test_the_tangent_of_a_direction_without_a_limit_is_none() -> None:
@@ -207,3 +208,77 @@ def test_slopes_of_the_soil_against_differences(z: float) -> None:
     most, initial = soil.ultimate(z, 0.3, CLAY)[0], soil.initial(z, 0.3, CLAY)[0]
     gone, softness = PACE * (z - 0.004), (most - 50.0) / least
     assert (lacks < 0.0) == (50.0 + gone / (softness + gone) * (most - 50.0) > initial)
+
+
+def crossing(values: Callable[[float], float], low: float, high: float) -> float:
+    """Where values of different signs at low and high have their zero, by halving."""
+    begins = values(low) > 0.0
+    for _ in range(200):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if (values(middle) > 0.0) == begins else (low, middle)
+    return high
+
+
+@pytest.mark.parametrize("gradient", [0.0, 1500.0, 8e4])
+@pytest.mark.parametrize(("z0", "share"), [(0.1, 0.95), (0.1, 0.2), (0.02, 0.9), (0.01, 0.5), (0.4, 0.9)])
+def test_an_uplift_falls_through_zero_where_its_formula_does(z0: float, share: float, gradient: float) -> None:
+    law, clay = (CLAY[0], gradient, *CLAY[2:]), Clay(gradient=gradient)
+    p0 = share * clay.initial(z0)
+
+    def force(z: float) -> float:
+        below = -0.6 * clay.ultimate(z)
+        gone = PACE * (z0 - z)
+        return p0 - gone / ((p0 - below) / clay.ultimate(z0) + gone) * (p0 - below)
+
+    found = float(soil.fall(0.3, remembered(soil.UP, z0=z0, p0=p0), law))
+    first = next((z for z in np.linspace(z0, 0.0, 4001) if force(z) <= 0.0), None)
+    assert first is not None
+    assert found == pytest.approx(crossing(force, z0, first), rel=1e-9)
+
+
+def test_an_uplift_without_suction_falls_through_zero_nowhere() -> None:
+    weak = (*CLAY[:5], 0.0, *CLAY[6:])
+    assert soil.fall(0.3, remembered(soil.UP, z0=0.1, p0=500.0), weak) == 0.0
+
+
+def reloaded(fallen: float, z0: float, p0: float) -> tuple[float, ...]:
+    """An element that was 0.06 deep, and goes down again from z0 with the force p0."""
+    return 0.06, p0, soil.AGAIN, 0.06, fallen, z0, p0, -1.0
+
+
+@pytest.mark.parametrize(
+    ("z0", "share", "low", "high"),
+    [(0.055, 0.6, 0.06, 0.1), (0.0599, 0.6, 0.06, 0.1), (0.0599, 0.9, 0.06, 0.1), (0.04, 0.9, 0.06, 0.06)],
+)
+def test_a_repenetration_meets_the_initial_path_where_its_formula_does(
+    z0: float, share: float, low: float, high: float
+) -> None:
+    clay = Clay()
+    p0 = share * clay.initial(z0)
+
+    def above(z: float) -> float:
+        rest, gone = clay.ultimate(z) - p0, PACE * (z - z0)
+        return p0 + gone / (rest / clay.ultimate(z0) + gone) * rest - clay.initial(z)
+
+    meets = crossing(above, low, high)
+    assert (above(0.06) < 0.0) == (high > low)
+    assert float(soil.meeting(0.3, reloaded(-1.0, z0, p0), CLAY)) == pytest.approx(meets, rel=1e-9)
+    # where the force once fell through zero its bound is the initial path from z_P / (1 - lambda_rep) on
+    late = 1.5 * meets
+    assert float(soil.meeting(0.3, reloaded(0.7 * late, z0, p0), CLAY)) == pytest.approx(late, rel=1e-12)
+    assert float(soil.meeting(0.3, reloaded(0.01, z0, p0), CLAY)) == pytest.approx(meets, rel=1e-9)
+
+
+def test_a_repenetration_from_far_below_the_initial_path_meets_it_nowhere() -> None:
+    assert soil.meeting(0.3, reloaded(-1.0, 0.055, 0.3 * Clay().initial(0.055)), CLAY) == np.inf
+
+
+def test_a_repenetration_that_begins_without_force_meets_nothing_and_one_from_the_mudline_all() -> None:
+    for p0 in (0.0, -200.0):
+        assert soil.meeting(0.3, reloaded(0.03, 0.02, p0), CLAY) == np.inf
+    assert soil.meeting(0.3, reloaded(-1.0, 0.0, 0.0), CLAY) == 0.06
+    assert soil.meeting(0.3, reloaded(0.07, 0.0, 0.0), CLAY) == pytest.approx(0.1)
+    slow = (*CLAY[:7], 1.0, 0.0)
+    force = 0.9 * Clay().initial(0.04)
+    assert soil.meeting(0.3, reloaded(0.03, 0.04, force), slow) == np.inf
+    assert soil.meeting(0.3, reloaded(-1.0, 0.04, force), slow) == 0.06

@@ -29,6 +29,8 @@ def test_worked_numbers() -> None:
     published = [3618.1365802, 5094.1809012, 6821.261609, 7886.1539935, 8712.3072292]
     assert_allclose(forces("f114", UNIFORM, 0.05, 0.1, 0.3, 0.5, 0.7), published, rtol=1e-10)
     assert_allclose(forces("skempton", UNIFORM, 0.1), [5092.7680161], rtol=1e-10)
+    # (7.5 s_u + w z) D beyond the cap
+    assert_allclose(forces("skempton", UNIFORM, 5.0), [(7.5 * 5000.0 + 6000.0 * 1.5) * 0.3], rtol=1e-12)
     initial = [1067.9279169, 3268.0204652, 4863.4491181, 5977.5596821, 7830.3275104, 9761.1940299]
     dry = Soil(0.3, 5000.0, 1500.0)
     assert_allclose(forces("randolph-quiggin", dry, 0.01, 0.05, 0.1, 0.2, 0.5, 1.0), initial, rtol=1e-10)
