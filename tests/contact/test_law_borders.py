@@ -282,3 +282,17 @@ def test_a_repenetration_that_begins_without_force_meets_nothing_and_one_from_th
     force = 0.9 * Clay().initial(0.04)
     assert soil.meeting(0.3, reloaded(0.03, 0.04, force), slow) == np.inf
     assert soil.meeting(0.3, reloaded(-1.0, 0.04, force), slow) == 0.06
+
+
+def test_an_element_at_the_mudline_has_no_force() -> None:
+    force, _, memory = soil.advance(0.0, 0.3, soil.SOIL.start, CLAY)
+    assert float(force) == 0.0
+    assert tuple(map(float, memory)) == soil.SOIL.start
+
+
+def test_an_uplift_from_a_small_force_keeps_it_at_first() -> None:
+    z0 = crossing(lambda z: Clay().initial(z) - 0.5, 0.0, 0.01)
+    memory = z0, 0.5, soil.UP, z0, -1.0, z0, 0.5, -1.0
+    assert float(soil.advance(0.9999 * z0, 0.3, memory, CLAY)[0]) == pytest.approx(0.5, abs=0.05)
+    fallen = (*memory[:6], 0.0, -1.0)
+    assert float(soil.advance(0.9999 * z0, 0.3, fallen, CLAY)[0]) <= 0.0

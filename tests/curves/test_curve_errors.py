@@ -30,6 +30,8 @@ LINE = ForceCurve([(0.0, 0.0), (1.0, 1.0)])
         ([(3.0, 3.0), (5e-324, 1.0), (0.0, 0.0)], "CRV011", 2),
         ([(0.0, 0.0), (1e300, 1e-300)], "CRV011", 1),
         ([(0.0, 0.0), (1e10, 1e-300)], "CRV011", 1),
+        ([(0.0, 0.0), (1e300, 1e-300), (1.5e300, 5.0)], "CRV011", 1),
+        ([(0.5, 1.0)] * 60 + [(0.5, 2.0), (0.0, 0.0)] + [(0.5, 1.0)] * 60, "CRV003", 60),
         ([(0.0, 0.0), (1.0, math.nan)], "SYN002", 1),
         ([(math.inf, 0.0), (1.0, 0.0)], "SYN002", 0),
     ],
@@ -44,6 +46,9 @@ def test_points_that_make_no_curve(points: list[tuple[float, float]], code: str,
 def test_messages_count_points_from_one_and_say_what_clashes() -> None:
     with pytest.raises(CurveError, match=r"two forces at ratio 0\.5: 1\.0 \(point 1\) and 2\.0 \(point 3\)"):
         ForceCurve([(0.5, 1.0), (0.0, 0.0), (0.5, 2.0)])
+    for points, count in (([], 0), ([(0.0, 1.0), (0.0, 1.0)], 1)):
+        with pytest.raises(CurveError, match=f"a curve needs two distinct points or more, not {count}"):
+            ForceCurve(points)
     with pytest.raises(CurveError, match="width between points 2 and 1 is too large"):
         ForceCurve([(1.7e308, 1.0), (-1.7e308, 0.0)])
     with pytest.raises(CurveError, match="slope between points 1 and 2 is too small"):

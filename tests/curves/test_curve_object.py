@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from numpy.typing import ArrayLike
 
 from mudline.curves import CurveError, ForceCurve
+from mudline.curves import points as curve_points
 
 POINTS = [(0.3, 4500.0), (0.0, 0.0), (0.1, 2000.0)]
 
@@ -48,6 +49,22 @@ def test_a_short_curve_has_the_bits_of_any_other(points: list[tuple[float, float
         return [values.tobytes() for values in (curve.ratios, curve.forces, curve.slopes)]
 
     assert made(array) == made(array.tolist() or np.empty((0, 2)))
+
+
+def test_which_curves_are_short() -> None:
+    """Those in order, of up to 64 points; any other is made by numpy, with the same result."""
+    points = np.column_stack((np.arange(65.0), np.arange(65.0) ** 2))
+    for count in (2, 64):
+        short = curve_points._short(points[:count])
+        assert short is not None
+        assert short.slopes.tolist() == (2.0 * np.arange(count - 1) + 1.0).tolist()
+        assert ForceCurve(points[:count]).slopes.tolist() == short.slopes.tolist()
+    others = [points[:1], points, points[::-1], points[:5].astype(np.float32), points[:4].reshape(2, 4), points[:, 0]]
+    others += [
+        np.array(rows) for rows in ([(0.0, 0.0), (0.0, 1.0)], [(0.0, 1.0), (1.0, 1.0)], [(0.0, 0.0), (1.0, np.inf)])
+    ]
+    others += [np.array([(-1.7e308, 0.0), (1.7e308, 1.0)])]
+    assert [curve_points._short(other) for other in others] == [None] * len(others)
 
 
 def test_a_curve_does_not_change() -> None:
