@@ -296,3 +296,38 @@ def test_an_uplift_from_a_small_force_keeps_it_at_first() -> None:
     assert float(soil.advance(0.9999 * z0, 0.3, memory, CLAY)[0]) == pytest.approx(0.5, abs=0.05)
     fallen = (*memory[:6], 0.0, -1.0)
     assert float(soil.advance(0.9999 * z0, 0.3, fallen, CLAY)[0]) <= 0.0
+
+
+WAYS = {
+    "initial": (0.08, (0.06, 900.0, soil.DOWN, 0.06, -1.0, 0.0, 0.0, -1.0)),
+    "uplift": (0.059, (0.0595, 900.0, soil.UP, 0.06, -1.0, 0.06, 3000.0, 0.0)),
+    "suction": (0.04, (0.041, -900.0, soil.UP, 0.06, 0.055, 0.06, 3000.0, 0.055)),
+    "suction that decays": (0.02, (0.021, -900.0, soil.UP, 0.06, 0.055, 0.06, 3000.0, 0.055)),
+    "again": (0.033, (0.025, 300.0, soil.AGAIN, 0.06, -1.0, 0.02, 100.0, -1.0)),
+    "again, delayed": (0.045, (0.044, 500.0, soil.AGAIN, 0.06, 0.05, 0.04, -300.0, -1.0)),
+    "again, delayed beyond": (0.062, (0.061, 500.0, soil.AGAIN, 0.06, 0.05, 0.059, 2500.0, -1.0)),
+    "again, no longer delayed": (0.075, (0.07, 900.0, soil.AGAIN, 0.06, 0.02, 0.0595, 3000.0, -1.0)),
+}
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_the_stiffness_of_each_way_against_differences(way: str) -> None:
+    z, memory = WAYS[way]
+    step = 1e-8
+    ahead, behind = (float(soil.advance(z + by, 0.3, memory, CLAY)[0]) for by in (step, -step))
+    found = float(soil.advance(z, 0.3, memory, CLAY)[1])
+    assert found == pytest.approx((ahead - behind) / (2.0 * step), rel=1e-5)
+
+
+def test_a_repenetration_is_no_weaker_than_where_it_began() -> None:
+    """Its bound is exp(-0.3 + (z - z_P) / z_max) P_i, but P0 at least: there it goes on without stiffness."""
+    z, z0, p0 = 0.041, 0.04, 3200.0
+    assert np.exp(-0.3 + (z - 0.055) / 0.06) * Clay().initial(z) < p0
+    force, stiffness, _ = soil.advance(z, 0.3, (z0, p0, soil.AGAIN, 0.06, 0.055, z0, p0, -1.0), CLAY)
+    assert (float(force), float(stiffness)) == (p0, 0.0)
+
+
+def test_the_hyperbola_where_it_begins() -> None:
+    assert tuple(map(float, soil._form(0.0, 0.0, 700.0, 1e3, PACE))) == (0.0, 0.0)
+    begins = tuple(map(float, soil._form(0.0, 500.0, 700.0, 1e3, PACE)))
+    assert begins == (0.0, pytest.approx(PACE * 1e3))
