@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -54,10 +55,10 @@ def test_elements_that_would_lie_on_another_seabed_are_refused(monkeypatch: pyte
 
 
 def test_the_new_deck_is_where_the_old_one_was_and_has_its_units(tmp_path: Path) -> None:
-    deck = deck_of(TEXT, folder=tmp_path, units="imperial")
+    deck = replace(deck_of(TEXT, folder=tmp_path, units="imperial"), source="runs/deck.keyxm")
     found = migrate(deck)
     assert (found.deck.units, found.after.deck.units) == ("imperial", "imperial")
-    assert (found.deck.source, found.deck.folder) == (deck.source, tmp_path)
+    assert (found.deck.source, found.deck.folder) == ("runs/deck.keyxm", tmp_path)
 
 
 def test_the_proof_says_how_much_it_compared() -> None:

@@ -9,6 +9,7 @@ from mudline.linting.engine import lint_context
 from mudline.linting.registry import rules
 from mudline.linting.rule import LintContext
 from mudline.migration.migrating import migrate, verify
+from mudline.migration.refusals import superseded_blocks
 from mudline.migration.rewriting import curve_names
 from tests.builders.decks import PIPE_WITH_SETS
 from tests.builders.scenes import deck_of
@@ -79,6 +80,12 @@ def test_a_misspelt_keyword_does_not_soften_a_refusal(text: str, line: int, mess
     assert found == [("MIG001", line, f"{message}: correct or remove it first")]
     lint = lint_context(LintContext(deck_of(text)), rules())
     assert not any(one.fix for one in lint if one.code == "LEG001")
+
+
+@pytest.mark.parametrize("surface", ["ELASTIC SURFACE", "RIGID SURFACE"])
+def test_surfaces_come_before_curves(surface: str) -> None:
+    deck = deck_of(f"{PIPE_WITH_SETS}{CURVE}*{surface}\n 0.3\n")
+    assert [block.keyword for _, block in superseded_blocks(deck)] == [surface, "EMBEDMENT"]
 
 
 def test_what_lines_may_define_is_no_obstacle() -> None:

@@ -71,6 +71,14 @@ def test_only_elements_that_differ_are_named() -> None:
     assert forces[1] == "force at depth 1e-09: 2e-08 before, 2.8000000000000003e-08 after"
 
 
+def test_a_peak_between_two_points_counts() -> None:
+    """The depths are those of the points of both curves, for each diameter."""
+    text = PIPE_WITH_SETS + "*ELASTIC SURFACE\n 1e4\n*EMBEDMENT\n SET=East Bank\n 0, 0\n 1, 5\n"
+    peak = " 0, 0\n 0.499999, 2.499995\n 0.5, 9\n 0.500001, 2.500005\n 1, 5\n"
+    differences = verify(tampered(" 0, 0\n 1, 5\n", peak, text=text)).differences
+    assert {one.what for one in differences} == {"element 5", "element 7"}
+
+
 def test_a_lost_block_counts() -> None:
     differences = verify(tampered(" SET=7\n STIFFNESS=7 curve\n", " SET=7\n")).differences
     assert {difference.what for difference in differences} >= {"element 3", "element 9"}
