@@ -42,6 +42,16 @@ def test_the_reason_and_its_place(text: str, line: int, column: int, words: str)
     assert (found.code, found.line, found.column) == ("MIG001", LINES + line, column)
 
 
+def test_a_second_surface_is_reported_and_no_more_of_it() -> None:
+    length = ", 0.3, 0.5, , , , 2.0\n"
+    with pytest.raises(DeckError) as caught:
+        migrate(deck_of(f"{PIPE_WITH_SETS}*ELASTIC SURFACE\n 1e4{length}*ELASTIC SURFACE\n 2e4{length}"))
+    assert [(one.line - LINES, one.message[:16]) for one in caught.value.diagnostics] == [
+        (2, "the largest long"),
+        (3, "a second surface"),
+    ]
+
+
 LINES_DECK = "$MODEL\n*LINES\n LINE=Riser\n 1, 2\n"
 CURVE = "*EMBEDMENT\n SET=West\n 0, 0\n 1, 5\n"
 
