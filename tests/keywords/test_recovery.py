@@ -53,6 +53,17 @@ GEOMETRIC = "geometric_sets"  # K_OPTION? K_SET ROW K_COMPRESSION_CHECK?, repeat
         (GEOMETRIC, "K_OPTION", "geometric_sets(geometric_set(0))", [(None, "K_SET", "K_SET")]),
         ("ocean", "", "ocean()", [(None, "ROW", "ROW")]),
         ("seabed_profile", "", "seabed_profile()", [(None, "K_TYPE", "K_TYPE")]),
+        # of several the one that ends the block, else one that is not there yet
+        ("time", "", "time()", [(None, "K_STEP ROW", "ROW")]),
+        ("criteria", "", "criteria()", [(None, "K_CRITERION K_OPTION K_VARIABLE", "K_OPTION")]),
+        (
+            "excel_variations",
+            "",
+            "excel_variations()",
+            [(None, "K_DIRECTORY K_EXCEL K_FILENAME K_SUBDIRECTORY", "K_EXCEL")],
+        ),
+        ("para_force", "", "para_force()", [(None, "K_DATA1 K_PLOT K_SCALE K_TITLE K_UNITS", "K_DATA1")]),
+        ("drift", "K_VESSEL", "drift(vessel_drift(0))", [(None, "K_FILE ROW", "K_FILE")]),
         (
             "seabed_unloading",
             "K_SET K_SET",

@@ -66,7 +66,7 @@ PACKAGES = {
                 f"tests/keywords/test_{name}.py"
                 for name in ("unknown", "recovery", "plain_blocks", "kept_parts", "seabed_keywords", "line_keywords")
             ),
-            *(f"tests/linting/test_{name}.py" for name in _RECOVERY),
+            *(f"tests/linting/test_{name}.py" for name in ("joining", *_RECOVERY)),
         ],
     ),
 }
