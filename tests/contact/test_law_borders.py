@@ -329,5 +329,26 @@ def test_a_repenetration_is_no_weaker_than_where_it_began() -> None:
 
 def test_the_hyperbola_where_it_begins() -> None:
     assert tuple(map(float, soil._form(0.0, 0.0, 700.0, 1e3, PACE))) == (0.0, 0.0)
-    begins = tuple(map(float, soil._form(0.0, 500.0, 700.0, 1e3, PACE)))
-    assert begins == (0.0, pytest.approx(PACE * 1e3))
+    assert tuple(map(float, soil._form(0.0, 500.0, 700.0, 1e3, PACE))) == pytest.approx((0.0, PACE * 1e3))
+
+
+@pytest.mark.parametrize(
+    ("z", "value", "slope", "expected"),
+    [
+        (1.0, -0.5, -1.0, (0.5, 0.0, 1.0, False)),  # a step of Newton's, to the left
+        (1.0, 0.5, -1.0, (1.5, 1.0, 2.0, False)),  # and to the right
+        (1.0, 5.0, -1.0, (1.5, 1.0, 2.0, False)),  # beyond an end: a halving
+        (1.0, -5.0, -1.0, (0.5, 0.0, 1.0, False)),
+        (1.0, -0.5, 2.0, (0.5, 0.0, 1.0, False)),  # where it does not fall the slope is no guide
+        (1.0, 0.0, -1.0, (1.0, 1.0, 2.0, True)),
+    ],
+)
+def test_a_step_to_where_a_value_falls_through_zero(
+    z: float, value: float, slope: float, expected: tuple[float, float, float, bool]
+) -> None:
+    assert tuple(each.item() for each in map(np.asarray, soil._narrowed(z, 0.0, 2.0, value, slope))) == expected
+
+
+def test_a_place_that_is_known_to_its_last_bits_stays() -> None:
+    near = np.nextafter(1.0, 2.0)
+    assert [float(each) for each in soil._narrowed(near, 1.0, near, -0.3, -1.0)] == [near, 1.0, near, 1.0]

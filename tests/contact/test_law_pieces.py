@@ -7,6 +7,7 @@ import pytest
 
 from mudline.contact.laws import suction, trench, unloading
 from mudline.contact.laws.suction import SuctionState
+from tests.builders.contact import bridge_law
 
 INNER, OUTER = 0.25, 0.85
 """Half widths of a trench; the middle of its walls is at 0.55."""
@@ -151,6 +152,23 @@ def test_the_force_while_it_pulls() -> None:
         found = tuple(map(float, suction.suction_force(uplift, 0.09, 0.1, law)))
         assert found == pytest.approx((force, stiffness), rel=1e-12)
     assert tuple(map(float, suction.suction_force(-0.01, 0.09, 0.1, law))) == (0.0, 0.0)
+
+
+def test_an_element_that_is_pressed_has_the_uplift_at_breakout_of_rest() -> None:
+    law = bridge_law(2)
+    history = suction.SuctionHistory.initial(law)
+    pressed, free = np.array([True, False]), np.array([-0.01, 0.01])
+    step, after = suction.step(law, history, free, np.full(2, 0.1), pressed)
+    assert step.depth[0] == law.least_depth[0]
+    assert step.force.tolist() == [0.0, 0.0]
+    assert after.armed.tolist() == [True, False]
+    assert after.v_max.tolist() == [0.0, 0.0]
+
+
+def test_laws_of_some_elements() -> None:
+    law = suction.SuctionLaw(*(np.arange(3.0) + 10.0 * number for number in range(9)))
+    assert law.rows(slice(1, 3)).depth_factor.tolist() == [21.0, 22.0]
+    assert [values.tolist() for values in law.rows(np.array([2]))] == [[10.0 * number + 2.0] for number in range(9)]
 
 
 def test_a_cycle_lowers_the_factor_to_its_floor() -> None:
