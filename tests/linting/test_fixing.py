@@ -348,6 +348,20 @@ def test_a_finding_is_as_severe_as_the_worst_below_it(given: dict[str, Severity]
     assert [each.severity.value for each in one.following] == [below, "info"]
 
 
+def test_severities_of_findings_below_another_change_under_it() -> None:
+    below = finding(code="TST002", severity=Severity.INFO)
+    cause = finding(code="TST001", severity=Severity.ERROR, following=(below,))
+    (one,) = with_severities([cause], LintSettings((), severities={"TST002": Severity.WARNING}))
+    assert (one.severity, one.following[0].severity) == (Severity.ERROR, Severity.WARNING)
+
+
+def test_passes_that_are_all_made_are_told_while_there_are_tries(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(fixing_module, "MOST_TRIES", 2)
+    monkeypatch.setattr(fixing_module, "MOST_PASSES", 1)
+    result = fix("C mudline: xxx1\n" + DECK, replacing("xxx1", "xx2"), replacing("xx2", "x3", code="TST002"))
+    assert result.note == "fixing was stopped after 1 passes: run it again to see what is left"
+
+
 @pytest.mark.parametrize(
     ("tries", "count", "note"),
     [(1, 1, "fixing was stopped after 1 tries: run"), (2, 2, "fixing was stopped after 2 tries: run"), (3, 3, "")],
