@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from mudline.codes.fields import SYN002, SYN003
@@ -71,6 +73,18 @@ def test_the_fields_of_a_row_are_one_where_they_are_three_or_all() -> None:
     assert joined(*(at(1, "open", SYN014, column=column) for column in (1, 4)))[0][2] == 1
 
 
+def test_three_fields_of_a_row_of_four_are_one() -> None:
+    text = "$MODEL\n*NODE\n 1, 2, 3, 4\n"
+    three = [Problem(SYN002, "bad", Span(text.index(each), text.index(each) + 1)) for each in "123"]
+    assert [one.message for one in joined_findings(context(text), three)] == ["bad; and 2 more fields of this row"]
+    assert len(joined_findings(context(text), three[:2])) == 2
+
+
+def test_the_fields_of_two_rows_are_one_for_each_row() -> None:
+    fields = [at(row, column=column) for row in (1, 2) for column in (1, 4, 9)]
+    assert joined(*fields) == [(row, "bad; and 2 more fields of this row", 2) for row in (1, 2)]
+
+
 def test_rows_whose_fields_are_joined_too_say_both() -> None:
     fields = [at(row, column=column) for row in (1, 2, 3) for column in (1, 4, 9)]
     assert joined(*fields) == [
@@ -118,6 +132,7 @@ def test_a_finding_is_as_bad_as_those_below_it() -> None:
         (info, [warning, error], (Severity.ERROR, Blocks.ALWAYS)),
         (info, [at(1, severity=Severity.INFO, blocks=Blocks.WITH_TENSION)], (Severity.INFO, Blocks.WITH_TENSION)),
         (info, [at(1, severity=Severity.WARNING, blocks=Blocks.ALWAYS)], (Severity.ERROR, Blocks.ALWAYS)),
+        (warning, [at(1, severity=Severity.ERROR, blocks=Blocks.NEVER)], (Severity.ERROR, Blocks.NEVER)),
     ):
         found = joining._joined(cause, others, "words")
         assert (found.weight, found.blocking) == expected
@@ -137,7 +152,8 @@ def test_what_was_below_those_below_is_beside_them() -> None:
 
 
 def test_the_repair_of_findings_that_say_the_same_mends_all_of_them() -> None:
-    one, two, bare = at(1, repair=repair("b", "c")), at(2, repair=repair("a", "c")), at(3)
+    other = replace(repair("a", "c"), message="mend too")
+    one, two, bare = at(1, repair=repair("b", "c")), at(2, repair=other), at(3)
     mended = joining._joined(one, [two], "x").repair
     assert mended is not None
     assert [text for _, text in mended.edits] == ["a", "b", "c"]
