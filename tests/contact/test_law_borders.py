@@ -125,13 +125,17 @@ def test_the_steepest_stiffness_of_the_soil() -> None:
         assert added == pytest.approx(9000.0 * width, rel=1e-6)
 
 
-@pytest.mark.parametrize("gradient", [0.0, 1500.0, 8e4])
+@pytest.mark.parametrize(
+    ("strength", "gradient"), [(5000.0, 0.0), (5000.0, 1500.0), (5000.0, 8e4), (0.5, 0.0), (0.5, 0.1)]
+)
 @pytest.mark.parametrize("top", [0.01, 0.4, 3.0])
 @pytest.mark.parametrize("exponent", [0.25, 0.5])
-def test_the_peak_of_an_uplift_solves_its_equation(exponent: float, gradient: float, top: float) -> None:
-    z = float(soil._peak(exponent, 5000.0, gradient, top))
+def test_the_peak_of_an_uplift_solves_its_equation(
+    exponent: float, strength: float, gradient: float, top: float
+) -> None:
+    z = float(soil._peak(exponent, strength, gradient, top))
     assert 0.0 < z < top
-    assert (exponent / z + gradient / (5000.0 + gradient * z)) * (top - z) == pytest.approx(1.0, rel=1e-10)
+    assert (exponent / z + gradient / (strength + gradient * z)) * (top - z) == pytest.approx(1.0, rel=1e-10)
 
 
 @pytest.mark.parametrize("half_width", [0.0, 0.02])
