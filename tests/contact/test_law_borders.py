@@ -310,6 +310,7 @@ WAYS = {
     "again": (0.033, (0.025, 300.0, soil.AGAIN, 0.06, -1.0, 0.02, 100.0, -1.0)),
     "again, delayed": (0.045, (0.044, 500.0, soil.AGAIN, 0.06, 0.05, 0.04, -300.0, -1.0)),
     "again, delayed beyond": (0.062, (0.061, 500.0, soil.AGAIN, 0.06, 0.05, 0.059, 2500.0, -1.0)),
+    "again, bounded by the initial path": (0.065, (0.064, 900.0, soil.AGAIN, 0.06, 0.02, 0.0599, 5375.0, -1.0)),
     "again, no longer delayed": (0.075, (0.07, 900.0, soil.AGAIN, 0.06, 0.02, 0.0595, 3000.0, -1.0)),
 }
 
