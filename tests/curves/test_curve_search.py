@@ -95,3 +95,5 @@ def test_the_first_bad_ratio_is_the_first_in_the_order_of_rows(layout: type[Floa
     for ask in (curve.evaluate, curve.segment, curve.extrapolated):
         with pytest.raises(ValueError, match=r"at ratio nan \(index 2\)"):
             ask(layout(query))
+    with pytest.raises(ValueError, match=r"at ratio nan \(index 2\)"):
+        curve.evaluate(layout(query), out=(layout(np.zeros((3, 4))), layout(np.zeros((3, 4)))))
