@@ -37,7 +37,7 @@ def bits(thing: object) -> dict[str, tuple[str, bytes]]:
 
 @pytest.mark.parametrize("path", DECKS, ids=lambda path: path.name)
 def test_decks_and_their_findings(path: Path) -> None:
-    """That of faults has values that are not known; others have equations, tables, curves, restarts and opaque lines."""
+    """One has values that are not known; others have equations, tables, curves, restarts and opaque lines."""
     deck = load_path(path)
     twin = sent(deck)
     assert twin == deck

@@ -69,10 +69,10 @@ COMMANDS = {
 
 
 def written(decks: int, size: int, depth: float) -> None:
-    """Write decks into a folder of the working folder: the first and every 50th of about so many bytes."""
+    """Write decks into a folder of the working folder: the first and every 200th of about so many bytes."""
     Path("decks").mkdir(exist_ok=True)
     for number in range(decks):
-        lines = 0 if number % 50 else max(0, size - len(DECK)) // len(FILLING)
+        lines = 0 if number % 200 else max(0, size - len(DECK)) // len(FILLING)
         text = DECK.format(depth=depth, filling=FILLING * lines)
         path = Path("decks", f"deck{number}.keyxm")
         path.write_text(text, encoding="utf-8")
