@@ -32,7 +32,7 @@ def expect_word(value: object, name: str, allowed: tuple[str, ...], expected: st
 
 
 def several(values: object, name: str, kind: type | tuple[type, ...], expected: str) -> list[Any]:
-    """An argument as a list. Raises ArgumentKindError for anything but several of a kind: one str is not its letters."""
+    """An argument as a list. Raises ArgumentKindError for what is not several of a kind: one str is not its letters."""
     found = list(values) if isinstance(values, Iterable) and not isinstance(values, str | bytes) else None
     if found is None or not all(isinstance(each, kind) for each in found):
         raise ArgumentKindError(f"{name} must be {expected}, not {cut(repr(values), 60)}")
