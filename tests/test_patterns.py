@@ -113,12 +113,13 @@ def test_git_says_the_same(tmp_path: Path) -> None:
     assert wrong == []
 
 
-def test_git_finds_the_same_decks(tmp_path: Path) -> None:
+@pytest.mark.parametrize("seed", [5, 8, 10, 14])
+def test_git_finds_the_same_decks(tmp_path: Path, seed: int) -> None:
     """In a tree with `.gitignore` files at several depths, of which one is above the folder that is searched."""
-    chosen = random.Random(2)  # noqa: S311 - the same tree each time
+    chosen = random.Random(seed)  # noqa: S311 - the same tree each time
     git(tmp_path, "init", "-q")
     folders = [tmp_path / "top" / "/".join(chosen.choices("abcx", k=depth % 4)) for depth in range(120)]
-    for folder in {*folders, tmp_path}:
+    for folder in sorted({*folders, tmp_path}):
         folder.mkdir(parents=True, exist_ok=True)
         for name in chosen.sample(["a", "b", "ab", "x b", "c"], 3):
             (folder / f"{name}.das").touch()
@@ -129,7 +130,7 @@ def test_git_finds_the_same_decks(tmp_path: Path) -> None:
             (folder / ".gitignore").write_text("\n".join(lines), encoding="utf-8")
     shown = git(tmp_path, "ls-files", "-z", "--others", "--exclude-standard", "top")
     wanted = {name for name in shown if name.endswith(".das")}
-    assert len(wanted) > 20
+    assert len(wanted) > 50
     found = {Path(file.path or "").relative_to(tmp_path).as_posix() for file in collect([str(tmp_path / "top")]).files}
     assert found == wanted
 
