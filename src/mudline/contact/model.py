@@ -118,6 +118,7 @@ class ContactModel:
 
         Takes and raises what `evaluate` does.
         """
+        expect(together, "together", (bool, np.bool_), "True or False")
         nodes = len(self.input.node_ids)
         series, mask = _as_series(positions, nodes), _as_mask(present, nodes)
         motion = _as_velocities(velocities, series.shape)
@@ -206,6 +207,7 @@ class ContactModel:
         """
         from mudline.contact.tangent import assemble  # noqa: PLC0415 - forces alone do without it
 
+        expect(back, "back", (bool, np.bool_), "True or False")
         result, after = self.step(positions, velocities, state, dt)
         with np.errstate(all="ignore"):
             points = np.array(positions, np.float64).reshape(1, -1, 3)
