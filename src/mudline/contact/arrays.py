@@ -43,9 +43,17 @@ def taken(values: NDArray[Item], at: Picked) -> NDArray[Item]:
     return values[:, at] if isinstance(at, slice) else values.take(at, axis=1)
 
 
+def put_at(values: NDArray[Item], at: Picked, new: NDArray[Item]) -> None:
+    """Write columns of values (steps, k); those of one step sooner than `values[:, at] = new`."""
+    if len(values) == 1:
+        values[0][at] = new[0]
+    else:
+        values[:, at] = new
+
+
 def add_at(values: FloatArray, at: Picked, more: FloatArray) -> None:
     """Add to columns of values (steps, k), in place; sooner than `values[:, at] += more`."""
-    values[:, at] = taken(values, at) + more
+    put_at(values, at, taken(values, at) + more)
 
 
 def as_range(indices: IndexArray) -> Picked:

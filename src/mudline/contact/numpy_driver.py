@@ -260,15 +260,17 @@ class Nodes:
         if limited:  # those of open nodes become 1, to divide by
             limits = np.where(closed, limits, 1.0)
         walls = None if laid is None or not self._ranks else self._trench_limits(places, across, pressing, laid)
-        stick = history.stick_points[here].T.copy()
+        stick = history.stick_points[here].T
         held = history.states[here, 0] > 0
         softening = self._softening(state, work)
         forces, slips = np.empty(limits.shape), np.empty(limits.shape, np.bool_)
         elongation = np.empty((2, len(self._active)))
         for step, close in enumerate(closed):
             on, held = held & close, close
+            (new,) = np.logical_not(on).nonzero()
+            stick[:, new] = places[:, step, new]
             u, v = tuple(axis[step] for axis in along), tuple(axis[step] for axis in across)
-            away = np.where(on, places[first:, step] - stick[first:], 0.0)
+            away = places[first:, step] - stick[first:]
             elongation[0], elongation[1] = plane.dot(u, away), plane.dot(v, away)
             spring, limit = springs[:, step], limits[:, step]
             if softening is not None:
@@ -280,12 +282,11 @@ class Nodes:
             force, slip = self._bounded(trial, limit, limited=limited)
             moves = law.slip_distance(slip, elongation, force, spring)
             moved = plane.blend(u, v, moves[0], moves[1])
-            stick = np.where(on, stick, places[:, step])
             for point, way in zip(stick[first:], moved, strict=True):
                 np.add(point, way, out=point)
             np.subtract(0.0, force, out=forces[:, step])
             slips[:, step] = slip
-        history.stick_points[here] = np.where(held, stick, np.nan).T
+        stick[:, ~held] = np.nan
         if softening is not None:
             softening.end(held)
         for side in range(2):

@@ -16,6 +16,7 @@ from mudline.contact.arrays import (
     StateArray,
     add_at,
     as_range,
+    put_at,
     taken,
     zero_outside,
 )
@@ -110,7 +111,8 @@ class Elements:
         if self._suction is not None:
             from mudline.contact.laws.suction import SuctionLaw  # noqa: PLC0415 - only now is it needed
 
-            self._law = SuctionLaw(*(column[0] for column in self._suction.columns))
+            self._laws = np.concatenate(self._suction.columns)
+            self._law = SuctionLaw(*self._laws)
             self._least, self._counts = self._law.least_depth, bool(self._law.counts_cycles.any())
         self._in_trench: tuple[IndexArray, IndexArray] | None = None
         if self._suction is not None and self._unloading is not None:
@@ -264,7 +266,7 @@ class Elements:
                 np.maximum(before, now, out=now)
         fresh, deepest = so_far[1:] > so_far[:-1], so_far[1:]
         reached = depth.copy()
-        reached[:, some.at] = deepest
+        put_at(reached, some.at, deepest)
         self._apply_normal_laws(reached, None, reached > self._onset, values, part, paths)
         force, slope, stiffness = (taken(each, some.at) for each in values)
         force_max, steepest = np.maximum(force, 0.0), some.columns[0]
@@ -281,9 +283,9 @@ class Elements:
         back, rise = on_line(z, deepest, force_max, line, bottom)
         if part.cut.flags.writeable:
             part.cut[:, self._here][:, some.at] &= fresh
-        values[0][:, some.at] = np.where(fresh, force, back)
-        values[1][:, some.at] = np.where(fresh, slope, rise * some.diameter)
-        values[2][:, some.at] = np.where(fresh, stiffness, rise)
+        put_at(values[0], some.at, np.where(fresh, force, back))
+        put_at(values[1], some.at, np.where(fresh, slope, rise * some.diameter))
+        put_at(values[2], some.at, np.where(fresh, stiffness, rise))
         for kept, moved in zip(history.numbers, (deepest, force_max, line, bottom), strict=True):
             kept[some.rows] = moved[-1]
         return _Trench(bottom - taken(depth, some.at), z > bottom)
@@ -342,14 +344,15 @@ class Elements:
         v = 0.5 * taken(first, some.at) + 0.5 * taken(second, some.at)
         states, pulls = self._suction_states(some.rows, (uplift, v, pressed), history)
         if part.state is not None:
-            part.state[:, self._here][:, some.at] = states
+            put_at(part.state[:, self._here], some.at, states)
         if pulls is None:
             return
         steps, held, reach, factor = pulls
         uplift, v = uplift[steps, held], v[steps, held]
-        exponent, slow = law.force_exponent[held], law.regularisation[held]
-        shape = law.force_factor[held] * factor, exponent, slow, law.first_corner[held], law.second_corner[held]
-        force, stiffness = suction_force(uplift, v, reach, shape)
+        rise, exponent, _, _, first_corner, second_corner, _, slow, _ = self._laws.take(held, axis=1)
+        force, stiffness = suction_force(
+            uplift, v, reach, (rise * factor, exponent, slow, first_corner, second_corner)
+        )
         at = held + some.at.start if isinstance(some.at, slice) else some.at[held]
         values[0][steps, at] += force
         values[1][steps, at] += stiffness * some.diameter[0, held]
@@ -447,4 +450,4 @@ class Elements:
         force = lateral_force(some.columns[0], plane.dot(across, middle[first:] - held[first:]))
         force = np.where(touches, force, 0.0)
         for target, axis in zip(work.lateral, across, strict=True):
-            target[:, self._inner][:, some.at] = axis * force
+            put_at(target[:, self._inner], some.at, axis * force)

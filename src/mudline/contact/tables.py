@@ -80,14 +80,18 @@ class ContactState:
         )
 
 
-    def blank(self) -> ContactState:
-        """Return a state to be written, with what every step writes for each element and node not filled in."""
+    def blank(self, spare: ContactState | None) -> ContactState:
+        """Return a state to be written, with what every step writes for each element and node not filled in.
+
+        Arrays of `spare` are taken, if there is one.
+        """
+        spare = spare or ContactState()
         return ContactState(
             self.positions,
             self.laid,
-            self.unloading and _blank(self.unloading, "C"),
-            self.suction and _blank(self.suction, "C"),
-            self.friction and _blank(self.friction, "F"),
+            spare.unloading or (self.unloading and _blank(self.unloading, "C")),
+            spare.suction or (self.suction and _blank(self.suction, "C")),
+            spare.friction or (self.friction and _blank(self.friction, "F")),
             None if self.touchdown is None else np.empty(self.touchdown.shape, order="F"),
             None if self.breakout is None else self.breakout.copy(),
             None if self.paths is None else self.paths.copy(),

@@ -138,15 +138,17 @@ class CompiledDriver:
         self.broken = False
         """Whether a law turned out not to compile."""
 
-    def run(self, batch: Batch, part: ContactResult, state: ContactState) -> ContactState | None:
+    def run(
+        self, batch: Batch, part: ContactResult, state: ContactState, spare: ContactState | None
+    ) -> ContactState | None:
         """Write a batch to `part`, but for gaps and normals, which are there; return the state behind it.
 
-        None: something is not finite, and the numpy driver has to say what.
+        `spare` is one that may be written. None: something is not finite, and the numpy driver has to say what.
         """
         speed = batch.speed
         if speed is not None and not (np.isfinite(speed.sum()) or (np.isfinite(speed) | np.isnan(part.gap)).all()):
             return None
-        after = state.blank()
+        after = state.blank(spare)
         job = self._job(batch, part, state, after)
         try:
             wrong = self._run(batch, job)
@@ -203,7 +205,8 @@ class CompiledDriver:
         nodes = (
             *self._line, self._node_index, self._node_numbers, points, part.gap, normals, part.force, speed,
             self._damping[1], work, (*self._trenches, *self._laid_tables(batch.laid, part)),
-            (self._breaks, part.ratio), _of_nodes(state), (*_of_nodes(after), moved), (part.normal_force, part.reaction), slips,
+            (self._breaks, part.ratio), _of_nodes(state), (*_of_nodes(after), moved),
+            (part.normal_force, part.reaction), slips,
         )  # fmt: skip
         return elements, nodes
 

@@ -62,7 +62,8 @@ def elements_loop(
 
     def loop(
         begin: int, end: int, index: Array, table: Array, pulls: Array, points: Array, gap: Array, speed: Array,
-        normals: Array, knots: Array, damping: Array, before: Array, states: Array, out: Array, extra: Array, work: Array,
+        normals: Array, knots: Array, damping: Array, before: Array, states: Array, out: Array, extra: Array,
+        work: Array,
     ) -> int:  # fmt: skip
         depth, ratio, contact, force, slope, stiffness = out
         cut, state, regularised = extra
