@@ -325,10 +325,11 @@ def _differences(points: FloatArray, spans: FloatArray | None, before: FloatArra
         np.subtract(points[0], before[..., : points.shape[-1]], out=rates[0])
     else:
         rates[0] = 0.0
-    np.subtract(points[1:], points[:-1], out=rates[1:])
+    if len(points) > 1:
+        np.subtract(points[1:], points[:-1], out=rates[1:])
     if spans is None:
         rates[1:] = 0.0
-    else:
+    elif first < len(points):
         rates[first:] /= spans[len(spans) - len(points) + first :, None, None]
     return rates
 

@@ -79,7 +79,6 @@ class ContactState:
             None if self.paths is None else self.paths.copy(),
         )
 
-
     def blank(self, spare: ContactState | None) -> ContactState:
         """Return a state to be written, with what every step writes for each element and node not filled in.
 

@@ -122,8 +122,7 @@ def element_tables(tables: Tables) -> tuple[Any, Any, Any]:
     numbers[:, ONSET] = 0.0 if tables.onset is None else tables.onset
     for kind, rows in enumerate(formulas, FIRST_LAW):
         index[rows.rows, KIND] = kind
-        if rows.path >= 0:
-            index[rows.rows, PATH] = np.arange(len(rows.rows)) + rows.path
+        index[rows.rows, PATH] = np.arange(len(rows.rows)) + rows.path if rows.path >= 0 else NOTHING
         for column, values in enumerate(rows.columns, LAW):
             numbers[rows.rows, column] = values
     knots = [np.empty((4, 0))]
@@ -233,4 +232,5 @@ def between(start: Any) -> tuple[Any, Any]:
 
 def beside(ends: Any, elements_at: Any) -> tuple[Any, Any]:
     """The nodes of elements (m, 2) and the first two elements at each node (n, 2)."""
-    return read_only(ends.astype(np.uint32)), read_only(np.where(elements_at < 0, NOTHING, elements_at).astype(np.uint32))
+    found = np.where(elements_at < 0, NOTHING, elements_at)
+    return read_only(ends.astype(np.uint32)), read_only(found.astype(np.uint32))

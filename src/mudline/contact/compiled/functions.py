@@ -33,6 +33,8 @@ Wrap = Callable[[Any], Any]
 """Makes a function one that loops can call, and returns it."""
 Array = Any
 """An array; the loops are typed when they are compiled."""
+Index = Any
+"""An unsigned index."""
 Point = tuple[float, float, float]
 ONE = np.uint64(1)
 """With a signed 1, sums of indices would become floats."""
@@ -167,14 +169,15 @@ def followed(wrap: Wrap, laws: tuple[tuple[PathLaw | None, int], ...], first: in
     return wrap(follow)  # type: ignore[no-any-return]
 
 
-def last_at_or_below(points: Array, begin: int, end: int, value: float) -> int:
+def last_at_or_below(points: Array, begin: Index, end: Index, value: float) -> Index:
     """Return the last of ascending points begin <= i < end that lies at or below a value; the first if none does."""
-    at, left = np.uint64(begin), np.uint64(end) - np.uint64(begin)
+    at: Index = np.uint64(begin)
+    left = np.uint64(end) - at
     while left > ONE:
         half = left >> ONE
         at += half * np.uint64(value >= points[at + half])  # no branch: which way it goes cannot be guessed
         left -= half
-    return at  # type: ignore[return-value]
+    return at
 
 
 def unit_of_span(dx: float, dy: float, dz: float) -> tuple[float, float, float]:
@@ -266,7 +269,7 @@ def mean_normal(normals: Array, step: int, one: int, other: int) -> tuple[float,
     return x / size, y / size, z / size
 
 
-def on_piece(laid: Array, ends: Array, element: int, point: Point) -> tuple[float, float, float, float, float]:
+def on_piece(laid: Array, ends: Array, element: Index, point: Point) -> tuple[float, float, float, float, float]:
     """Return the share of the nearest point of an element as laid, the vector from there, and its square."""
     a, b = ends[element, 0], ends[element, 1]
     x, y, z = laid[a, 0], laid[a, 1], laid[a, 2]
@@ -279,7 +282,7 @@ def on_piece(laid: Array, ends: Array, element: int, point: Point) -> tuple[floa
     return share, x, y, z, x * x + y * y + z * z
 
 
-def from_laid(laid: Array, beside: Array, node: int, point: Point) -> Point:
+def from_laid(laid: Array, beside: Array, node: Index, point: Point) -> Point:
     """Return the vector from the nearest point of the line as `laid` (n, 3), sought from the node's own place.
 
     `beside` has the nodes of each element, then the first two elements at each node.
@@ -307,7 +310,7 @@ def from_laid(laid: Array, beside: Array, node: int, point: Point) -> Point:
     return x, y, z
 
 
-def table_resistance(rows: Array, begin: int, end: int, distance: float) -> float:
+def table_resistance(rows: Array, begin: Index, end: Index, distance: float) -> float:
     """Return the resistance per unit length of the rows begin to end of tables at a distance."""
     last = np.uint64(end) - ONE
     row = last_at_or_below(rows[0], begin, last, distance)

@@ -14,6 +14,7 @@ from mudline.contact.compiled import FIRST_LAW, NOTHING, ON_CURVE, Features
 from mudline.contact.compiled.functions import (
     ONE,
     Array,
+    Index,
     Loop,
     Numbers,
     Point,
@@ -61,7 +62,7 @@ def elements_loop(
     normal_law, follow, follows = one_of(wrap, laws, col.LAW), followed(wrap, paths, col.LAW), has.paths
 
     def loop(
-        begin: int, end: int, index: Array, table: Array, pulls: Array, points: Array, gap: Array, speed: Array,
+        begin: Index, end: Index, index: Array, table: Array, pulls: Array, points: Array, gap: Array, speed: Array,
         normals: Array, knots: Array, damping: Array, before: Array, states: Array, out: Array, extra: Array,
         work: Array,
     ) -> int:  # fmt: skip
@@ -84,7 +85,7 @@ def elements_loop(
 
                 f = k = 0.0
                 s = 0.0 * diameter  # NaN without a diameter
-                segment = np.uint64(0)
+                segment: Index = np.uint64(0)
                 if follows and index[e, col.PATH] != NOTHING:
                     z = max(0.0, deep)  # of NaN 0
                     f, k = follow(kind - FIRST_LAW, z, diameter, table, e, ways, index[e, col.PATH])
@@ -242,7 +243,7 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
     walls, soften = wrap(_trench_limit(has)), wrap(_softened(has))
 
     def loop(
-        begin: int, end: int, starts: Array, elements: Array, senses: Array, half: Array, index: Array, table: Array,
+        begin: Index, end: Index, starts: Array, elements: Array, senses: Array, half: Array, index: Array, table: Array,
         points: Array, gap: Array, normals: Array, force: Array, speed: Array, damping: Array, work: Array,
         trenches: Array, breaks: Array, before: Array, states: Array, out: Array, extra: Array,
     ) -> int:  # fmt: skip
@@ -298,7 +299,8 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                     across = cross(along, n)
                     f1 = f2 = 0.0
                     if friction:
-                        one = other = np.int64(index[i, col.ACTIVE]) - 1
+                        one: Index = np.int64(index[i, col.ACTIVE]) - 1
+                        other = one
                         if index[i, col.ACTIVE] > 0 and total > 0.0:
                             p = (points[step, i, 0], points[step, i, 1], points[step, i, 2])
                             held = past_sticking[0, i] > 0
