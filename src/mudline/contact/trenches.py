@@ -225,8 +225,8 @@ class LaidCentreline:
         with np.errstate(all="ignore"):
             square = span[0] * span[0] + span[1] * span[1] + span[2] * span[2]
             inverse = np.where(square > LEAST_SQUARE, 1.0 / square, 0.0)
-        self.pieces = np.pad(np.concatenate([start, span, inverse[None]]), ((0, 0), (0, 1)))
-        self.start, self.span, self.inverse = self.pieces[:3], self.pieces[3:6], self.pieces[6]
+        pieces = np.pad(np.concatenate([start, span, inverse[None]]), ((0, 0), (0, 1)))
+        self.start, self.span, self.inverse = pieces[:3], pieces[3:6], pieces[6]
         self._kept: dict[int, Beside] = {}
 
     def beside(self, key: int, trench: TrenchRows) -> Beside:

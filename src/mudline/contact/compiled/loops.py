@@ -243,9 +243,9 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
     walls, soften = wrap(_trench_limit(has)), wrap(_softened(has))
 
     def loop(
-        begin: Index, end: Index, starts: Array, elements: Array, senses: Array, half: Array, index: Array, table: Array,
-        points: Array, gap: Array, normals: Array, force: Array, speed: Array, damping: Array, work: Array,
-        trenches: Array, breaks: Array, before: Array, states: Array, out: Array, extra: Array,
+        begin: Index, end: Index, starts: Array, elements: Array, senses: Array, half: Array, index: Array,
+        table: Array, points: Array, gap: Array, normals: Array, force: Array, speed: Array, damping: Array,
+        work: Array, trenches: Array, breaks: Array, before: Array, states: Array, out: Array, extra: Array,
     ) -> int:  # fmt: skip
         first, behind = starts
         totals, reaction = out
