@@ -85,13 +85,16 @@ class ContactState:
         Arrays of `spare` are taken, if there is one.
         """
         spare = spare or ContactState()
+        touchdown = spare.touchdown
+        if touchdown is None and self.touchdown is not None:
+            touchdown = np.empty(self.touchdown.shape, order="F")
         return ContactState(
             self.positions,
             self.laid,
             spare.unloading or (self.unloading and _blank(self.unloading, "C")),
             spare.suction or (self.suction and _blank(self.suction, "C")),
             spare.friction or (self.friction and _blank(self.friction, "F")),
-            None if self.touchdown is None else np.empty(self.touchdown.shape, order="F"),
+            touchdown,
             None if self.breakout is None else self.breakout.copy(),
             None if self.paths is None else self.paths.copy(),
         )
