@@ -13,7 +13,7 @@ import numpy as np
 
 from mudline.contact import vectors
 from mudline.contact.arrays import BoolArray, FloatArray, Picked, add_at, as_range, taken
-from mudline.contact.laws import functions_of
+from mudline.contact.laws import law_module
 from mudline.contact.numpy_elements import Elements, Work
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed import FlatSeabed, Seabed
@@ -181,7 +181,7 @@ class Nodes:
             z = 0.0 - taken(part.gap[:, here], at)
             add_at(total, at, np.where(z > onset, reaction(z, 0.0, *columns)[0], 0.0))
         if self._damping is not None and speed is not None:
-            total += functions_of("damping").damping_force(0.0 - part.gap[:, here], speed[:, here], self._damping)
+            total += law_module("damping").damping_force(0.0 - part.gap[:, here], speed[:, here], self._damping)
         part.normal_force[:, here] = total
         if part.normal.strides[1] == 0:  # one for all nodes
             normal = tuple(part.normal[:1, :1, axis] for axis in range(3))
@@ -276,7 +276,7 @@ class Nodes:
             if walls is not None:
                 limit[1] += self._added(trial[1], *(values[step] for values in walls))
             force, slip = self._bounded(trial, limit, close)
-            moves = functions_of("friction").slip_distance(slip, elongation, force, spring)
+            moves = law_module("friction").slip_distance(slip, elongation, force, spring)
             moved = plane.blend(u, v, moves[0], moves[1])
             for point, way in zip(stick[first:], moved, strict=True):
                 np.add(point, way, out=point)
@@ -296,7 +296,7 @@ class Nodes:
 
     def _bounded(self, trial: FloatArray, limit: FloatArray, closed: BoolArray) -> tuple[FloatArray, BoolArray]:
         """Forces (2, k) in the springs and whether they slip."""
-        law = functions_of("friction")
+        law = law_module("friction")
         force, slip = law.in_box(trial, limit)
         (curved,) = (self._elliptic & closed).nonzero() if self._curved else (_NONE,)
         if curved.size:

@@ -23,7 +23,7 @@ from mudline.contact.arrays import (
     zero_outside,
 )
 from mudline.contact.directions import mean_normal
-from mudline.contact.laws import PathLaw, functions_of
+from mudline.contact.laws import PathLaw, law_module
 from mudline.contact.result import ContactResult
 from mudline.contact.tables import ContactState, ElementRows, NormalRows, Tables, rows_within
 from mudline.contact.vectors import in_plane, units
@@ -156,7 +156,7 @@ class Elements:
             self._apply_springs(self._springs, depth, values)
         if self._damping is not None and batch.speed is not None:
             first, second = self._tables.line.at(batch.speed, self.begin, self.end)
-            values[0][...] += functions_of("damping").damping_force(depth, 0.5 * first + 0.5 * second, self._damping)
+            values[0][...] += law_module("damping").damping_force(depth, 0.5 * first + 0.5 * second, self._damping)
         if self._suction is not None and batch.speed is not None and state.suction is not None:
             self._apply_suction(self._suction, batch.speed, (depth, contact, trench), values, part, state.suction)
         np.multiply(values[0], self._half, out=work.load[:, self._inner])
@@ -257,7 +257,7 @@ class Elements:
         paths: FloatArray | None,
     ) -> _Trench:
         """Write the virgin path at the largest penetrations so far, or the lines to there."""
-        law = functions_of("unloading")
+        law = law_module("unloading")
         z = np.fmax(taken(depth, some.at), 0.0)
         so_far = np.concatenate([history.z_max[None, some.rows], z])
         if len(z) > z.shape[1]:
@@ -315,7 +315,7 @@ class Elements:
 
     def _apply_springs(self, some: _Subset, depth: FloatArray, values: Values) -> None:
         """Add springs against uplift."""
-        force, stiffness = functions_of("linear").spring_suction(some.onset - taken(depth, some.at), *some.columns)
+        force, stiffness = law_module("linear").spring_suction(some.onset - taken(depth, some.at), *some.columns)
         add_at(values[0], some.at, force)
         add_at(values[1], some.at, stiffness * some.diameter)
         add_at(values[2], some.at, stiffness)
@@ -347,7 +347,7 @@ class Elements:
         steps, held, reach, factor = pulls
         uplift, v = each_at(uplift, steps, held), each_at(v, steps, held)
         rise, exponent, _, _, first_corner, second_corner, _, slow, _ = self._laws.take(held, axis=1)
-        force, stiffness = functions_of("suction").suction_force(
+        force, stiffness = law_module("suction").suction_force(
             uplift, v, reach, (rise * factor, exponent, slow, first_corner, second_corner)
         )
         at = held + some.at.start if isinstance(some.at, slice) else some.at[held]
@@ -363,7 +363,7 @@ class Elements:
 
         Only elements that are off the seabed and not at rest need more than a look.
         """
-        suction, law, least, counts = functions_of("suction"), self._law, self._least, self._counts
+        suction, law, least, counts = law_module("suction"), self._law, self._least, self._counts
         uplift, v, pressed = motion
         armed, v_max, depth = history.armed[rows], history.v_max[rows], history.depth[rows]
         states, factor = history.state[rows], history.factor[rows]
@@ -439,7 +439,7 @@ class Elements:
             held[:, step] = kept = np.where(new, middle[:, step], kept)
         touchdown[some.rows] = np.where(down, kept, np.nan).T
         first = 3 - len(along)
-        force = functions_of("linear").lateral_force(some.columns[0], plane.dot(across, middle[first:] - held[first:]))
+        force = law_module("linear").lateral_force(some.columns[0], plane.dot(across, middle[first:] - held[first:]))
         force = np.where(touches, force, 0.0)
         for target, axis in zip(work.lateral, across, strict=True):
             put_at(target[:, self._inner], some.at, axis * force)

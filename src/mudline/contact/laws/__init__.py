@@ -217,7 +217,7 @@ BUILT_IN = tuple(_LAWS)
 
 
 @cache
-def functions_of(name: str) -> ModuleType:
+def law_module(name: str) -> ModuleType:
     """Return a module of this package; sooner than an import in a function, and it waits as that does."""
     return import_module(f"{__name__}.{name}")
 
