@@ -47,13 +47,14 @@ class Watch:
         from tests.fuzz.targets import TARGETS  # noqa: PLC0415 - instrumented first
 
         self.name, self.target = name, TARGETS[name]
-        self.inputs = 0
+        self.inputs = self.held = 0
+        self.ends = self.patience = 0.0
         self.places: dict[str, Path] = {}
         signal.signal(signal.SIGPROF, _too_long)
 
     def begin(self, seconds: float) -> None:
-        """Count from here, when the seeds were taken."""
-        self.inputs, self.held = 0, _most_memory()
+        """Count and limit from here: with the seeds, modules were imported."""
+        self.inputs, self.held, self.patience = 0, _most_memory(), SECONDS_PER_100KB
         self.ends = time.monotonic() + seconds
 
     @property
@@ -64,7 +65,7 @@ class Watch:
     def take(self, data: bytes) -> None:
         """Run one input."""
         self.inputs += 1
-        signal.setitimer(signal.ITIMER_PROF, SECONDS_PER_100KB * max(1.0, len(data) / 1e5))
+        signal.setitimer(signal.ITIMER_PROF, self.patience * max(1.0, len(data) / 1e5))
         try:
             self.target.check(data)
         except (Exception, Hang, RecursionError) as error:  # noqa: BLE001 - whatever breaks is what is looked for

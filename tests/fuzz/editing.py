@@ -122,7 +122,7 @@ class Session:
     def changed(self) -> None:
         """One change or several of the deck; the version may be an old one, whose changes are left out."""
         version = self.version + self.random.choice((1, 1, 1, 0, -1, 5))
-        changes = []
+        changes: list[dict[str, object]] = []
         text = self.text
         for _ in range(self.random.choice((1, 1, 2, 3))):
             typed = self.random.choice((*_TYPED, self.text[: self.random.randrange(40)]))
@@ -150,7 +150,7 @@ class Session:
     def question(self, uri: str) -> tuple[str, dict[str, Any]]:
         """What is asked of a document."""
         what = self.random.choice((*_AT, *_OF_DECK))
-        params: dict[str, Any] = {"textDocument": {"uri": uri}}
+        params: dict[str, object] = {"textDocument": {"uri": uri}}
         params["position"] = self.position()
         params["range"] = {"start": self.position(), "end": self.position()}
         params |= {

@@ -250,7 +250,7 @@ def _restart(data: bytes) -> None:
     with _file(data, "base.keyxm") as path:
         deck = path.with_name(NAME)
         deck.write_text("$LOAD CASE\n*RESTART\n LAST=base\n*SEABED CONTACT\n SET=ALL\n", encoding="utf-8")
-        _judged(run("lint", str(deck), "--select", "ALL"), ())
+        _judged(run("lint", str(deck)), ())
         _judged(run("evaluate", str(deck), "-q"), ())
 
 
