@@ -86,8 +86,8 @@ MOST_MEMORIES = 40
 
 # -------------------------------------------------------------------------------------------------------------- editors
 
-LARGEST_OPEN = 64_000_000
-"""Characters of an open deck from which on the language server says nothing of it."""
+LARGEST_OPEN = 20_000_000
+"""Characters of an open deck from which on the language server says nothing of it: its check takes too long."""
 LARGEST_AT_ONCE = 1_000_000
 """Characters of an open deck from which on help waits for its check, and its outline has no names."""
 MOST_OFFERED = 500

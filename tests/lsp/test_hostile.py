@@ -85,6 +85,14 @@ def test_answers_to_nothing_and_numbers_that_are_none(client: RawClient, message
     client.send(**message)
 
 
+def test_a_refusal_that_has_no_address_is_no_fault_of_the_server(client: RawClient) -> None:
+    client.open(URI, CLEAN)
+    client.findings(URI)
+    client.send(id={"a": 1}, method="textDocument/rename", params={**AT, "newName": "x"})
+    assert client.lives()
+    assert "please report" not in str(client.notifications)
+
+
 @pytest.mark.parametrize(
     "body",
     [

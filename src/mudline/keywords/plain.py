@@ -40,8 +40,8 @@ _NUMBERS = re.compile(rf"(?:[ \t]*+{_NUMBER}[ \t]*+(?:,[ \t]*+{_NUMBER}[ \t]*+)*
 """Rows of numbers that are separated by commas: those of most tables."""
 _SHORT_TABLE = 1600
 """Characters of such rows: longer ones are read sooner with arrays."""
-_MIXED_FIELDS = 4
-"""Fields of a row in which two commas can be decimal ones and another one is not."""
+_MIXED_FIELDS = 3
+"""Fields of a row in which a comma can be a decimal one and another one is not."""
 
 Values = dict[str, Any]
 _Reading = Callable[[Values, str, object], None]
