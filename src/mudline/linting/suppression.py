@@ -161,12 +161,13 @@ class Suppressions:
 
     def _removing(self, directive: Directive, number: int, applicability: str) -> Repair:
         """Without a word and the separator beside it, or without the comment when nothing else is named."""
-        words = [word.span for word in directive.words]
+        words = directive.words
         if len(words) <= 1:
             return Repair(applicability, "remove the comment", ((directive.leaf, ""),))
+        own = words[number].span
         last = number == len(words) - 1
-        span = Span(words[number - 1].end, words[number].end) if last else Span(words[number][0], words[number + 1][0])
-        return Repair(applicability, f"remove {directive.words[number].text}", ((span, ""),))
+        span = Span(words[number - 1].span.end, own.end) if last else Span(own.start, words[number + 1].span.start)
+        return Repair(applicability, f"remove {words[number].text}", ((span, ""),))
 
 
 def _place(directive: Directive) -> str:
