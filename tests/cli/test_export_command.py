@@ -22,7 +22,7 @@ def test_a_sample_is_written_with_its_list(target: str, tmp_path: Path) -> None:
     assert "carried; JSON lists them too" in outcome.out
     head = out.read_text(encoding="ascii")[:4000]
     assert "model of scr-touchdown.keyxm" in head
-    assert "*SEABED PROPERTIES (299) approximated: " in head
+    assert "*SEABED PROPERTIES, *SEABED STIFFNESS (299, 302, 310) approximated: " in head
     assert "25.51 kN/m2" in head
 
 

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import tracemalloc
 from collections.abc import Callable
+from functools import partial
+from itertools import count
 from pathlib import Path
 
 import pytest
 
 import mudline
 from mudline.deck.loading import load_bytes
-from mudline.linting.engine import problems_in
+from mudline.linting.engine import lint_bytes, problems_in
 from mudline.linting.registry import rules
 from mudline.linting.rule import LintContext
 from tests.growth import TWOFOLD, call_growth
@@ -89,3 +91,32 @@ def test_work_is_as_long_as_the_chain(chain: Callable[[int, int], str], step: in
 @pytest.mark.parametrize(("chain", "code"), [(sets, "REF008"), (parameters, "REF014")])
 def test_a_chain_without_an_end_is_told_once(chain: Callable[[int, int], str], code: str, tmp_path: Path) -> None:
     assert codes(closed(chain(LONG, 1), LONG), tmp_path).count(code) == 1
+
+
+# ------------------------------------------------------------------------------------- many faults that are corrected
+
+_RUNS = count(10)
+
+
+def lint_faulty(faults: int, head: str, each: str) -> None:
+    """Lint a deck with so many faults, whose blocks no deck before had."""
+    run = next(_RUNS)
+    text = MODEL + head + "".join(each.format(f"{run}{i:04}") for i in range(faults))
+    lint_bytes(text.encode(), "deck.keyxm", rules())
+
+
+@pytest.mark.parametrize(
+    ("head", "each"),
+    [
+        ("", "*SEABED STIFNESS\n CURVE=c{0}\n 0, 0\n 1, {0}\n"),
+        ("", "SEABED STIFFNESS\n CURVE=c{0}\n 0, 0\n 1, {0}\n*NODE\n {0}, 0, 5\n"),
+        ("", "*NODE\n {0}, 0, 5\n CURVE=c{0}\n 0, 0\n 1, {0}\n"),
+        ("*SEABED PROPERTIES\n TYPE=ELASTIC\n", " SET=a{0}\n STIFNESS={0}\n"),
+        ("*ELEMENT SETS\n", " SETT=a{0}\n 1\n"),
+        ("*NODE\n", " {0}, 0,5, 1,{0}, 2,5\n"),
+    ],
+    ids=["keyword", "star", "line", "key", "set", "commas"],
+)
+def test_recovery_costs_as_much_as_the_faults_are_many(head: str, each: str) -> None:
+    """With fewer faults than corrections are tried for."""
+    assert call_growth(partial(lint_faulty, head=head, each=each), 95, 190) < TWOFOLD

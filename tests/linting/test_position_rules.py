@@ -50,6 +50,21 @@ def test_where_a_line_lies(start: str, end: str, expected: str) -> None:
     assert all(expected in message for message in told)
 
 
+@pytest.mark.parametrize(
+    ("level", "x", "centreline", "count"),
+    [
+        ("LOWERED", -1.85, "", 0),
+        ("UNCHANGED", -1.85, "", 1),
+        ("LOWERED", -3.45, "", 1),  # 1.65 m below its bottom
+        ("LOWERED", -1.85, " CENTRELINE=0.0, 0.5, 100.0, 0.5\n", 0),
+        ("LOWERED", -1.85, " CENTRELINE=0.0, 4.0, 100.0, 4.0\n", 1),  # beside it
+    ],
+)
+def test_a_pipe_in_a_trench_lies_on_its_bottom(level: str, x: float, centreline: str, count: int) -> None:
+    trench = f"*SEABED TRENCH\n SET=ALL\n GEOMETRY=1.8, 1.5, 6.0\n PEAK=4000.0\n LEVEL={level}\n{centreline}"
+    assert len(messages(line(f"{x}, 0.0", f"{x}, 100.0", LAW + trench), "SBD022")) == count
+
+
 HIGH = ("500.0, 0.0", "500.0, 100.0")
 
 

@@ -9,7 +9,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mudline.diagnostics import Span
-from mudline.syntax.edits import OverlapError, TextEdit, apply_edits, edited_bytes, edited_text, line_end_before
+from mudline.syntax.edits import (
+    OverlapError,
+    TextEdit,
+    Undoing,
+    apply_edits,
+    edited_bytes,
+    edited_text,
+    line_end_before,
+)
 from mudline.syntax.source import Source
 
 BOM = b"\xef\xbb\xbf"
@@ -106,3 +114,38 @@ def test_a_text_is_its_kept_pieces_and_the_new_ones(
     if len(set(places)) == len(places):
         shuffled.shuffle(edits)
         assert apply_edits(text + last, edits) == expected + last
+
+
+@st.composite
+def some_edits(draw: st.DrawFn) -> list[TextEdit]:
+    """Edits of a text of 40 characters that do not overlap."""
+    bounds = sorted(draw(st.lists(st.integers(0, 40), min_size=2, max_size=12)))
+    texts = st.sampled_from(["", "x", "yy\n", "z" * 7])
+    return [edit(a, b, draw(texts)) for a, b in zip(bounds[::2], bounds[1::2], strict=False)]
+
+
+def one_by_one(span: Span, edits: list[TextEdit]) -> Span:
+    """The span before the edits, from one edit to the next."""
+    start, end = span
+    for one in edits:
+        if one.span.start >= end:
+            break
+        grown = len(one.text) - (one.span.end - one.span.start)
+        if one.span.start < start + (not one.text):
+            start = max(start - grown, one.span.start)
+        end = max(end - grown, one.span.start)
+    return Span(start, max(start, end))
+
+
+@given(some_edits(), st.integers(0, 60), st.integers(0, 20))
+def test_places_of_an_edited_text_are_led_back(edits: list[TextEdit], start: int, length: int) -> None:
+    place, undoing = Span(start, start + length), Undoing(reversed(edits))
+    assert undoing.before(place) == one_by_one(place, edits)
+    grown, touched, new = 0, False, False
+    for one in edits:
+        at = Span(one.span.start + grown, one.span.start + grown + len(one.text))
+        grown += len(one.text) - (one.span.end - one.span.start)
+        touched |= start < at.end and at.start < max(place.end, start + 1)
+        whole_lines = one.span.start == one.span.end and one.text.endswith("\n")
+        new |= whole_lines and at.start <= start < place.end < at.end
+    assert (undoing.touches(place), undoing.is_in_new_lines(place)) == (touched, new)

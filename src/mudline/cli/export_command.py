@@ -60,22 +60,12 @@ def command(*, deck: GivenDeck, target: str, output: str, strict: bool, output_f
 def _print(report: Report, view: View) -> None:
     """The table of what does not carry over."""
     printer = view.printer()
-    own = report.scene.deck.file
-    rows = [
-        (
-            entry.keyword,
-            str(entry.line) if entry.file == own else f"{entry.file}:{entry.line}",
-            entry.status.value,
-            entry.target,
-            entry.effect,
-        )
-        for entry in report.lost
-    ]
+    rows = report.rows()
     carried = len(report.entries) - len(report.lost)
     columns = ("keyword", "line", "status", "in the target", "effect")
     note = f"{carried} carried; JSON lists them too"
     if rows:
         left = ("keyword", "status", "in the target", "effect")
-        printer.table("What does not carry over", columns, rows, left=left, whole=("keyword",), note=note)
+        printer.table("What does not carry over", columns, rows, left=left, whole=("status",), note=note)
     else:
         printer.line(f"All carries over: {note}")

@@ -29,7 +29,7 @@ def respelt(given: dict[str, Any], declared: type[Block], error: ValidationError
     meant = deepcopy(given)
     faults: list[tuple[DocumentPath, str]] = []
     for fault in error.errors(include_url=False):
-        path = tuple(step for step in fault["loc"] if not isinstance(step, str) or _is_key(given, step))
+        path = _path(given, fault["loc"])
         holder = _inside(meant, path[:-1])
         last = path[-1] if path else ""
         if fault["type"] == "extra_forbidden" and isinstance(holder, dict) and last in holder:
@@ -47,11 +47,15 @@ def respelt(given: dict[str, Any], declared: type[Block], error: ValidationError
         return None
 
 
-def _is_key(value: object, key: str) -> bool:
-    """Whether a document has a key anywhere: pydantic puts the names of alternatives in its paths."""
-    if isinstance(value, dict):
-        return key in value or any(_is_key(item, key) for item in value.values())
-    return isinstance(value, list) and any(_is_key(item, key) for item in value if isinstance(item, dict))
+def _path(value: Any, steps: DocumentPath) -> DocumentPath:
+    """The steps that a document has: pydantic puts the names of alternatives between them."""
+    path: list[str | int] = []
+    for step in steps:
+        here = step in value if isinstance(value, dict) else isinstance(value, list) and isinstance(step, int)
+        if here:
+            path.append(step)
+            value = value[step]
+    return tuple(path)
 
 
 def _inside(value: Any, path: DocumentPath) -> object:

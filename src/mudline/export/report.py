@@ -18,6 +18,9 @@ from mudline.scene.resolved import ResolvedDeck
 _LETTERS = 120
 """Of a text of the deck that stand in a comment."""
 
+_MOST_NAMED = 5
+"""Keywords and lines of which the same is said."""
+
 _BY_SUBJECT = {
     "loads": "loads and currents are not written: the shape at rest is that of weight, buoyancy and seabed",
     "waves": "no sea is written: no effect at rest",
@@ -112,14 +115,40 @@ class Report:
         """Whether nothing was approximated or left out."""
         return all(entry.status in (Status.CARRIED, Status.RENAMED) for entry in self.entries)
 
+    def rows(self) -> list[tuple[str, str, str, str, str]]:
+        """What does not carry over: keyword, line, status, what the target has and what follows.
+
+        Keywords of which the same is to be said share a row.
+        """
+        alike: dict[tuple[str, str, str], list[Entry]] = {}
+        for entry in self.lost:
+            alike.setdefault((entry.status.value, entry.target, entry.effect), []).append(entry)
+        own = self.scene.deck.file
+        return [
+            (
+                _some(entry.keyword for entry in entries),
+                _some(str(entry.line) if entry.file == own else f"{entry.file}:{entry.line}" for entry in entries),
+                *said,
+            )
+            for said, entries in alike.items()
+        ]
+
     def comments(self, target: str) -> list[str]:
         """The head of a file, a line each: what does not carry over."""
+        rows = self.rows()
         lines = [f"{target} model of {self.scene.source}, written by mudline export"]
-        lines += ["What does not carry over (keyword, line of the deck, what is here, effect):"] * bool(self.lost)
-        for entry in self.lost:
-            place = f"{entry.file}:{entry.line}" if entry.file != self.scene.deck.file else str(entry.line)
-            lines.append(f"{entry.keyword} ({place}) {entry.status}: {entry.target}; {entry.effect}")
+        lines += ["What does not carry over (keyword, line of the deck, what is here, effect):"] * bool(rows)
+        lines += [
+            f"{keyword} ({place}) {status}: {target}; {effect}" for keyword, place, status, target, effect in rows
+        ]
         return [one_line(line) for line in lines]
+
+
+def _some(words: Iterable[str]) -> str:
+    """The first of some words, each once."""
+    each = list(dict.fromkeys(words))
+    more = len(each) - _MOST_NAMED
+    return ", ".join(each[:_MOST_NAMED]) + (f" and {more} more" if more > 0 else "")
 
 
 def _subject(block: Block | Opaque, section: str) -> str:

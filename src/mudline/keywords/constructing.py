@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from itertools import chain, zip_longest
+from bisect import bisect_right
+from collections.abc import Sequence
+from itertools import chain
 from typing import Any
 
 from mudline.keywords.builder import ParsedRecord
@@ -11,17 +13,21 @@ from mudline.keywords.text import Value
 from mudline.keywords.unknown import UNKNOWN, UNKNOWN_NAME, Partly, is_unknown
 
 
-def lose(built: ParsedRecord, position: int) -> None:
-    """Take note that a line of a record, or of one inside it, could not be used."""
+def lose(built: ParsedRecord, positions: Sequence[int]) -> None:
+    """Take note that lines of a record, or of those inside it, could not be used."""
     built.unsure = True
     inner = sorted(chain.from_iterable(built.children.values()), key=lambda child: child.first)
-    for child, following in zip_longest(inner, inner[1:]):
-        if position < child.first:  # the line may be that of its name
-            for slot in record_schema(child.part).slots[:1]:
-                if slot.key:
-                    child.values.setdefault(slot.json, UNKNOWN)
-        elif following is None or position < following.first:
-            lose(child, position)
+    firsts = [child.first for child in inner]
+    of_child: dict[int, list[int]] = {}
+    for position in positions:
+        of_child.setdefault(bisect_right(firsts, position) - 1, []).append(position)
+    for child in inner[bisect_right(firsts, min(positions)) :]:  # a line above it may be that of its name
+        for slot in record_schema(child.part).slots[:1]:
+            if slot.key:
+                child.values.setdefault(slot.json, UNKNOWN)
+    for index, inside in of_child.items():
+        if index >= 0:
+            lose(inner[index], inside)
 
 
 def construct(built: ParsedRecord) -> Part:

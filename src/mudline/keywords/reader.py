@@ -193,9 +193,9 @@ class _Reader:
                         message = f"{_label(self.declared, place)} is missing here"
                     span = builder.places.find(place)
                     self.problems.append(Problem(SYN001, message, span))
-        for problem in self.problems:
-            if problem.code in (SYN001, SYN004) and problem.span is not None:
-                lose(built, problem.span.start)
+        lost = [one.span.start for one in self.problems if one.code in (SYN001, SYN004) and one.span is not None]
+        if lost:
+            lose(built, lost)
         return cast("Block", construct(built))
 
     def nowhere(self) -> Places:

@@ -22,7 +22,7 @@ from mudline.linting.recovery import copies, lines, names, sections, undefined, 
 from mudline.linting.recovery.blocks import RECOVERIES, Blocks, Correction, line_at
 from mudline.linting.rule import LintContext
 from mudline.linting.rules.keyword_families import LEG001
-from mudline.syntax.edits import OverlapError, TextEdit, apply_edits, edited_bytes, with_line_ends
+from mudline.syntax.edits import OverlapError, TextEdit, Undoing, apply_edits, edited_bytes, with_line_ends
 from mudline.syntax.source import Source
 
 SUBJECTS = (names, sections, lines, values, copies)
@@ -31,8 +31,9 @@ SUBJECTS = (names, sections, lines, values, copies)
 MOST_ROUNDS = 4
 """Times that the corrected lines are looked through for faults that the ones before them hid."""
 
-MOST_TRIALS = 200
-"""Corrections of a deck that are tried: a file of another kind would have as many as it has lines."""
+MOST_TRIALS, OF_A_TRIAL = 200, 2000
+"""Corrections of a deck that are tried, as a file of another kind would have as many as it has lines; and characters
+that are read for one: a longer block counts as several."""
 
 LONGEST_LINE, LONGEST_TRIED = 4096, 50_000
 """Characters of a line that is corrected, and of a block that is read again to see whether it is better."""
@@ -62,7 +63,7 @@ class Recovered:
 
     context: LintContext
     causes: list[Problem] = field(default_factory=list)
-    steps: list[tuple[TextOrigin, list[TextEdit]]] = field(default_factory=list)
+    steps: list[Undoing] = field(default_factory=list)
 
     @property
     def deck(self) -> Deck:
@@ -80,7 +81,7 @@ class Recovered:
         except (OverlapError, UnicodeEncodeError):  # of a character that the encoding lacks
             return False
         self.causes += self.as_written(map(_cause, corrections))
-        self.steps.append((text, edits))
+        self.steps.append(Undoing(edits))
         self.context = LintContext(deck, dialect=self.context.dialect)
         return True
 
@@ -96,14 +97,14 @@ class Recovered:
                 span = origin.span(problem.where)
             # A deck is migrated as it is written, or not at all.
             repair = None if problem.code is LEG001 else problem.repair
-            for _, edits in reversed(self.steps):
-                if span is not None and _is_put_in(span, edits):
+            for step in reversed(self.steps):
+                if span is not None and step.is_in_new_lines(span):
                     break
-                span = span and _before(span, edits)
-                if repair is not None and any(_touches(place, edits) for place, _ in repair.edits):
+                span = span and step.before(span)
+                if repair is not None and any(step.touches(place) for place, _ in repair.edits):
                     repair = None
                 if repair is not None:
-                    repair = replace(repair, edits=tuple((_before(place, edits), text) for place, text in repair.edits))
+                    repair = replace(repair, edits=tuple((step.before(place), text) for place, text in repair.edits))
             else:
                 yield replace(problem, span=span, where=problem.where if span else None, repair=repair)
 
@@ -184,7 +185,7 @@ class _Round:
         region = Span(start, max(end, edits[-1].span.end))
         if not section or region.end - region.start > LONGEST_TRIED or self.trials <= 0:
             return False
-        self.trials -= 1
+        self.trials -= 1 + (region.end - region.start) // OF_A_TRIAL
         if region not in self.errors:
             self.errors[region] = Counter(self._faults(section, region, ()))
         before = self.errors[region]
@@ -212,40 +213,3 @@ class _Round:
 
 def _meet(one: Span, other: Span) -> bool:
     return one.start < other.end and other.start < one.end
-
-
-def _put_in(edits: Sequence[TextEdit]) -> Iterator[Span]:
-    """What the edits of a text put in, by its places in the edited text."""
-    grown = 0
-    for edit in sorted(edits, key=lambda each: each.span):
-        start = edit.span.start + grown
-        yield Span(start, start + len(edit.text))
-        grown += len(edit.text) - (edit.span.end - edit.span.start)
-
-
-def _touches(place: Span, edits: Sequence[TextEdit]) -> bool:
-    """Whether an edit of the recovered text is in one of its corrections."""
-    return any(place.start < end and start < max(place.end, place.start + 1) for start, end in _put_in(edits))
-
-
-def _is_put_in(place: Span, edits: Sequence[TextEdit]) -> bool:
-    """Whether something stands in whole lines that a correction put in."""
-    new = (
-        span
-        for edit, span in zip(sorted(edits, key=lambda one: one.span), _put_in(edits), strict=True)
-        if edit.text.endswith("\n") and edit.span.start == edit.span.end
-    )
-    return any(start <= place.start < place.end < end for start, end in new)
-
-
-def _before(span: Span, edits: Sequence[TextEdit]) -> Span:
-    """A span of an edited text in the text as it was."""
-    start, end = span
-    for edit in sorted(edits, key=lambda each: each.span):
-        if edit.span.start >= end:
-            break
-        grown = len(edit.text) - (edit.span.end - edit.span.start)
-        if edit.span.start < start + (not edit.text):  # what stands at the place of something left out is behind it
-            start = max(start - grown, edit.span.start)
-        end = max(end - grown, edit.span.start)
-    return Span(start, max(start, end))

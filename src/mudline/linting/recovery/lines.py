@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from bisect import bisect_left
 from collections.abc import Iterator, Sequence
 from functools import cache, lru_cache
 from typing import NamedTuple
@@ -114,8 +115,8 @@ def keyword_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Corre
     text = blocks.text
     wanted = sorted((start_of(text, one), number) for number, one in enumerate(problems))
     for section, block in blocks.blocks if wanted else ():
-        end = whole(block).end
-        inside = [(at, number) for at, number in wanted if block.head.span.end <= at < end]
+        first, end = (bisect_left(wanted, (at, 0)) for at in (block.head.span.end, whole(block).end))
+        inside = wanted[first:end]
         if inside and any(problems[number].weight is Severity.ERROR for _, number in inside):
             yield from _missing_line(blocks, section, block, problems[inside[0][1]], inside[0][0])
 

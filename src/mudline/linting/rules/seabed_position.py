@@ -36,9 +36,36 @@ def depths(context: LintContext) -> Floats:
 
     Of a polyline and of a surface it is a lower bound: no point of the seabed is nearer. A surface is triangulated
     between its points, so it lies nowhere below the lowest of them. A cubic profile may lie anywhere between its
-    points. Several rules need them, and ask `context.once`.
+    points. In a trench that lowers the seabed it is that below the bottom. Several rules need them, and ask
+    `context.once`.
     """
-    scene = context.scene
+    lowering = _lowering(context.scene)
+    return _depths(context.scene) if lowering is None else _depths(context.scene) - lowering
+
+
+def _lowering(scene: Scene) -> Floats | None:
+    """By how much (n,) trenches lower the seabed at nodes; None where none does."""
+    trenches = scene.extensions.get("SEABED TRENCH")
+    if trenches is None or all(getattr(entry, "level", None) != "LOWERED" for entry in trenches.entries):
+        return None
+    lowers = np.array([*(getattr(entry, "level", None) == "LOWERED" for entry in trenches.entries), False])
+    elements = np.flatnonzero(lowers[trenches.of_element])
+    block = trenches.of_element[elements]
+    deep, bottom, top = (trenches.values(block, "geometry", name) for name in ("depth", "bottom_width", "upper_width"))
+    y0, z0, y1, z1 = (trenches.values(block, "centreline", name) for name in ("y0", "z0", "y1", "z1"))
+    found = np.zeros(len(scene.node_ids))
+    for nodes in scene.element_nodes[elements].T:
+        _, y, z = scene.coordinates[nodes].T
+        with np.errstate(all="ignore"):
+            away = np.abs((y1 - y0) * (z - z0) - (z1 - z0) * (y - y0)) / np.hypot(y1 - y0, z1 - z0)
+            share = np.clip((top - 2.0 * away) / (top - bottom), 0.0, 1.0)
+        known = nodes >= 0
+        lower = deep * np.where(np.isnan(away), 1.0, share)  # without a line of its own it lies below the pipe
+        np.fmax.at(found, nodes[known], lower[known])
+    return found
+
+
+def _depths(scene: Scene) -> Floats:
     floor = scene.seabed
     x, y, z = scene.coordinates.T
     if not _is_bed(scene):
@@ -98,7 +125,8 @@ def bounds_of(context: LintContext) -> Bounds:
     scene = context.scene
     lowest, left, first = np.minimum.reduce(scene.coordinates, axis=0, initial=np.inf).tolist()
     top, right, last = np.maximum.reduce(scene.coordinates, axis=0, initial=-np.inf).tolist()
-    if _is_level(scene.seabed) and isfinite(left + right + first + last):
+    level = _is_level(scene.seabed) and "SEABED TRENCH" not in scene.extensions
+    if level and isfinite(left + right + first + last):
         highest, deepest = top, -lowest
     else:
         depth = context.once(depths)
