@@ -12,6 +12,7 @@ import random
 import re
 import threading
 from collections import Counter
+from copy import deepcopy
 from functools import cache
 from io import BytesIO
 from typing import Any
@@ -33,7 +34,7 @@ _LINE_END = re.compile("\r\n?|\n")
 _INTERNAL = -32603
 _AT = ("hover", "completion", "definition", "references", "documentHighlight", "prepareRename", "rename")
 _OF_DECK = ("documentSymbol", "foldingRange", "formatting", "inlayHint", "codeAction")
-_CONTEXTS: dict[str, object] = {"references": {"includeDeclaration": True}, "codeAction": {"diagnostics": []}}
+_CONTEXTS: dict[str, dict[str, object]] = {"references": {"includeDeclaration": True}, "codeAction": {"diagnostics": []}}
 _EDGES: tuple[object, ...] = (None, -1, 2**31, 1e308, "", "x" * 1000, [], {}, True, [[[]]], {"uri": 1}, *_OTHERS)
 _TYPED = (
     "",
@@ -158,7 +159,7 @@ class Session:
             "options": {"tabSize": 1, "insertSpaces": True},
         }
         if what in _CONTEXTS:
-            params["context"] = _CONTEXTS[what]
+            params["context"] = dict(_CONTEXTS[what])
         return f"textDocument/{what}", params
 
     def odd(self) -> None:
@@ -267,6 +268,6 @@ def _replace(value: Any, by: random.Random) -> None:  # noqa: ANN401 - JSON
     while isinstance(value, dict | list) and value:
         key: Any = by.choice(list(value)) if isinstance(value, dict) else by.randrange(len(value))
         if key != "jsonrpc" and (by.random() < 0.3 or not isinstance(value[key], dict | list)):
-            value[key] = by.choice(_EDGES)
+            value[key] = deepcopy(by.choice(_EDGES))
             return
         value = value[key]
