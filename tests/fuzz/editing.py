@@ -34,7 +34,7 @@ _LINE_END = re.compile("\r\n?|\n")
 _INTERNAL = -32603
 _AT = ("hover", "completion", "definition", "references", "documentHighlight", "prepareRename", "rename")
 _OF_DECK = ("documentSymbol", "foldingRange", "formatting", "inlayHint", "codeAction")
-_CONTEXTS: dict[str, dict[str, object]] = {"references": {"includeDeclaration": True}, "codeAction": {"diagnostics": []}}
+_CONTEXT: dict[str, dict[str, object]] = {"references": {"includeDeclaration": True}, "codeAction": {"diagnostics": []}}
 _EDGES: tuple[object, ...] = (None, -1, 2**31, 1e308, "", "x" * 1000, [], {}, True, [[[]]], {"uri": 1}, *_OTHERS)
 _TYPED = (
     "",
@@ -158,8 +158,8 @@ class Session:
             "newName": self.random.choice(("n", "", "a b", "x" * 300)),
             "options": {"tabSize": 1, "insertSpaces": True},
         }
-        if what in _CONTEXTS:
-            params["context"] = dict(_CONTEXTS[what])
+        if what in _CONTEXT:
+            params["context"] = dict(_CONTEXT[what])
         return f"textDocument/{what}", params
 
     def odd(self) -> None:
