@@ -5,15 +5,16 @@ from __future__ import annotations
 import os
 import re
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
-from mudline.arguments import expect, read_only, several
+from mudline.arguments import ArgumentKindError, expect, expect_word, read_only, several
 from mudline.deck import model
 from mudline.deck.forms import KEYWORD
 from mudline.deck.loading import dump, load_bytes, load_path
-from mudline.diagnostics import Diagnostic
+from mudline.diagnostics import Diagnostic, Where
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select as _chosen
 from mudline.quantities import checked_units
@@ -39,6 +40,17 @@ class Deck(model.Deck):
 
     `read`, `from_keyword`, `from_json` and `from_yaml` make decks.
     """
+
+    def blocks(self, keyword: str, section: str = "MODEL") -> Iterator[tuple[Where, Any]]:
+        """The modelled blocks of a keyword in all sections of a name, in the order of the file, each with its place."""
+        expect(keyword, "keyword", str, "a str")
+        expect(section, "section", str, "a str")
+        return super().blocks(keyword, section)
+
+    def keywords(self, section: str = "MODEL") -> set[str]:
+        """The keywords of all sections of a name."""
+        expect(section, "section", str, "a str")
+        return super().keywords(section)
 
     def to_json(self) -> str:
         """Return the deck as JSON text; nothing but layout is lost."""
@@ -147,14 +159,18 @@ class Scene:
         return read_only(self._resolved.diameter)
 
     @property
-    def law_names(self) -> list[str]:
+    def law_names(self) -> tuple[str, ...]:
         """`curve:NAME`, `linear`, `nodal`, `rigid` or `none` for each element."""
-        return self._resolved.law_names
+        return self._names[0]
 
     @property
-    def law_sets(self) -> list[str | None]:
+    def law_sets(self) -> tuple[str | None, ...]:
         """Name of the set through which each element got its law; None without a law."""
-        return self._resolved.law_sets
+        return self._names[1]
+
+    @cached_property
+    def _names(self) -> tuple[tuple[str, ...], tuple[str | None, ...]]:
+        return tuple(self._resolved.law_names), tuple(self._resolved.law_sets)
 
     @property
     def sets(self) -> ByName[Ids]:
@@ -179,6 +195,7 @@ class Scene:
         Raises ImportError where "fast" is not installed, and DeckError for the findings that keep the scene from being
         evaluated, and (RUN001) for what no check covers.
         """
+        expect_word(tension, "tension", ("keep", "cut"), "'keep' or 'cut'")
         return self._resolved.contact(tension, backend=backend)
 
 
@@ -317,8 +334,10 @@ def _path(given: object, advice: str = "use mudline.{}(text)") -> Path:
     function = _function_for(text.lstrip("\ufeff")) if isinstance(text, str) else None
     if function and not os.path.exists(str(text)):  # noqa: PTH110 - Path raises for names that are too long
         raise ValueError(f"expected a path, found the text of a deck: {advice.format(function)}")
+    if isinstance(name, str) and (not name or "\0" in name):
+        raise ValueError(f"path must be the name of a file, not {name!r}")
     if not isinstance(name, str):
-        raise TypeError(f"expected a path as str or os.PathLike, found {type(name).__name__}")
+        raise ArgumentKindError(f"path must be a str or os.PathLike, not {type(name).__name__}")
     return Path(name)
 
 

@@ -11,17 +11,31 @@ from numpy.typing import ArrayLike, NDArray
 from mudline.short_repr import cut
 
 
+class ArgumentKindError(TypeError, ValueError):
+    """An argument is not of the kind that is expected: for callers that catch either."""
+
+
+class ArgumentRangeError(IndexError, ValueError):
+    """A number of something that is not there."""
+
+
 def expect(value: object, name: str, kind: type | tuple[type, ...], expected: str) -> None:
-    """Raise TypeError for an argument that is not of a kind, which `expected` says in words."""
+    """Raise ArgumentKindError for an argument that is not of a kind, which `expected` says in words."""
     if not isinstance(value, kind):
-        raise TypeError(f"{name} must be {expected}, not {type(value).__name__}")
+        raise ArgumentKindError(f"{name} must be {expected}, not {type(value).__name__}")
+
+
+def expect_word(value: object, name: str, allowed: tuple[str, ...], expected: str) -> None:
+    """Raise ValueError for an argument that is not one of the allowed words, which `expected` lists."""
+    if not isinstance(value, str) or value not in allowed:
+        raise ValueError(f"{name} must be {expected}, not {cut(repr(value), 60)}")
 
 
 def several(values: object, name: str, kind: type | tuple[type, ...], expected: str) -> list[Any]:
-    """An argument as a list. Raises TypeError for anything but several of a kind: one str is not its letters."""
+    """An argument as a list. Raises ArgumentKindError for what is not several of a kind: one str is not its letters."""
     found = list(values) if isinstance(values, Iterable) and not isinstance(values, str | bytes) else None
     if found is None or not all(isinstance(each, kind) for each in found):
-        raise TypeError(f"{name} must be {expected}, not {cut(repr(values), 60)}")
+        raise ArgumentKindError(f"{name} must be {expected}, not {cut(repr(values), 60)}")
     return found
 
 

@@ -137,6 +137,47 @@ def replacement(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
         raise
 
 
+@contextmanager
+def alone_at(path: Path, waiting: Callable[[], None] | None = None, *, made: bool = False) -> Iterator[None]:
+    """Let no other run of this program be in such a block for a file; one that is there is waited for.
+
+    `waiting` is called before that, and a missing file is `made`. Runs do not wait for each other on Windows, nor where
+    files cannot be opened or locked.
+    """
+    handle = _alone(path, waiting, os.O_CREAT if made else 0)
+    try:
+        yield
+    finally:
+        if handle is not None:
+            os.close(handle)
+
+
+def _alone(path: Path, waiting: Callable[[], None] | None, flags: int) -> int | None:
+    """A handle of a file that only this run has locked; None where there is none."""
+    if sys.platform == "win32":
+        return None
+    import fcntl  # noqa: PLC0415 - as below
+
+    while True:
+        try:
+            handle = os.open(path, os.O_RDWR | os.O_NONBLOCK | flags, _NEW)
+        except OSError:
+            return None
+        try:
+            if _locked(handle) is False:
+                if waiting is not None:
+                    waiting()
+                fcntl.flock(handle, fcntl.LOCK_EX)
+            if os.path.samestat(os.fstat(handle), os.stat(path)):  # noqa: PTH116 - may be a name that Path refuses
+                return handle
+        except OSError:  # it is gone, or another file system says otherwise
+            return handle
+        except BaseException:
+            os.close(handle)
+            raise
+        os.close(handle)  # the run that was waited for has put another file there
+
+
 def _sync_folder(folder: Path) -> None:
     """Wait until the disk has the new name of a file; a folder that may not be read is left to the system."""
     with suppress(OSError):

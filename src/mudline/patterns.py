@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cache
 
 _PIECE = re.compile(r"(?P<stars>\*+)|\?|\[(?P<not>[!^]?)(?P<set>\]?(?:\\.|[^]\\])*)\]|\\(?P<plain>.)|(?P<other>.)")
+_ESCAPED = re.compile(r"\\.", re.DOTALL)
 _FOLDERS = "(?:[^/]*/)*"
 _MEMBER = re.compile(r"\\?(.)(?:-\\?([^]]))?")
 
@@ -51,7 +52,8 @@ def read_pattern(line: str) -> Pattern | None:
     text = text[negated:]
     body = text.removesuffix("/")
     whole = "/" in body
-    expression = _expression(body.removeprefix("/"), whole=whole) if body.removeprefix("/") else None
+    body = _ESCAPED.sub(lambda found: "/" if found[0] == r"\/" else found[0], body.removeprefix("/"))
+    expression = _expression(body, whole=whole) if body and body[0] != "/" else None
     return Pattern(expression, whole, negated, text.endswith("/")) if expression else None
 
 
@@ -80,7 +82,7 @@ def _expression(body: str, *, whole: bool) -> re.Pattern[str] | None:
     """
     groups: list[list[str]] = [[]]
     for name in body.split("/") if whole else [body]:
-        if name == "**" and whole:
+        if whole and len(name) > 1 and not name.strip("*"):
             groups.append([])
             continue
         one = _of_name(name)

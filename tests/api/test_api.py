@@ -159,7 +159,7 @@ def test_text_in_place_of_a_path(text: object, function: str) -> None:
 
 @pytest.mark.parametrize(("given", "found"), [(b"scr.keyxm", "bytes"), (3, "int"), (None, "NoneType")])
 def test_what_is_no_path(given: object, found: str) -> None:
-    with pytest.raises(TypeError, match=f"^expected a path as str or os.PathLike, found {found}$"):
+    with pytest.raises(TypeError, match=f"^path must be a str or os.PathLike, not {found}$"):
         mudline.read(cast("str", given))
 
 

@@ -319,6 +319,18 @@ def test_arrays_of_a_scene_cannot_be_written() -> None:
             array[...] = 1
 
 
+def test_names_of_a_scene_cannot_be_written_and_what_is_done_to_the_deck_does_not_reach_it() -> None:
+    deck = mudline.from_keyword(CLEAN)
+    scene = deck.scene()
+    assert (scene.law_names, scene.law_sets) == (("curve:Clay", "curve:Clay"), ("Pipe", "Pipe"))
+    for held in (deck, scene.deck):
+        (_, curves), (_, nodes) = next(held.blocks("SEABED STIFFNESS")), next(held.blocks("NODE"))
+        curves.curves[0].points.values[...] = 1.0
+        nodes.entries.clear()
+        held.sections.clear()
+    assert scene.contact().evaluate().normal_force.tobytes() == RESULT.normal_force.tobytes()
+
+
 def test_the_arrays_that_an_input_was_made_of_stay_as_they_were() -> None:
     ids = np.array(MODEL.input.node_ids)
     assert np.shares_memory(dataclasses.replace(MODEL.input, node_ids=ids).node_ids, ids)

@@ -8,11 +8,13 @@ import shutil
 import signal
 import sys
 import time
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
 
-from mudline.archive.store import FORMAT
+from mudline.archive.store import FORMAT, LOCK
+from mudline.files import alone_at
 from tests.archive.trial import contents, deck, index, summary, write
 from tests.cli.runner import run
 from tests.processes import TIMEOUT, started
@@ -78,6 +80,18 @@ def test_a_killed_run_loses_nothing(tmp_path: Path) -> None:
     index(folder, archive=whole)
     assert contents(killed) == contents(whole)
     assert not list(killed.rglob("*.mudline"))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there, runs do not wait for each other")
+def test_a_run_waits_for_another_one(archive: Path, decks: Path) -> None:
+    write(decks, c=deck("c", depth=700.0))
+    with ExitStack() as stack:
+        with alone_at(archive / LOCK):
+            words = ("-m", "mudline", "index", str(decks), "-o", str(archive), "--isolated")
+            running = stack.enter_context(started(*words))
+            assert running.err.readline().decode() == f"mudline: {archive.as_posix()}: waiting for another run\n"
+        assert running.process.wait(TIMEOUT) == 0
+    assert summary(index(decks, archive=archive)) == "3 decks: 3 unchanged"
 
 
 def test_a_run_that_is_killed_between_files_and_manifest_is_tidied(archive: Path, decks: Path) -> None:

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import errno
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from unittest.mock import Mock
 
 import pytest
 
+from mudline import files
 from mudline.files import write_atomically
 from tests.cli.conftest import Place
+from tests.cli.kills import COMMANDS, NEW, OLD, written
 from tests.cli.runner import run
 
 FULL = OSError(errno.ENOSPC, "No space left on device")
@@ -72,3 +74,37 @@ def test_directory_is_not_replaced(place: Place, folder: Path, options: tuple[st
     outcome = run(command, place(), "-o", "out.json", *rest)
     assert (outcome.code, outcome.out) == (2, "")
     assert outcome.err == "mudline: out.json: cannot be written: is a directory\n"
+
+
+# --------------------------------------------------------------------------------------- every command that writes
+
+
+def full(_: Path, __: int) -> tuple[int, Path]:
+    """A new file on a disk without space."""
+    return os.open("/dev/full", os.O_WRONLY), Path("none.mudline")
+
+
+def read_only(_: Path, __: int) -> tuple[int, Path]:
+    """A folder of a file system that cannot be written."""
+    raise OSError(errno.EROFS, "Read-only file system")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a disk that is full")
+@pytest.mark.parametrize("new_file", [full, read_only])
+@pytest.mark.parametrize("name", COMMANDS)
+def test_nothing_changes_where_nothing_can_be_written(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, name: str, new_file: Callable[[Path, int], tuple[int, Path]]
+) -> None:
+    command = COMMANDS[name]
+    written(1, 0, OLD)
+    if command.makes:
+        assert run(*command.words).code in {0, 1}
+    written(1, 0, NEW)
+    before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    monkeypatch.setattr(files, "_new_beside", new_file)
+    outcome = run(*command.words)
+    why = "no space left on device" if new_file is full else "read-only file system"
+    assert f"cannot be written: {why}\n" in outcome.err
+    assert "Traceback" not in outcome.err
+    assert outcome.code == 2
+    assert {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()} == before

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import copy
+import json
 import os
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -22,7 +26,7 @@ from mudline.linting.registry import rules
 from mudline.running import remembered
 from tests.builders.decks import BAD_NUMBER, CLEAN, UNSORTED
 from tests.cli.conftest import Place
-from tests.cli.runner import run
+from tests.cli.runner import Json, run
 
 Linted = list[str]
 
@@ -177,3 +181,53 @@ def test_findings_come_back_whole(linted: Linted) -> None:
     known.memory.put(key, [["of", "another", "shape"]])
     assert known.get(key, Input("a", "a")) is None
     assert not linted
+
+
+# ----------------------------------------------------------------------------------- entries that others have written
+
+
+def leaves(value: Json, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
+    """The paths of all values in what JSON holds, those of lists and objects too."""
+    yield path
+    for key, one in value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ():
+        yield from leaves(one, (*path, key))
+
+
+def put(value: Json, path: tuple[Any, ...], new: Json) -> Json:
+    if not path:
+        return new
+    twin = copy.copy(value)
+    twin[path[0]] = put(value[path[0]], path[1:], new)
+    return twin
+
+
+FORGED: list[Any] = ["x", None, [], True, 7, {}, -1, [[]], 1.5, {"x": []}]
+
+
+@pytest.mark.parametrize("command", ["lint", "batch"])
+def test_a_forged_entry_is_used_or_not_but_never_ends_the_run(place: Place, linted: Linted, command: str) -> None:
+    del linted
+    words = ["lint", place(UNSORTED), "--output-format", "json"]
+    if command == "batch":
+        words = ["batch", "deck.keyxm", "-o", "out", "--form", "json", "--jobs", "1", "-q"]
+    first = run(*words)
+    file = Path("out/.mudline-batch") if command == "batch" else next(Path("cache").glob("lint-*"))
+    key, _, held = file.read_bytes().partition(b"\n")[2].decode().strip().partition(" ")
+    entry = json.loads(held)
+    for number, path in enumerate(leaves(entry)):
+        body = f"{key} {json.dumps(put(entry, path, FORGED[number % len(FORGED)]))}\n".encode()
+        file.write_bytes(remembered._head(body) + b"\n" + body)
+        outcome = run(*words)
+        assert outcome.code in {0, 1}, (path, outcome.err)
+        assert "Traceback" not in outcome.err
+    file.write_bytes(b"")
+    assert run(*words) == first
+
+
+def test_entries_of_another_user_are_not_read(place: Place, linted: Linted, monkeypatch: pytest.MonkeyPatch) -> None:
+    run("lint", place())
+    run("lint", "deck.keyxm")
+    assert len(linted) == 1
+    monkeypatch.setattr(os, "getuid", lambda: 12345, raising=False)
+    run("lint", "deck.keyxm")
+    assert len(linted) == 2

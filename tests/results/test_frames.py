@@ -46,7 +46,7 @@ def test_tables_have_the_columns_of_files() -> None:
     assert timed.to_dataframe()["time"].tolist() == [0.0, 0.0, 0.5, 0.5, 1.0, 1.0, 1.5, 1.5]
     assert counted.to_dataframe("nodes")["step"].tolist() == np.repeat(range(4), 3).tolist()
     assert timed.step(2).to_dataframe()["time"].tolist() == [1.0, 1.0]
-    with pytest.raises(ValueError, match="unknown table 'rows': expected one of elements, nodes, summary"):
+    with pytest.raises(ValueError, match="table must be one of elements, nodes, summary, not 'rows'"):
         state.to_dataframe("rows")  # type: ignore[arg-type]
 
 

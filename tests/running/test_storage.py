@@ -83,5 +83,5 @@ def test_a_url_without_its_library(monkeypatch: pytest.MonkeyPatch) -> None:
     def missing(_: str) -> None:
         raise ImportError("Install s3fs to access S3")
 
-    monkeypatch.setattr("fsspec.url_to_fs", missing)
+    monkeypatch.setattr("fsspec.core.url_to_fs", missing)
     assert "s3://decks: cannot be reached: install s3fs to access s3" in run("lint", "s3://decks").err

@@ -9,8 +9,8 @@ import json
 import os
 import re
 import time
-from collections.abc import Iterable, Mapping
-from contextlib import suppress
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from hashlib import blake2b
 from pathlib import Path
@@ -20,7 +20,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from mudline.archive.tables import DECK, Table
-from mudline.files import write_atomically
+from mudline.files import alone_at, write_atomically
 from mudline.short_repr import cut
 
 ArrowTable: TypeAlias = Any
@@ -30,6 +30,7 @@ FORMAT = "mudline-archive/3"
 MARKER = "archive.json"
 DATA = "data"
 VIEWS = "archive.duckdb"
+LOCK = "archive.lock"
 AGAIN = "mudline index reads the decks again"
 
 _ABOUT = "decks in Parquet: mudline query asks it, docs/archive.md describes it"
@@ -90,17 +91,24 @@ class Archive:
             raise ArchiveError(f"{marker.as_posix()} is damaged: index the decks into a new folder") from error
 
     @classmethod
-    def made(cls, folder: Path) -> Archive:
-        """The archive in a folder, a new one where that is missing or empty; raises ArchiveError, OSError."""
+    @contextmanager
+    def for_one_run(cls, folder: Path, waiting: Callable[[], None]) -> Iterator[Archive]:
+        """The archive in a folder, a new one where that is missing or empty; raises ArchiveError, OSError.
+
+        No other run changes it until the block ends; one that does so now is waited for, after `waiting` is called.
+        """
         _check_name(folder)
         if not (folder / MARKER).exists():
-            if folder.exists() and not folder.is_dir():
-                raise ArchiveError(f"{folder.as_posix()} is a file: give a folder for the archive")
-            others = [path.name for path in folder.iterdir()] if folder.exists() else []
-            if any(not name.startswith(f".{MARKER}.") for name in others):
-                message = f"{folder.as_posix()} has other files and is not an archive: give a new or empty folder"
-                raise ArchiveError(message)
-            folder.mkdir(parents=True, exist_ok=True)
+            _check_new(folder)
+        folder.mkdir(parents=True, exist_ok=True)
+        with alone_at(folder / LOCK, waiting, made=True):
+            yield cls.made(folder)
+
+    @classmethod
+    def made(cls, folder: Path) -> Archive:
+        """The archive in a folder that this run alone changes; raises ArchiveError, OSError."""
+        folder.mkdir(parents=True, exist_ok=True)
+        if not (folder / MARKER).exists():
             cls(folder).write({})
         (folder / DATA).mkdir(exist_ok=True)
         return cls.opened(folder)
@@ -193,6 +201,16 @@ def _check_name(folder: Path) -> None:
     except UnicodeEncodeError as error:
         name = os.fsencode(folder).decode(errors="backslashreplace")
         raise ArchiveError(f"{name}: the path of an archive must be UTF-8: rename the folder") from error
+
+
+def _check_new(folder: Path) -> None:
+    """Raise ArchiveError for a folder with files that no archive has; raises OSError."""
+    if folder.exists() and not folder.is_dir():
+        raise ArchiveError(f"{folder.as_posix()} is a file: give a folder for the archive")
+    names = [path.name for path in folder.iterdir()] if folder.exists() else []
+    others = [name for name in names if name != LOCK and not name.startswith(f".{MARKER}.")]
+    if others and not (folder / MARKER).exists():  # another run may just have made it
+        raise ArchiveError(f"{folder.as_posix()} has other files and is not an archive: give a new or empty folder")
 
 
 def _file_name(table: str, data: bytes) -> str:

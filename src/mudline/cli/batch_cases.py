@@ -17,7 +17,7 @@ import click
 from mudline.cli.evaluate_inputs import EvaluateInputs
 from mudline.cli.inputs import Input
 from mudline.cli.result_files import behind, beside, line_watch, result_files, write_tables
-from mudline.cli.streams import reason
+from mudline.cli.streams import UnwrittenError, reason
 from mudline.cli.view import View
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Diagnostic
@@ -166,13 +166,18 @@ class Done(NamedTuple):
 
 
 def evaluate_case(order: Order) -> Done:
-    """Evaluate a deck and write its results; one that fails has a row with the reason, and no results."""
+    """Evaluate a deck and write its results; one that fails has a row with the reason, and no results.
+
+    Results that cannot be written leave those of an earlier run.
+    """
     name = order.case.file.name
     with recording_looks() as looked_at, TemporaryDirectory(prefix="mudline-") as near:
         try:
             row, warnings, written = _evaluated(order, Path(near))
         except DeckError as error:
             why = _reason(error.diagnostics, name)
+        except UnwrittenError as error:
+            return failed(name, error.message.replace(f"{near}{os.sep}", ""))
         except click.ClickException as error:
             why = error.message
         except OSError as error:

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import click
+from pydantic import TypeAdapter
 
 from mudline.cli import DONE, FOUND, evaluate_inputs, options
 from mudline.cli.batch_cases import (
@@ -191,7 +192,7 @@ def _tasks(
             yield _Task(order, known=failed(name, error.message)), None
             continue
         key = "" if memory is None else memory.key(name, case.result, data, *files)
-        known = None if memory is None or fresh else _known(memory, key, order.output)
+        known = None if memory is None or fresh else _known(memory, key, order)
         order = order._replace(data=data, inputs=replace(given, positions=positions))
         near = [os.path.abspath(path) for path in files]  # noqa: PTH100 - links stay what they are
         yield _Task(order, key, near, known), None if known else order
@@ -246,12 +247,25 @@ def _memory(folder: str, settings: str) -> Memory | None:
     return Memory(Path(folder, _MEMORY), settings)
 
 
-def _known(memory: Memory, key: str, output: str) -> Done | None:
+def _known(memory: Memory, key: str, order: Order) -> Done | None:
     """What an earlier run gave, if the files of results are still there as they were written."""
-    held = memory.get(key)
-    if held is None or any(_mark(storage.join(output, name)) != mark for name, mark in held["written"].items()):
+    try:
+        row, warnings, written = TypeAdapter(_Held).validate_python(memory.get(key))
+    except ValueError:  # nothing, or what this program does not write
         return None
-    return Done(CaseSummary(**held["row"]), [(code, text) for code, text in held["warnings"]])
+    if row.deck != order.case.file.name or row.failed:
+        return None
+    if any(_mark(storage.join(order.output, name)) != mark for name, mark in written.items()):
+        return None
+    return Done(row, warnings)
+
+
+class _Held(NamedTuple):
+    """What is remembered of a deck."""
+
+    row: CaseSummary
+    warnings: list[tuple[str, str]]
+    written: dict[str, str]
 
 
 def _remember(memory: Memory, task: _Task, done: Done) -> None:

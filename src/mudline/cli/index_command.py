@@ -78,12 +78,13 @@ def command(
 
     folder = Path(output)
     try:
-        update = Update(Archive.made(folder), storage.exists)
-        if update.damage:
-            notify(update.damage)
-        _index(inputs, settings.of, update, view, jobs, scheduler)
-        update.remove_gone(_folders(paths, listed=listed), everywhere=prune)
-        update.save()
+        with Archive.for_one_run(folder, lambda: notify(f"{folder.as_posix()}: waiting for another run")) as archive:
+            update = Update(archive, storage.exists)
+            if update.damage:
+                notify(update.damage)
+            _index(inputs, settings.of, update, view, jobs, scheduler)
+            update.remove_gone(_folders(paths, listed=listed), everywhere=prune)
+            update.save()
     except ArchiveError as error:
         raise click.ClickException(str(error)) from error
     except OSError as error:

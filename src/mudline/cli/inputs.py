@@ -18,7 +18,7 @@ from mudline.cli.streams import notify, notify_diagnostics, reason
 from mudline.deck import MARK
 from mudline.deck.forms import SUFFIXES, form_of
 from mudline.diagnostics import DeckError
-from mudline.files import is_url, write_atomically
+from mudline.files import alone_at, is_url, write_atomically
 from mudline.patterns import Pattern, read_pattern
 from mudline.running import storage
 
@@ -103,13 +103,17 @@ class Inputs:
     def replaced(self, file: Input, read: bytes, content: bytes) -> bool:
         """Whether a file has its new content; if not, that is reported.
 
-        A file that no longer holds what was read of it stays as it is: somebody else has written it.
+        A file that no longer holds what was read of it stays as it is: somebody else has written it, perhaps the same.
         """
+        path = Path(file.path or file.name)
         try:
-            if file.read() != read:
-                self.fail(f"{file.name}: {CHANGED}")
-                return False
-            write_atomically(Path(file.path or file.name), content)
+            with alone_at(path):
+                found = file.read()
+                if found == read:
+                    write_atomically(path, content)
+                elif found != content:
+                    self.fail(f"{file.name}: {CHANGED}")
+                    return False
         except OSError as error:
             self.fail(f"{file.name}: cannot be written: {reason(error)}")
             return False

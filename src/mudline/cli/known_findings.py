@@ -47,8 +47,8 @@ class KnownFindings:
         """
         held = self.memory.get(key)
         try:
-            return held and (tuple(_finding(row, file.name) for row in held[1:]), _coverage(*held[0]))
-        except (TypeError, ValueError):
+            return tuple(_finding(row, file.name) for row in held[1:]), _coverage(*held[0])
+        except (TypeError, ValueError, LookupError, RecursionError):  # None, or what this program does not write
             return None
 
     def put(self, key: str, found: Sequence[Diagnostic], coverage: Coverage, looked_at: Sequence[str]) -> None:
@@ -93,6 +93,7 @@ def _coverage(total: int, read: int, partly: object, unread: object) -> Coverage
     """How much of a file was read; raises TypeError for anything else."""
     if not isinstance(partly, dict) or not isinstance(unread, dict):
         raise TypeError
+    _check_whole(total, read, *partly.values(), *unread.values())
     return Coverage(total, read, partly, unread)
 
 
@@ -102,6 +103,22 @@ def _finding(row: Sequence[Any], file: str) -> Diagnostic:
     if fix is not None:
         applicability, text, edits = fix
         fix = Fix(applicability, text, tuple(Edit(tuple(start), tuple(end), new) for start, end, new in edits))
+        _check_texts(applicability, text, *(edit.text for edit in fix.edits))
+        for edit in fix.edits:
+            (_, _), (_, _) = edit.start, edit.end
+            _check_whole(*edit.start, *edit.end)
     place = (line, column, end_line, end_column)
+    _check_whole(*place)
+    _check_texts(code, slug, message)
     others = tuple(_finding(each, file) for each in following)
     return Diagnostic(file, code, slug, Severity(severity), message, *place, fix, blocks, others)
+
+
+def _check_whole(*values: object) -> None:
+    if not all(type(value) is int for value in values):
+        raise TypeError
+
+
+def _check_texts(*values: object) -> None:
+    if not all(isinstance(value, str) for value in values):
+        raise TypeError

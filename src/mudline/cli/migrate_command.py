@@ -6,9 +6,9 @@ from pathlib import Path
 
 import click
 
-from mudline.cli import DONE, FOUND, options
+from mudline.cli import DONE, FOUND, WRONG_USAGE, options
 from mudline.cli.changes import print_changes
-from mudline.cli.inputs import Input, collect
+from mudline.cli.inputs import Input, Inputs, collect
 from mudline.cli.streams import emit_deck, notify, notify_diagnostics, write_bytes
 from mudline.cli.view import View
 from mudline.deck.forms import form_of
@@ -60,7 +60,7 @@ def command(
     continuations = Continuations(Path(file.path) for file in inputs.files if file.path is not None)
     for file, data in inputs.contents():
         try:
-            run = _Run(file, data, output, view)
+            run = _Run(inputs, file, data, output, view)
             code = max(code, run.migrate(units, continuations, diff=diff, proved=proved))
         except DeckError as error:
             notify_diagnostics(error.diagnostics)
@@ -69,10 +69,10 @@ def command(
 
 
 class _Run:
-    """One deck and where it is written; `target` None is standard output."""
+    """One deck of a run and where it is written; `target` None is standard output."""
 
-    def __init__(self, file: Input, data: bytes, output: str | None, view: View) -> None:
-        self.file, self.data, self.view = file, data, view
+    def __init__(self, inputs: Inputs, file: Input, data: bytes, output: str | None, view: View) -> None:
+        self.inputs, self.file, self.data, self.view = inputs, file, data, view
         given = file.path if output is None else output
         self.target = None if given is None else Path(given)
 
@@ -83,7 +83,7 @@ class _Run:
             if problems := list(misspelt(deck)):
                 raise DeckError(deck.diagnose(problems))
             self._note("no legacy seabed keyword")
-            if not diff and (self.target is None or self.target != Path(self.file.path or "")):
+            if not diff and not self._in_place:
                 self._write(self.data, {})
             return DONE
         path = Path(self.file.path) if self.file.path else None
@@ -97,6 +97,10 @@ class _Run:
             self._print_changes(content, migration)
             return DONE
         return self._write(content, migration.files, _replaced(migration))
+
+    @property
+    def _in_place(self) -> bool:
+        return self.target is not None and self.target == Path(self.file.path or "")
 
     def _content(self, migration: Migration) -> bytes:
         """The new deck in the format of its file's suffix."""
@@ -137,7 +141,12 @@ class _Run:
             return DONE
         for name, data in files.items():
             write_bytes(self.target.with_name(name), data)
-        write_bytes(self.target, content)
+        if not self._in_place:
+            write_bytes(self.target, content)
+        elif not self.inputs.replaced(self.file, self.data, content):
+            for name in files:
+                self.target.with_name(name).unlink(missing_ok=True)
+            return WRONG_USAGE
         if replaced:
             beside = "".join(f", {self.target.with_name(name).as_posix()}" for name in files)
             self._note(f"{replaced} -> {self.target.as_posix()}{beside}")

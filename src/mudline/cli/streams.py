@@ -108,6 +108,10 @@ def reason(error: OSError) -> str:
 # ----------------------------------------------------------------------------------------------------------- files
 
 
+class UnwrittenError(click.ClickException):
+    """A file cannot be written; what was there before still is."""
+
+
 @contextmanager
 def writing(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
     """A stream whose content becomes the file in one step; ends the command when that is not possible.
@@ -120,7 +124,7 @@ def writing(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
         with replacement(path, synced=synced) as stream:
             yield stream
     except OSError as error:
-        raise click.ClickException(f"{path}: cannot be written: {reason(error)}") from error
+        raise UnwrittenError(f"{path}: cannot be written: {reason(error)}") from error
 
 
 def write_bytes(path: Path, data: bytes) -> None:

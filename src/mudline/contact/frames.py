@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
+from mudline.arguments import expect_word
 from mudline.contact.columns import Column, ElementTable, NodeTable, Table, Values
 from mudline.contact.result import ContactResult, Part, TableName
 from mudline.contact.touchdown import LineTable, line_summaries
@@ -145,8 +146,7 @@ def _table(result: ContactResult, name: str) -> Table:
 
 def _columns(result: ContactResult, name: TableName) -> tuple[Table, list[Column], Part]:
     """A table and its flat columns over all steps."""
-    if name not in get_args(TableName):
-        raise ValueError(f"unknown table {name!r}: expected one of {', '.join(get_args(TableName))}")
+    expect_word(name, "table", get_args(TableName), f"one of {', '.join(get_args(TableName))}")
     table, part = _table(result, name), Part(0, result.as_series())
     return table, [flat for column in table.columns(part) for flat in column.flat()], part
 

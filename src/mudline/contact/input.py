@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mudline.arguments import expect, read_only
+from mudline.arguments import expect, expect_word, read_only
 from mudline.contact.arrays import BoolArray, FloatArray, IdArray, IndexArray
 from mudline.contact.laws import BUILT_IN, Law, NormalLaw, PathLaw, law_named
 from mudline.short_repr import short_repr
@@ -202,8 +202,7 @@ class ContactInput:
             _expect(getattr(self, name), name, "f", (elements,))
         if self.weight is not None:
             _expect(self.weight, "weight", "f", (elements,))
-        if self.tension not in ("keep", "cut"):
-            raise ValueError(f"tension must be 'keep' or 'cut', not {self.tension!r}")
+        expect_word(self.tension, "tension", ("keep", "cut"), "'keep' or 'cut'")
         self._check_elements(nodes)
         names = dict.fromkeys(assignment.law for assignment in self.laws)
         found = {name: self._assigned(name) for name in names}

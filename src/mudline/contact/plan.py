@@ -12,7 +12,7 @@ from typing import Literal
 
 import numpy as np
 
-from mudline.arguments import expect
+from mudline.arguments import expect, expect_word
 from mudline.contact.arrays import FloatArray
 from mudline.contact.input import ContactInput, LawKind
 from mudline.contact.laws import NormalLaw
@@ -232,8 +232,7 @@ class BackendChoice:
     """
 
     def __init__(self, backend: Backend, threads: int | None, tables: Tables) -> None:
-        if backend not in ("auto", "numpy", "fast"):
-            raise ValueError(f"backend must be auto, numpy or fast, not {backend!r}")
+        expect_word(backend, "backend", ("auto", "numpy", "fast"), "auto, numpy or fast")
         if backend == "fast":
             import_module("numba")
         expect(threads, "threads", (int, NoneType), "a whole number")

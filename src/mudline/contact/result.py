@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.arguments import expect, several
+from mudline.arguments import ArgumentRangeError, expect, several
 from mudline.contact.arrays import BoolArray, FloatArray, IdArray, StateArray
 from mudline.contact.input import ContactInput, ElementError, PositionError
 from mudline.contact.tables import Tables
@@ -103,7 +103,7 @@ class ContactResult:
 
     def friction_state_of(self, side: int) -> StateArray:
         """Return the states (..., n) along u1 (0) or u2 (1); -1 without friction."""
-        if side not in (0, 1):
+        if _whole(side, "side") not in (0, 1):
             raise ValueError(f"side must be 0 or 1, not {side!r}")
         if self.friction_state is None:
             return np.full(self.gap.shape, -1, np.int8)
@@ -209,7 +209,7 @@ class ContactResult:
         if self.depth.ndim != 2:
             raise ValueError("a single state has no steps")
         if isinstance(key, int) and not -len(self.depth) <= key < len(self.depth):
-            raise IndexError(f"index {key} is out of range: the series has {counted(len(self.depth), 'step')}")
+            raise ArgumentRangeError(f"index {key} is out of range: the series has {counted(len(self.depth), 'step')}")
         return self._each(lambda values: values[key])
 
     def _each(self, cut: Callable[[NDArray[Any]], NDArray[Any]]) -> ContactResult:

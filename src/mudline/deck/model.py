@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from types import NoneType
 from typing import Any, NamedTuple, Self
 
 from mudline.arguments import expect
@@ -55,6 +56,7 @@ _INTERNAL = frozenset(
         "alone",
         "base_of",
         "bases",
+        "blocks_that",
         "diagnose",
         "errors",
         "folder_of",
@@ -123,11 +125,16 @@ class Deck:
     incomplete: bool = False
 
     def __post_init__(self) -> None:
-        """Raise TypeError or ValueError for what a caller of `mudline.Deck` gave in the place of a text or a list."""
-        expect(self.file, "file", str, "a str")
-        expect(self.source, "source", str, "a str")
+        """Raise ValueError for what a caller of `mudline.Deck` gave in the place of a text or a list."""
+        for name in ("file", "source"):
+            expect(getattr(self, name), name, str, "a str")
         checked_units(self.units)
-        expect(self.sections, "sections", list, "a list")
+        for name in ("preamble", "sections", "comments", "problems"):
+            expect(getattr(self, name), name, list, "a list")
+        expect(self.origin, "origin", Origin, "an Origin")
+        expect(self.folder, "folder", (Path, NoneType), "a Path or None")
+        expect(self.bases, "bases", tuple, "a tuple")
+        expect(self.incomplete, "incomplete", bool, "True or False")
 
     def __repr__(self) -> str:
         blocks = sum(len(section.blocks) for section in self.sections)

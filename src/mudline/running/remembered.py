@@ -32,11 +32,14 @@ _COARSE = 0.02
 
 
 class Memory:
-    """The results in a file, of which those of other `settings` or another program are not found."""
+    """The results in a file, of which those of other `settings` or another program are not found.
+
+    A file that is `shared` lies among others in the user's folder for caches.
+    """
 
     def __init__(self, path: Path, settings: str = "", *, shared: bool = False) -> None:
         self._path, self._shared = path, shared
-        self._entries = _read(path)
+        self._entries = _read(path, own=shared)
         self._start = blake2b(f"{program()}\0{settings}".encode("utf-8", "backslashreplace")).digest()
         self._began = time.time()
         self._state = cache(state)  # many results may depend on the same file
@@ -180,10 +183,15 @@ def changed_since(moment: float, path: str) -> bool:
 # ------------------------------------------------------------------------------------------------------------ the file
 
 
-def _read(path: Path) -> dict[str, str]:
-    """Keys and results; nothing for a file that is missing, damaged, too large or no memory."""
+def _read(path: Path, *, own: bool) -> dict[str, str]:
+    """Keys and results; nothing for a file that is missing, damaged, too large or no memory.
+
+    Nor for one of another user where only this user's `own` counts: nobody else says what was found.
+    """
     try:
         if not path.is_file() or path.stat().st_size > LARGEST_MEMORY:
+            return {}
+        if own and hasattr(os, "getuid") and path.stat().st_uid != os.getuid():
             return {}
         head, _, body = path.read_bytes().partition(b"\n")
     except OSError:

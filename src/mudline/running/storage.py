@@ -91,11 +91,11 @@ def remove(url: str) -> None:
 def _opened(url: str) -> Iterator[tuple[Any, str]]:
     """The file system of a URL and the URL's path in it; what a library of a protocol raises becomes an OSError."""
     try:
-        import fsspec  # noqa: PLC0415 - few commands have URLs
+        from fsspec.core import url_to_fs  # noqa: PLC0415 - few commands have URLs
     except ImportError as error:
         raise UrlError(errno.ENOENT, "URLs need fsspec: pip install 'mudline[cluster]'", url) from error
     try:
-        yield fsspec.url_to_fs(url)
+        yield url_to_fs(url)
     except UrlError:
         raise
     except FileNotFoundError as error:

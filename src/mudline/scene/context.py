@@ -249,7 +249,7 @@ class Context:
             return self.deck.problems
         return [
             replace(problem, blocks=Blocks.ALWAYS)
-            if problem.code is SYN016 and self._position(problem) in self._placeless
+            if problem.code == SYN016 and self._position(problem) in self._placeless
             else problem
             for problem in self.deck.problems
         ]
@@ -271,7 +271,7 @@ class Context:
 
     @cached_property
     def _guessed_labels(self) -> set[tuple[int, int]]:
-        return {self._position(problem) for problem in self.deck.problems if problem.code is SYN016}
+        return {self._position(problem) for problem in self.deck.problems if problem.code == SYN016}
 
     @cached_property
     def _misplaced(self) -> dict[str, tuple[str, Where]]:

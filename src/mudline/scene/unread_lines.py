@@ -140,7 +140,7 @@ class _Looking:
 
     def _unclosed(self, problem: Problem, where: Where, line: str) -> None:
         """An equation that is not closed; other marks may be text."""
-        if problem.code is SYN006 and problem.span and line.startswith("=[", problem.span.start):
+        if problem.code == SYN006 and problem.span and line.startswith("=[", problem.span.start):
             message = f"{problem.message}{_UNREAD}"
             where = where.inside(*problem.span)
             self._note(Problem(SYN006, message, None, Severity.WARNING, where))

@@ -358,7 +358,7 @@ class CaseReader:
             try:
                 self.targets.parameters.evaluate(equation, where)
             except NoValueError as reason:
-                if reason.problem and reason.problem.code is REF013:
+                if reason.problem and reason.problem.code == REF013:
                     self.problems.append(reason.problem)
 
     def _range(self, given: ValueRange, where: Where) -> list[str]:

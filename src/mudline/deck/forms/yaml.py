@@ -45,6 +45,11 @@ def _resolvers() -> dict[str, list[tuple[str, re.Pattern[str]]]]:
     return table
 
 
+def _quoted() -> dict[str, list[tuple[str, re.Pattern[str]]]]:
+    ours, older = _resolvers(), _SafeDumper.yaml_implicit_resolvers
+    return {first: [*ours.get(first, []), *older.get(first, [])] for first in ours.keys() | older.keys()}
+
+
 class CoreLoader(_SafeLoader):
     """Reads plain scalars by the core schema."""
 
@@ -52,9 +57,9 @@ class CoreLoader(_SafeLoader):
 
 
 class CoreDumper(_SafeDumper):
-    """Quotes what the core schema would read as something else."""
+    """Quotes what the core schema would read as something else, and what readers of YAML 1.1 would: on, 1:30, =."""
 
-    yaml_implicit_resolvers = _resolvers()
+    yaml_implicit_resolvers = _quoted()
 
 
 def scalar(node: yaml.ScalarNode) -> Any:
@@ -111,8 +116,15 @@ _Dumper.add_representer(
 _Dumper.add_representer(
     _Flow, lambda dumper, row: dumper.represent_sequence("tag:yaml.org,2002:seq", row, flow_style=True)
 )
-_Dumper.add_representer(float, lambda dumper, value: dumper.represent_scalar("tag:yaml.org,2002:float", repr(value)))
+_Dumper.add_representer(
+    float, lambda dumper, value: dumper.represent_scalar("tag:yaml.org,2002:float", _with_point(repr(value)))
+)
 _Dumper.add_representer(type(None), lambda dumper, _: dumper.represent_scalar("tag:yaml.org,2002:null", "null"))
+
+
+def _with_point(number: str) -> str:
+    """A number with a decimal point, without which YAML 1.1 takes 1e+16 for a text."""
+    return number if "." in number else number.replace("e", ".0e")
 
 
 def _node(value: Any) -> Any:

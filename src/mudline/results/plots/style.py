@@ -86,8 +86,8 @@ def finish(axes: Axes) -> None:
         numbers.set_powerlimits((-5, 10))  # no power of ten that a reader would have to apply
         axis.set_major_formatter(numbers)
     axes.xaxis.set_major_locator(MaxNLocator(nbins=7, steps=[1, 2, 2.5, 5, 10]))
-    figure = axes.get_figure(root=True)
-    height = axes.get_position().height * (4.0 if figure is None else figure.get_figheight())  # inch
+    figure = axes.figure
+    height = axes.get_position().height * (figure.get_figheight() if isinstance(figure, Figure) else 4.0)  # inch
     if isinstance(axes.yaxis.get_major_locator(), AutoLocator):
         ticks = max(3, min(8, round(4.0 * height)))
         axes.yaxis.set_major_locator(MaxNLocator(nbins=ticks, steps=[1, 2, 2.5, 5, 10]))
