@@ -13,7 +13,7 @@ CORE := $(addprefix tests/,syntax expression keywords curves contact scene compa
 ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help install demo test test-fast test-lowest lint format typecheck index docs tutorials pictures studies dynamics bench fuzz extension site serve build clean
+.PHONY: help install demo test test-fast test-lowest lint format typecheck index docs tutorials pictures studies dynamics bench fuzz mutants extension site serve build clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' Makefile
@@ -113,6 +113,9 @@ bench: $(VENV)/.developer ## measure speed beside other programs, and write docs
 
 fuzz: $(VENV)/.developer ## look for inputs that break a promise: ARGS="--seconds N --target NAME"
 	$(BIN)/python -m tests.fuzz $(ARGS)
+
+mutants: $(VENV)/.developer ## put small faults into a package, and see whether its tests notice: ARGS=curves (10 minutes)
+	nice $(BIN)/python -m tests.mutants $(ARGS)
 
 extension: ## the extension for VS Code, in editors/vscode (needs npm)
 	npm install --silent --prefix editors/vscode

@@ -20,6 +20,14 @@ MOST_REPORTED = 1000
 
 # -------------------------------------------------------------------------------------------------------- text of decks
 
+LARGEST_DECK = 500_000_000
+"""Bytes of a deck: the text, its lines and its values are in the memory together."""
+MOST_LINES = 20_000_000
+"""Lines of a deck: each row of numbers that is not as expected takes some hundred bytes."""
+MOST_WORDED = 250_000
+"""Lines of a deck that hold more than numbers: a record, a comment or a fault takes up to 6 kB."""
+LONGEST_LINE = 10_000_000
+"""Bytes within which a line ends, after twice as many at the latest: a stray file may have no lines."""
 MOST_FIELDS = 100_000
 """Fields or brackets on one line: a stray file that is no deck must not fill the memory."""
 MOST_COLUMNS = 64
@@ -86,8 +94,8 @@ MOST_MEMORIES = 40
 
 # -------------------------------------------------------------------------------------------------------------- editors
 
-LARGEST_OPEN = 64_000_000
-"""Characters of an open deck from which on the language server says nothing of it."""
+LARGEST_OPEN = 20_000_000
+"""Characters of an open deck from which on the language server says nothing of it: its check takes too long."""
 LARGEST_AT_ONCE = 1_000_000
 """Characters of an open deck from which on help waits for its check, and its outline has no names."""
 MOST_OFFERED = 500

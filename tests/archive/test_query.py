@@ -37,6 +37,17 @@ def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
         ("SELECT * FROM read_blob('../decks/a.keyxm')", OUTSIDE),
         ("SELECT * FROM glob('/etc/*')", OUTSIDE),
         ("SELECT * FROM read_parquet('https://localhost/x.parquet')", OUTSIDE),
+        ("SELECT * FROM read_json('/etc/passwd')", OUTSIDE),
+        ("SELECT * FROM read_blob('data/../../decks/a.keyxm')", OUTSIDE),
+        ("SELECT * FROM sniff_csv('/etc/passwd')", OUTSIDE),
+        ("SELECT * FROM parquet_metadata('/etc/passwd')", OUTSIDE),
+        ("SELECT * FROM query('SELECT * FROM read_text(''/etc/passwd'')')", OUTSIDE),
+        ("SELECT * FROM duckdb_secrets()", OUTSIDE),
+        ("SELECT getenv('HOME')", "does not exist"),
+        ("EXPLAIN COPY decks TO '/tmp/out.csv'", OUTSIDE),
+        ("PREPARE x AS COPY decks TO 'out.csv'", "PREPARE is not allowed"),
+        ("CALL pragma_version()", "CALL is not allowed"),
+        ("VACUUM", "VACUUM is not allowed"),
         ("SELECT * FROM '/etc/passwd'", "does not exist"),
         ("COPY decks TO 'out.csv'", "COPY is not allowed"),
         ("COPY decks TO '/tmp/out.csv'", "COPY is not allowed"),
@@ -150,8 +161,14 @@ def test_most_rows_of_a_table_need_v(archive: Path) -> None:
     assert run("query", archive, sql, "-v").out.splitlines()[-3] == "99"
 
 
-def test_a_question_that_needs_too_much_memory_ends(archive: Path) -> None:
-    sql = "SELECT list(range) FROM range(100000000)"
+@pytest.mark.parametrize(
+    "sql",
+    [
+        "SELECT list(range) FROM range(100000000)",
+        "SELECT a.file || r FROM decks AS a, decks AS b, (SELECT range AS r FROM range(3000000)) ORDER BY 1 DESC",
+    ],
+)
+def test_a_question_that_needs_too_much_memory_ends(archive: Path, sql: str) -> None:
     outcome = run("query", archive, sql, "--memory-limit", "60MB")
     assert outcome.code == 2
     assert "raise --memory-limit" in outcome.err

@@ -208,6 +208,14 @@ def test_a_name_twice_and_two_systems() -> None:
     assert "the headings have different units: imperial on 'Feet' and metric on 'Sand'" in outcome.err
 
 
+def test_a_workbook_that_unpacks_to_too_much(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mudline.scene.workbook.LARGEST_FILE", 1000)
+    Workbook().save(folder / "large.xlsx")
+    outcome = run("convert", folder / "large.xlsx", "-o", folder / "o.keyxm")
+    assert outcome.code == 1
+    assert "unpacks to more than 1000 bytes" in outcome.err
+
+
 def test_files_that_are_not_workbooks(folder: Path) -> None:
     for data in (b"", b"ratio,force\n0,0\n", Path(book({"Clay": CLAY})).read_bytes()[:-200]):
         (folder / "curves.xlsx").write_bytes(data)

@@ -135,6 +135,18 @@ def test_a_force_that_overflows_only_on_the_way_is_mended() -> None:
     assert result.force.ravel() == pytest.approx([1.02e308, 1.156e308])
 
 
+def test_a_step_is_mended_amid_others_with_what_came_before() -> None:
+    curve = ForceCurve([(0.0, -1.7e308), (2.5, 1.7e308)])
+    inputs = chain([CURVE], on("lateral", 1, stiffness=1.0), curves=(curve,), diameter=1.0, length=1e-3)
+    positions = at_depths([[0.1, 0.1], [2.0, 2.0], [0.2, 0.2], [2.1, 2.1], [0.3, 0.3]])
+    positions[..., 2] += 0.01 * np.arange(5.0)[:, None]
+    one_by_one = scene(inputs, positions)._replace(sizes=USUAL._replace(batch=1))
+    assert compare(one_by_one, plain=True) == []
+    result = ContactModel(inputs, backend="numpy").evaluate(positions)
+    assert result.friction is not None
+    assert np.abs(result.friction[1:]).max(axis=(1, 2)) == pytest.approx(0.01 * np.arange(1.0, 5.0) * 0.5e-3)
+
+
 @pytest.mark.untraced
 @pytest.mark.parametrize("seabed", [None, SlopingSeabed(0.001, 30.0)])
 def test_a_long_line_on_several_threads(seabed: Seabed | None) -> None:

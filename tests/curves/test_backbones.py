@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -27,6 +29,8 @@ def test_worked_numbers() -> None:
     published = [3618.1365802, 5094.1809012, 6821.261609, 7886.1539935, 8712.3072292]
     assert_allclose(forces("f114", UNIFORM, 0.05, 0.1, 0.3, 0.5, 0.7), published, rtol=1e-10)
     assert_allclose(forces("skempton", UNIFORM, 0.1), [5092.7680161], rtol=1e-10)
+    # (7.5 s_u + w z) D beyond the cap
+    assert_allclose(forces("skempton", UNIFORM, 5.0), [(7.5 * 5000.0 + 6000.0 * 1.5) * 0.3], rtol=1e-12)
     initial = [1067.9279169, 3268.0204652, 4863.4491181, 5977.5596821, 7830.3275104, 9761.1940299]
     dry = Soil(0.3, 5000.0, 1500.0)
     assert_allclose(forces("randolph-quiggin", dry, 0.01, 0.05, 0.1, 0.2, 0.5, 1.0), initial, rtol=1e-10)
@@ -39,11 +43,10 @@ def test_worked_numbers() -> None:
 
 
 def test_the_soil_that_a_buried_pipe_displaces_is_its_circle() -> None:
-    lift = np.diff(
-        [forces("randolph-quiggin", soil, 0.25, 0.5, 1.0, 2.0) for soil in (Soil(1.0, 1.0), Soil(1, 1, 0, 1))], axis=0
-    )
+    soils = Soil(2.0, 1.0), Soil(2.0, 1.0, 0.0, 1.0)
+    lift = np.diff([forces("randolph-quiggin", soil, 0.25, 0.5, 1.0, 2.0) for soil in soils], axis=0)
     quarter = np.arccos(0.5) / 4.0 - 0.25 * np.sqrt(0.1875)
-    assert_allclose(lift[0], 1.5 * np.array([quarter, np.pi / 8.0, np.pi / 4.0, np.pi / 4.0]), rtol=1e-12)
+    assert_allclose(lift[0], 1.5 * 2.0**2 * np.array([quarter, np.pi / 8.0, np.pi / 4.0, np.pi / 4.0]), rtol=1e-12)
 
 
 def test_skempton_reaches_its_cap_where_it_ends() -> None:
@@ -116,3 +119,19 @@ def test_no_points_of_the_model_are_fewer(name: str) -> None:
                 if np.abs(chord - model[inside]).max() <= allowed:
                     steps[end] = steps[start] + 1
     assert len(of.points(depth, tolerance)) <= steps[-1]
+
+
+def test_the_deviation_of_chords_from_a_power_law() -> None:
+    """a r^b is farthest from a chord where its tangent has the slope of the chord."""
+    a, b = 4.97, 0.23
+    of = backbone("aubeny", Soil(1.0, 1.0))
+    points = np.array([(ratio, a * ratio**b) for ratio in (0.0, 0.02, 0.1, 0.5)])
+    distances = []
+    for (start, low), (end, high) in pairwise(points.tolist()):
+        slope = (high - low) / (end - start)
+        touching = (slope / (a * b)) ** (1.0 / (b - 1.0))
+        distances.append(a * touching**b - low - slope * (touching - start))
+    assert of.deviation(points[:2]) == pytest.approx(distances[0], rel=1e-3)
+    assert of.deviation(points[1:]) == pytest.approx(max(distances[1:]), rel=1e-3)
+    assert of.deviation(points) == pytest.approx(max(distances), rel=1e-3)
+    assert of.largest(0.5) == pytest.approx(points[-1, 1], rel=1e-15)

@@ -30,6 +30,8 @@ LINE = ForceCurve([(0.0, 0.0), (1.0, 1.0)])
         ([(3.0, 3.0), (5e-324, 1.0), (0.0, 0.0)], "CRV011", 2),
         ([(0.0, 0.0), (1e300, 1e-300)], "CRV011", 1),
         ([(0.0, 0.0), (1e10, 1e-300)], "CRV011", 1),
+        ([(0.0, 0.0), (1e300, 1e-300), (1.5e300, 5.0)], "CRV011", 1),
+        ([(0.5, 1.0)] * 60 + [(0.5, 2.0), (0.0, 0.0)] + [(0.5, 1.0)] * 60, "CRV003", 60),
         ([(0.0, 0.0), (1.0, math.nan)], "SYN002", 1),
         ([(math.inf, 0.0), (1.0, 0.0)], "SYN002", 0),
     ],
@@ -44,6 +46,9 @@ def test_points_that_make_no_curve(points: list[tuple[float, float]], code: str,
 def test_messages_count_points_from_one_and_say_what_clashes() -> None:
     with pytest.raises(CurveError, match=r"two forces at ratio 0\.5: 1\.0 \(point 1\) and 2\.0 \(point 3\)"):
         ForceCurve([(0.5, 1.0), (0.0, 0.0), (0.5, 2.0)])
+    for points, count in (([], 0), ([(0.0, 1.0), (0.0, 1.0)], 1)):
+        with pytest.raises(CurveError, match=f"a curve needs two distinct points or more, not {count}"):
+            ForceCurve(points)
     with pytest.raises(CurveError, match="width between points 2 and 1 is too large"):
         ForceCurve([(1.7e308, 1.0), (-1.7e308, 0.0)])
     with pytest.raises(CurveError, match="slope between points 1 and 2 is too small"):
@@ -71,6 +76,14 @@ def test_a_query_that_is_not_finite_is_named(value: float) -> None:
                 ask([[0.0, 1.0], [2.0, value]])
 
 
+def test_a_query_beyond_the_range_of_a_float64_is_not_finite() -> None:
+    with np.errstate(over="ignore"):  # where a long double is none
+        far = np.longdouble(2) ** 2000
+    for ask in (LINE.evaluate, LINE.segment, LINE.extrapolated):
+        with pytest.raises(ValueError, match=r"at ratio inf \(index 0\): it is not finite"):
+            ask(far)
+
+
 @pytest.mark.parametrize("count", [2, 40])
 def test_a_force_that_overflows_is_named_whatever_block_it_is_in(count: int) -> None:
     ratios = np.linspace(0.0, 1.0, count)
@@ -96,6 +109,20 @@ def test_an_out_that_does_not_fit() -> None:
         for out in ((good, bad), (bad, good)):
             with pytest.raises(ValueError, match=r"out must be float64 of shape \(3,\)"):
                 LINE.evaluate([0.0, 1.0, 2.0], out=out)
+
+
+def test_an_out_that_is_not_two_arrays_that_can_be_written() -> None:
+    good, kept = np.empty(3), np.empty(3)
+    kept.flags.writeable = False
+    misfits: list[tuple[Any, type[Exception], str]] = [
+        ([good, good], TypeError, "out must be two arrays .force, slope., not list"),
+        ((good, [0.0, 0.0, 0.0]), TypeError, "out must be two arrays .force, slope., not list"),
+        ((good, good, good), ValueError, "out must be two arrays .force, slope., not 3"),
+        ((good, kept), ValueError, "out must be arrays that can be written"),
+    ]
+    for out, error, message in misfits:
+        with pytest.raises(error, match=message):
+            LINE.evaluate([0.0, 1.0, 2.0], out=out)
 
 
 @pytest.mark.parametrize("force", [math.nan, math.inf])

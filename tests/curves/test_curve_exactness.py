@@ -191,3 +191,8 @@ def test_an_intermediate_overflow_is_no_overflow(points: list[Point], ratio: flo
     curve = ForceCurve(points)
     assert curve.evaluate(ratio)[0] == pytest.approx(force, rel=1e-15, abs=0.0)
     assert_force_and_slope(points, curve, ratio)
+    filled, slope = np.empty(2), np.empty(2)
+    with np.errstate(all="ignore"):
+        curve.fill(np.array([ratio, math.inf]), filled, slope)
+    assert (filled[0], slope[0]) == curve.evaluate(ratio)
+    assert not math.isfinite(filled[1])

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from numpy.typing import ArrayLike
 
 from mudline.curves import CurveError, ForceCurve
+from mudline.curves import points as curve_points
 
 POINTS = [(0.3, 4500.0), (0.0, 0.0), (0.1, 2000.0)]
 
@@ -50,6 +51,22 @@ def test_a_short_curve_has_the_bits_of_any_other(points: list[tuple[float, float
     assert made(array) == made(array.tolist() or np.empty((0, 2)))
 
 
+def test_which_curves_are_short() -> None:
+    """Those in order, of up to 64 points; any other is made by numpy, with the same result."""
+    points = np.column_stack((np.arange(65.0), np.arange(65.0) ** 2))
+    for count in (2, 64):
+        short = curve_points._short(points[:count])
+        assert short is not None
+        assert short.slopes.tolist() == (2.0 * np.arange(count - 1) + 1.0).tolist()
+        assert ForceCurve(points[:count]).slopes.tolist() == short.slopes.tolist()
+    others = [points[:1], points, points[::-1], points[:5].astype(np.float32), points[:4].reshape(2, 4), points[:, 0]]
+    others += [
+        np.array(rows) for rows in ([(0.0, 0.0), (0.0, 1.0)], [(0.0, 1.0), (1.0, 1.0)], [(0.0, 0.0), (1.0, np.inf)])
+    ]
+    others += [np.array([(-1.7e308, 0.0), (1.7e308, 1.0)])]
+    assert [curve_points._short(other) for other in others] == [None] * len(others)
+
+
 def test_a_curve_does_not_change() -> None:
     given = np.array(POINTS)
     curve = ForceCurve(given)
@@ -71,6 +88,8 @@ def test_equality_and_hash_are_those_of_name_and_points() -> None:
     assert hash(curve) == hash(same)
     assert curve != ForceCurve(POINTS, name="sand")
     assert curve != ForceCurve(POINTS[:2], name="clay")
+    assert curve != ForceCurve([(ratio, 2.0 * force) for ratio, force in POINTS], name="clay")
+    assert curve != ForceCurve([(2.0 * ratio, force) for ratio, force in POINTS], name="clay")
     assert curve != "clay"
     assert len({curve, same, ForceCurve(POINTS)}) == 2
 
@@ -84,8 +103,34 @@ def test_copies_and_pickles_are_equal() -> None:
 
 def test_repr() -> None:
     assert repr(ForceCurve([(1, 2), (0, 1)], name="a")) == "ForceCurve([(0.0, 1.0), (1.0, 2.0)], name='a')"
-    many = ForceCurve([(ratio, ratio) for ratio in range(9)])
-    assert repr(many) == "ForceCurve(<9 points from (0.0, 0.0) to (8.0, 8.0)>, name=None)"
+    eight = [(float(ratio), float(ratio)) for ratio in range(8)]
+    assert repr(ForceCurve(eight)) == f"ForceCurve({eight}, name=None)"
+    assert repr(ForceCurve([*eight, (8, 8)])) == "ForceCurve(<9 points from (0.0, 0.0) to (8.0, 8.0)>, name=None)"
+
+
+def test_repr_is_of_a_length_that_can_be_read() -> None:
+    longest = [
+        (0.0, 1e-100),
+        (1.0, 1.0),
+        (2.0, 2.0),
+        (3.0, 3.0),
+        (4.0, 4.0),
+        (5.1234567, 5.1234567),
+        (6.0, 6.0),
+        (7.0, 1.2345678901),
+    ]
+    assert len(repr(longest)) == 120
+    assert repr(ForceCurve(longest)) == f"ForceCurve({longest}, name=None)"
+    longer = [*longest[:-1], (7.0, 1.23456789012)]
+    assert repr(ForceCurve(longer)) == "ForceCurve(<8 points from (0.0, 1e-100) to (7.0, 1.23456789012)>, name=None)"
+    assert repr(ForceCurve(longer, "c" * 60)).endswith(f"name='{'c' * 60}')")
+    assert repr(ForceCurve(longer, "c" * 61)).endswith(f"name='{'c' * 57}...')")
+
+
+def test_a_notebook_shows_the_points_with_their_slopes() -> None:
+    shown = ForceCurve(POINTS, name="clay <1>")._repr_html_()
+    assert "clay &lt;1&gt; 3 points" in shown
+    assert all(f">{number}<" in shown for number in ("0.1", "2000", "12500"))
 
 
 @pytest.mark.parametrize("shape", [(), (0,), (1,), (0, 3), (2, 3, 4), (3, 7000)])
@@ -197,6 +242,8 @@ def test_a_root_too_far_away_for_a_float64_is_left_out() -> None:
     curve = ForceCurve([(0.0, 0.0), (1e10, 1.0), (2e10, 1e300)])
     assert curve.ratios_at_force(-1e300) == ()
     assert curve.ratios_at_force(1.0) == (1e10,)
+    # the distance is a float64, the ratio is none
+    assert ForceCurve([(1e308, 0.0), (1.5e308, 2.0)]).ratios_at_force(6.0) == ()
 
 
 def test_roots_between_forces_whose_difference_overflows() -> None:

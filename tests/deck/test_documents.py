@@ -217,6 +217,12 @@ def test_broken_yaml(text: str, line: int, word: str) -> None:
     assert found.line == line
 
 
+def test_a_document_that_would_fill_the_memory_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mudline.deck.loading.LARGEST_FILE", 10)
+    (found,) = refusal('{"format": "mudline-deck/1"}', "a.json")
+    assert (found.code, "more than 10 bytes" in found.message) == ("DOC001", True)
+
+
 @pytest.mark.parametrize("level", ["- ", "? ", "[", "{a: ", "- ["])
 def test_deep_yaml_does_not_crash_the_process(level: str) -> None:
     code = (

@@ -17,7 +17,7 @@ import sys
 import time
 import traceback
 import warnings
-from contextlib import redirect_stderr
+from contextlib import nullcontext, redirect_stderr
 from importlib import import_module
 from importlib.util import find_spec
 from io import StringIO
@@ -43,14 +43,19 @@ class Hang(BaseException):
 class Watch:
     """Runs inputs through a target, and keeps what breaks."""
 
-    def __init__(self, name: str, seconds: float) -> None:
+    def __init__(self, name: str) -> None:
         from tests.fuzz.targets import TARGETS  # noqa: PLC0415 - instrumented first
 
         self.name, self.target = name, TARGETS[name]
-        self.ends = time.monotonic() + seconds
-        self.inputs = 0
+        self.inputs = self.held = 0
+        self.ends = self.patience = 0.0
         self.places: dict[str, Path] = {}
         signal.signal(signal.SIGPROF, _too_long)
+
+    def begin(self, seconds: float) -> None:
+        """Count and limit from here: with the seeds, modules were imported."""
+        self.inputs, self.held, self.patience = 0, _most_memory(), SECONDS_PER_100KB
+        self.ends = time.monotonic() + seconds
 
     @property
     def over(self) -> bool:
@@ -60,7 +65,7 @@ class Watch:
     def take(self, data: bytes) -> None:
         """Run one input."""
         self.inputs += 1
-        signal.setitimer(signal.ITIMER_PROF, SECONDS_PER_100KB * max(1.0, len(data) / 1e5))
+        signal.setitimer(signal.ITIMER_PROF, self.patience * max(1.0, len(data) / 1e5))
         try:
             self.target.check(data)
         except (Exception, Hang, RecursionError) as error:  # noqa: BLE001 - whatever breaks is what is looked for
@@ -71,6 +76,9 @@ class Watch:
 
     def tell(self) -> None:
         """Print how many inputs there were, and how many places broke."""
+        grown = _most_memory() - self.held
+        if grown > MEMORY:
+            sys.stderr.write(f"{self.name}: memory grew by {grown >> 20} MB\n")
         sys.stdout.write(f"{self.name:<14} {self.inputs:>9} inputs {len(self.places):>3} found\n")
         sys.stdout.flush()
 
@@ -87,6 +95,11 @@ class Watch:
         sys.stderr.write(f"{self.name}: {place}: {str(error)[:200]} -> {path.name}\n")
 
 
+def _most_memory() -> int:
+    """The most bytes that this process had."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss << 10
+
+
 def _too_long(_number: int, _frame: FrameType | None) -> None:
     raise Hang
 
@@ -95,27 +108,27 @@ def fuzz(name: str, seconds: float, seed: int, *, plain: bool) -> None:
     """Fuzz one target in this process; prints its inputs and what was found."""
     warnings.simplefilter("ignore")
     guided = not plain and find_spec("atheris") is not None
-    if guided:
-        with redirect_stderr(StringIO()), import_module("atheris").instrument_imports(include=["mudline"]):
-            from tests.fuzz import targets  # noqa: PLC0415 - as above
-    else:
-        from tests.fuzz import targets  # noqa: PLC0415 - as above
-    from tests.fuzz.mutation import Mutator  # noqa: PLC0415 - as above
-
-    mutator = Mutator(targets.TARGETS[name].seeds(), seed)
-    watch = Watch(name, seconds)
-    for data in mutator.seeds:
-        watch.take(data)
-    held = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss << 10
-    watch.ends = time.monotonic() + seconds
+    mutator, watch = _begun(name, seconds, seed, guided=guided)
     if guided:
         _guided(watch, mutator, seed)
     while not watch.over and not guided:
         watch.take(mutator.made())
-    grown = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss << 10) - held
-    if grown > MEMORY:
-        sys.stderr.write(f"{name}: memory grew by {grown >> 20} MB\n")
     watch.tell()
+
+
+def _begun(name: str, seconds: float, seed: int, *, guided: bool) -> tuple[Mutator, Watch]:
+    """What makes inputs and what takes them, which has taken the seeds; the modules that they need are instrumented."""
+    said = StringIO()
+    hook = import_module("atheris").instrument_imports(include=["mudline"]) if guided else nullcontext()
+    with redirect_stderr(said), hook:
+        from tests.fuzz import mutation, targets  # noqa: PLC0415 - instrumented first
+
+        mutator, watch = mutation.Mutator(targets.TARGETS[name].seeds(), seed), Watch(name)
+        for data in mutator.seeds:
+            watch.take(data)
+    watch.begin(seconds)
+    sys.stderr.writelines(line for line in said.getvalue().splitlines(keepends=True) if not line.startswith("INFO: "))
+    return mutator, watch
 
 
 def _guided(watch: Watch, mutator: Mutator, seed: int) -> None:

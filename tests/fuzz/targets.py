@@ -5,11 +5,13 @@ from __future__ import annotations
 import json
 import struct
 import tempfile
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from functools import cache
 from io import BytesIO
 from pathlib import Path
 from typing import NamedTuple
+from zlib import crc32
 
 from mudline.deck.forms.json import to_json
 from mudline.deck.forms.keyword import to_keyword
@@ -22,9 +24,10 @@ from mudline.linting.engine import Fixing, LintSettings, lint_bytes
 from mudline.linting.fixing import fix_bytes
 from mudline.linting.registry import UnknownRule, rules
 from mudline.linting.settings import merged_settings
-from mudline.scene.data_files import fault_of
+from mudline.scene.data_files import fault_of, has_uneven_times
+from mudline.scene.seabed import read_profile
 from mudline.syntax.source import Source
-from tests.cli.runner import run
+from tests.cli.runner import Outcome, run
 from tests.keywords.test_plain_blocks import same
 from tests.samples import SAMPLES
 
@@ -158,7 +161,11 @@ def _configuration(data: bytes) -> None:
 def _data(data: bytes) -> None:
     with _file(data, "data.txt") as path:
         for contents in Contents:
-            fault_of(path, contents)
+            if not fault_of(path, contents) and contents is Contents.ELEVATIONS:
+                has_uneven_times(path)
+        for columns in (2, 3):
+            with suppress(ValueError):
+                read_profile(path, columns)
 
 
 # ------------------------------------------------------------------------------------------------------------ commands
@@ -178,15 +185,19 @@ def _command(*words: str, name: str = NAME) -> Callable[[bytes], None]:
     def check(data: bytes) -> None:
         with _file(data, name) as path:
             given = [word.format(path=path, folder=path.parent) for word in words]
-            outcome = run(*given)
-        if outcome.code not in _CODES:
-            raise BrokenPromiseError(f"exit code {outcome.code}")
-        if "Traceback" in outcome.err:
-            raise BrokenPromiseError(outcome.err.strip().splitlines()[-1])
-        if "json" in words and outcome.code == 0 and outcome.out:
-            json.loads(outcome.out)
+            _judged(run(*given), words)
 
     return check
+
+
+def _judged(outcome: Outcome, words: Sequence[str]) -> None:
+    """Raise BrokenPromiseError where an outcome is not as promised."""
+    if outcome.code not in _CODES:
+        raise BrokenPromiseError(f"exit code {outcome.code}")
+    if "Traceback" in outcome.err:
+        raise BrokenPromiseError(outcome.err.strip().splitlines()[-1])
+    if "json" in words and outcome.code == 0 and outcome.out:
+        json.loads(outcome.out)
 
 
 def _tables() -> list[bytes]:
@@ -220,11 +231,76 @@ def _data_files() -> list[bytes]:
     ]
 
 
+def _export(data: bytes) -> None:
+    target = _EXPORTS[crc32(data) % len(_EXPORTS)]
+    _command("export", "{path}", "--to", target, "-o", "{folder}/out", "--output-format", "json")(data)
+
+
+_EXPORTS = ("moordyn", "orcaflex", "riflex")
+
+
+def _server(data: bytes) -> None:
+    from tests.fuzz.editing import edit  # noqa: PLC0415 - an extra
+
+    edit(data)
+
+
+def _restart(data: bytes) -> None:
+    """Of a deck that continues the input."""
+    with _file(data, "base.keyxm") as path:
+        deck = path.with_name(NAME)
+        deck.write_text("$LOAD CASE\n*RESTART\n LAST=base\n*SEABED CONTACT\n SET=ALL\n", encoding="utf-8")
+        _judged(run("lint", str(deck)), ())
+        _judged(run("evaluate", str(deck), "-q"), ())
+
+
 def _positions(data: bytes) -> None:
-    with _file(data, "positions.npz") as path:
-        outcome = run("evaluate", str(SAMPLES / "legacy-flowline.keyxm"), "--positions", str(path), "-q")
-        if outcome.code not in _CODES:
-            raise BrokenPromiseError(f"exit code {outcome.code}")
+    name = "positions.npz" if data.startswith(b"PK") else "positions.csv"
+    option = "--elements" if data.startswith(b"element") else "--positions"
+    with _file(data, name) as path:
+        _judged(run("evaluate", str(SAMPLES / "legacy-flowline.keyxm"), option, str(path), "-q"), ())
+
+
+@cache
+def _archive() -> tuple[tempfile.TemporaryDirectory[str], Path]:
+    """An archive beside a file that no question may show; it is there until the process ends."""
+    folder = tempfile.TemporaryDirectory()
+    place = Path(folder.name)
+    (place / "secret.txt").write_text(_NEIGHBOUR, encoding="utf-8")
+    run("index", str(SAMPLES / "lines-deck.keyxm"), "-o", str(place / "archive"), "-q")
+    return folder, place
+
+
+_NEIGHBOUR = "text-of-a-neighbour"
+
+
+def _query(data: bytes) -> None:
+    _, place = _archive()
+    before = sorted(place.rglob("*"))
+    sql = data.decode(errors="replace").replace("{place}", str(place))
+    outcome = run("query", str(place / "archive"), "--memory-limit", "200MB", "--jobs", "1", "--", sql)
+    _judged(outcome, ())
+    if _NEIGHBOUR in outcome.out + outcome.err or sorted(place.rglob("*")) != before:
+        raise BrokenPromiseError("a question reads or writes a file")
+
+
+def _questions() -> list[bytes]:
+    return [
+        b"SELECT file, depth\nFROM decks\nWHERE depth > 1.0\nORDER BY file\n",
+        b"SELECT c.name, count(*), max(c.points)\nFROM curves AS c JOIN decks USING (deck)\nGROUP BY ALL\nLIMIT 3\n",
+        b"WITH a AS (SELECT code, line FROM findings)\nSELECT code, list(line), {'a': 1}\nFROM a\nGROUP BY code\n",
+        b"SELECT * FROM read_text('{place}/secret.txt')\n",
+        b"SELECT * FROM read_csv('{place}/*')\n",
+        b"SELECT content\nFROM read_blob('../secret.txt')\n",
+        b"COPY decks\nTO '{place}/out.csv'\n",
+        b"ATTACH '{place}/x.db'\nAS x\n",
+        b"EXPLAIN SELECT name FROM sets\n",
+        b"INSTALL httpfs;\nLOAD httpfs\n",
+        b"SET enable_external_access = true\n",
+        b"PRAGMA database_list\n",
+        b"DESCRIBE stored.decks\n",
+        b"SELECT 'infinity'::DATE, INTERVAL '1 month', 1.5::DECIMAL(4, 2), 'x'::BLOB, TRUE, NULL\n",
+    ]
 
 
 def _archives() -> list[bytes]:
@@ -232,7 +308,8 @@ def _archives() -> list[bytes]:
 
     stream = BytesIO()
     np.savez(stream, node=np.arange(1, 4), positions=np.zeros((2, 3, 3)), time=np.arange(2.0))
-    return [stream.getvalue(), struct.pack("<I", 0x04034B50)]
+    tables = [(SAMPLES / name).read_bytes()[:600] for name in ("positions.csv", "elements.csv")]
+    return [stream.getvalue(), struct.pack("<I", 0x04034B50), *tables]
 
 
 TARGETS = {
@@ -256,6 +333,10 @@ TARGETS = {
         ),
         decks,
     ),
+    "export": Target(_export, decks),
+    "restart": Target(_restart, decks),
+    "server": Target(_server, decks),
+    "query": Target(_query, _questions),
     "index": Target(_command("index", "{path}", "-o", "{folder}/archive", "-q"), decks),
     "csv": Target(_command("convert", "{path}", "-o", "{folder}/o.keyxm", name="t.csv"), _tables),
     "xlsx": Target(_command("convert", "{path}", "-o", "{folder}/o.keyxm", name="t.xlsx"), _workbooks),

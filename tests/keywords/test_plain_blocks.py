@@ -14,6 +14,7 @@ from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Span
 from mudline.keywords import catalogue, grammar, reader
 from mudline.keywords.grammar import Content, Node
+from mudline.keywords.model import Block
 from mudline.keywords.reader import ReadBlock
 from mudline.keywords.recovery import by_lines
 from mudline.keywords.unknown import is_partly_unknown
@@ -120,9 +121,7 @@ def same(data: bytes) -> list[bool]:
     assert repr(found_deck.sections) == repr(deck.sections)
     late = [callable(found.found) for found in found_blocks]
     for found, block in zip(found_blocks, blocks, strict=True):
-        assert repr(found.model.model_dump(warnings=False)) == repr(
-            block.model.model_dump(warnings=False)
-        )  # there may be NaN in it
+        assert repr(_held(found.model)) == repr(_held(block.model))  # there may be NaN in it
         assert (found.lost, found.trailing) == (block.lost, block.trailing)
         assert not callable(found.found) or not is_partly_unknown(found.model)
         assert (found.places.spans, found.places.runs) == (
@@ -130,6 +129,11 @@ def same(data: bytes) -> list[bool]:
             block.places.runs,
         )
     return late
+
+
+def _held(model: Block) -> object:
+    """What a block holds; what could not be read cannot be dumped."""
+    return model if is_partly_unknown(model) else model.model_dump(warnings=False)
 
 
 def compare(text: str) -> bool:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from mudline.keywords import catalogue
+from mudline.keywords.values import Names
 from tests.builders.decks import CLEAN
 from tests.lsp.raw import RawClient, raw_client
 
@@ -85,6 +87,14 @@ def test_answers_to_nothing_and_numbers_that_are_none(client: RawClient, message
     client.send(**message)
 
 
+def test_a_refusal_that_has_no_address_is_no_fault_of_the_server(client: RawClient) -> None:
+    client.open(URI, CLEAN)
+    client.findings(URI)
+    client.send(id={"a": 1}, method="textDocument/rename", params={**AT, "newName": "x"})
+    assert client.lives()
+    assert "please report" not in str(client.notifications)
+
+
 @pytest.mark.parametrize(
     "body",
     [
@@ -137,12 +147,30 @@ def test_a_huge_name() -> None:
 # --------------------------------------------------------------------------------------------- outside of the workspace
 
 HELD = "text-of-a-neighbour"
-NAMING: dict[str, Callable[[str], str]] = {
-    "friction data": lambda name: f"{CLEAN}*SEABED SURFACE\n FILE={name}\n",
-    "restart": lambda name: CLEAN.replace("$MODEL", f"$RESTART\n LAST={name}\n$MODEL"),
-    "vessel": lambda name: f"{CLEAN}*VESSEL, RAO\n FILE={name}\n",
-    "include": lambda name: f"{CLEAN}*INCLUDE\n FILE={name}\n",
+NAMING = {
+    "RESTART": "$LOAD CASE\n*RESTART\n LAST={}\n",
+    "SEABED PROFILE": "$MODEL\n*SEABED PROFILE\n TYPE=2D\n FILE={}\n",
+    "VESSEL,INTEGRATED": "$MODEL\n*VESSEL,INTEGRATED\n VESSEL=v\n RAO={}\n FILE={}\n",
+    "BODY,INTEGRATED": "$MODEL\n*BODY,INTEGRATED\n BODY=b\n LOCATION=0, 0, 0\n FILE={}\n",
+    "RAO": "$LOAD CASE\n*RAO\n VESSEL=v\n FILE={}\n",
+    "DRIFT": "$LOAD CASE\n*DRIFT\n VESSEL=v, TYPE=FILE\n FILE={}\n",
+    "VESSEL TIMETRACE": "$LOAD CASE\n*VESSEL TIMETRACE\n VESSEL=v\n FILE={}\n",
+    "WAVE-TIME-HISTORY": "$LOAD CASE\n*WAVE-TIME-HISTORY\n FILE={}\n",
+    "CURRENT": "$LOAD CASE\n*CURRENT\n TYPE=SUBROUTINE, USER={}\n",
+    "VARIATION": "$PREPROCESSOR\n*VARIATION\n NAME=n\n ACTION=ADD, KEYWORD=WIND, FILE={}, SECTION=LOAD CASE\n",
+    **{each: f"$MODEL\n*{each}\n FILE={{}}\n" for each in ("P-Y", "T-Z", "ADDED MASS", "RADIATION DAMPING")},
+    **{each: f"$MODEL\n*{each}\n VESSEL=v\n FILE={{}}\n" for each in ("CURRENT COEFF", "WIND COEFF")},
+    "EXCEL VARIATIONS": "$PREPROCESSOR\n*EXCEL VARIATIONS\n EXCEL={}\n",
 }
+"""Each keyword that names a file, after a whole deck."""
+
+
+def naming(keyword: str, name: str) -> str:
+    return CLEAN + NAMING[keyword].replace("{}", f'"{name}"')
+
+
+def test_each_keyword_that_names_a_file_is_tried() -> None:
+    assert {*catalogue.users(Names.FILE), *catalogue.users(Names.DECK)} == set(NAMING)
 
 
 @pytest.mark.parametrize("refused", [False, True])
@@ -155,16 +183,16 @@ def test_no_text_of_a_file_outside_is_shown(
     configuration = f"no-outside = {'true' if refused else 'false'}\n"
     (tmp_path / "project" / "mudline.toml").write_text(configuration, encoding="utf-8")
     outside = tmp_path / "neighbour.keyxm"
-    outside.write_text(f"{HELD}\n{HELD}, {HELD}\n", encoding="utf-8")
+    outside.write_text(f"{HELD}, {HELD}\n" * 2, encoding="utf-8")
     name = "../neighbour.keyxm"
     if linked:
         name = "near.keyxm"
         (tmp_path / "project" / name).symlink_to(outside)
-    text = NAMING[kind](name)
+    text = naming(kind, name)
     uri = (tmp_path / "project" / "deck.keyxm").as_uri()
     client.open(uri, text)
     shown = [client.findings(uri)]
-    for line in range(text.count("\n")):
+    for line in range(CLEAN.count("\n"), text.count("\n")):
         place = {"textDocument": {"uri": uri}, "position": {"line": line, "character": 8}}
         shown += [client.ask(f"textDocument/{what}", place) for what in ("hover", "completion", "definition")]
     client.notify("textDocument/didClose", {"textDocument": {"uri": uri}})
@@ -175,6 +203,6 @@ def test_no_text_of_a_file_outside_is_shown(
 @pytest.mark.parametrize("kind", NAMING)
 def test_no_file_of_the_system_is_read(client: RawClient, tmp_path: Path, kind: str, name: str) -> None:
     uri = (tmp_path / "deck.keyxm").as_uri()
-    client.open(uri, NAMING[kind](name))
+    client.open(uri, naming(kind, name))
     assert client.findings(uri) is not None
     client.notify("textDocument/didClose", {"textDocument": {"uri": uri}})

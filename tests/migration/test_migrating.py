@@ -246,6 +246,15 @@ def test_a_profile_goes_to_a_file_beside_the_deck() -> None:
     assert verify(found).differences == ()
 
 
+def test_a_profile_overwrites_no_file_beside_the_deck(tmp_path: Path) -> None:
+    deck = PIPE_WITH_SETS + "*RIGID SURFACE\n 0.3\n 100.0, 30.0\n 0.0, 0.0"
+    for name in ("deck-profile.txt", "deck-profile-2.txt", "deck-profile-3.txt"):
+        found = migrate(deck_of(deck, folder=tmp_path))
+        assert list(found.files) == [name]
+        assert found.content.endswith(f" TYPE=2D\n INTERPOLATION=LINEAR\n FILE={name}\n".encode())
+        (tmp_path / name).write_text("")
+
+
 def test_largest_characteristic_lengths_without_effect_are_left_in_a_comment() -> None:
     found = migrated(PIPE_WITH_SETS + "*ELASTIC SURFACE\n 1e4, 0.3, 0.5, , , , 3.048, 9.0, , , 0.1\n")
     listed = b"C largest characteristic lengths (longitudinal 3.048, transverse 9.0) left out: the default, or without"

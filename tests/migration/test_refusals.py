@@ -9,6 +9,7 @@ from mudline.linting.engine import lint_context
 from mudline.linting.registry import rules
 from mudline.linting.rule import LintContext
 from mudline.migration.migrating import migrate, verify
+from mudline.migration.refusals import superseded_blocks
 from mudline.migration.rewriting import curve_names
 from tests.builders.decks import PIPE_WITH_SETS
 from tests.builders.scenes import deck_of
@@ -27,6 +28,8 @@ SURFACE = "*ELASTIC SURFACE\n 1e4, 0.3, 0.5"
         (f"{SURFACE}\n 2.5\n 0, 0\n 1, 1\n", 3, 2, "a slope and a profile"),
         (f"{SURFACE}\n 0, 0\n =[1+1], 1\n", 4, 2, "an equation in a profile"),
         (f"{SURFACE}\n 2.5\n*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=1\n", 4, 1, "*SEABED PROFILE and the slope"),
+        (f"{SURFACE}\n 0, 0\n 1, 1\n*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=1\n", 5, 1, "*SEABED PROFILE and the slope"),
+        ("*ELASTIC SURFACE\n 1e4, 1.0, 0.5, , , , 2.0\n", 2, 23, "the largest longitudinal characteristic length"),
         (f"{SURFACE}\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=West\n STIFFNESS=1\n", 3, 1, "is used beside legacy"),
         (f"{SURFACE}\n$LOAD CASE\n*RESTART\n LAST=base\n", 4, 1, "*RESTART continues another deck"),
         (f"{SURFACE}\n*EMBEDMENT\nCURVE=x\n SET=West\n 0, 0\n 1, 1\n", 1, 1, "would be lost or read as data"),
@@ -37,6 +40,16 @@ def test_the_reason_and_its_place(text: str, line: int, column: int, words: str)
         migrate(deck_of(PIPE_WITH_SETS + text))
     (found,) = [one for one in caught.value.diagnostics if words in one.message]
     assert (found.code, found.line, found.column) == ("MIG001", LINES + line, column)
+
+
+def test_a_second_surface_is_reported_and_no_more_of_it() -> None:
+    length = ", 0.3, 0.5, , , , 2.0\n"
+    with pytest.raises(DeckError) as caught:
+        migrate(deck_of(f"{PIPE_WITH_SETS}*ELASTIC SURFACE\n 1e4{length}*ELASTIC SURFACE\n 2e4{length}"))
+    assert [(one.line - LINES, one.message[:16]) for one in caught.value.diagnostics] == [
+        (2, "the largest long"),
+        (3, "a second surface"),
+    ]
 
 
 LINES_DECK = "$MODEL\n*LINES\n LINE=Riser\n 1, 2\n"
@@ -79,6 +92,12 @@ def test_a_misspelt_keyword_does_not_soften_a_refusal(text: str, line: int, mess
     assert not any(one.fix for one in lint if one.code == "LEG001")
 
 
+@pytest.mark.parametrize("surface", ["ELASTIC SURFACE", "RIGID SURFACE"])
+def test_surfaces_come_before_curves(surface: str) -> None:
+    deck = deck_of(f"{PIPE_WITH_SETS}{CURVE}*{surface}\n 0.3\n")
+    assert [block.keyword for _, block in superseded_blocks(deck)] == [surface, "EMBEDMENT"]
+
+
 def test_what_lines_may_define_is_no_obstacle() -> None:
     """A set that only the lines may make is a warning, and its name stays."""
     found = migrate(deck_of(f"{LINES_DECK}*ELASTIC SURFACE\n 1e4\n{CURVE}"))
@@ -104,6 +123,20 @@ def test_a_value_of_an_equation_is_neither_zero_nor_the_default() -> None:
     for fields in (", =[mu], 0.5, , , , 2.0", ", 0.3, 0.5, , , , =[Lc]"):
         with pytest.raises(DeckError, match="characteristic length"):
             migrate(deck_of(head + PIPE_WITH_SETS + f"*ELASTIC SURFACE\n 1e4{fields}\n"))
+
+
+@pytest.mark.parametrize(
+    "bed",
+    [
+        f"{SURFACE}\n*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=1\n",
+        "*ELASTIC SURFACE\n 1e4, 0, 0.5, , , , 2.0\n",
+        "*ELASTIC SURFACE\n 1e4, , 0.5, , , , 2.0\n",
+        "*ELASTIC SURFACE\n 1e4, 0.3, 0.5, , , , 2.0, , , 0.1\n",
+    ],
+    ids=["a shape of its own", "no friction", "no friction given", "a mobilisation length"],
+)
+def test_what_has_no_effect_is_no_obstacle(bed: str) -> None:
+    assert verify(migrate(deck_of(PIPE_WITH_SETS + bed))).differences == ()
 
 
 def test_decks_that_continue_this_one() -> None:
@@ -218,6 +251,26 @@ def test_curves_before_one_for_all_are_left_out() -> None:
         + "*SEABED STIFFNESS\n"
         + left_out("  SET=West", "  0, 0", "  1, 5")
         + f" CURVE=ALL\n{SECOND} CURVE=7 curve\n{FIRST}"
+    )
+
+
+def test_a_rigid_seabed_without_friction_is_for_all() -> None:
+    left = "C largest characteristic lengths (longitudinal 2.0) left out: the default, or without effect\n"
+    assert seabed_after(PIPE_WITH_SETS, "*RIGID SURFACE\n , , 2.0\n") == (
+        f"*SEABED PROPERTIES\n{left} TYPE=RIGID\n SET=ALL\n"
+    )
+    found = seabed_after(PIPE_WITH_SETS, f"*ELASTIC SURFACE\n , , , , , , 2.0\n*EMBEDMENT\n SET=West\n{FIRST}")
+    assert found.startswith(f"*SEABED PROPERTIES\n{left} TYPE=ELASTIC\n SET=West\n STIFFNESS=West\n*SEABED STIFFNESS")
+
+
+def test_blank_lines_stay_where_they_are() -> None:
+    found = seabed_after(
+        PIPE_WITH_SETS, "*ELASTIC SURFACE\n\n 1e4\n  \n 2.5\n*EMBEDMENT\n\n SET=West\n\n 0, 0\n\n 1, 5\n"
+    )
+    assert found == (
+        "*SEABED PROPERTIES\n\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=1e4\n SET=West\n STIFFNESS=West\n"
+        "*SEABED PROFILE\n  \n TYPE=SLOPING\n SLOPE=2.5\n"
+        "*SEABED STIFFNESS\n\n CURVE=West\n\n 0, 0\n\n 1, 5\n"
     )
 
 

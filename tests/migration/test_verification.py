@@ -57,6 +57,28 @@ def test_the_order_of_blocks_counts() -> None:
     assert {difference.what for difference in differences} >= {"element 9"}
 
 
+def test_only_elements_that_differ_are_named() -> None:
+    """Of 12 the numbers 5 to 10 are on the curve, 5 and 6 of them with another diameter."""
+    text = PIPE_WITH_SETS + "*ELASTIC SURFACE\n 1e4, 0.3, 0.5\n*EMBEDMENT\n SET=East Bank\n 0, 0\n 1, 5\n"
+    group = " SET=East Bank\n STIFFNESS=East Bank\n FRICTION=0.3, 0.5"
+    differences = verify(tampered(group, group.replace("0.5", "0.6"), text=text)).differences
+    assert [(one.what, one.text) for one in differences] == [
+        (f"element {number}", "friction: [0.3 0.5] before, [0.3 0.6] after") for number in (5, 7)
+    ]
+    differences = verify(tampered(" 1, 5\n", " 1, 7\n", text=text)).differences
+    assert {one.what for one in differences} == {"element 5", "element 7"}
+    forces = [one.text for one in differences if one.text.startswith("force")]
+    assert forces[1] == "force at depth 1e-09: 2e-08 before, 2.8000000000000003e-08 after"
+
+
+def test_a_peak_between_two_points_counts() -> None:
+    """The depths are those of the points of both curves, for each diameter; elsewhere these are the same to the bit."""
+    text = PIPE_WITH_SETS + "*ELASTIC SURFACE\n 1e4\n*EMBEDMENT\n SET=East Bank\n 0, 0\n 1, 4\n"
+    peak = " 0, 0\n 0.499755859375, 1.9990234375\n 0.5, 9\n 0.500244140625, 2.0009765625\n 1, 4\n"
+    differences = verify(tampered(" 0, 0\n 1, 4\n", peak, text=text)).differences
+    assert {one.what for one in differences} == {"element 5", "element 7"}
+
+
 def test_a_lost_block_counts() -> None:
     differences = verify(tampered(" SET=7\n STIFFNESS=7 curve\n", " SET=7\n")).differences
     assert {difference.what for difference in differences} >= {"element 3", "element 9"}

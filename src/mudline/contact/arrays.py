@@ -43,9 +43,30 @@ def taken(values: NDArray[Item], at: Picked) -> NDArray[Item]:
     return values[:, at] if isinstance(at, slice) else values.take(at, axis=1)
 
 
+def put_at(values: NDArray[Item], at: Picked, new: NDArray[Item] | float) -> None:
+    """Write columns of values (steps, k); those of one step sooner than `values[:, at] = new`."""
+    if len(values) == 1:
+        values[0][at] = new if isinstance(new, float) else new[0]
+    else:
+        values[:, at] = new
+
+
 def add_at(values: FloatArray, at: Picked, more: FloatArray) -> None:
     """Add to columns of values (steps, k), in place; sooner than `values[:, at] += more`."""
-    values[:, at] = taken(values, at) + more
+    put_at(values, at, taken(values, at) + more)
+
+
+def each_at(values: NDArray[Item], steps: IndexArray, at: IndexArray) -> NDArray[Item]:
+    """Return `values[steps, at]`; of one step sooner."""
+    return values[0].take(at) if len(values) == 1 else values[steps, at]
+
+
+def add_each(values: FloatArray, steps: IndexArray, at: IndexArray, more: FloatArray) -> None:
+    """Add to values at different places, in place."""
+    if len(values) == 1:
+        values[0][at] += more
+    else:
+        values[steps, at] += more
 
 
 def as_range(indices: IndexArray) -> Picked:

@@ -39,7 +39,7 @@ class Line:
         sides: (2 m,) the end, 0 or 1, at which each of these is there.
         senses: (2 m,) how the direction of each of these counts at its node: -1 where the two elements of a node both
             begin or both end there, and this is the later one, so that the line goes through the node whichever way
-            its elements are written.
+            its elements are written. turns: whether there are any.
     """
 
     def __init__(self, element_nodes: IndexArray, nodes: int) -> None:
@@ -56,7 +56,7 @@ class Line:
         same = two[begins[self.start[two]] == begins[self.start[two] + 1]]
         self.senses: FloatArray = np.ones(2 * count)
         self.senses[self.start[same] + 1] = -1.0
-        self._turns = bool(same.size)
+        self.turns = bool(same.size)
         self._junctions = np.flatnonzero(degree > 2)
         self._runs = _runs(self.first, self.second)
         self._chain = self._runs is not None and [*self._runs] == [_Run(0, nodes - 1, 0, 1)]
@@ -93,7 +93,7 @@ class Line:
         The values stand between two columns of zeros. They are added in the order of `elements`; of
         `directed` ones each counts with its sense.
         """
-        directed = directed and self._turns
+        directed = directed and self.turns
         if self._pair is not None:
             total = np.zeros((len(values), end - begin))
             for elements, senses in zip(*(part[:, begin:end] for part in self._pair), strict=True):

@@ -126,7 +126,7 @@ class ContactModel:
         if self.input.needs_velocities and motion is None and clock is None and len(series) > 1:
             law = self.input.needs_velocities[0]
             raise ValueError(f"a series with {law} needs velocities, or the times of its steps")
-        driver, state = self._driver(len(series)), self._tables.initial_state()
+        driver, state, spare = self._driver(len(series)), self._tables.initial_state(), None
         rows = self._numpy.steps if driver is None else driver.steps
         whole = self._blank(series[:], mask, clock) if together else None
         for start in range(0, len(series), rows):
@@ -137,7 +137,9 @@ class ContactModel:
                 part = self._blank(points, mask, when) if whole is None else whole.steps(start, stop)
                 rates = None if motion is None else np.asarray(motion[start:stop], np.float64)
                 spans = None if clock is None else np.diff(clock[max(start - 1, 0) : stop])
-                state = self._advance(driver, points, rates, spans, part, state, start)
+                before = state
+                state = self._advance(driver, points, rates, spans, part, state, start, spare=spare)
+                spare = before if driver else None
             if whole is None:
                 yield Part(start, part)
         if whole is not None:
@@ -259,9 +261,13 @@ class ContactModel:
         state: ContactState,
         first_step: int,
         *,
+        spare: ContactState | None = None,
         kept: bool = False,
     ) -> ContactState:
-        """Evaluate a batch into `part`; return the state behind it, in the arrays of `state` unless that is `kept`."""
+        """Evaluate a batch into `part`; return the state behind it.
+
+        It is in the arrays of `spare`, or without a driver of `state` unless that is `kept`.
+        """
         laid = points[0] if state.laid is None else state.laid
         self._numpy.locate(points, part)
         if self._tables.level is not None:
@@ -269,9 +275,9 @@ class ContactModel:
 
             lower(self._tables, points, laid, part.normal, part.gap)
         batch = Batch(points, self._speed(points, rates, spans, part.normal, state), laid)
-        after = None if driver is None else driver.run(batch, part, state)
+        after = None if driver is None else driver.run(batch, part, state, spare)
         if after is None:
-            after = state.copied() if kept else state
+            after = state.copied() if kept or driver else state
             self._numpy.run(batch, part, after)
             if not is_finite(part, batch.speed):
                 refuse(part, batch.speed, first_step, self._tables)
@@ -321,10 +327,11 @@ def _differences(points: FloatArray, spans: FloatArray | None, before: FloatArra
         np.subtract(points[0], before[..., : points.shape[-1]], out=rates[0])
     else:
         rates[0] = 0.0
-    np.subtract(points[1:], points[:-1], out=rates[1:])
+    if len(points) > 1:
+        np.subtract(points[1:], points[:-1], out=rates[1:])
     if spans is None:
         rates[1:] = 0.0
-    else:
+    elif first < len(points):
         rates[first:] /= spans[len(spans) - len(points) + first :, None, None]
     return rates
 

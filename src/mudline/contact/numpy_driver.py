@@ -13,6 +13,7 @@ import numpy as np
 
 from mudline.contact import vectors
 from mudline.contact.arrays import BoolArray, FloatArray, Picked, add_at, as_range, taken
+from mudline.contact.laws import law_module
 from mudline.contact.numpy_elements import Elements, Work
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed import FlatSeabed, Seabed
@@ -29,6 +30,7 @@ _WIDTH = 4096
 """Elements or nodes in a range of a long line, at least: over a few steps what belongs to them stays in caches."""
 _BATCH = 2**20
 """Nodes times steps of a batch, at most."""
+_NONE = np.empty(0, np.intp)
 
 
 class NumpyDriver:
@@ -179,9 +181,7 @@ class Nodes:
             z = 0.0 - taken(part.gap[:, here], at)
             add_at(total, at, np.where(z > onset, reaction(z, 0.0, *columns)[0], 0.0))
         if self._damping is not None and speed is not None:
-            from mudline.contact.laws.damping import damping_force  # noqa: PLC0415 - only now is it needed
-
-            total += damping_force(0.0 - part.gap[:, here], speed[:, here], self._damping)
+            total += law_module("damping").damping_force(0.0 - part.gap[:, here], speed[:, here], self._damping)
         part.normal_force[:, here] = total
         if part.normal.strides[1] == 0:  # one for all nodes
             normal = tuple(part.normal[:1, :1, axis] for axis in range(3))
@@ -247,8 +247,6 @@ class Nodes:
         laid: LaidCentreline | None,
     ) -> tuple[FloatArray, FloatArray]:
         """Friction along u1 and u2 (steps, k); the stick points go from step to step."""
-        from mudline.contact.laws import friction as law  # noqa: PLC0415 - only now is it needed
-
         history = cast("FrictionHistory", state.friction)
         along, across = axes
         plane, here, first = self._plane, self._here, 3 - len(along)
@@ -256,19 +254,19 @@ class Nodes:
         pressing = np.where(self._active, np.fmax(part.normal_force[:, here], 0.0), 0.0)
         closed = pressing > 0.0
         springs, limits = self._constant + self._rising * pressing, self._coefficients * pressing
-        limited = self._curved and bool(((limits > 0.0) | ~closed).all())
-        if limited:  # those of open nodes become 1, to divide by
-            limits = np.where(closed, limits, 1.0)
-        walls = None if laid is None or not self._ranks else self._trench_limits(places, across, pressing, laid)
-        stick = history.stick_points[here].T.copy()
+        walls = None if laid is None or not self._ranks else self._walls(places, across, pressing, laid)
+        stick = history.stick_points[here].T
         held = history.states[here, 0] > 0
         softening = self._softening(state, work)
         forces, slips = np.empty(limits.shape), np.empty(limits.shape, np.bool_)
         elongation = np.empty((2, len(self._active)))
         for step, close in enumerate(closed):
             on, held = held & close, close
+            (new,) = np.logical_not(on).nonzero()
+            for point, place in zip(stick, places[:, step], strict=True):
+                point[new] = place.take(new)
             u, v = tuple(axis[step] for axis in along), tuple(axis[step] for axis in across)
-            away = np.where(on, places[first:, step] - stick[first:], 0.0)
+            away = places[first:, step] - stick[first:]
             elongation[0], elongation[1] = plane.dot(u, away), plane.dot(v, away)
             spring, limit = springs[:, step], limits[:, step]
             if softening is not None:
@@ -276,38 +274,38 @@ class Nodes:
                 softening.soften(step, (spring[1], limit[1]), places[:, step], v)
             trial = spring * elongation
             if walls is not None:
-                limit[1] += np.where(trial[1] > 0.0, walls[0][step], walls[1][step])
-            force, slip = self._bounded(trial, limit, limited=limited)
-            moves = law.slip_distance(slip, elongation, force, spring)
+                limit[1] += self._added(trial[1], *(values[step] for values in walls))
+            force, slip = self._bounded(trial, limit, close)
+            moves = law_module("friction").slip_distance(slip, elongation, force, spring)
             moved = plane.blend(u, v, moves[0], moves[1])
-            stick = np.where(on, stick, places[:, step])
             for point, way in zip(stick[first:], moved, strict=True):
                 np.add(point, way, out=point)
             np.subtract(0.0, force, out=forces[:, step])
             slips[:, step] = slip
-        history.stick_points[here] = np.where(held, stick, np.nan).T
+        (free,) = np.logical_not(held).nonzero()
+        for point in stick:
+            point[free] = np.nan
         if softening is not None:
             softening.end(held)
-        for side in range(2):
-            states = (slips[side].view(np.int8) + np.int8(1)) * closed.view(np.int8)
-            states += self._idle
-            history.states[here, side] = states[-1]
-            if part.friction_state is not None:
-                part.friction_state[:, here, side] = states
+        states = (slips.view(np.int8) + np.int8(1)) * closed.view(np.int8)
+        states += self._idle
+        history.states[here] = states[:, -1].T
+        if part.friction_state is not None:
+            part.friction_state[:, here] = states.transpose(1, 2, 0)
         return forces[0], forces[1]
 
-    def _bounded(self, trial: FloatArray, limit: FloatArray, *, limited: bool) -> tuple[FloatArray, BoolArray]:
-        """Forces (2, k) in the springs and whether they slip; `limited`: all limits are above 0."""
-        from mudline.contact.laws import friction as law  # noqa: PLC0415 - only now is it needed
-
+    def _bounded(self, trial: FloatArray, limit: FloatArray, closed: BoolArray) -> tuple[FloatArray, BoolArray]:
+        """Forces (2, k) in the springs and whether they slip."""
+        law = law_module("friction")
         force, slip = law.in_box(trial, limit)
-        if self._curved:
-            mapped = law.on_ellipse if limited else law.in_ellipse
+        (curved,) = (self._elliptic & closed).nonzero() if self._curved else (_NONE,)
+        if curved.size:
+            wanted, most = trial.take(curved, axis=1), limit.take(curved, axis=1)
+            mapped = law.on_ellipse if (most > 0.0).all() else law.in_ellipse
             # forces, and whether both directions slip, or each
-            curved = mapped(trial[0], trial[1], limit[0], limit[1])
-            for side, slipping in enumerate((curved[2], curved[-1])):
-                force[side] = np.where(self._elliptic, curved[side], force[side])
-                slip[side] = np.where(self._elliptic, slipping, slip[side])
+            found = mapped(wanted[0], wanted[1], most[0], most[1])
+            for side, slipping in enumerate((found[2], found[-1])):
+                force[side][curved], slip[side][curved] = found[side], slipping
         return force, slip
 
     def _softening(self, state: ContactState, work: Work) -> _Softening | None:
@@ -319,10 +317,10 @@ class Nodes:
             deep = taken(self._tables.line.sums(work.ratio, self.begin, self.end), nodes.at) * nodes.share
         return _Softening(nodes, deep, held[:, nodes.rows])
 
-    def _trench_limits(
+    def _walls(
         self, places: FloatArray, across: Components, pressing: FloatArray, laid: LaidCentreline
-    ) -> tuple[FloatArray, FloatArray]:
-        """What trenches add to the lateral limits (steps, k) against motion along +u2, and along -u2."""
+    ) -> tuple[FloatArray, BoolArray, BoolArray]:
+        """What trenches add to the lateral limits (steps, k), against motion along +u2, or along -u2."""
         from mudline.contact.trenches import resistance  # noqa: PLC0415 - most friction has no trench
 
         at = self._in_trench
@@ -330,10 +328,12 @@ class Nodes:
         away = laid.away(laid.beside(self.begin, self._trench), there).vector
         lateral = tuple(taken(axis, at) for axis in across)
         offset = self._plane.dot(lateral, away[3 - len(lateral) :])
-        added = resistance(self._trench, offset, taken(pressing, at))
-        found = np.zeros(pressing.shape), np.zeros(pressing.shape)
-        for whole, outward in zip(found, (offset > 0.0, offset < 0.0), strict=True):
-            share = np.where(outward, added, 0.0)
-            for rows, nodes in self._ranks:
-                add_at(whole, nodes, share.take(rows, axis=1))
+        return resistance(self._trench, offset, taken(pressing, at)), offset > 0.0, offset < 0.0
+
+    def _added(self, trial: FloatArray, added: FloatArray, forward: BoolArray, back: BoolArray) -> FloatArray:
+        """What they add at nodes (k,) with these trial forces."""
+        share = np.where(np.where((trial > 0.0)[self._in_trench], forward, back), added, 0.0)
+        found = np.zeros(len(trial))
+        for rows, nodes in self._ranks:
+            found[nodes] += share.take(rows)
         return found

@@ -15,12 +15,15 @@ from mudline.contact.arrays import (
     Picked,
     StateArray,
     add_at,
+    add_each,
     as_range,
+    each_at,
+    put_at,
     taken,
     zero_outside,
 )
 from mudline.contact.directions import mean_normal
-from mudline.contact.laws import PathLaw
+from mudline.contact.laws import PathLaw, law_module
 from mudline.contact.result import ContactResult
 from mudline.contact.tables import ContactState, ElementRows, NormalRows, Tables, rows_within
 from mudline.contact.vectors import in_plane, units
@@ -74,6 +77,7 @@ class _Subset(NamedTuple):
 
     rows: slice
     at: Picked
+    elements: IndexArray
     columns: tuple[FloatArray, ...]
     diameter: FloatArray
     onset: FloatArray | float
@@ -110,7 +114,8 @@ class Elements:
         if self._suction is not None:
             from mudline.contact.laws.suction import SuctionLaw  # noqa: PLC0415 - only now is it needed
 
-            self._law = SuctionLaw(*(column[0] for column in self._suction.columns))
+            self._laws = np.concatenate(self._suction.columns)
+            self._law = SuctionLaw(*self._laws)
             self._least, self._counts = self._law.least_depth, bool(self._law.counts_cycles.any())
         self._in_trench: tuple[IndexArray, IndexArray] | None = None
         if self._suction is not None and self._unloading is not None:
@@ -133,7 +138,8 @@ class Elements:
             return None
         at = as_range(given.rows[rows] - self.begin)
         onset = self._onset[:, at] if isinstance(self._onset, np.ndarray) else self._onset
-        return _Subset(rows, at, tuple(column[None, rows] for column in given.columns), self._diameter[:, at], onset)
+        columns = tuple(column[None, rows] for column in given.columns)
+        return _Subset(rows, at, given.rows[rows], columns, self._diameter[:, at], onset)
 
     def run(self, batch: Batch, part: ContactResult, state: ContactState, work: Work) -> None:
         """Write the elements of a batch, and what they leave for nodes."""
@@ -149,10 +155,8 @@ class Elements:
         if self._springs is not None:
             self._apply_springs(self._springs, depth, values)
         if self._damping is not None and batch.speed is not None:
-            from mudline.contact.laws.damping import damping_force  # noqa: PLC0415 - only now is it needed
-
             first, second = self._tables.line.at(batch.speed, self.begin, self.end)
-            values[0][...] += damping_force(depth, 0.5 * first + 0.5 * second, self._damping)
+            values[0][...] += law_module("damping").damping_force(depth, 0.5 * first + 0.5 * second, self._damping)
         if self._suction is not None and batch.speed is not None and state.suction is not None:
             self._apply_suction(self._suction, batch.speed, (depth, contact, trench), values, part, state.suction)
         np.multiply(values[0], self._half, out=work.load[:, self._inner])
@@ -253,8 +257,7 @@ class Elements:
         paths: FloatArray | None,
     ) -> _Trench:
         """Write the virgin path at the largest penetrations so far, or the lines to there."""
-        from mudline.contact.laws.unloading import line_stiffness, on_line, trench_bottom  # noqa: PLC0415 - only now
-
+        law = law_module("unloading")
         z = np.fmax(taken(depth, some.at), 0.0)
         so_far = np.concatenate([history.z_max[None, some.rows], z])
         if len(z) > z.shape[1]:
@@ -264,7 +267,7 @@ class Elements:
                 np.maximum(before, now, out=now)
         fresh, deepest = so_far[1:] > so_far[:-1], so_far[1:]
         reached = depth.copy()
-        reached[:, some.at] = deepest
+        put_at(reached, some.at, deepest)
         self._apply_normal_laws(reached, None, reached > self._onset, values, part, paths)
         force, slope, stiffness = (taken(each, some.at) for each in values)
         force_max, steepest = np.maximum(force, 0.0), some.columns[0]
@@ -272,18 +275,18 @@ class Elements:
             steepest = np.broadcast_to(steepest, deepest.shape).copy()
             for group, mine, theirs in self._steeper:
                 steepest[:, mine] = np.maximum(steepest[:, mine], self._slope(group, deepest[:, mine], theirs))
-        line = line_stiffness(steepest, deepest, force_max)
+        line = law.line_stiffness(steepest, deepest, force_max)
         never = deepest == 0.0
         if never.any():  # a smoothed law has a force at the mudline, its line none
             force_max[never] = 0.0
             np.copyto(line, some.columns[0], where=never)
-        bottom = trench_bottom(line, deepest, force_max)
-        back, rise = on_line(z, deepest, force_max, line, bottom)
+        bottom = law.trench_bottom(line, deepest, force_max)
+        back, rise = law.on_line(z, deepest, force_max, line, bottom)
         if part.cut.flags.writeable:
             part.cut[:, self._here][:, some.at] &= fresh
-        values[0][:, some.at] = np.where(fresh, force, back)
-        values[1][:, some.at] = np.where(fresh, slope, rise * some.diameter)
-        values[2][:, some.at] = np.where(fresh, stiffness, rise)
+        put_at(values[0], some.at, np.where(fresh, force, back))
+        put_at(values[1], some.at, np.where(fresh, slope, rise * some.diameter))
+        put_at(values[2], some.at, np.where(fresh, stiffness, rise))
         for kept, moved in zip(history.numbers, (deepest, force_max, line, bottom), strict=True):
             kept[some.rows] = moved[-1]
         return _Trench(bottom - taken(depth, some.at), z > bottom)
@@ -312,9 +315,7 @@ class Elements:
 
     def _apply_springs(self, some: _Subset, depth: FloatArray, values: Values) -> None:
         """Add springs against uplift."""
-        from mudline.contact.laws.linear import spring_suction  # noqa: PLC0415 - only now is it needed
-
-        force, stiffness = spring_suction(some.onset - taken(depth, some.at), *some.columns)
+        force, stiffness = law_module("linear").spring_suction(some.onset - taken(depth, some.at), *some.columns)
         add_at(values[0], some.at, force)
         add_at(values[1], some.at, stiffness * some.diameter)
         add_at(values[2], some.at, stiffness)
@@ -329,31 +330,29 @@ class Elements:
         history: SuctionHistory,
     ) -> None:
         """Add suction with a history."""
-        from mudline.contact.laws.suction import suction_force  # noqa: PLC0415 - only now is it needed
-
-        law = self._law
         depth, contact, trench = where
         uplift, pressed = some.onset - taken(depth, some.at), taken(contact, some.at)
         if trench is not None and self._in_trench is not None:
             here, there = self._in_trench
             pressed = pressed.copy()
-            uplift[:, here], pressed[:, here] = taken(trench.uplift, there), taken(trench.below, there)
+            put_at(uplift, here, taken(trench.uplift, there))
+            put_at(pressed, here, taken(trench.below, there))
         first, second = self._tables.line.at(speed, self.begin, self.end)
         v = 0.5 * taken(first, some.at) + 0.5 * taken(second, some.at)
         states, pulls = self._suction_states(some.rows, (uplift, v, pressed), history)
         if part.state is not None:
-            part.state[:, self._here][:, some.at] = states
+            put_at(part.state[:, self._here], some.at, states)
         if pulls is None:
             return
         steps, held, reach, factor = pulls
-        uplift, v = uplift[steps, held], v[steps, held]
-        exponent, slow = law.force_exponent[held], law.regularisation[held]
-        shape = law.force_factor[held] * factor, exponent, slow, law.first_corner[held], law.second_corner[held]
-        force, stiffness = suction_force(uplift, v, reach, shape)
+        uplift, v = each_at(uplift, steps, held), each_at(v, steps, held)
+        rise, exponent, _, _, first_corner, second_corner, _, slow, _ = self._laws.take(held, axis=1)
+        force, stiffness = law_module("suction").suction_force(
+            uplift, v, reach, (rise * factor, exponent, slow, first_corner, second_corner)
+        )
         at = held + some.at.start if isinstance(some.at, slice) else some.at[held]
-        values[0][steps, at] += force
-        values[1][steps, at] += stiffness * some.diameter[0, held]
-        values[2][steps, at] += stiffness
+        for target, more in zip(values, (force, stiffness * some.diameter[0].take(held), stiffness), strict=True):
+            add_each(target, steps, at, more)
         if part.regularised is not None:
             part.regularised[steps, self.begin + at] = (v < slow) & (exponent < 2.0)
 
@@ -364,9 +363,7 @@ class Elements:
 
         Only elements that are off the seabed and not at rest need more than a look.
         """
-        from mudline.contact.laws.suction import BROKEN, SUCTION, after_cycle, breakout_uplift, next_state  # noqa: PLC0415
-
-        law, least, counts = self._law, self._least, self._counts
+        suction, law, least, counts = law_module("suction"), self._law, self._least, self._counts
         uplift, v, pressed = motion
         armed, v_max, depth = history.armed[rows], history.v_max[rows], history.depth[rows]
         states, factor = history.state[rows], history.factor[rows]
@@ -375,7 +372,7 @@ class Elements:
         every = pressed.view(np.int8).copy()
         pulled: list[_Pulled] = []
         for step, down in enumerate(pressed):
-            (loose,) = ((armed | (states == BROKEN)) & off[step]).nonzero()
+            (loose,) = ((armed | (states == suction.BROKEN)) & off[step]).nonzero()
             completed = armed & down & (v_max > 0.0) if counts else down
             after_armed, after_max, after_depth, before, states = down, np.zeros(len(down)), least, states, every[step]
             if loose.size:
@@ -384,13 +381,13 @@ class Elements:
                 (grown,) = (largest > known).nonzero()
                 if grown.size:
                     at = loose[grown]
-                    reach[grown] = breakout_uplift(
+                    reach[grown] = suction.breakout_uplift(
                         largest[grown], law.depth_factor[at], law.depth_exponent[at], law.regularisation[at]
                     )
-                now, largest, after = next_state(was, largest, before[loose], reach, uplift[step][loose], rates)
+                now, largest, after = suction.next_state(was, largest, before[loose], reach, uplift[step][loose], rates)
                 if counts:
-                    completed[loose] = was & (after == BROKEN)
-                (pulls,) = (after == SUCTION).nonzero()
+                    completed[loose] = was & (after == suction.BROKEN)
+                (pulls,) = (after == suction.SUCTION).nonzero()
                 if pulls.size:
                     held = loose[pulls]
                     pulled.append((np.full(len(held), step), held, reach[pulls], factor[held]))
@@ -398,13 +395,13 @@ class Elements:
                 after_armed[loose], after_max[loose], states[loose] = now, largest, after
                 after_depth[loose] = np.where(after > 0, reach, least[loose])
             if counts and completed.any():
-                cycled = after_cycle(factor, law.factor_per_cycle, np.nan_to_num(law.cyclic_floor))
+                cycled = suction.after_cycle(factor, law.factor_per_cycle, np.nan_to_num(law.cyclic_floor))
                 factor = np.where(completed, cycled, factor)
             armed, v_max, depth = after_armed, after_max, after_depth
         history.armed[rows], history.v_max[rows], history.factor[rows] = armed, v_max, factor
         history.depth[rows], history.state[rows] = depth, states
-        if not pulled:
-            return every, None
+        if len(pulled) < 2:
+            return every, pulled[0] if pulled else None
         steps, columns, reaches, factors = (np.concatenate(parts) for parts in zip(*pulled, strict=True))
         return every, (steps, columns, reaches, factors)
 
@@ -429,10 +426,8 @@ class Elements:
         work: Work,
     ) -> None:
         """Write the forces of lateral springs; their touchdown points go from step to step."""
-        from mudline.contact.laws.linear import lateral_force  # noqa: PLC0415 - only now is it needed
-
         plane = vectors.PLANES[len(along)]
-        normal = mean_normal(self._tables, np.arange(self.begin, self.end)[some.at], part.normal)
+        normal = mean_normal(self._tables, some.elements, part.normal)
         across = plane.across(in_plane(tuple(taken(axis, some.at) for axis in along), normal), normal)
         touches = taken(contact, some.at)
         one, other = self._ends(work)
@@ -444,7 +439,7 @@ class Elements:
             held[:, step] = kept = np.where(new, middle[:, step], kept)
         touchdown[some.rows] = np.where(down, kept, np.nan).T
         first = 3 - len(along)
-        force = lateral_force(some.columns[0], plane.dot(across, middle[first:] - held[first:]))
+        force = law_module("linear").lateral_force(some.columns[0], plane.dot(across, middle[first:] - held[first:]))
         force = np.where(touches, force, 0.0)
         for target, axis in zip(work.lateral, across, strict=True):
-            target[:, self._inner][:, some.at] = axis * force
+            put_at(target[:, self._inner], some.at, axis * force)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -79,9 +79,34 @@ class ContactState:
             None if self.paths is None else self.paths.copy(),
         )
 
+    def blank(self, spare: ContactState | None) -> ContactState:
+        """Return a state to be written, with what every step writes for each element and node not filled in.
+
+        Arrays of `spare` are taken, if there is one.
+        """
+        spare = spare or ContactState()
+        touchdown = spare.touchdown
+        if touchdown is None and self.touchdown is not None:
+            touchdown = np.empty(self.touchdown.shape, order="F")
+        return ContactState(
+            self.positions,
+            self.laid,
+            spare.unloading or (self.unloading and _blank(self.unloading, "C")),
+            spare.suction or (self.suction and _blank(self.suction, "C")),
+            spare.friction or (self.friction and _blank(self.friction, "F")),
+            touchdown,
+            None if self.breakout is None else self.breakout.copy(),
+            None if self.paths is None else self.paths.copy(),
+        )
+
 
 def _copied(part: Part) -> Part:
     return type(part)(*(getattr(part, name).copy(order="K") for name in part.__dataclass_fields__))
+
+
+def _blank(part: Part, order: Literal["C", "F"]) -> Part:
+    given = (getattr(part, name) for name in part.__dataclass_fields__)
+    return type(part)(*(np.empty(each.shape, each.dtype, order) for each in given))
 
 
 class Batch(NamedTuple):
@@ -110,11 +135,6 @@ class NormalRows(NamedTuple):
     columns: tuple[FloatArray, ...]
     curve: int = -1
     path: int = -1
-
-    @property
-    def remembered(self) -> IndexArray:
-        """Places (k,) in what elements on a path remember; -1 for a law without."""
-        return np.arange(len(self.rows)) + self.path if self.path >= 0 else np.full(len(self.rows), -1)
 
     @property
     def reaction(self) -> Reaction:

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, SmallIndexArray, StateArray
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, SmallIndexArray, StateArray, put_at
 from mudline.contact.input import AssignedLaw, ContactInput, ElementError
 from mudline.contact.laws.trench import (
     LEVEL,
@@ -183,15 +183,15 @@ class _Pieces(NamedTuple):
 class Beside(NamedTuple):
     """The two pieces beside each of some nodes (k,), their elements, and the shares at the ends away from the node.
 
-    These are NaN where there is nothing beyond. `straight` marks nodes with a straight centreline, `alone` those
+    These are NaN where there is nothing beyond. `straight` are the nodes with a straight centreline, `alone` those
     without any piece.
     """
 
     pieces: tuple[_Pieces, _Pieces]
     elements: tuple[IndexArray, IndexArray]
     far: tuple[FloatArray, FloatArray]
-    straight: BoolArray
-    alone: BoolArray
+    straight: IndexArray
+    alone: IndexArray
 
 
 class Away(NamedTuple):
@@ -225,8 +225,8 @@ class LaidCentreline:
         with np.errstate(all="ignore"):
             square = span[0] * span[0] + span[1] * span[1] + span[2] * span[2]
             inverse = np.where(square > LEAST_SQUARE, 1.0 / square, 0.0)
-        self.pieces = np.pad(np.concatenate([start, span, inverse[None]]), ((0, 0), (0, 1)))
-        self.start, self.span, self.inverse = self.pieces[:3], self.pieces[3:6], self.pieces[6]
+        pieces = np.pad(np.concatenate([start, span, inverse[None]]), ((0, 0), (0, 1)))
+        self.start, self.span, self.inverse = pieces[:3], pieces[3:6], pieces[6]
         self._kept: dict[int, Beside] = {}
 
     def beside(self, key: int, trench: TrenchRows) -> Beside:
@@ -247,7 +247,8 @@ class LaidCentreline:
             piece, end = self._piece(element), np.where(self.ends[element, 1] == nodes, 0.0, 1.0)
             far.append(np.where(straight | alone, np.nan, end))
             pieces.append(_with_lines(piece, lines, straight) if straight.any() else piece)
-        return Beside((pieces[0], pieces[1]), (one, other), (far[0], far[1]), straight, alone)
+        rows = np.flatnonzero(straight), np.flatnonzero(alone)
+        return Beside((pieces[0], pieces[1]), (one, other), (far[0], far[1]), *rows)
 
     def _piece(self, at: IndexArray) -> _Pieces:
         return _Pieces(self.start.take(at, axis=1)[:, None], self.span.take(at, axis=1)[:, None], self.inverse[at])
@@ -263,9 +264,9 @@ class LaidCentreline:
         ends = share == np.where(nearer, beside.far[1], beside.far[0])
         if ends.any():
             self._walk(points, (share, away, np.where(nearer, distance, square), element), np.flatnonzero(ends))
-        if beside.straight.any():
-            away[0][:, beside.straight] = 0.0  # at the point's own elevation
-        if beside.alone.any():
+        if beside.straight.size:  # at the point's own elevation
+            put_at(away[0], beside.straight, 0.0)
+        if beside.alone.size:
             away[..., beside.alone] = 0.0
         return Away(away, element, share)
 
@@ -426,7 +427,7 @@ def _offset_gradient(
     """Derivative (k, 3) of the offset along u2 by the position of a node: nothing along the piece it is beside."""
     along = np.zeros(lateral.shape)
     share, element = where.share[0], where.element[0]
-    inside = np.flatnonzero(~beside.straight & (share > 0.0) & (share < 1.0) & (element >= 0))
+    inside = np.flatnonzero((rows.line < 0) & (share > 0.0) & (share < 1.0) & (element >= 0))
     if inside.size:
         span = line.span[:, element[inside]].T
         along[inside] = span * np.sqrt(line.inverse[element[inside]])[:, None]

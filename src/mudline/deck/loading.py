@@ -8,10 +8,12 @@ from types import ModuleType
 from typing import cast
 
 from mudline.deck import forms
+from mudline.deck.faults import refusal
 from mudline.deck.forms import KEYWORD, form_of
 from mudline.deck.model import Deck
 from mudline.deck.reading import read_source
 from mudline.keywords.reader import BlockReader, read_block
+from mudline.limits import LARGEST_FILE
 from mudline.syntax.source import Source
 
 
@@ -40,6 +42,8 @@ def load_bytes(
         del data  # where nobody else has it, its memory is free for the tables
         deck = read_source(source, units=units, read=read)
     else:
+        if len(data) > LARGEST_FILE:
+            raise refusal(name, f"more than {LARGEST_FILE} bytes: is this a deck? Write a large one as keyword text")
         deck = cast("Deck", _form(form).read(data, name))
         deck.units = units or deck.units
     deck.folder = folder

@@ -82,10 +82,11 @@ class Places:
             return run
         start = starts[row - first]
         stop = self.text.find("\n", start, run.end)
-        fields = row_fields(self.text, Span(start, run.end if stop < 0 else stop), MOST_COLUMNS)
+        line = Span(start, run.end if stop < 0 else stop)
+        fields = row_fields(self.text, line, MOST_COLUMNS)
         if len(inner) > 1 and 0 <= int(inner[1]) < len(fields):
             return fields[int(inner[1])].span
-        return Span(fields[0].span.start, fields[-1].span.end)
+        return Span(fields[0].span.start, fields[-1].span.end) if fields else line
 
     def _starts(self, run: Span) -> array[int]:
         """Where the rows of a run begin, found once."""

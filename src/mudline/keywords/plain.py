@@ -18,7 +18,7 @@ from mudline.keywords.grammar import ROW, SMALL, Tree, fitting, records_of, term
 from mudline.keywords.making import can_be_made, make
 from mudline.keywords.model import AS_TEXT, Block, FieldSpec, ListRow, Part, Record, columns_of, record_schema
 from mudline.keywords.table import LARGEST_WHOLE, Column, from_numbers, from_rows
-from mudline.keywords.text import UnreadableError, Value, read_value
+from mudline.keywords.text import MIXED_FIELDS, UnreadableError, Value, read_value
 from mudline.keywords.values import Equation, Kind
 from mudline.limits import LONGEST_TABLE
 from mudline.syntax.fields import Field, canonical_key
@@ -40,8 +40,6 @@ _NUMBERS = re.compile(rf"(?:[ \t]*+{_NUMBER}[ \t]*+(?:,[ \t]*+{_NUMBER}[ \t]*+)*
 """Rows of numbers that are separated by commas: those of most tables."""
 _SHORT_TABLE = 1600
 """Characters of such rows: longer ones are read sooner with arrays."""
-_MIXED_FIELDS = 4
-"""Fields of a row in which two commas can be decimal ones and another one is not."""
 
 Values = dict[str, Any]
 _Reading = Callable[[Values, str, object], None]
@@ -285,7 +283,7 @@ def _counted(row: type[Part], fields: str) -> Iterator[tuple[str, FieldSpec]]:
     words = _words(fields)
     if not schema.fewest <= len(words) <= len(schema.columns):
         raise _OddError
-    if len(words) >= _MIXED_FIELDS and (" " in fields or "\t" in fields) and _TIGHT_COMMA.search(fields):
+    if len(words) >= MIXED_FIELDS and (" " in fields or "\t" in fields) and _TIGHT_COMMA.search(fields):
         raise _OddError  # some of the commas may be decimal ones
     return zip(words, schema.columns, strict=False)
 

@@ -25,6 +25,8 @@ from mudline.syntax.rows import read_number, read_rows, row_fields, row_starts, 
 
 Value = float | int | str | None
 _REAL = (Kind.REAL, Kind.REAL_OR_NAME)
+MIXED_FIELDS = 4
+"""Fields of a row in which a comma can be a decimal one beside others that are not: with fewer nobody can tell."""
 _WHOLE = re.compile(r"[-+]?[0-9]+")
 _FRACTION = re.compile(r"[0-9]+(?:[eEdD][-+]?[0-9]+)?")
 
@@ -185,7 +187,7 @@ def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> 
     point; two of them where real numbers belong are decimal commas.
     """
     tight = [one.span.end + 1 == two.span.start for one, two in pairwise(values)]
-    if not any(tight) or all(tight):
+    if len(values) < MIXED_FIELDS or not any(tight) or all(tight):
         return None
     pairs = [at for at, joined in enumerate(tight) if joined]
     alone = all(later - at > 1 for at, later in pairwise(pairs))

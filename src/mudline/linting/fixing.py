@@ -149,7 +149,8 @@ class _Run:
     def note(self) -> str:
         """What could not be fixed, or ""."""
         if self.stopped:
-            return f"fixing was stopped after {MOST_PASSES} passes: run it again to see what is left"
+            end = f"{MOST_PASSES} passes" if self.tries > 0 else f"{MOST_TRIES} tries"
+            return f"fixing was stopped after {end}: run it again to see what is left"
         count = len(self.refused)
         if not count:
             return ""

@@ -161,12 +161,13 @@ class Suppressions:
 
     def _removing(self, directive: Directive, number: int, applicability: str) -> Repair:
         """Without a word and the separator beside it, or without the comment when nothing else is named."""
-        words = [word.span for word in directive.words]
+        words = directive.words
         if len(words) <= 1:
             return Repair(applicability, "remove the comment", ((directive.leaf, ""),))
+        own = words[number].span
         last = number == len(words) - 1
-        span = Span(words[number - 1].end, words[number].end) if last else Span(words[number][0], words[number + 1][0])
-        return Repair(applicability, f"remove {directive.words[number].text}", ((span, ""),))
+        span = Span(words[number - 1].span.end, own.end) if last else Span(own.start, words[number + 1].span.start)
+        return Repair(applicability, f"remove {words[number].text}", ((span, ""),))
 
 
 def _place(directive: Directive) -> str:
@@ -251,8 +252,9 @@ def _directive(text: str, leaf: Span, where: Where, found: Suppressions) -> Dire
         return None
     end = leaf.start + len(text[slice(*leaf)].rstrip())
     reason = _REASON.search(text[order.end() : end])
-    names = _WORD.finditer(text, order.end(), order.end() + reason.start() if reason else end)
-    words = [_word(match) for match in names]
+    names = list(_WORD.finditer(text, order.end(), order.end() + reason.start() if reason else end))
+    codes = {word: frozenset(rule.code.code for rule in find(word)) for word in {one.group() for one in names}}
+    words = [Word(one.group(), Span(*one.span()), codes[one.group()]) for one in names]
     directive = Directive(name, leaf, Span(leaf.start, end), words, where)
     directive.reason = text[order.end() + reason.end() : end].strip() if reason else ""
     if name == "ignore-file":
@@ -261,10 +263,6 @@ def _directive(text: str, leaf: Span, where: Where, found: Suppressions) -> Dire
         directive.scope = where
     found.directives.append(directive)
     return directive
-
-
-def _word(match: re.Match[str]) -> Word:
-    return Word(match.group(), Span(*match.span()), frozenset(rule.code.code for rule in find(match.group())))
 
 
 def _names() -> Iterator[str]:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from lsprotocol import types
+from pygls.exceptions import JsonRpcException
 from pygls.lsp.server import LanguageServer
 from pygls.protocol import LanguageServerProtocol, lsp_method
 
@@ -214,8 +215,10 @@ class DeckServer(LanguageServer):
         super().shutdown()  # type: ignore[no-untyped-call]
 
     def _unexpected(self, _: object, context: dict[str, Any]) -> None:
-        """Report a fault of the server itself, which goes on."""
+        """Report a fault of the server itself, which goes on; an answer that could not be sent is none."""
         error = context.get("exception")
+        if isinstance(error, JsonRpcException):
+            return
         detail = f"{type(error).__name__}: {error}" if error else context.get("message", "")
         message = f"{str(detail)[:500]}: please report this fault of mudline"
         self.window_log_message(types.LogMessageParams(types.MessageType.Error, message))

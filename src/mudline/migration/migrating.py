@@ -272,7 +272,7 @@ _PLAIN = np.array([-1.0, -1e-9, 0.0, 5e-324, 1e-9, 1e-3, 0.1, 1.0, 37.5, 1e6])
 
 
 def _depths(inputs: Sequence[ContactInput]) -> Floats:
-    """Depths (steps, elements) for inputs with the same elements, in their unit of length.
+    """Depths (steps, elements) for inputs with the same elements, one or more, in their unit of length.
 
     For an element with a curve: every point of its curves and the floats beside it, three places within each segment,
     and places far beyond both ends; for every element the seabed itself, just above and below it, and some depths.
@@ -285,10 +285,8 @@ def _depths(inputs: Sequence[ContactInput]) -> Floats:
             found = [_ratios(given.curves[index]) for given, index in zip(inputs, indices, strict=True) if index >= 0]
             curves[indices] = np.unique(np.concatenate(found)) if found else np.zeros(0)
         columns.append(np.concatenate([_PLAIN, curves[indices] * diameter]))
-    steps = max((len(column) for column in columns), default=0)
-    return np.column_stack(
-        [np.pad(column, (0, steps - len(column)), mode="edge") for column in columns] or [_PLAIN[:0]]
-    )
+    steps = max(map(len, columns))
+    return np.column_stack([np.pad(column, (0, steps - len(column)), mode="edge") for column in columns])
 
 
 def _ratios(curve: ForceCurve) -> Floats:

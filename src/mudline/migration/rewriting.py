@@ -116,8 +116,7 @@ class _Rewriter:
     def _rows(self, where: Where) -> list[Span]:
         """The lines of a block without comments and blank lines, and without the blanks at their ends."""
         leaves = (leaf for leaf in self._raw(where).leaves if leaf.kind is not Kind.COMMENT)
-        rows = (trimmed(self.text, *line) for leaf in leaves for line in line_spans(self.text, leaf.span))
-        return [row for row in rows if row.start < row.end]
+        return [trimmed(self.text, *line) for leaf in leaves for line in line_spans(self.text, leaf.span)]
 
     def _leave_out(self, where: Where, index: int) -> None:
         """Make comments of the lines of a curve that no element follows."""

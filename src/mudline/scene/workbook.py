@@ -14,6 +14,7 @@ from typing import Any, BinaryIO, NamedTuple
 from xml.etree.ElementTree import ParseError
 
 from mudline.diagnostics import DeckError
+from mudline.limits import LARGEST_FILE
 from mudline.scene.csv_file import SEPARATORS, csv_rows, data_error
 from mudline.short_repr import cut
 from mudline.syntax.source import Source
@@ -47,6 +48,10 @@ def opened_workbook(stream: BinaryIO, file: str, *, formulas: bool = False) -> I
     from openpyxl.utils.exceptions import InvalidFileException  # noqa: PLC0415 - as above
 
     try:
+        with zipfile.ZipFile(stream) as archive:
+            unpacked = sum(part.file_size for part in archive.infolist())
+        if unpacked > LARGEST_FILE:
+            raise data_error(file, f"unpacks to more than {LARGEST_FILE} bytes: export the sheet as CSV")
         book = load_workbook(stream, read_only=True, data_only=not formulas)
         yield book
     except DeckError:

@@ -10,6 +10,7 @@ from functools import cached_property
 
 from mudline.codes.lines import SYN012
 from mudline.diagnostics import Problem, Severity, Span
+from mudline.limits import LARGEST_DECK, LONGEST_LINE, MOST_LINES, MOST_WORDED
 from mudline.short_repr import short_repr
 
 _BOM = b"\xef\xbb\xbf"
@@ -142,6 +143,7 @@ def _heads_found(text: str) -> str:
     return "".join((*pieces, text[done:])) if pieces else text
 
 
+_OF_NUMBERS = b"+-.,0123456789eEdD \t"
 _STRANGE = bytes({*range(9), 11, *range(14, 26), *range(27, 32), 127})
 """Control characters that no text has many of."""
 
@@ -155,7 +157,25 @@ def _refusal(body: bytes) -> str:
     if strange > max(_BINARY_SHARE * len(sample), _FEW):
         share = f"{strange} control characters in its first {len(sample)} bytes"
         return f"{BINARY} ({share}): choose the keyword file, or save it as text"
-    return ""
+    return _excess(body) if len(body) > MOST_WORDED else ""
+
+
+def _excess(body: bytes) -> str:
+    """Which limit these bytes exceed: the memory of a deck grows with its lines, most with those of words."""
+    found = ""
+    lines = body.count(b"\n") + body.count(b"\r")
+    if len(body) > LARGEST_DECK:
+        found = f"{LARGEST_DECK} bytes"
+    elif lines > MOST_LINES:
+        found = f"{MOST_LINES} lines"
+    elif lines > MOST_WORDED and len(body.translate(None, _OF_NUMBERS).split()) > MOST_WORDED:
+        found = f"{MOST_WORDED} lines of keywords, settings and other words"
+    else:
+        starts = range(0, len(body) - LONGEST_LINE + 1, LONGEST_LINE)
+        ends = (body.find(b"\n", at, at + LONGEST_LINE) + body.find(b"\r", at, at + LONGEST_LINE) for at in starts)
+        if -2 in ends:
+            found = f"{LONGEST_LINE} bytes on one line"
+    return found and f"more than {found}: is this a deck? If so, divide it, as by *RESTART"
 
 
 def _looks_like_utf16(sample: bytes) -> bool:

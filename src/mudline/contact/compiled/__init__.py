@@ -36,6 +36,10 @@ ACTIVE, ELLIPTIC, NODE_KIND, BREAKS_OUT, NODE_INDICES = range(5)
 INNER, OUTER, STEEPNESS, AMOUNT, TRENCH_NUMBERS = range(5)
 TRENCH_KIND, TABLE_START, TABLE_END, CENTRELINE, TRENCH_INDICES = range(5)
 
+NOTHING = 2**32 - 1
+"""In tables of indices: there is none. These are unsigned, as are all indices of the loops, or each look into an array
+would first ask whether it counts from the end."""
+
 NO_LAW, ON_CURVE, FIRST_LAW = 0, 1, 2
 """Kinds of normal laws of elements; those with an equation are numbered from the last on."""
 
@@ -54,6 +58,7 @@ class Features(NamedTuple):
     nodal_damping: bool
     suction: bool
     slides: bool
+    turns: bool
     lateral: bool
     nodal: bool
     friction: bool
@@ -80,6 +85,7 @@ def features_of(tables: Tables, *, flat: bool) -> Features:
         nodal_damping=tables.nodal_damping is not None,
         suction=suction is not None,
         slides=friction is not None or tables.lateral is not None,
+        turns=tables.line.turns,
         lateral=tables.lateral is not None,
         nodal=bool(tables.nodal),
         friction=friction is not None,
@@ -109,14 +115,14 @@ def element_tables(tables: Tables) -> tuple[Any, Any, Any]:
     given, count = tables.given, len(tables.half)
     formulas = [rows for rows in tables.normal if rows.curve < 0]
     most = max((len(rows.columns) for rows in formulas), default=0)
-    index, numbers = np.full((count, INDICES), -1, np.int32), np.zeros((count, LAW + most))
+    index, numbers = np.full((count, INDICES), NOTHING, np.uint32), np.zeros((count, LAW + most))
     index[:, FIRST], index[:, SECOND] = tables.line.first, tables.line.second
     index[:, KIND] = NO_LAW
     numbers[:, DIAMETER] = given.diameter
     numbers[:, ONSET] = 0.0 if tables.onset is None else tables.onset
     for kind, rows in enumerate(formulas, FIRST_LAW):
         index[rows.rows, KIND] = kind
-        index[rows.rows, PATH] = rows.remembered
+        index[rows.rows, PATH] = np.arange(len(rows.rows)) + rows.path if rows.path >= 0 else NOTHING
         for column, values in enumerate(rows.columns, LAW):
             numbers[rows.rows, column] = values
     knots = [np.empty((4, 0))]
@@ -162,7 +168,7 @@ def node_tables(tables: Tables) -> tuple[Any, Any]:
     """Indices (n, c) and numbers (n, c) of the nodes."""
     count = len(tables.given.node_ids)
     most = max((len(rows.columns) for rows in tables.nodal), default=0)
-    index, numbers = np.full((count, NODE_INDICES), -1, np.int32), np.zeros((count, NODE_LAW + most))
+    index, numbers = np.full((count, NODE_INDICES), NOTHING, np.uint32), np.zeros((count, NODE_LAW + most))
     numbers[:, COSINE] = np.nan
     for kind, rows in enumerate(tables.nodal):
         index[rows.rows, NODE_KIND] = kind
@@ -190,25 +196,21 @@ def trench_tables(tables: Tables) -> tuple[Any, ...]:
     """Trenches of the nodes: where those of each node start, indices, numbers, straight lines, rows of all tables."""
     trench = tables.trench
     if trench is None:
-        return tuple(
-            read_only(array)
-            for array in (
-                np.zeros(0, np.int32), np.zeros((0, TRENCH_INDICES), np.int32),
-                np.empty((0, TRENCH_NUMBERS)), np.empty((0, 4)), np.empty((4, 0)),
-            )
-        )  # fmt: skip
+        none = (np.empty((0, TRENCH_NUMBERS)), np.empty((0, 4)), np.empty((4, 0)))
+        return between(np.zeros(1)), read_only(np.zeros((0, TRENCH_INDICES), np.uint32)), *map(read_only, none)
     from mudline.contact.laws.trench import table_rows  # noqa: PLC0415 - most friction has no trench
 
     rows = [np.stack(table_rows(table)) for table in tables.given.tables]
-    starts = np.append(0, np.cumsum([table.shape[1] for table in rows])).astype(np.int32)
-    index = np.full((len(trench.nodes), TRENCH_INDICES), -1, np.int32)
-    index[:, TRENCH_KIND], index[:, CENTRELINE] = trench.kind, trench.line
+    starts = np.append(0, np.cumsum([table.shape[1] for table in rows]))
+    index = np.full((len(trench.nodes), TRENCH_INDICES), NOTHING, np.uint32)
+    index[:, TRENCH_KIND] = trench.kind
+    index[:, CENTRELINE] = np.where(trench.line < 0, NOTHING, trench.line)
     tabled = trench.table >= 0
     index[tabled, TABLE_START] = starts[trench.table[tabled]]
     index[tabled, TABLE_END] = starts[trench.table[tabled] + 1]
     numbers = np.column_stack([trench.inner, trench.outer, trench.steepness, trench.amount])
     every = np.concatenate([np.empty((4, 0)), *rows], axis=1)
-    return tuple(read_only(array) for array in (trench.start.astype(np.int32), index, numbers, trench.lines, every))
+    return between(trench.start), *map(read_only, (index, numbers, trench.lines, every))
 
 
 def read_only(array: Any) -> Any:
@@ -218,9 +220,17 @@ def read_only(array: Any) -> Any:
     return view
 
 
-def by_component(array: Any) -> Any:
-    """The components (c, k) of rows (k, c), each in one piece of memory: one type to compile for, also for one row."""
-    return (array if array.flags.f_contiguous and array.flags.writeable else np.array(array, order="F")).T
+def plain(array: Any) -> Any:
+    """The array itself, or a copy of one that has gaps or may not be written: one type to compile for."""
+    return array if array.flags.c_contiguous and array.flags.writeable else np.array(array, order="C")
 
 
-NO_LINE = (read_only(np.empty((7, 0))), (read_only(np.empty((0, 2), np.intp)), read_only(np.empty((0, 2), np.intp))))
+def between(start: Any) -> tuple[Any, Any]:
+    """Where the rows of each node begin, and behind which they end, of `start` (n + 1,)."""
+    return read_only(start[:-1].astype(np.uint32)), read_only(start[1:].astype(np.uint32))
+
+
+def beside(ends: Any, elements_at: Any) -> tuple[Any, Any]:
+    """The nodes of elements (m, 2) and the first two elements at each node (n, 2)."""
+    found = np.where(elements_at < 0, NOTHING, elements_at)
+    return read_only(ends.astype(np.uint32)), read_only(found.astype(np.uint32))

@@ -24,13 +24,14 @@ from mudline.contact import vectors
 from mudline.contact.arrays import FloatArray
 from mudline.contact.compiled import (
     LAW,
-    NO_LINE,
+    beside,
+    between,
     breakout_table,
-    by_component,
     element_tables,
     features_of,
     functions,
     node_tables,
+    plain,
     read_only,
     suction_table,
     trench_tables,
@@ -46,7 +47,7 @@ _BATCH = 2**20
 """Nodes times steps at a time, at most."""
 _RANGE = 1024
 """Elements or nodes in a range: what they read and write over a few steps stays in the second-level cache. Of a single
-step it is twice as many."""
+step it is eight times as many: a call of a loop costs as much as some fifty nodes."""
 _STEPS = 64
 _WORTH_THREADS = 60_000
 """Nodes times steps of a batch from which on several threads are worth their start."""
@@ -125,27 +126,30 @@ class CompiledDriver:
         given_damping = tables.damping, tables.nodal_damping
         self._damping = [read_only(np.empty(0) if each is None else each) for each in given_damping]
         line = tables.line
-        self._line = tuple(
-            read_only(array) for array in (line.start.astype(np.int32), line.elements, line.senses, tables.half)
-        )
+        of_line = line.elements.astype(np.uint32), line.senses, tables.half
+        self._line = between(line.start), *map(read_only, of_line)
+        ends, elements_at = (line.ends, line.beside) if has.trench else (np.empty((0, 2)), np.empty((0, 2)))
+        self._beside = beside(ends, elements_at)
         self.steps = max(1, min(_BATCH // max(self._nodes, 1), _STEPS))
         """How many steps at a time are fastest."""
-        width = _RANGE if self.steps > 1 else 2 * _RANGE
+        width = _RANGE if self.steps > 1 else 8 * _RANGE
         self._sequence = _tasks(tables, range(len(range(0, self._elements, width))), width)
         self._groups = _groups(tables, self._threads, self._sequence, width)
         self.broken = False
         """Whether a law turned out not to compile."""
 
-    def run(self, batch: Batch, part: ContactResult, state: ContactState) -> ContactState | None:
+    def run(
+        self, batch: Batch, part: ContactResult, state: ContactState, spare: ContactState | None
+    ) -> ContactState | None:
         """Write a batch to `part`, but for gaps and normals, which are there; return the state behind it.
 
-        None: something is not finite, and the numpy driver has to say what.
+        `spare` is one that may be written. None: something is not finite, and the numpy driver has to say what.
         """
         speed = batch.speed
         if speed is not None and not (np.isfinite(speed.sum()) or (np.isfinite(speed) | np.isnan(part.gap)).all()):
             return None
-        after = state.copied()
-        job = self._job(batch, part, after)
+        after = state.blank(spare)
+        job = self._job(batch, part, state, after)
         try:
             wrong = self._run(batch, job)
         except (numba.core.errors.NumbaError, numba.core.errors.UnsupportedBytecodeError) as error:
@@ -169,9 +173,9 @@ class CompiledDriver:
     def _run_tasks(self, tasks: list[_Task], job: _Job) -> int:
         """Write ranges of elements and of nodes in this order; return how many values are not finite."""
         loops = self._element_loop, self._node_loop
-        return sum(loops[nodes](begin, end, *job[nodes]) for nodes, begin, end in tasks)
+        return sum(loops[nodes](np.uint64(begin), np.uint64(end), *job[nodes]) for nodes, begin, end in tasks)
 
-    def _job(self, batch: Batch, part: ContactResult, after: ContactState) -> _Job:
+    def _job(self, batch: Batch, part: ContactResult, state: ContactState, after: ContactState) -> _Job:
         steps, has = len(batch.points), self._has
         components = 2 if has.flat else 3
         shape = (steps, self._elements, components)
@@ -180,19 +184,8 @@ class CompiledDriver:
             np.empty(shape) if has.lateral else np.empty((0, 0, components)),
         )
         none = np.zeros((0, 0), np.int8)
-        lines, pulls, slides = after.unloading, after.suction, after.friction
-        states = (
-            np.empty((4, 0)) if lines is None else lines.numbers,
-            np.zeros((2, 0), np.int8) if pulls is None else pulls.flags,
-            np.empty((3, 0)) if pulls is None else pulls.numbers,
-            by_component(np.empty((0, 3)) if after.touchdown is None else after.touchdown),
-            np.empty((0, 0)) if after.paths is None else after.paths,
-        )
-        sticks = (
-            by_component(np.empty((0, 3)) if slides is None else slides.stick_points),
-            by_component(np.zeros((0, 2), np.int8) if slides is None else slides.states),
-            np.empty((5, 0)) if after.breakout is None else after.breakout,
-        )
+        paths = np.empty((0, 0)) if after.paths is None else after.paths
+        moved = np.empty((5, 0)) if after.breakout is None else after.breakout
         extra = (
             part.cut if part.cut.flags.writeable else none > 0,
             none if part.state is None else part.state,
@@ -207,20 +200,39 @@ class CompiledDriver:
         written = part.depth, part.ratio, part.contact, part.force, part.slope, part.stiffness
         elements = (
             self._index, self._numbers, self._pulls, points, part.gap, speed, normals, self._knots, self._damping[0],
-            states, written, extra, work,
+            _of_elements(state), (*_of_elements(after), paths), written, extra, work,
         )  # fmt: skip
         nodes = (
             *self._line, self._node_index, self._node_numbers, points, part.gap, normals, part.force, speed,
-            self._damping[1], work, (*self._trenches, *self._laid_tables(batch.laid)),
-            (self._breaks, part.ratio), sticks, (part.normal_force, part.reaction), slips,
+            self._damping[1], work, (*self._trenches, *self._laid_tables(batch.laid, part)),
+            (self._breaks, part.ratio), _of_nodes(state), (*_of_nodes(after), moved),
+            (part.normal_force, part.reaction), slips,
         )  # fmt: skip
         return elements, nodes
 
-    def _laid_tables(self, laid: FloatArray) -> tuple[Any, ...]:
-        if self._tables.trench is None:
-            return NO_LINE
-        line = self._tables.laid_line(laid)
-        return read_only(line.pieces), (read_only(line.ends), read_only(line.elements_at))
+    def _laid_tables(self, laid: FloatArray, part: ContactResult) -> tuple[Any, ...]:
+        if self._tables.trench is None or part.present.all():
+            return read_only(laid), self._beside
+        line = self._tables.laid_line(laid)  # without the elements that have a node without a position
+        return read_only(laid), beside(line.ends, line.elements_at)
+
+
+def _of_elements(state: ContactState) -> tuple[Any, ...]:
+    """What elements remember, but for paths: of unloading, suction and lateral springs."""
+    lines, pulls = state.unloading, state.suction
+    return (
+        np.empty((4, 0)) if lines is None else plain(lines.numbers),
+        np.zeros((2, 0), np.int8) if pulls is None else plain(pulls.flags),
+        np.empty((3, 0)) if pulls is None else plain(pulls.numbers),
+        np.empty((3, 0)) if state.touchdown is None else plain(state.touchdown.T),
+    )
+
+
+def _of_nodes(state: ContactState) -> tuple[Any, ...]:
+    """What nodes remember of friction."""
+    if state.friction is None:
+        return np.empty((3, 0)), np.zeros((2, 0), np.int8)
+    return plain(state.friction.stick_points.T), plain(state.friction.states.T)
 
 
 def _tasks(tables: Tables, held: range, width: int) -> list[_Task]:

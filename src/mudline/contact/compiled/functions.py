@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from mudline.contact import vectors
-from mudline.contact.compiled import FLOOR, LEAST_DEPTH, PER_CYCLE
+from mudline.contact.compiled import FLOOR, LEAST_DEPTH, NOTHING, PER_CYCLE
 from mudline.contact.laws import MODULES, NormalLaw, PathLaw
 from mudline.contact.laws.friction import in_box, in_ellipse
 from mudline.contact.laws.suction import (
@@ -33,7 +33,11 @@ Wrap = Callable[[Any], Any]
 """Makes a function one that loops can call, and returns it."""
 Array = Any
 """An array; the loops are typed when they are compiled."""
+Index = Any
+"""An unsigned index."""
 Point = tuple[float, float, float]
+ONE = np.uint64(1)
+"""With a signed 1, sums of indices would become floats."""
 
 
 def functions_of(law: NormalLaw) -> tuple[Callable[..., Any] | None, ...]:
@@ -165,14 +169,15 @@ def followed(wrap: Wrap, laws: tuple[tuple[PathLaw | None, int], ...], first: in
     return wrap(follow)  # type: ignore[no-any-return]
 
 
-def last_at_or_below(points: Array, begin: int, end: int, value: float) -> int:
+def last_at_or_below(points: Array, begin: Index, end: Index, value: float) -> Index:
     """Return the last of ascending points begin <= i < end that lies at or below a value; the first if none does."""
-    count = end - begin - 1
-    while count > 0:
-        half = (count + 1) // 2
-        begin += half * (value >= points[begin + half])  # no branch: which way it goes cannot be guessed
-        count -= half
-    return begin
+    at: Index = np.uint64(begin)
+    left = np.uint64(end) - at
+    while left > ONE:
+        half = left >> ONE
+        at += half * np.uint64(value >= points[at + half])  # no branch: which way it goes cannot be guessed
+        left -= half
+    return at
 
 
 def unit_of_span(dx: float, dy: float, dz: float) -> tuple[float, float, float]:
@@ -264,28 +269,32 @@ def mean_normal(normals: Array, step: int, one: int, other: int) -> tuple[float,
     return x / size, y / size, z / size
 
 
-def on_piece(laid: Array, element: int, point: Point) -> tuple[float, float, float, float, float]:
-    """Return the share of the nearest point of a piece as laid, the vector from there, and its square."""
-    x, y, z = point[0] - laid[0, element], point[1] - laid[1, element], point[2] - laid[2, element]
-    span = (laid[3, element], laid[4, element], laid[5, element])
-    share = np.minimum(np.maximum(share_of_piece((x, y, z), span, laid[6, element]), 0.0), 1.0)
+def on_piece(laid: Array, ends: Array, element: Index, point: Point) -> tuple[float, float, float, float, float]:
+    """Return the share of the nearest point of an element as laid, the vector from there, and its square."""
+    a, b = ends[element, 0], ends[element, 1]
+    x, y, z = laid[a, 0], laid[a, 1], laid[a, 2]
+    span = (laid[b, 0] - x, laid[b, 1] - y, laid[b, 2] - z)
+    square = vectors.dot_3(span, span)
+    inverse = 1.0 / square if square > vectors.LEAST_SQUARE else 0.0
+    x, y, z = point[0] - x, point[1] - y, point[2] - z
+    share = np.minimum(np.maximum(share_of_piece((x, y, z), span, inverse), 0.0), 1.0)
     x, y, z = x - share * span[0], y - share * span[1], z - share * span[2]
     return share, x, y, z, x * x + y * y + z * z
 
 
-def from_laid(laid: Array, beside: Array, node: int, point: Point) -> Point:
-    """Return the vector from the nearest point of the line as laid, sought from the node's own place.
+def from_laid(laid: Array, beside: Array, node: Index, point: Point) -> Point:
+    """Return the vector from the nearest point of the line as `laid` (n, 3), sought from the node's own place.
 
-    `beside` has the first two elements at each node, then the nodes of each element.
+    `beside` has the nodes of each element, then the first two elements at each node.
     """
     ends, elements_at = beside
     current = elements_at[node, 0]
-    if current < 0:
+    if current == NOTHING:
         return 0.0, 0.0, 0.0
-    share, x, y, z, square = on_piece(laid, current, point)
+    share, x, y, z, square = on_piece(laid, ends, current, point)
     following = elements_at[node, 1]
-    if following >= 0:
-        second = on_piece(laid, following, point)
+    if following != NOTHING:
+        second = on_piece(laid, ends, following, point)
         if second[4] < square:
             current, share, x, y, z, square = following, second[0], second[1], second[2], second[3], second[4]
     walks = share == (0.0 if ends[current, 1] == node else 1.0) and square > 0.0
@@ -293,20 +302,21 @@ def from_laid(laid: Array, beside: Array, node: int, point: Point) -> Point:
         at = ends[current, 0] if share <= 0.0 else ends[current, 1]
         following = elements_at[at, 1] if elements_at[at, 0] == current else elements_at[at, 0]
         walks = False
-        if following >= 0:
-            second = on_piece(laid, following, point)
+        if following != NOTHING:
+            second = on_piece(laid, ends, following, point)
             if second[4] < square:
                 current, share, x, y, z, square = following, second[0], second[1], second[2], second[3], second[4]
                 walks = share <= 0.0 or share >= 1.0
     return x, y, z
 
 
-def table_resistance(rows: Array, begin: int, end: int, distance: float) -> float:
+def table_resistance(rows: Array, begin: Index, end: Index, distance: float) -> float:
     """Return the resistance per unit length of the rows begin to end of tables at a distance."""
-    row = last_at_or_below(rows[0], begin, end - 1, distance)
-    if distance > rows[0, end - 1]:
-        row = end - 1
-    held = np.minimum(np.maximum(distance, rows[0, begin]), rows[0, end - 1])
+    last = np.uint64(end) - ONE
+    row = last_at_or_below(rows[0], begin, last, distance)
+    if distance > rows[0, last]:
+        row = last
+    held = np.minimum(np.maximum(distance, rows[0, begin]), rows[0, last])
     value: float = in_table(held, rows[0, row], rows[1, row], rows[2, row], rows[3, row])
     return value
 

@@ -10,9 +10,11 @@ import numpy as np
 
 from mudline.contact import compiled as col
 from mudline.contact import vectors
-from mudline.contact.compiled import FIRST_LAW, ON_CURVE, Features
+from mudline.contact.compiled import FIRST_LAW, NOTHING, ON_CURVE, Features
 from mudline.contact.compiled.functions import (
+    ONE,
     Array,
+    Index,
     Loop,
     Numbers,
     Point,
@@ -60,17 +62,21 @@ def elements_loop(
     normal_law, follow, follows = one_of(wrap, laws, col.LAW), followed(wrap, paths, col.LAW), has.paths
 
     def loop(
-        begin: int, end: int, index: Array, table: Array, pulls: Array, points: Array, gap: Array, speed: Array,
-        normals: Array, knots: Array, damping: Array, states: Array, out: Array, extra: Array, work: Array,
+        begin: Index, end: Index, index: Array, table: Array, pulls: Array, points: Array, gap: Array, speed: Array,
+        normals: Array, knots: Array, damping: Array, before: Array, states: Array, out: Array, extra: Array,
+        work: Array,
     ) -> int:  # fmt: skip
         depth, ratio, contact, force, slope, stiffness = out
         cut, state, regularised = extra
         tangent, sideways = work
         lines, flags, numbers, touchdown, ways = states
+        past_lines, past_flags, past_numbers, places = before
         wrong = min(edition, 0)
-        for step in range(len(gap)):
+        for step in range(np.uint64(len(gap))):
+            if step > 0:
+                past_lines, past_flags, past_numbers, places = lines, flags, numbers, touchdown
             for e in range(begin, end):
-                a, b, kind = index[e, col.FIRST], index[e, col.SECOND], index[e, col.KIND]
+                a, b, kind = index[e, col.FIRST], index[e, col.SECOND], np.int64(index[e, col.KIND])
                 diameter, onset = table[e, col.DIAMETER], table[e, col.ONSET]
                 deep = 0.0 - (0.5 * gap[step, a] + 0.5 * gap[step, b])
                 share = deep / diameter
@@ -79,8 +85,8 @@ def elements_loop(
 
                 f = k = 0.0
                 s = 0.0 * diameter  # NaN without a diameter
-                segment = 0
-                if follows and index[e, col.PATH] >= 0:
+                segment: Index = np.uint64(0)
+                if follows and index[e, col.PATH] != NOTHING:
                     z = max(0.0, deep)  # of NaN 0
                     f, k = follow(kind - FIRST_LAW, z, diameter, table, e, ways, index[e, col.PATH])
                     f, k = (f, k) if touches else (0.0, 0.0)
@@ -100,15 +106,15 @@ def elements_loop(
                     wrong += unloading and not math.isfinite(f + k)
 
                 uplift, pressed = onset - deep, touches
-                if unloading and index[e, col.UNLOADS] >= 0:
+                if unloading and index[e, col.UNLOADS] != NOTHING:
                     u, z, steep = index[e, col.UNLOADS], max(0.0, deep), table[e, col.LINE]
                     if steepens and curves and kind == ON_CURVE and touches:
                         # at a point the segment to its right does not count yet
                         back = share == knots[0, segment] and segment > index[e, col.CURVE_START]
-                        steep = np.maximum(steep, knots[3, segment - 1 if back else segment] / diameter)
+                        steep = np.maximum(steep, knots[3, segment - ONE if back else segment] / diameter)
                     elif steepens and kind >= FIRST_LAW and touches:
                         steep = np.maximum(steep, steepest(kind - FIRST_LAW, z, diameter, table, e)[0])
-                    line: Numbers = (lines[0, u], lines[1, u], lines[2, u], lines[3, u])
+                    line: Numbers = (past_lines[0, u], past_lines[1, u], past_lines[2, u], past_lines[3, u])
                     if curves and cuts:
                         cut[step, e] &= z > line[0]
                     line, (f, s, k) = next_unloading(z, line, (f, s, k), diameter, steep)
@@ -122,9 +128,10 @@ def elements_loop(
                 if damps:
                     f = f + damping_force(deep, 0.5 * speed[step, a] + 0.5 * speed[step, b], damping[e])
 
-                if suction and index[e, col.PULLS] >= 0:
+                if suction and index[e, col.PULLS] != NOTHING:
                     held, v = index[e, col.PULLS], 0.5 * speed[step, a] + 0.5 * speed[step, b]
-                    was = (flags[0, held] > 0, flags[1, held], (numbers[0, held], numbers[1, held], numbers[2, held]))
+                    known = (past_numbers[0, held], past_numbers[1, held], past_numbers[2, held])
+                    was = (past_flags[0, held] > 0, past_flags[1, held], known)
                     now, g, h, slow = next_suction(was, uplift, pressed, v, suction_law(pulls, held))
                     if now[1] == SUCTION:
                         f, s, k = f + g, s + h * diameter, k + h
@@ -145,16 +152,18 @@ def elements_loop(
                     tangent[step, e, 0], tangent[step, e, 1] = unit[1], unit[2]
                 else:
                     tangent[step, e, 0], tangent[step, e, 1], tangent[step, e, 2] = unit
-                if lateral and index[e, col.SPRINGS_BACK] >= 0:
+                if lateral and index[e, col.SPRINGS_BACK] != NOTHING:
                     held = index[e, col.SPRINGS_BACK]
                     x, y, z = 0.5 * p[0] + 0.5 * q[0], 0.5 * p[1] + 0.5 * q[1], 0.5 * p[2] + 0.5 * q[2]
+                    place = (places[0, held], places[1, held], places[2, held])
                     if not touches:
-                        touchdown[0, held] = touchdown[1, held] = touchdown[2, held] = np.nan
-                    elif math.isnan(touchdown[0, held]):
-                        touchdown[0, held], touchdown[1, held], touchdown[2, held] = x, y, z
+                        place = (np.nan, np.nan, np.nan)
+                    elif math.isnan(place[0]):
+                        place = (x, y, z)
+                    touchdown[0, held], touchdown[1, held], touchdown[2, held] = place
                     n = (normals[0, 0, 0], normals[0, 0, 1], normals[0, 0, 2])
                     wanted: Numbers = unit[1:] if flat else unit
-                    x, y, z = x - touchdown[0, held], y - touchdown[1, held], z - touchdown[2, held]
+                    x, y, z = x - place[0], y - place[1], z - place[2]
                     arm: Numbers = (y, z) if flat else (x, y, z)
                     if not flat and normals.shape[1] > 1:
                         n = mean_normal(normals, step, a, b)
@@ -163,11 +172,13 @@ def elements_loop(
                         along = default(n)
                     across = cross(along, n)
                     push = lateral_force(table[e, col.LATERAL], dot(across, arm)) if touches else 0.0
-                    for axis in range(sideways.shape[2]):
-                        sideways[step, e, axis] = across[axis] * push
+                    sideways[step, e, 0], sideways[step, e, 1] = across[0] * push, across[1] * push
+                    if not flat:
+                        sideways[step, e, 2] = across[2] * push
                 elif lateral:
-                    for axis in range(sideways.shape[2]):
-                        sideways[step, e, axis] = 0.0
+                    sideways[step, e, 0] = sideways[step, e, 1] = 0.0
+                    if not flat:
+                        sideways[step, e, 2] = 0.0
         return wrong
 
     return loop
@@ -179,11 +190,11 @@ def _trench_limit(has: Features) -> Callable[..., Any]:
     dot = vectors.PLANES[2 if has.flat else 3].dot
 
     def walls(i: int, total: float, p: Point, across: Array, forward: bool, trenches: Array) -> float:  # noqa: FBT001
-        start, index, table, lines, rows, laid, beside = trenches
+        (first, behind), index, table, lines, rows, laid, beside = trenches
         added = 0.0
-        for at in range(start[i], start[i + 1]):
+        for at in range(first[i], behind[i]):
             line, kind, amount = index[at, col.CENTRELINE], index[at, col.TRENCH_KIND], table[at, col.AMOUNT]
-            x, y, z = from_laid(laid, beside, i, p) if line < 0 else from_straight(lines, line, p)
+            x, y, z = from_laid(laid, beside, i, p) if line == NOTHING else from_straight(lines, line, p)
             offset = dot(across, (y, z)) if flat else dot(across, (x, y, z))
             if (offset > 0.0) if forward else (offset < 0.0):
                 distance = np.abs(offset)
@@ -223,6 +234,7 @@ def _softened(has: Features) -> Callable[..., Any]:
 def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], int], ...], edition: int) -> Loop:
     """Make the loop over nodes: sums of element forces, nodal springs, friction, lateral springs and reactions."""
     friction, turned, lateral, nodal, slides = has.friction, has.turned, has.lateral, has.nodal, has.slides
+    turns = has.turns
     flat, elliptic, trench, breakout, damps = has.flat, has.elliptic, has.trench, has.breakout, has.nodal_damping
     plane = vectors.PLANES[2 if has.flat else 3]
     project, default, cross, dot, turn = plane.project, plane.default, plane.across, plane.dot, plane.turned
@@ -231,36 +243,41 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
     walls, soften = wrap(_trench_limit(has)), wrap(_softened(has))
 
     def loop(
-        begin: int, end: int, start: Array, elements: Array, senses: Array, half: Array, index: Array, table: Array,
-        points: Array, gap: Array, normals: Array, force: Array, speed: Array, damping: Array, work: Array,
-        trenches: Array, breaks: Array, states: Array, out: Array, extra: Array,
+        begin: Index, end: Index, starts: Array, elements: Array, senses: Array, half: Array, index: Array,
+        table: Array, points: Array, gap: Array, normals: Array, force: Array, speed: Array, damping: Array,
+        work: Array, trenches: Array, breaks: Array, before: Array, states: Array, out: Array, extra: Array,
     ) -> int:  # fmt: skip
+        first, behind = starts
         totals, reaction = out
         friction_force, slipping = extra
         tangent, sideways = work
         sticks, sticking, moved_so_far = states
+        past_sticks, past_sticking = before
         wrong = min(edition, 0)
-        for step in range(len(gap)):
+        for step in range(np.uint64(len(gap))):
+            if step > 0:
+                past_sticks, past_sticking = sticks, sticking
             for i in range(begin, end):
                 total = 0.0
                 tx = ty = tz = gx = gy = gz = 0.0
-                for at in range(start[i], start[i + 1]):
+                for at in range(first[i], behind[i]):
                     e = elements[at]
                     total += force[step, e] * half[e]
                     if slides:
-                        tx += tangent[step, e, 0] * senses[at]
-                        ty += tangent[step, e, 1] * senses[at]
+                        sense = senses[at] if turns else 1.0
+                        tx += tangent[step, e, 0] * sense
+                        ty += tangent[step, e, 1] * sense
                         if not flat:
-                            tz += tangent[step, e, 2] * senses[at]
+                            tz += tangent[step, e, 2] * sense
                     if lateral:
                         gx += sideways[step, e, 0]
                         gy += sideways[step, e, 1]
                         if not flat:
                             gz += sideways[step, e, 2]
-                if nodal and index[i, col.NODE_KIND] >= 0:
+                if nodal and index[i, col.NODE_KIND] != NOTHING:
                     z = 0.0 - gap[step, i]
                     if z > table[i, col.NODE_ONSET]:
-                        f, k = normal_law(index[i, col.NODE_KIND], z, 0.0, table, i)
+                        f, k = normal_law(np.int64(index[i, col.NODE_KIND]), z, 0.0, table, i)
                         wrong += not math.isfinite(f + k)
                         total += f
                 if damps:
@@ -282,26 +299,27 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                     across = cross(along, n)
                     f1 = f2 = 0.0
                     if friction:
-                        one = other = index[i, col.ACTIVE] - 1
+                        one: Index = np.int64(index[i, col.ACTIVE]) - 1
+                        other = one
                         if index[i, col.ACTIVE] > 0 and total > 0.0:
                             p = (points[step, i, 0], points[step, i, 1], points[step, i, 2])
-                            held = sticking[0, i] > 0
-                            if not held:
-                                sticks[0, i], sticks[1, i], sticks[2, i] = p
-                            x, y, z = p[0] - sticks[0, i], p[1] - sticks[1, i], p[2] - sticks[2, i]
-                            if not held:
-                                x = y = z = 0.0
+                            held = past_sticking[0, i] > 0
+                            stick, (x, y, z) = p, (0.0, 0.0, 0.0)
+                            if held:
+                                stick = (past_sticks[0, i], past_sticks[1, i], past_sticks[2, i])
+                                x, y, z = p[0] - stick[0], p[1] - stick[1], p[2] - stick[2]
                             away = (y, z) if flat else (x, y, z)
                             e1, e2 = dot(along, away), dot(across, away)
                             k1 = table[i, col.CONSTANT_1] + table[i, col.RISING_1] * total
                             k2 = table[i, col.CONSTANT_2] + table[i, col.RISING_2] * total
                             t1, t2, l1, l2 = k1 * e1, k2 * e2, table[i, col.MU_1] * total, table[i, col.MU_2] * total
-                            if breakout and index[i, col.BREAKS_OUT] >= 0:
+                            if breakout and index[i, col.BREAKS_OUT] != NOTHING:
                                 if not held:
                                     moved_so_far[3:, index[i, col.BREAKS_OUT]] = 0.0
-                                    moved_so_far[:3, index[i, col.BREAKS_OUT]] = sticks[:, i]
+                                    for axis in range(3):
+                                        moved_so_far[axis, index[i, col.BREAKS_OUT]] = p[axis]
                                 deep = 0.0
-                                for at in range(start[i], start[i + 1]):
+                                for at in range(first[i], behind[i]):
                                     deep += breaks[1][step, elements[at]]
                                 soft, share = soften(index[i, col.BREAKS_OUT], p, across, deep, breaks[0], moved_so_far)
                                 k2, l2 = k2 * soft, l2 * share
@@ -311,17 +329,19 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                             if trench and (slip_2 or (curved and slip_1)):  # what sticks without a trench sticks in it
                                 l2 = l2 + walls(i, total, p, across, t2 > 0.0, trenches)
                                 f1, f2, slip_1, slip_2 = in_limits(t1, t2, l1, l2, curved)
-                            m1, m2 = slip_distance(slip_1, e1, f1, k1), slip_distance(slip_2, e2, f2, k2)
+                            m1 = m2 = 0.0
+                            if slip_1 or slip_2:
+                                m1, m2 = slip_distance(slip_1, e1, f1, k1), slip_distance(slip_2, e2, f2, k2)
                             moved = blend(along, across, m1, m2)
                             if flat:
-                                sticks[1, i], sticks[2, i] = sticks[1, i] + moved[0], sticks[2, i] + moved[1]
+                                stick = (stick[0], stick[1] + moved[0], stick[2] + moved[1])
                             else:
-                                sticks[0, i], sticks[1, i] = sticks[0, i] + moved[0], sticks[1, i] + moved[1]
-                                sticks[2, i] = sticks[2, i] + moved[2]
+                                stick = (stick[0] + moved[0], stick[1] + moved[1], stick[2] + moved[2])
+                            sticks[0, i], sticks[1, i], sticks[2, i] = stick
                             f1, f2, one, other = 0.0 - f1, 0.0 - f2, 1 + slip_1, 1 + slip_2
                         else:
                             sticks[0, i] = sticks[1, i] = sticks[2, i] = np.nan
-                            if breakout and index[i, col.BREAKS_OUT] >= 0:
+                            if breakout and index[i, col.BREAKS_OUT] != NOTHING:
                                 moved_so_far[:3, index[i, col.BREAKS_OUT]] = np.nan
                                 moved_so_far[3:, index[i, col.BREAKS_OUT]] = 0.0
                         sticking[0, i], sticking[1, i] = one, other

@@ -13,7 +13,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cache
 from importlib import import_module
+from types import ModuleType
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -212,6 +214,12 @@ MODULES = tuple(dict.fromkeys(str(place).partition(":")[0] for place in _LAWS.va
 """Modules of the laws of this package."""
 BUILT_IN = tuple(_LAWS)
 """Names of the laws of this package; others are added with `register`."""
+
+
+@cache
+def law_module(name: str) -> ModuleType:
+    """Return a module of this package; sooner than an import in a function, and it waits as that does."""
+    return import_module(f"{__name__}.{name}")
 
 
 def known_laws() -> tuple[str, ...]:
