@@ -216,12 +216,23 @@ def test_values_that_a_form_cannot_hold(archive: Path, tmp_path: Path, sql: str,
     assert not list(tmp_path.iterdir())
 
 
+INTERRUPTED = """
+import os, signal, sys, threading
+from mudline.__main__ import main
+from mudline.archive.database import Database
+plain = Database.ask
+def ask(self, sql):
+    threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+    return plain(self, sql)
+Database.ask = ask
+sys.exit(main(sys.argv[1:]))
+"""
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 def test_ctrl_c_ends_a_long_question(archive: Path) -> None:
     sql = "SELECT count(*) FROM range(100000000) x, range(100000000) y WHERE (x.range + y.range) % 7 = 3"
-    program = "import threading, os, signal, sys; from mudline.__main__ import main; "
-    program += "threading.Timer(1.5, os.kill, (os.getpid(), signal.SIGINT)).start(); sys.exit(main(sys.argv[1:]))"
-    with started("-c", program, "query", str(archive), sql, "--jobs", "1") as running:
+    with started("-c", INTERRUPTED, "query", str(archive), sql, "--jobs", "1") as running:
         assert running.process.wait(TIMEOUT) == 128 + signal.SIGINT
         assert b"Traceback" not in running.err.read()
 

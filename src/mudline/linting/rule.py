@@ -284,7 +284,7 @@ def described_by(code: Code, check: Check, page: str, *, off: bool = False) -> R
     place = _PLACE.fullmatch(words["Finds"])
     if place is None:
         raise ValueError(f"Finds: {words['Finds']} of {code.code} must be line:column of the bad deck")
-    bad, good = _decks(code, found["Example"][1])
+    bad, good = _decks(code, found["Example"][1].replace(r"\t", "\t"))  # Python 3.13 makes blanks of TABs in docstrings
     described = Rule(
         code=code,
         check=check,

@@ -50,7 +50,7 @@ _TO_E = str.maketrans("dD", "eE")
 
 @rule_of_text(STY001, lambda source: "\t" in source)
 def tab_character(text: TextOrigin, source: str) -> Iterator[Problem]:
-    """A data line contains a TAB.
+    r"""A data line contains a TAB.
 
     Programs treat it differently: as one space, as the spaces that an editor shows, as a character of a name, or as an
     error. Write spaces. The fix fills up to the next multiple of 8 columns, and removes TABs at the end of a line; a
@@ -69,7 +69,7 @@ def tab_character(text: TextOrigin, source: str) -> Iterator[Problem]:
           STIFFNESS=Clay
 
     Finds: 4:6
-    """  # noqa: D301 - a TAB that an editor cannot take away
+    """
     for leaf, read in data_leaves(text):
         for match in first_of_lines(_TABS, source, leaf.span):
             line = line_around(source, match.start())
