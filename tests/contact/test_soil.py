@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
@@ -183,6 +183,7 @@ def test_a_settled_cycle_takes_no_energy_out_of_the_soil(clay: Clay, low: float,
 
 
 @settings(max_examples=15, deadline=None)
+@example(clay=Clay(D, 1000.0, 0.0, 5.0, 0.267578125, 50.0, 1.0, 1.0, 0.0, 0.0), path=[0.005000000000000001])
 @given(clay=soils, path=st.lists(st.floats(0.005, 0.29), min_size=1, max_size=6))
 def test_tangents_of_going_on_and_of_turning_round(clay: Clay, path: list[float]) -> None:
     """Against differences, but at corners of the law, where a tangent is that of one side."""

@@ -139,6 +139,10 @@ def assemble(
     return Tangent(by_position.triples(), by_velocity.triples())
 
 
+_AWAY = 2.0**-40
+"""Share of the penetration of an increment: small for the stiffness, large for the rounding of forces."""
+
+
 def _turned_round(step: _Step) -> FloatArray:
     """Stiffness (m,) of an increment against the one before, for elements whose force follows a path."""
     found, paths = step.result.stiffness.copy(), step.after.paths
@@ -149,7 +153,7 @@ def _turned_round(step: _Step) -> FloatArray:
         count = len(law.start)
         now = tuple(paths[rows.path : rows.path + len(rows.rows), :count].T)
         turns = law.begin(np.nextafter(now[0], np.inf), now)[2] != now[2]  # deeper is the other way
-        z = np.nextafter(now[0], np.where(turns, np.inf, 0.0))
+        z = now[0] * np.where(turns, 1.0 + _AWAY, 1.0 - _AWAY)
         turned = law.advance(z, step.tables.diameter[rows.rows], law.begin(z, now), rows.columns)[1]
         found[rows.rows] = np.where(step.result.contact[rows.rows], turned, found[rows.rows])
     return found
