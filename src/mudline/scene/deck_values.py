@@ -202,7 +202,7 @@ def _given_in_lines(lines: Iterable[str], keys: Mapping[str, Names]) -> Iterator
 
 
 def _given_in_parts(part: Part) -> Iterator[str]:
-    """The same settings of a keyword that is read; what could not be read of it is None."""
+    """The same settings of a keyword that is read, as far as it could be read."""
     for slot in record_schema(type(part)).slots:
         value = getattr(part, slot.name)
         if slot.record:
@@ -211,7 +211,7 @@ def _given_in_parts(part: Part) -> Iterator[str]:
         elif slot.key in LINE_SETS:
             if isinstance(value, Row):
                 value = getattr(value, record_schema(type(value)).columns[0].name)
-            yield from (name for name in (value if isinstance(value, list) else [value]) if name)
+            yield from (name for name in (value if isinstance(value, list) else [value]) if isinstance(name, str) and name)
 
 
 def _texts(block: Block | Opaque) -> Iterator[str]:
