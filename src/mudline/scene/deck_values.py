@@ -211,7 +211,8 @@ def _given_in_parts(part: Part) -> Iterator[str]:
         elif slot.key in LINE_SETS:
             if isinstance(value, Row):
                 value = getattr(value, record_schema(type(value)).columns[0].name)
-            yield from (name for name in (value if isinstance(value, list) else [value]) if isinstance(name, str) and name)
+            names = value if isinstance(value, list) else [value]
+            yield from (name for name in names if isinstance(name, str) and name)
 
 
 def _texts(block: Block | Opaque) -> Iterator[str]:
