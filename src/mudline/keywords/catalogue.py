@@ -126,7 +126,7 @@ def in_order(keywords: Iterable[str]) -> list[str]:
     return [keyword for keyword in _by_keyword() if keyword in given]
 
 
-@lru_cache(4096)  # names in decks are without end
+@lru_cache(_ASKED)
 def sections_of(keyword: str) -> tuple[str, ...] | None:
     """The sections where a keyword belongs; () when not confirmed, None for an unknown keyword."""
     found = entries(keyword)
