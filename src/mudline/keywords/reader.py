@@ -101,10 +101,10 @@ def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
     reader = _Reader(text, raw, declared, last=False)
     fits = _plain(text, raw, declared, reader.nowhere) is not None
     if not fits and grammar.tree_of(declared.rule, reader.contents()) is not None and not reader.lost:
-        told = len(reader.kept)
+        kept = len(reader.kept)
         reader = _Reader(text, raw, declared, last=False)
         found = reader.read()
-        fits = found.lost == told and not any(one.weight is Severity.ERROR for one in found.problems)
+        fits = found.lost == kept and not any(one.weight is Severity.ERROR for one in found.problems)
     return fits
 
 
