@@ -111,3 +111,12 @@ def test_items_of_lists_repeat_parameters() -> None:
     text = "$PREPROCESSOR\n*PARAMETERS\n soil_k, 1\n Soil, /K:2, mu:3/\n n, /1 2/\n n, /3 4/\n od\n x, =[soil_k]\n"
     assert found(text, "REF017") == [("REF017", 4, 2), ("REF017", 6, 2)]
     assert "and 1 more" in messages(text, "REF017")[1]
+
+
+@pytest.mark.parametrize(
+    ("given", "advice"),
+    [("45O00.0", ": if it is a number, write 45000.0"), ("Clay0.l", ": *SEABED STIFFNESS has no such curve")],
+)
+def test_a_number_with_a_letter_is_no_name_of_a_curve(given: str, advice: str) -> None:
+    (message,) = messages(PIPE + PROPERTIES + f" STIFFNESS={given}\n", "REF002")
+    assert message == f"curve '{given}' is not defined{advice}"

@@ -267,3 +267,13 @@ class OpaqueKeyword:
     makes: tuple[str, ...] = ()
     subject: Subject = "model"
     zero_length: bool = False
+
+
+_LETTERS = str.maketrans("OolI", "0011")
+_WITH_LETTERS = re.compile(r"(?=[^.]*[0-9])[-+]?[0-9OolI]+\.[0-9OolI]*[0-9][0-9OolI]*(?:[eEdD][-+]?[0-9]+)?")
+
+
+def number_meant(text: str) -> str:
+    """The number with a point of which a text has a letter in the place of a digit, or ""."""
+    meant = text.translate(_LETTERS)
+    return meant if meant != text and _WITH_LETTERS.fullmatch(text) else ""

@@ -16,7 +16,7 @@ from mudline.diagnostics import Blocks, Problem, Severity, Span, Where
 from mudline.keywords import catalogue
 from mudline.keywords.keeping import is_read, kept_lines, kept_places
 from mudline.keywords.text import shown
-from mudline.keywords.values import Equation, Label, Names
+from mudline.keywords.values import Equation, Label, Names, number_meant
 from mudline.scene.context import Context
 from mudline.scene.deck_values import bare, data_lines, file_name, find_file, not_found
 from mudline.scene.names import CURVES, names_of
@@ -32,9 +32,6 @@ _DEFINING = ("MODEL", "LOAD CASE")
 _OF_RESULTS = ("DATABASE POSTPROCESSING", "POSTPROCESSING")
 _WORTH = re.compile(r"[={]|[0-9OolI]\.[0-9OolI]")
 """What a line has that is looked at."""
-_LETTERS = str.maketrans("OolI", "0011")
-_SLIP = re.compile(r"(?=[^.]*[0-9])[-+]?[0-9OolI]+\.[0-9OolI]*[0-9][0-9OolI]*(?:[eEdD][-+]?[0-9]+)?")
-"""A number with a point in which a letter may stand for a digit."""
 _FREE = ("NAME", Names.FILE.name)
 """Settings whose value may be any text."""
 _UNREAD = "; the line is not read"
@@ -134,8 +131,8 @@ class _Looking:
 
     def _number(self, given: Field, where: Where) -> None:
         """A number with a letter in place of a digit."""
-        if _SLIP.fullmatch(given.text) and read_number(given.text) is None:
-            message = f"{shown(given.text)} is not a number: write {given.text.translate(_LETTERS)}{_UNREAD}"
+        if meant := number_meant(given.text):
+            message = f"{shown(given.text)} is not a number: write {meant}{_UNREAD}"
             self._note(Problem(SYN002, message, None, Severity.WARNING, where.inside(*given.span)))
 
     def _unclosed(self, problem: Problem, where: Where, line: str) -> None:

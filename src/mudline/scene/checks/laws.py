@@ -13,7 +13,7 @@ from mudline.contact.laws import law_named
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.keywords.text import advice_on, shown
-from mudline.keywords.values import Names
+from mudline.keywords.values import Names, number_meant
 from mudline.scene.checks import check
 from mudline.scene.laws import NOTHING, typed_blocks
 from mudline.scene.names import CURVES, undefined
@@ -330,7 +330,9 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
         if folded(name) in names:
             continue
         hint = scene.context.hint(name, names) or ("" if name[:1].isdigit() else other)
-        advice = advice_on(name) or "*SEABED STIFFNESS has no such curve"
+        number = number_meant(name)
+        number = f"if it is a number, write {number}" if number else ""
+        advice = advice_on(name) or number or "*SEABED STIFFNESS has no such curve"
         message = f"curve {shown(name)} is not defined{hint}: {advice}"
         problem = scene.context.missing(REF002, message, where, "SEABED STIFFNESS", name)
         followed = _followed(scene) if followed is None else followed
