@@ -53,12 +53,12 @@ def _keyword() -> re.Pattern[str]:
 
 def _in_examples(declared: Declared) -> set[str]:
     """Codes of what is found in the lines of the example and its variations."""
-    return {
-        found.code
-        for deck in _variations(declared)
-        for found in lint_bytes(deck.encode(), "deck.keyxm", rules())
-        if found.line > 1
-    }
+    return {code for deck in _variations(declared) for code in _codes_in(deck)}
+
+
+@cache
+def _codes_in(deck: str) -> frozenset[str]:
+    return frozenset(found.code for found in lint_bytes(deck.encode(), "deck.keyxm", rules()) if found.line > 1)
 
 
 def _variations(declared: Declared) -> Iterator[str]:
