@@ -10,6 +10,8 @@ from importlib.util import find_spec
 import pytest
 from hypothesis import HealthCheck, settings
 
+from tests import tracing
+
 # Before numpy is imported: the workers share the processors, on which threads of small matrix products only wait.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
@@ -68,13 +70,18 @@ def pytest_make_collect_report(
     return report
 
 
+@pytest.hookimpl(trylast=True)
+def pytest_sessionstart(session: pytest.Session) -> None:
+    """Behind pytest-cov, which begins to measure here."""
+    tracing.begin(session.config)
+
+
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Trace no coverage in tests of very many inputs: it takes as long as they do, and other tests meet their lines."""
-    if config.getoption("no_cov", default=False):
-        return  # nothing to pause: pytest-cov would stumble over the mark
-    for item in items:
-        if item.get_closest_marker("untraced") or getattr(getattr(item, "obj", None), "is_hypothesis_test", False):
-            item.add_marker(pytest.mark.no_cover)
+    """Where coverage is no tracer that is started for each test, it is stopped for those that are not measured."""
+    if tracing.is_measured() and not config.pluginmanager.has_plugin(tracing.NAME):
+        for item in items:
+            if not tracing.is_traced(item):
+                item.add_marker(pytest.mark.no_cover)
 
 
 def pytest_collection_finish() -> None:

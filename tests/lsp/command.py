@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import sys
 
+from tests.tracing import is_measured
+
 
 def server_command() -> list[str]:
     """The words of the command."""
-    coverage = sys.modules.get("coverage")
-    measured = coverage is not None and coverage.Coverage.current() is not None
-    run = ["coverage", "run", "--parallel-mode", "-m"] if measured else []
+    run = ["coverage", "run", "--parallel-mode", "-m"] if is_measured() else []
     return [sys.executable, "-m", *run, "mudline", "lsp"]
