@@ -58,8 +58,9 @@ demo: $(VENV)/.user ## a look at what mudline does, on samples/
 
 # ----------------------------------------------------------------------------------------------------------- the work
 
+# Without the table of lines that no test meets, which takes as long as the total: .venv/bin/coverage report prints it.
 test: $(VENV)/.developer ## the whole test suite, with coverage
-	$(BIN)/python -m pytest --numprocesses auto --dist worksteal --cov --cov-report=term-missing:skip-covered $(ARGS)
+	$(BIN)/python -m pytest --numprocesses auto --dist worksteal --cov --cov-report= $(ARGS)
 
 test-fast: $(VENV)/.developer ## the unit tests of the core, in about a minute
 	$(BIN)/python -m pytest --numprocesses auto -m "not slow" $(CORE) $(ARGS)

@@ -83,6 +83,7 @@ def no_diameter(checkout: Path) -> None:
     (checkout / "samples/missing.yaml").write_text("a: [", encoding="utf-8")
 
 
+@pytest.mark.covered
 @pytest.mark.parametrize("path", with_blocks("console"), ids=identity)
 @pytest.mark.usefixtures("checkout")
 def test_commands_print_what_the_page_shows(path: Path) -> None:
@@ -115,6 +116,7 @@ def test_programs_run_and_sessions_answer_what_the_page_shows(path: Path, checko
         assert (ran.returncode, ran.stdout + ran.stderr if ran.returncode else "") == (0, "")
 
 
+@pytest.mark.covered
 @pytest.mark.parametrize("path", PAGES, ids=identity)
 def test_links_lead_somewhere(path: Path) -> None:
     for target in Page.read(path).links():
@@ -124,6 +126,7 @@ def test_links_lead_somewhere(path: Path) -> None:
         assert not heading or heading in Page.read(other).anchors, target
 
 
+@pytest.mark.covered
 @pytest.mark.parametrize("path", PAGES, ids=identity)
 def test_named_files_are_there(path: Path) -> None:
     missing = [name for name in Page.read(path).named_files() if not (ROOT / name).exists()]
@@ -138,6 +141,7 @@ def test_the_newcomers_map_names_files_that_are_there() -> None:
     assert [name for name in sorted(names) if not any((folder / name).exists() for folder in folders)] == []
 
 
+@pytest.mark.covered
 def test_made_pages_are_fresh() -> None:
     wanted = pages()
     stale = [path for path, text in wanted.items() if not (ROOT / path).exists() or (ROOT / path).read_text() != text]
@@ -169,6 +173,7 @@ def test_every_option_of_a_command_is_described(name: str) -> None:
         assert f"`{option}" in text, option
 
 
+@pytest.mark.covered
 @pytest.mark.parametrize(("schema", "words"), [(name, words) for name, given in JSON.items() for words in given])
 @pytest.mark.usefixtures("no_diameter")
 def test_json_has_the_form_that_is_described(schema: str, words: str) -> None:

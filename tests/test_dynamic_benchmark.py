@@ -31,6 +31,8 @@ from tests.benchmarks.studies.motion import Forces, History, Motion
 from tests.benchmarks.studies.schemes import SCHEMES
 from tests.benchmarks.tables import FOLDER, Row, column, inserted, load
 
+pytestmark = pytest.mark.covered
+
 
 def kept_rows(name: str) -> list[Row]:
     return load(f"benchmark-{name}")

@@ -16,7 +16,7 @@ import pytest
 import mudline
 from mudline.contact.input import ContactInput
 from mudline.contact.plan import Backend
-from tests.builders.contact import everything, journey
+from tests.builders.contact import all_laws, everything, journey
 from tests.builders.decks import CLEAN
 
 Wrong: TypeAlias = Any
@@ -355,13 +355,14 @@ def test_writing_into_results_changes_nothing_else() -> None:
 # ------------------------------------------------------------------------------------------------------------- threads
 
 
+@pytest.mark.covered
 @pytest.mark.slow
 @pytest.mark.parametrize("backend", ["numpy", "fast"])
 def test_eight_threads_give_the_bits_of_one(backend: Backend) -> None:
     if backend == "fast":
         pytest.importorskip("numba")
-    model = mudline.ContactModel(everything(40, 2), backend=backend, threads=2)
-    runs = [journey(40, 60, seed) for seed in range(8)]
+    model = mudline.ContactModel(all_laws(60, 3), backend=backend, threads=2)
+    runs = [journey(60, 60, seed) for seed in range(8)]
 
     def bits(number: int) -> list[bytes]:
         places, rates, _ = runs[number % 8]

@@ -118,6 +118,7 @@ def test_names_that_yaml_takes_for_something_else(name: str) -> None:
     assert mudline.from_yaml(deck.to_yaml()).sections == deck.sections == mudline.from_json(deck.to_json()).sections
 
 
+@pytest.mark.covered
 @pytest.mark.parametrize(
     "words",
     [

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from numpy.typing import ArrayLike
 
 from mudline.contact import ContactInput, ContactModel, ContactResult, LawAssignment, Tension
@@ -29,6 +30,9 @@ FRICTION = (
     *("axial_coefficient", "lateral_coefficient", "axial_stiffness", "lateral_stiffness"),
     *("axial_mobilisation", "lateral_mobilisation", "elliptic", "angle"),
 )
+
+each_backend = pytest.mark.parametrize("backend", ["numpy", pytest.param("fast", marks=pytest.mark.covered)])
+"""Compiling takes seconds, and half as long again when it is traced; test_compiled.py meets the lines of the driver."""
 
 # --------------------------------------------------------------------------------------------------------------- chains
 
@@ -320,6 +324,11 @@ def everything(elements: int, seed: int, seabed: Seabed | None = None) -> Contac
         seabed=seabed,
         weight=rng.uniform(500.0, 1500.0, elements),
     )
+
+
+def all_laws(elements: int, seed: int, seabed: Seabed | None = None) -> ContactInput:
+    """Everything, with a curve that is cut: with the loops of random scenes of all laws, which are compiled once."""
+    return replace(everything(elements, seed, seabed), curves=(CLAY, PULLING), tension="cut")
 
 
 def _some(rng: np.random.Generator, count: int, share: float) -> IndexArray:

@@ -193,6 +193,7 @@ def test_yaml_comments_are_not_lost(place: Place) -> None:
     assert "deck.yaml: its YAML comments (#) would be lost" in outcome.err
 
 
+@pytest.mark.covered
 @pytest.mark.parametrize("end", ["\n", "\r\n"], ids=["LF", "CRLF"])
 @pytest.mark.parametrize("cut", [False, True])
 @pytest.mark.parametrize("name", sorted(path.name for path in SAMPLES.glob("*.key*") if path.name not in FAULTY))

@@ -82,6 +82,7 @@ def validator() -> Draft202012Validator:
     return found
 
 
+@pytest.mark.covered
 @pytest.mark.parametrize("name", sorted(path.name for path in SAMPLES.glob("*.key*") if path.name not in FAULTY))
 @pytest.mark.parametrize("options", [(), ("--sorted",)], ids=["as-is", "sorted"])
 def test_schema_describes_what_convert_writes(

@@ -82,6 +82,7 @@ def assert_harmless(outcome: Outcome) -> None:
     assert "Traceback" not in outcome.err
 
 
+@pytest.mark.covered
 @pytest.mark.slow
 @pytest.mark.parametrize("line", COMMANDS)
 def test_no_command_lets_a_deck_act_on_the_terminal(place: Place, line: str) -> None:
@@ -116,6 +117,7 @@ QUESTIONS = [
 ]
 
 
+@pytest.mark.covered
 def test_an_answer_does_not_act_on_the_terminal(place: Place) -> None:
     pytest.importorskip("duckdb")
     names = [place(text, f"{name}.keyxm") for name, text in DECKS.items()]

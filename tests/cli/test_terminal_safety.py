@@ -40,6 +40,7 @@ PRINTING = {
 }
 
 
+@pytest.mark.covered
 @pytest.mark.parametrize("text", HOSTILE.values(), ids=HOSTILE)
 @pytest.mark.parametrize("command", PRINTING)
 def test_what_is_printed_of_a_deck_is_harmless(

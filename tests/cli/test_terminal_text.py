@@ -100,6 +100,7 @@ HOSTILE = {
 }
 
 
+@pytest.mark.covered
 @pytest.mark.parametrize("text", HOSTILE.values(), ids=HOSTILE)
 @pytest.mark.parametrize("terminal", [True, False])
 @pytest.mark.parametrize("command", [*COMMANDS, ("lint", "--output-format", "concise")], ids=str)

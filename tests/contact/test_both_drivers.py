@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -15,15 +13,14 @@ from mudline.contact.plan import Backend
 from mudline.contact.seabed import PlanesSeabed, Seabed, SlopingSeabed
 from mudline.curves import ForceCurve
 from tests.builders.contact import (
-    CLAY,
     CURVE,
     LINEAR,
     NONE,
-    PULLING,
+    all_laws,
     at_depths,
     bridge_law,
     chain,
-    everything,
+    each_backend,
     friction,
     journey,
     on,
@@ -46,11 +43,6 @@ pytestmark = pytest.mark.slow
 BACKENDS: tuple[Backend, ...] = ("numpy", "fast")
 USUAL = Sizes(16384, 4096, 16, 2)
 seeds = st.integers(0, 2**32 - 1)
-
-
-def all_laws(elements: int, seed: int, seabed: Seabed | None = None) -> ContactInput:
-    """Everything, with a curve that is cut: with the loops of random scenes of all laws, which are compiled once."""
-    return replace(everything(elements, seed, seabed), curves=(CLAY, PULLING), tension="cut")
 
 
 def scene(inputs: ContactInput, positions: FloatArray, velocities: FloatArray | None = None) -> Scene:
@@ -126,6 +118,7 @@ def test_odd_lines(name: str) -> None:
             ContactModel(given_scene.inputs, backend="fast").evaluate(given_scene.positions)
 
 
+@pytest.mark.covered
 def test_a_force_that_overflows_only_on_the_way_is_mended() -> None:
     curve = ForceCurve([(0.0, -1.7e308), (2.5, 1.7e308)])
     inputs = chain([CURVE], on("lateral", 1, stiffness=1.0), curves=(curve,), diameter=1.0, length=1e-3)
@@ -160,7 +153,7 @@ def test_a_long_line_on_several_threads(seabed: Seabed | None) -> None:
         assert differences(one, contact.evaluate(positions, velocities=velocities)) == []
 
 
-@pytest.mark.parametrize("backend", BACKENDS)
+@each_backend
 def test_a_state_is_never_written_to(backend: Backend) -> None:
     contact = ContactModel(all_laws(60, 3), backend=backend)
     positions, velocities, _ = journey(60, 8, 3)
@@ -176,6 +169,7 @@ def test_a_state_is_never_written_to(backend: Backend) -> None:
             assert equal_bits(array, copies[name]).all()
 
 
+@pytest.mark.covered
 def test_tangents_are_the_same() -> None:
     inputs = all_laws(60, 2)
     positions, velocities, _ = journey(60, 2, 2)

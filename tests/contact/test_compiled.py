@@ -86,6 +86,7 @@ def test_numpy_alone_does_not_load_numba() -> None:
     assert run.stdout.strip() == "False"
 
 
+@pytest.mark.covered
 def test_loops_are_compiled_once_for_any_number_of_elements_and_springs() -> None:
     """The arrays of a single row have the same layout as those of several."""
     for elements in (1, 3):

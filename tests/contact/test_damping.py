@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 from mudline.contact import ContactModel
 from mudline.contact.plan import Backend
 from mudline.scene.oscillation import oscillations
-from tests.builders.contact import LINEAR, NONE, chain, friction, heave, on
+from tests.builders.contact import LINEAR, NONE, chain, each_backend, friction, heave, on
 from tests.builders.scenes import legal_scene
 
 DEPTHS, PULL_OUT = [0.02, 0.02, 0.02, -0.01, 0.0], [-0.1, 0.1, 0.0, -0.1, -0.1]
@@ -17,7 +17,7 @@ ADDED = [50.0, 0.0, 0.0, 0.0, 0.0]
 """c = 500 per unit length at these depths and pull-out velocities."""
 
 
-@pytest.mark.parametrize("backend", ["numpy", "fast"])
+@each_backend
 def test_per_unit_length(backend: Backend) -> None:
     contact = ContactModel(chain([LINEAR], on("damping", 1, damping=500.0)), backend=backend)
     positions, velocities = heave(DEPTHS, PULL_OUT)
@@ -28,7 +28,7 @@ def test_per_unit_length(backend: Backend) -> None:
     assert_allclose(result.stiffness[:, 0], np.where(np.array(DEPTHS) > 0.0, 5e4, 0.0), rtol=1e-12)
 
 
-@pytest.mark.parametrize("backend", ["numpy", "fast"])
+@each_backend
 def test_of_nodes(backend: Backend) -> None:
     laws = on("nodal", 2, stiffness=1e4, half_width=0.005), on("nodal damping", 2, damping=[500.0, 0.0])
     contact = ContactModel(chain([NONE], *laws), backend=backend)

@@ -201,6 +201,7 @@ def test_a_friction_spring_without_end_is_refused_at_its_node() -> None:
     assert caught.value.diagnostics[0].line == 3
 
 
+@pytest.mark.covered
 @pytest.mark.parametrize("family", FAMILIES)
 def test_every_deck_is_right_within_its_bound_or_refused_with_a_line(family: str) -> None:
     values, deck = FAMILIES[family]

@@ -16,7 +16,7 @@ from mudline.contact import ContactInput, ContactModel, ElementError
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.soil import SOIL, Numbers
 from mudline.contact.plan import Backend
-from tests.builders.contact import NONE, at_depths, chain, law_of, on
+from tests.builders.contact import NONE, at_depths, chain, each_backend, law_of, on
 from tests.contact.soil_program import Clay, Walker
 
 D = 0.3
@@ -59,7 +59,7 @@ paths = st.lists(depths, min_size=1, max_size=9)
 # -------------------------------------------------------------------------------------------------------------- numbers
 
 
-@pytest.mark.parametrize("backend", ["numpy", "fast"])
+@each_backend
 def test_initial_penetration(backend: Backend) -> None:
     ratios = np.array([0.01, 0.05, 0.1, 0.2, 0.5, 1.0])
     expected = [1067.9279169, 3268.0204652, 4863.4491181, 5977.5596821, 7830.3275104, 9761.1940299]
@@ -69,7 +69,7 @@ def test_initial_penetration(backend: Backend) -> None:
     assert_allclose(np.delete(result.stiffness[:, 0], 2), slopes, rtol=1e-9)
 
 
-@pytest.mark.parametrize("backend", ["numpy", "fast"])
+@each_backend
 def test_uplift_without_decay(backend: Backend) -> None:
     rise = np.array([0.0, 0.0005, 0.001, 0.005, 0.01, 0.02, 0.05, 0.1])
     expected = [

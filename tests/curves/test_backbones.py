@@ -64,6 +64,7 @@ def test_f114_agrees_with_a_second_implementation() -> None:
         assert forces("f114", CLAY, ratio)[0] == pytest.approx(1000.0 * float(other), rel=1e-12)
 
 
+@pytest.mark.covered
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("tolerance", [0.02, 0.005, 0.0005])
 def test_points_hold_the_bound_on_ten_thousand_ratios(name: str, tolerance: float) -> None:
@@ -100,6 +101,7 @@ def test_the_bound_holds_in_any_soil(
     assert np.abs(np.interp(ratios, *points.T) - model).max() <= 0.01 * model.max()
 
 
+@pytest.mark.covered
 @pytest.mark.parametrize("name", NAMES)
 def test_no_points_of_the_model_are_fewer(name: str) -> None:
     """Shortest path over 200 ratios: an arc is a chord that holds the tolerance."""

@@ -73,6 +73,7 @@ def remarks(text: str) -> list[str]:
     return [line[1:] for line in re.split(r"\r\n|\r|\n", text) if line[:1] in ("C", "c") and "=" not in line[:12]]
 
 
+@pytest.mark.covered
 @pytest.mark.parametrize("path", DECKS, ids=lambda path: path.name)
 def test_samples(path: Path) -> None:
     deck = load_bytes(path.read_bytes(), path.name)

@@ -20,6 +20,12 @@ from tests.docs.keyword_rules import Declared, keyword_of, rules_of
 DECLARED = declarations()
 
 
+@pytest.fixture(scope="module")
+def index() -> str:
+    return keyword_index()
+
+
+@pytest.mark.covered
 def test_every_keyword_that_a_module_declares_has_a_page() -> None:
     assert set(map(keyword_of, DECLARED)) >= {
         keyword for keyword in catalogue.keywords() for section in catalogue.SECTIONS if known(section, keyword)
@@ -32,8 +38,9 @@ def known(section: str, keyword: str) -> bool:
     return bool(catalogue.block_class(section, keyword) or catalogue.opaque_keyword(section, keyword))
 
 
+@pytest.mark.covered
 @pytest.mark.parametrize("declared", DECLARED, ids=title)
-def test_page_has_all_its_parts(declared: Declared) -> None:
+def test_page_has_all_its_parts(declared: Declared, index: str) -> None:
     page = Page(Path("page.md"), keyword_page(declared))
     headings = {"format", "example", "rules", "certain-and-inferred"} | (
         set() if isinstance(declared, OpaqueKeyword) else {"fields"}
@@ -41,7 +48,7 @@ def test_page_has_all_its_parts(declared: Declared) -> None:
     assert headings <= page.anchors
     examples = [block.text for block in page.blocks]
     assert declared.example.rstrip("\n") + "\n" in examples
-    assert f"](keywords/{page_name(declared)}.md) |" in keyword_index()
+    assert f"](keywords/{page_name(declared)}.md) |" in index
 
 
 @pytest.mark.parametrize("declared", DECLARED, ids=title)
@@ -51,6 +58,7 @@ def test_example_on_the_page_reads_without_a_finding(declared: Declared) -> None
     assert [str(found) for found in lint_bytes(text.encode(), "deck.keyxm", own)] == []
 
 
+@pytest.mark.covered
 def test_every_rule_concerns_a_keyword() -> None:
     own = {rule.code.code for rule in rules() if not rule.code.code.startswith(("SYN", "STY"))}
     assert own == {rule.code.code for each in DECLARED for rule in rules_of(each)}

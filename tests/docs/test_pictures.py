@@ -44,6 +44,7 @@ def test_the_loop_of_the_soil_pushes_and_pulls_within_its_bounds() -> None:
     assert found.force.min() < -0.5
 
 
+@pytest.mark.covered
 def test_all_pictures_are_made_and_no_others(tmp_path: Path) -> None:
     write(tmp_path)
     made = {file.name for file in tmp_path.iterdir() if file.stat().st_size > 10_000}
@@ -53,6 +54,7 @@ def test_all_pictures_are_made_and_no_others(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.covered
 def test_boxes_of_the_layers_do_not_overlap() -> None:
     found = re.findall(r'<rect x="(-?\d+)" y="(\d+)" width="(\d+)"', layer_picture())
     boxes = sorted((int(y), int(x), int(x) + int(width)) for x, y, width in found)

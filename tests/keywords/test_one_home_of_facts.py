@@ -13,6 +13,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import get_args
 
+import pytest
+
 import mudline
 from mudline.keywords import catalogue, index
 from mudline.keywords.names_only import NAMES
@@ -77,6 +79,7 @@ def _others(module: Path) -> list[str]:
     return [f"{named.lineno} {named.value!r}" for named, outer in _named(tree) if not _asks(named, outer)]
 
 
+@pytest.mark.covered
 def test_no_module_lists_keywords_to_know_a_fact() -> None:
     modules = (path for path in sorted(ROOT.rglob("*.py")) if "keywords" not in path.relative_to(ROOT).parts)
     found = {path.relative_to(ROOT).as_posix(): others for path in modules if (others := _others(path))}

@@ -105,6 +105,7 @@ def lint_faulty(faults: int, head: str, each: str) -> None:
     lint_bytes(text.encode(), "deck.keyxm", rules())
 
 
+@pytest.mark.covered
 @pytest.mark.parametrize(
     ("head", "each"),
     [

@@ -15,7 +15,7 @@ from tests.samples import SAMPLES
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.covered]
 
 
 @pytest.fixture(scope="module")

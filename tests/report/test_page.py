@@ -89,6 +89,7 @@ def test_a_sample_has_a_page_that_stands_alone(tmp_path: Path, name: str) -> Non
     assert "table" in page.tags
 
 
+@pytest.mark.covered
 def test_the_same_deck_gives_the_same_bytes(tmp_path: Path) -> None:
     deck = str(SAMPLES / "scr-vessel.keyxm")
     assert made(tmp_path, deck) == made(tmp_path, deck)
@@ -169,6 +170,7 @@ HOSTILE = (
 )
 
 
+@pytest.mark.covered
 @pytest.mark.parametrize("name", HOSTILE)
 def test_nothing_of_a_deck_becomes_markup(tmp_path: Path, name: str) -> None:
     text = (SAMPLES / "scr-touchdown.keyxm").read_text(encoding="utf-8")
@@ -185,6 +187,7 @@ def test_nothing_of_a_deck_becomes_markup(tmp_path: Path, name: str) -> None:
     assert "F49" not in page.text
 
 
+@pytest.mark.covered
 def test_very_many_findings_and_curves_are_cut_and_counted(tmp_path: Path) -> None:
     slips = "".join(f" CURVE=<b>{'n' * 200} {number}\n 0, 0\n x, {'y' * 900}\n" for number in range(1500))
     deck = tmp_path / "deck.keyxm"

@@ -86,6 +86,7 @@ LAWS: list[Law] = [
 ]
 
 
+@pytest.mark.covered
 @pytest.mark.parametrize("law", LAWS, ids=str)
 def test_the_closed_form_of_a_drop_is_what_tiny_steps_give(law: Law) -> None:
     drop = drop_to(law, 170.0, 300.0, 0.075)

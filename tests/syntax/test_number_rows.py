@@ -146,6 +146,7 @@ def test_every_bad_field_of_a_long_table_is_named(kind: str) -> None:
         assert [line for line, _ in found] == [len(head) + n + 1 for n in wrong]
 
 
+@pytest.mark.covered
 def test_long_tables_are_slow_rows_whatever_stands_in_a_few_lines() -> None:
     lines = [f" {n}, {n / 7!r}" for n in range(40_000)]
     for n, line in ((3, "=[a*2], 4"), (9_999, "{end}, 1"), (20_000, "1, 2, 3, 4"), (20_001, "1 2"), (39_999, "7")):

@@ -15,7 +15,7 @@ from mudline.contact import ContactInput, ContactModel, LawAssignment
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.breakout import F114_DISPLACEMENTS, F114_RESIDUAL
 from mudline.contact.plan import Backend
-from tests.builders.contact import LINEAR, chain, drawn, friction, law_of, on, trench
+from tests.builders.contact import LINEAR, chain, drawn, each_backend, friction, law_of, on, trench
 from tests.builders.scenes import legal_scene, reported
 from tests.contact.test_damping import DECK
 
@@ -71,14 +71,14 @@ def program(
     return found
 
 
-@pytest.mark.parametrize("backend", ["numpy", "fast"])
+@each_backend
 def test_peak_residual_and_unloading(backend: Backend) -> None:
     path = [0.0, 0.015, 0.03, 0.165, 0.3, 0.4, 0.39, 0.37, 0.355, 0.3, 0.45]
     expected = [0.0, 0.6, 1.2, 0.9, 0.6, 0.6, 0.2, -0.6, -0.6, -0.6, 0.6]
     assert_allclose(lateral(pipe(), path, backend=backend), expected, atol=1e-9)
 
 
-@pytest.mark.parametrize("backend", ["numpy", "fast"])
+@each_backend
 def test_published_factors(backend: Backend) -> None:
     """F114 at z/D = 0.3: residual 0.62534231277, and breakout at 0.0285 m for D = 0.3 m (best estimate)."""
     path = [0.0, 0.01425, 0.0285, 0.45, 0.6]

@@ -7,7 +7,20 @@ import pytest
 
 from mudline.contact import ContactModel, ElementError
 from mudline.curves import ForceCurve
-from tests.builders.contact import CURVE, LINEAR, NONE, PULLING, at_depths, bridge_law, chain, heave, on, suction, walk
+from tests.builders.contact import (
+    CURVE,
+    LINEAR,
+    NONE,
+    PULLING,
+    at_depths,
+    bridge_law,
+    chain,
+    each_backend,
+    heave,
+    on,
+    suction,
+    walk,
+)
 from tests.contact.comparison import plain_loops
 from tests.contact.single import BROKEN, COMPRESSION, DEPTH, FORCE, FREE, SUCTION
 
@@ -145,7 +158,7 @@ def test_springs_against_uplift_count_from_the_wider_zone_of_the_nodes_too() -> 
 PULLS = ForceCurve([(0.0, 0.0), (0.1, 100.0), (0.2, -50.0)], name="pulls")
 
 
-@pytest.mark.parametrize("backend", ["numpy", "fast"])
+@each_backend
 def test_a_curve_that_pulls_beside_suction_is_refused_where_it_does(backend: str) -> None:
     """It pulls from a ratio of 0.167 on, 0.05 m."""
     inputs = chain([CURVE] * 2, suction(bridge_law(1), [1]), curves=(PULLS,))

@@ -13,7 +13,7 @@ from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.trench import diagram, rounded, shortest_side
 from mudline.contact.plan import Backend
 from mudline.contact.trenches import tabulated
-from tests.builders.contact import ALONG_Y, LINEAR, NONE, chain, drawn, friction, on, trench
+from tests.builders.contact import ALONG_Y, LINEAR, NONE, chain, drawn, each_backend, friction, on, trench
 
 MU = 0.4
 WIDTHS = {"bottom": 0.5, "upper": 1.7, **ALONG_Y}
@@ -77,7 +77,7 @@ RESIDUAL = diagram(0.25, 0.85, 600.0, (150.0, 1.05))
 """Rises from 0.25 to its peak at 0.55, falls to 150 at 1.05."""
 
 
-@pytest.mark.parametrize("backend", ["numpy", "fast"])
+@each_backend
 @pytest.mark.parametrize(
     ("points", "width", "offset", "resistance"),
     [
@@ -112,7 +112,7 @@ def test_rounded_corners_are_smooth() -> None:
     assert shortest_side(TABLE) == 0.0
 
 
-@pytest.mark.parametrize("backend", ["numpy", "fast"])
+@each_backend
 def test_a_lowered_seabed(backend: Backend) -> None:
     """0.3 m at the bottom, half of it at mid-wall, nothing outside; the line was laid along its own middle."""
     laws = friction(2, (0.5, MU), 1e5), on("trench level", 1, depth=0.3, bottom=0.5, upper=1.7)
