@@ -304,10 +304,14 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                         if index[i, col.ACTIVE] > 0 and total > 0.0:
                             p = (points[step, i, 0], points[step, i, 1], points[step, i, 2])
                             held = past_sticking[0, i] > 0
-                            stick, (x, y, z) = p, (0.0, 0.0, 0.0)
-                            if held:
-                                stick = (past_sticks[0, i], past_sticks[1, i], past_sticks[2, i])
-                                x, y, z = p[0] - stick[0], p[1] - stick[1], p[2] - stick[2]
+                            stick = (past_sticks[0, i], past_sticks[1, i], past_sticks[2, i])
+                            # no branch: which nodes are held cannot be guessed
+                            stick = (
+                                stick[0] if held else p[0],
+                                stick[1] if held else p[1],
+                                stick[2] if held else p[2],
+                            )
+                            x, y, z = p[0] - stick[0], p[1] - stick[1], p[2] - stick[2]
                             away = (y, z) if flat else (x, y, z)
                             e1, e2 = dot(along, away), dot(across, away)
                             k1 = table[i, col.CONSTANT_1] + table[i, col.RISING_1] * total
