@@ -362,3 +362,23 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
         return wrong
 
     return loop
+
+
+def ranges_loop(wrap: Wrap, of_elements: tuple[Any, ...], of_nodes: tuple[Any, ...]) -> Loop:
+    """Make the loop over ranges (kind, begin, end), of elements (0) and of nodes (1).
+
+    It takes what the two loops take behind a range; their options are those of `elements_loop` and `nodes_loop`.
+    """
+    elements, nodes = wrap(elements_loop(wrap, *of_elements)), wrap(nodes_loop(wrap, *of_nodes))
+
+    def loop(ranges: Array, element_arrays: Array, node_arrays: Array) -> int:
+        wrong = 0
+        for at in range(len(ranges)):
+            begin, end = ranges[at, 1], ranges[at, 2]
+            if ranges[at, 0] > 0:
+                wrong += nodes(begin, end, *node_arrays)
+            else:
+                wrong += elements(begin, end, *element_arrays)
+        return wrong
+
+    return loop
