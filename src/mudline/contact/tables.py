@@ -388,12 +388,12 @@ def _pulling(given: ContactInput) -> IndexArray | None:
 
 def steepest_anywhere(tables: Tables, rows: NormalRows) -> FloatArray:
     """Return the largest stiffness (k,) that a normal law can reach on its elements, or nodes."""
-    if rows.curve >= 0:
-        from mudline.contact.laws.curve import steepest_slopes  # noqa: PLC0415 - only now is it needed
+    with np.errstate(all="ignore"):  # what overflows is refused where a step comes to it
+        if rows.curve >= 0:
+            from mudline.contact.laws.curve import steepest_slopes  # noqa: PLC0415 - only now is it needed
 
-        with np.errstate(all="ignore"):
             slopes: FloatArray = steepest_slopes(tables.given.curves[rows.curve]).max() / tables.diameter[rows.rows]
-        return slopes
-    diameter = tables.diameter[rows.rows] if rows.law.acts_on == "elements" else np.zeros(len(rows.rows))
-    found = rows.steepest(np.full(len(rows.rows), np.inf), diameter, *rows.columns)
+            return slopes
+        diameter = tables.diameter[rows.rows] if rows.law.acts_on == "elements" else np.zeros(len(rows.rows))
+        found = rows.steepest(np.full(len(rows.rows), np.inf), diameter, *rows.columns)
     return np.broadcast_to(found, len(rows.rows)).copy()
