@@ -83,7 +83,6 @@ def no_diameter(checkout: Path) -> None:
     (checkout / "samples/missing.yaml").write_text("a: [", encoding="utf-8")
 
 
-@pytest.mark.covered
 @pytest.mark.parametrize("path", with_blocks("console"), ids=identity)
 @pytest.mark.usefixtures("checkout")
 def test_commands_print_what_the_page_shows(path: Path) -> None:

@@ -36,7 +36,7 @@ def is_measured() -> bool:
 def begin(config: pytest.Config) -> None:
     """Let coverage rest until there is something to measure, where it is a tracer.
 
-    In a process of pytest-xdist two measurements have begun: pytest-cov keeps the last, the other would trace all along.
+    In a process of pytest-xdist two measurements have begun: pytest-cov keeps the last, the other would trace all.
     """
     if (measure := Coverage.current()) is None:
         return

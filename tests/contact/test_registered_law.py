@@ -143,7 +143,6 @@ def test_both_drivers_give_the_same_bits(elements: int, seed: int, slopes: bool)
     assert compare(scene, plain=True) == []
 
 
-@pytest.mark.covered
 def test_its_loops_are_compiled() -> None:
     """Alone: with more laws that takes seconds."""
     inputs = chain([NONE, LINEAR, NONE], on("hyperbolic", [0, 2], stiffness=[K, 2e4], reference=Z0))

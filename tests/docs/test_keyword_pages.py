@@ -58,7 +58,6 @@ def test_example_on_the_page_reads_without_a_finding(declared: Declared) -> None
     assert [str(found) for found in lint_bytes(text.encode(), "deck.keyxm", own)] == []
 
 
-@pytest.mark.covered
 def test_every_rule_concerns_a_keyword() -> None:
     own = {rule.code.code for rule in rules() if not rule.code.code.startswith(("SYN", "STY"))}
     assert own == {rule.code.code for each in DECLARED for rule in rules_of(each)}

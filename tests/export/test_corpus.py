@@ -30,7 +30,6 @@ def held(path: Path) -> bytes:
     return path.read_bytes() + REST.encode() + boundary.encode()
 
 
-@pytest.mark.covered
 @pytest.mark.slow
 def test_decks_are_written_whole_or_refused() -> None:
     written = 0

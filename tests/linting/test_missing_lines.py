@@ -22,7 +22,6 @@ UNSEEN = {
 """Keywords whose missing line is not told, or not alone, and why."""
 
 
-@pytest.mark.covered
 @pytest.mark.parametrize("name", DECKS)
 def test_a_missing_keyword_line_is_one_finding_at_its_place(name: str) -> None:
     lines = (SAMPLES / name).read_text(encoding="utf-8").split("\n")

@@ -70,7 +70,6 @@ def test_parts_alone(small: Path) -> None:
     assert [json[key] is None for key in ("precision", "stability", "extremes", "stages")] == [True, True, True, False]
 
 
-@pytest.mark.covered
 @pytest.mark.parametrize("seabed", [EVERYTHING, CURVE.format(first="800.0")])
 def test_json_has_its_form(seabed: str, tmp_path: Path) -> None:
     path = tmp_path / "deck.keyxm"
@@ -150,7 +149,6 @@ def test_faults_end_the_command(tmp_path: Path, small: Path, monkeypatch: pytest
     assert (outcome.code, outcome.err) == (2, "mudline: --plot needs matplotlib: pip install 'mudline[plot]'\n")
 
 
-@pytest.mark.covered
 @pytest.mark.parametrize(
     "text",
     [
