@@ -17,7 +17,7 @@ from mudline.diagnostics import Problem, Span
 from mudline.keywords.grammar import ROW, SMALL, Tree, fitting, records_of, terminal_of
 from mudline.keywords.making import can_be_made, make
 from mudline.keywords.model import AS_TEXT, Block, FieldSpec, ListRow, Part, Record, columns_of, record_schema
-from mudline.keywords.table import LARGEST_WHOLE, Column, from_numbers, from_rows
+from mudline.keywords.table import LARGEST_WHOLE, Column, Widths, from_numbers, from_rows
 from mudline.keywords.text import MIXED_FIELDS, UnreadableError, Value, read_value
 from mudline.keywords.values import Equation, Kind
 from mudline.limits import LONGEST_TABLE
@@ -235,7 +235,8 @@ def _row_reading(record: type[Record], *, tabular: bool) -> _Reading:
     if tabular:
         if schema.table is None or schema.columns:
             raise _OddError
-        return partial(_table, schema.table.json, columns_of(schema.table))
+        columns = columns_of(schema.table)
+        return partial(_table, schema.table.json, columns, Widths.of(columns))
     if schema.table:
         raise _OddError
     readings = {slot.name: _column_reading(record, slot) for slot in schema.columns}
@@ -298,13 +299,13 @@ def _one(slot: FieldSpec, found: Values, fields: str, _: object) -> None:
     found[slot.json] = _value(fields, slot)
 
 
-def _table(json: str, columns: list[Column], found: Values, run: str, _: object) -> None:
+def _table(json: str, columns: list[Column], widths: Widths, found: Values, run: str, _: object) -> None:
     if len(run) <= _SHORT_TABLE and _NUMBERS.fullmatch(run):
         rows = run.splitlines()
-        commas = rows[0].count(",")
-        if all(row.count(",") == commas for row in rows):
-            numbers = [float(number) for number in ",".join(rows).split(",")]
-            if (short := from_numbers(numbers, commas + 1, columns)) is not None:
+        commas = {row.count(",") for row in rows}
+        if len(commas) == 1:
+            numbers = [*map(float, ",".join(rows).split(","))]
+            if (short := from_numbers(numbers, commas.pop() + 1, widths)) is not None:
                 found[json] = short
                 return
     table, faults = from_rows(read_rows(run, Span(0, len(run)), len(columns)), columns)

@@ -21,6 +21,8 @@ Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 
+FEW = 64
+"""Things that are looked at one by one: calls of numpy take longer."""
 _FEW = 4096
 _FEW_RUNS = 8
 _AT_ONCE = 1 << 17
@@ -79,6 +81,13 @@ def whole_numbers(column: Floats) -> tuple[Ids, Mask]:
     known = np.abs(column) <= LARGEST_WHOLE
     known &= column == np.floor(column)
     return np.where(known, column, 0.0).astype(np.int64), known
+
+
+def are_whole(column: Floats) -> bool:
+    """Whether all of a few numbers are whole ones that a table may hold; False for many."""
+    return len(column) <= FEW and all(
+        number.is_integer() and -LARGEST_WHOLE <= number <= LARGEST_WHOLE for number in column.tolist()
+    )
 
 
 @dataclass(frozen=True, slots=True)
