@@ -32,7 +32,7 @@ class _Recipe:
     given, `rows` those of rows; `names` are the fields by their names in JSON.
     """
 
-    defaults: Mapping[str, object]
+    defaults: dict[str, object]
     names: Mapping[str, str]
     required: frozenset[str]
     lists: tuple[str, ...]
@@ -83,16 +83,18 @@ def make(part: type[Part], values: dict[str, Any]) -> Part:
             inner = {slot.json: value for slot, value in zip(record_schema(row).columns, inner, strict=False)}
         if isinstance(inner, dict):
             values[name] = make(row, inner)
-    given = {recipe.names[name]: value for name, value in values.items()}
-    if not recipe.required <= given.keys():
-        raise ValueError("a value is missing")
-    made = part.__new__(part)
-    fields = made.__dict__
-    fields.update(recipe.defaults)
+    fields, given = recipe.defaults.copy(), set[str]()
     for name in recipe.lists:
         fields[name] = []
-    fields.update(given)
-    _put_fields_set(made, set(given))
+    for json, value in values.items():
+        name = recipe.names[json]
+        fields[name] = value
+        given.add(name)
+    if not recipe.required <= given:
+        raise ValueError("a value is missing")
+    made = part.__new__(part)
+    object.__setattr__(made, "__dict__", fields)
+    _put_fields_set(made, given)
     _put_extra(made, None)
     _put_private(made, None)
     for check in recipe.checks:

@@ -81,16 +81,17 @@ class _Form:
 
 
 def read_plain(
-    text: str, leaves: Sequence[Leaf], name: str, declared: type[Block], keys: frozenset[str]
+    text: str, leaves: Sequence[Leaf], name: str, declared: type[Block], keys: frozenset[str], start: int = 0
 ) -> Block | None:
     """Return the model of a plain block; None where it is anything else.
 
-    `leaves` are its lines and `name` is its keyword; `keys` are those that the lines may begin with.
+    `leaves` are its lines, in a text of which `text` is the part from `start` on, and `name` is its keyword; `keys` are
+    those that the lines may begin with.
     """
     if declared.tabular and leaves and leaves[-1].span.end - leaves[0].span.start > LONGEST_TABLE:
         return None
     try:
-        values = {"keyword": name, **_contents(text, leaves, declared, keys)}
+        values = {"keyword": name, **_contents(_lines(text, leaves, keys, start, declared.tabular), leaves, declared)}
         if can_be_made(declared):
             return cast("Block", make(declared, values))
         return declared.model_validate(values, context=AS_TEXT)
@@ -98,9 +99,8 @@ def read_plain(
         return None
 
 
-def _contents(text: str, leaves: Sequence[Leaf], declared: type[Block], keys: frozenset[str]) -> Values:
+def _contents(lines: Iterable[tuple[str, str]], leaves: Sequence[Leaf], declared: type[Block]) -> Values:
     """The values of a block: a record at a time where it is a list of records, else all of its lines at once."""
-    lines = _lines(text, leaves, keys, tabular=declared.tabular)
     records = records_of(declared.rule)
     slots = record_schema(declared).slots
     if records and len(slots) == 1:
@@ -118,22 +118,27 @@ def _contents(text: str, leaves: Sequence[Leaf], declared: type[Block], keys: fr
     return _known_form(declared, tuple(terminals), declared.tabular).values(written)
 
 
-def _lines(text: str, leaves: Sequence[Leaf], keys: frozenset[str], *, tabular: bool) -> Iterator[tuple[str, str]]:
+def _lines(
+    text: str, leaves: Sequence[Leaf], keys: frozenset[str], start: int, tabular: bool  # noqa: FBT001
+) -> Iterator[tuple[str, str]]:
     """The terminal of each line, and what stands behind its key; the text of a run that is a table."""
-    for kind, span in leaves:
-        if kind is LeafKind.SETTING:
-            written, fields = _matched(_SETTING, text, *span).groups()
+    for kind, (begin, end) in leaves:
+        if kind is _SETTING_LINE:
+            written, fields = _matched(_SETTING, text, begin - start, end - start).groups()
             yield _terminal(written, keys), fields
-        elif kind is LeafKind.RUN or kind is LeafKind.TEXT:
+        elif kind is _RUN_OF_ROWS or kind is _TEXT_LINE:
             if not tabular:
-                for start, end in line_spans(text, span):
-                    yield ROW, _matched(_LINE, text, start, end + 1)[1]
-            elif text[span.end - 1] == "\n":
-                yield ROW, text[span.start : span.end]
+                for first, last in line_spans(text, Span(begin - start, end - start)):
+                    yield ROW, _matched(_LINE, text, first, last + 1)[1]
+            elif text[end - start - 1] == "\n":
+                yield ROW, text[begin - start : end - start]
             else:
                 raise _OddError
         elif kind is not LeafKind.BLANK:
             raise _OddError
+
+
+_SETTING_LINE, _RUN_OF_ROWS, _TEXT_LINE = LeafKind.SETTING, LeafKind.RUN, LeafKind.TEXT
 
 
 def _matched(pattern: re.Pattern[str], text: str, start: int, end: int) -> re.Match[str]:

@@ -89,12 +89,12 @@ def _stray_laws(context: LintContext) -> Iterator[Problem]:
             if not any(map(_LAW.match, block.lines)) or not context.text:
                 continue
             where = Where(number, index)
-            head = context.text.heads[where]
-            found = _LAW.search(context.text.source.text, head.end)
+            head = context.text.head(where)
+            found = _LAW.search(context.text.source.text, head.end if head else 0)
             message = (
                 f"*{block.keyword} has no such line: begin *SEABED PROPERTIES above it, else no seabed law applies"
             )
-            place = Span(*found.span()) if found else head
+            place = Span(*found.span()) if found else head or Span(0, 0)
             line = (Span(place.start, place.start), "*SEABED PROPERTIES\n")
             repair = Repair("unsafe", "begin *SEABED PROPERTIES above this line", (line,)) if found else None
             yield Problem(SBD006, message, place, repair=repair)
