@@ -110,7 +110,7 @@ def _curve(context: Context, name: str | None, table: Table, where: Where, *, em
 def _points(table: Table) -> tuple[Floats, Indices]:
     """The points (n, 2) of a table, those that have two numbers, and their rows."""
     values = table.values
-    full = values.shape[1] == 2 and np.minimum.reduce(table.lengths, initial=2) == 2
+    full = values.shape[1] == 2 and (table.full or np.minimum.reduce(table.lengths, initial=2) == 2)
     if full and not isnan(np.minimum.reduce(values, axis=None, initial=0.0)):
         return values.copy(), identity(len(values))
     points = side_by_side(table.column(0), table.column(1))

@@ -18,7 +18,7 @@ from mudline.keywords.unknown import UNKNOWN, is_partly_unknown, known_name
 from mudline.scene.context import Context
 from mudline.scene.deck_values import number, surfaces
 from mudline.scene.force_curves import SceneCurve, set_name
-from mudline.scene.numbering import Floats, Indices, Mask, looked_up, one_index, picked
+from mudline.scene.numbering import FEW, Floats, Indices, Mask, looked_up, one_index, picked
 from mudline.scene.sets import NamedSet, Sets, later_wins
 from mudline.short_repr import short_repr
 
@@ -97,8 +97,11 @@ def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: lis
     legacy = [*surfaces, *_embedment(sets, laws, len(named))]
     new = list(_properties(context, sets, laws, named))
     laws.set_laws = legacy + new
-    laws.of_element = later_wins([set_law.set_ for set_law in legacy], count)
     wins = later_wins([set_law.set_ for set_law in new], count)
+    if not legacy and all(set_law.kind is not LawKind.NONE or set_law.unknown for set_law in new):
+        laws.of_element = laws.covered = wins
+        return laws
+    laws.of_element = later_wins([set_law.set_ for set_law in legacy], count)
     laws.covered = looked_up(np.array([*range(len(legacy), len(laws.set_laws)), NOTHING], dtype=np.intp), wins)
     gives = np.array([*(set_law.kind is not LawKind.NONE or set_law.unknown for set_law in laws.set_laws), False])
     replaced = looked_up(gives, laws.covered)
@@ -260,6 +263,8 @@ def _present(covered: Indices) -> list[int]:
     index = one_index(covered)
     if index is not None:
         return [index] * (index >= 0)
+    if len(covered) <= FEW:
+        return sorted({*covered.tolist()} - {-1})
     found: list[int] = np.bincount(covered[covered >= 0]).nonzero()[0].tolist()
     return found
 

@@ -208,6 +208,7 @@ class Numbered:
     starts: Indices
     batches: list[Batch]
     _runs: list[_Run] | None = None
+    _few: dict[int, int] | None = None
 
     __repr__ = short_repr
 
@@ -236,6 +237,10 @@ class Numbered:
 
     def indices(self, ids: Ids) -> Indices:
         """Indices of numbers, -1 for those not defined."""
+        if len(self.ids) <= FEW and ids.ndim == 1 and len(ids) <= FEW:
+            if self._few is None:
+                self._few = dict(zip(self.ids.tolist(), range(len(self.ids)), strict=True))
+            return np.array([self._few.get(number, -1) for number in ids.tolist()], dtype=np.intp)
         found = np.full(ids.shape, -1, dtype=np.intp)
         for order, ordered in self._ascending():
             at = np.minimum(ordered.searchsorted(ids), len(ordered) - 1)

@@ -25,6 +25,7 @@ from mudline.limits import MOST_REPORTED
 from mudline.scene.context import Context
 from mudline.scene.deck_values import bare, makes_labels
 from mudline.scene.laws import LawTable
+from mudline.scene.names import names_used
 from mudline.scene.numbering import Numbered
 from mudline.scene.sets import Sets
 from mudline.spelling import same_marks
@@ -47,15 +48,16 @@ def check_references(context: Context, sets: Sets, laws: LawTable, *, with_soil:
     Postprocessing has sets of its own beside those of the model.
     """
     own: dict[str, str] | None = None
-    for block, where, name in given_names(context.deck, Names.SET):
-        if not with_soil and block.facts.soil_springs:
+    for name, where in ((one.name, one.where) for one in names_used(context, Names.SET)):
+        section = context.deck.sections[where.section]
+        if not with_soil and type(section.blocks[where.block]).facts.soil_springs:
             continue
-        if context.deck.sections[where.section].name not in _OF_THE_MODEL and sets.find(name) is None:
+        if section.name not in _OF_THE_MODEL and sets.find(name) is None:
             own = sets_of_postprocessing(context.deck) if own is None else own
             if folded(bare(name)) in own or not context.deck.keywords():
                 continue
         sets.check(name, where)
-    laws.referenced.update(folded(name) for _, _, name in given_names(context.deck, Names.CURVE))
+    laws.referenced.update(folded(one.name) for one in names_used(context, Names.CURVE))
 
 
 _OF_THE_MODEL = ("PREPROCESSOR", "MODEL", "LOAD CASE")

@@ -250,7 +250,10 @@ class ResolvedDeck:
     @cached_property
     def replaced(self) -> list[Replaced]:
         """What extension keywords give in place of what elements had, the last one for good."""
-        soft, found = self.laws_given != LawKind.RIGID, []
+        found: list[Replaced] = []
+        if not self.extensions:
+            return found
+        soft = self.laws_given != LawKind.RIGID
         for keyword, extension in reversed(self.extensions.items()):
             law, field = facts_of(keyword).gives_law
             if law:

@@ -16,8 +16,7 @@ from mudline.keywords.text import advice_on, shown
 from mudline.keywords.values import Names, number_meant
 from mudline.scene.checks import check
 from mudline.scene.laws import NOTHING, typed_blocks
-from mudline.scene.names import CURVES, undefined
-from mudline.scene.references import given_names
+from mudline.scene.names import CURVES, names_used, undefined
 
 if TYPE_CHECKING:
     from mudline.keywords.library.elastic_surface import ElasticSurface
@@ -326,7 +325,7 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     unused = [name for key, name in names.items() if key not in scene.laws.referenced]
     elsewhere = scene.context.possible_definition("SEABED STIFFNESS")
     other = f" (did you mean {unused[0]}, which nothing uses?)" if len(unused) == 1 and not elsewhere else ""
-    for _, where, name in given_names(scene.deck, Names.CURVE):
+    for name, where in ((one.name, one.where) for one in names_used(scene.context, Names.CURVE)):
         if folded(name) in names:
             continue
         hint = scene.context.hint(name, names) or ("" if name[:1].isdigit() else other)
