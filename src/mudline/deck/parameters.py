@@ -284,18 +284,22 @@ def evaluated(deck: Deck) -> tuple[EvaluatedDeck, list[Problem]]:
     Without a value of `$MODEL` nothing can be evaluated, were it only because a function is not known, which is a
     warning. What other sections hold has no influence on the contact.
     """
+    copies = [type(one)(one.name, [*one.blocks], one.comments, one.lines) for one in deck.sections]
+    ready = EvaluatedDeck(replace(deck, sections=copies))
+    written = [
+        (i, j)
+        for i, section in enumerate(copies)
+        if section.name != DEFINING
+        for j, block in enumerate(section.blocks)
+        if _has_equation(block)
+    ]
+    if not written and "PARAMETERS" not in deck.keywords(DEFINING):
+        return ready, []
     parameters = Parameters(deck)
     evaluator = _Evaluator(parameters)
-    sections = []
-    for i, section in enumerate(deck.sections):
-        blocks = list(section.blocks)
-        if section.name != DEFINING:
-            evaluator.blocks = Blocks.ALWAYS if section.name == "MODEL" else Blocks.NEVER
-            for j, block in enumerate(section.blocks):
-                if _has_equation(block):
-                    blocks[j] = evaluator.part(block, Where(i, j))
-        sections.append(type(section)(section.name, blocks, section.comments, section.lines))
-    ready = EvaluatedDeck(replace(deck, sections=sections))
+    for i, j in written:
+        evaluator.blocks = Blocks.ALWAYS if copies[i].name == "MODEL" else Blocks.NEVER
+        copies[i].blocks[j] = evaluator.part(copies[i].blocks[j], Where(i, j))
     noticed = parameters.problems
     if evaluator.lacks_parameter:
         noticed = [replace(problem, blocks=Blocks.ALWAYS) for problem in noticed]

@@ -175,12 +175,12 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
     found: list[Problem] = []
     noticed = bool(context.noticed)
     for rule in chosen:
-        if isinstance(rule.check, Noticed):
-            if noticed:
-                found += rule.check(context)
-        else:
-            for problem in rule.check(context):
+        check = rule.check
+        if type(check) is not Noticed:
+            for problem in check(context):
                 found.append(_advice(problem))
+        elif noticed:
+            found += check(context)
     return [problem for problem in found if not of_base(context.deck, problem)]
 
 

@@ -261,7 +261,7 @@ def _few(elements: Numbered, nodes: Numbered) -> tuple[Indices, Floats] | None:
     if not 0 < len(elements) <= FEW or len(nodes) > FEW:
         return None
     places = nodes.values.tolist()
-    known = dict(zip(nodes.ids.tolist(), range(len(places)), strict=True))
+    known = nodes.by_number()
     ends: list[tuple[int, int]] = []
     lengths: list[float] = []
     for first, second in elements.values.tolist():

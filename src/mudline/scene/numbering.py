@@ -209,6 +209,7 @@ class Numbered:
     batches: list[Batch]
     _runs: list[_Run] | None = None
     _few: dict[int, int] | None = None
+    """Of a few numbers the indices, once somebody asks."""
 
     __repr__ = short_repr
 
@@ -238,17 +239,25 @@ class Numbered:
     def indices(self, ids: Ids) -> Indices:
         """Indices of numbers, -1 for those not defined."""
         if len(self.ids) <= FEW and ids.ndim == 1 and len(ids) <= FEW:
-            if self._few is None:
-                self._few = dict(zip(self.ids.tolist(), range(len(self.ids)), strict=True))
-            return np.array([self._few.get(number, -1) for number in ids.tolist()], dtype=np.intp)
+            few = self.by_number()
+            return np.array([few.get(number, -1) for number in ids.tolist()], dtype=np.intp)
         found = np.full(ids.shape, -1, dtype=np.intp)
         for order, ordered in self._ascending():
             at = np.minimum(ordered.searchsorted(ids), len(ordered) - 1)
             np.copyto(found, order[at], where=ordered[at] == ids)
         return found
 
+    def by_number(self) -> dict[int, int]:
+        """The indices of a few numbers: of no more than FEW."""
+        if self._few is None:
+            self._few = dict(zip(self.ids.tolist(), range(len(self.ids)), strict=True))
+        return self._few
+
     def between(self, start: int, end: int, step: int) -> Indices:
         """Indices of the numbers start, start + step, ... up to end, in ascending order."""
+        if len(self.ids) <= FEW and step > 0:
+            wanted = range(start, end + 1, step)
+            return np.array([index for number, index in self.by_number().items() if number in wanted], dtype=np.intp)
         parts = [self._part(run, start, end, step) for run in self._ascending()]
         found = parts[0] if len(parts) == 1 else np.concatenate([np.zeros(0, dtype=np.intp), *parts])
         return found if _is_ascending(found) else np.sort(found)

@@ -16,7 +16,7 @@ from mudline.keywords.text import advice_on, shown
 from mudline.keywords.unknown import is_partly_unknown, known_name
 from mudline.scene.context import Context
 from mudline.scene.deck_values import bare
-from mudline.scene.numbering import Ids, Indices, Numbered, constant, identity
+from mudline.scene.numbering import FEW, Ids, Indices, Numbered, constant, identity
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
@@ -235,6 +235,10 @@ class _Reader:
 
     def _listed(self, member: SetList, where: Where) -> tuple[Indices, bool]:
         """Indices of the elements of a list in ascending order, and whether these are all."""
+        if len(self.elements) <= FEW and not is_partly_unknown(member.elements):
+            few = self.elements.by_number()
+            if few.keys() >= {*member.elements}:
+                return np.array(sorted({few[number] for number in member.elements}), dtype=np.intp), True
         numbers = np.array([element for element in member.elements if isinstance(element, int)], dtype=np.int64)
         indices = self.elements.indices(numbers)
         known = indices >= 0

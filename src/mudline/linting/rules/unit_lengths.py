@@ -273,10 +273,10 @@ def _in_lengths(scene: Scene) -> Iterator[tuple[SceneCurve, float]]:
 
 def _may_be_in_lengths(curve: SceneCurve) -> bool:
     """Whether most ratios of a curve are not round numbers, and CRV010 reports none of them."""
-    if not curve.usable or len(curve.points) < FEWEST_POINTS:
+    if not curve.usable or np.count_nonzero(curve.points[:, 0]) < FEWEST_POINTS:
         return False
     ratios = _ratios(curve)
-    if len(ratios) < FEWEST_POINTS or ratios.max() > LARGEST_RATIO:
+    if ratios.max() > LARGEST_RATIO:
         return False
     return bool(_is_round(ratios).mean() < MOST_ROUND)
 
