@@ -173,9 +173,11 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
     Suppressed problems are among them; unused suppression comments are not.
     """
     found: list[Problem] = []
-    noticed = bool(context.noticed)
+    noticed, holds = bool(context.noticed), context.scene.holds
     for rule in chosen:
         check = rule.check
+        if rule.of and holds.isdisjoint(rule.of):
+            continue
         if type(check) is not Noticed:
             for problem in check(context):
                 found.append(_advice(problem))

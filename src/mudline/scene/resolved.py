@@ -149,6 +149,12 @@ class ResolvedDeck:
         """What was noticed on the way, and what could not be read."""
         return self.set_table.context
 
+    @cached_property
+    def holds(self) -> frozenset[str]:
+        """The keywords of the deck in any of its sections, read or not, and its sections as `$NAME`."""
+        sections = self.deck.sections
+        return frozenset([f"${one.name}" for one in sections] + [b.keyword for one in sections for b in one.blocks])
+
     @property
     def may_have_more_laws(self) -> bool:
         """Whether a line that could not be used may give elements a law of the seabed."""

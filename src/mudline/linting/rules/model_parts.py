@@ -101,7 +101,7 @@ def element_without_section(context: LintContext) -> Iterator[Problem]:
         yield Problem(GEO007, message, where=scene.table.numbered.where(int(bare[0])))
 
 
-@rule(GEO008)
+@rule(GEO008, of=("$LOAD CASE",))
 def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
     """Elements have no hydrodynamic properties in a load case with waves or a current.
 
@@ -287,7 +287,7 @@ def _whole(words: Iterator[str]) -> Iterator[int]:
 # ------------------------------------------------------------------------------------------------------- cables
 
 
-@rule(GEO011)
+@rule(GEO011, of=("CABLE",))
 def short_cable(context: LintContext) -> Iterator[Problem]:
     """A cable is shorter than the distance between the nodes at its ends.
 
@@ -319,7 +319,7 @@ def short_cable(context: LintContext) -> Iterator[Problem]:
                 yield Problem(GEO011, message, where=where.inside("cables", index, "length"))
 
 
-@rule(GEO012)
+@rule(GEO012, of=("CABLE",))
 def node_beyond_cable(context: LintContext) -> Iterator[Problem]:
     """A node lies farther along a cable than the cable is long.
 

@@ -57,7 +57,7 @@ _STICKING = (
 FARTHEST = 1.0e4
 
 
-@rule(STB001)
+@rule(STB001, of=("SEABED SUCTION",))
 def suction_snap(context: LintContext) -> Iterator[Problem]:
     """The suction force decreases while the pipe keeps rising.
 
@@ -182,7 +182,7 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
             yield Problem(STB002, message, where=where.inside("fixed", "increment"))
 
 
-@rule(STB004)
+@rule(STB004, of=("SEABED FRICTION",))
 def lateral_softening(context: LintContext) -> Iterator[Problem]:
     """The lateral resistance falls while the pipe moves on.
 
@@ -371,7 +371,7 @@ def _neighbours(scene: Scene) -> tuple[Indices, Indices]:
     return one[wanted], other[wanted]
 
 
-@rule(EXT008)
+@rule(EXT008, of=("SEABED UNLOADING",))
 def soft_unloading(context: LintContext) -> Iterator[Problem]:
     """The unloading stiffness is below the steepest slope of the loading law.
 

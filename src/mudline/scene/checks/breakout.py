@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 EXT013 = Code("EXT013", "bad-breakout", Severity.ERROR)
 
 
-@check(EXT013)
+@check(EXT013, of=("SEABED FRICTION",))
 def bad_breakout(scene: ResolvedDeck) -> Iterator[Problem]:
     """The lateral breakout of *SEABED FRICTION is incomplete, impossible, or beside a law that it excludes.
 

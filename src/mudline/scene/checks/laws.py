@@ -147,7 +147,7 @@ def _without_set(name: str | None, where: Where, what: str) -> Iterator[Problem]
         yield Problem(SBD003, message, None, Severity.WARNING, where)
 
 
-@check(SBD004)
+@check(SBD004, of=("ELASTIC SURFACE",))
 def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
     """*ELASTIC SURFACE gives no stiffness, and there is no *EMBEDMENT.
 
@@ -176,7 +176,7 @@ def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
             yield reading.missing(SBD004, message, where, "EMBEDMENT")
 
 
-@check(SBD005)
+@check(SBD005, of=("EMBEDMENT",))
 def embedment_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     """*EMBEDMENT is used with a rigid seabed, or with none.
 

@@ -32,7 +32,7 @@ _STEEP = 45.0
 _VERTICAL = 90.0
 
 
-@check(SBD011)
+@check(SBD011, of=("SEABED PROFILE",))
 def profile_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     """A rigid seabed has a profile that only an elastic one takes.
 
@@ -139,7 +139,7 @@ def unreadable_profile(scene: ResolvedDeck) -> Iterator[Problem]:
         yield Problem(SBD023, f"{fault}: correct the points", None, Severity.ERROR, where)
 
 
-@check(EXT002)
+@check(EXT002, of=("SEABED PLANES",))
 def floor_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     """The seabed is given twice: by planes and by a profile or a slope.
 

@@ -41,7 +41,7 @@ def _fields(extension: Extension) -> Iterator[tuple[int, Parameter, tuple[str, .
                 yield index, parameter, path, value
 
 
-@check(EXT010)
+@check(EXT010, of=(_KEYWORD,))
 def soil_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     """An element with *SEABED SOIL has another law of its normal reaction.
 
@@ -97,7 +97,7 @@ def soil_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
             yield Problem(EXT010, message, None, Severity.INFO, where.inside("set"))
 
 
-@check(EXT011)
+@check(EXT011, of=(_KEYWORD,))
 def impossible_soil(scene: ResolvedDeck) -> Iterator[Problem]:
     """A value of *SEABED SOIL is one that no soil has.
 
@@ -133,7 +133,7 @@ def impossible_soil(scene: ResolvedDeck) -> Iterator[Problem]:
                 yield Problem(EXT011, message, where=where.inside("buoyancy", name))
 
 
-@check(EXT012)
+@check(EXT012, of=(_KEYWORD,))
 def unusual_soil(scene: ResolvedDeck) -> Iterator[Problem]:
     """A value of *SEABED SOIL is outside of what published soils have, or its units cannot be checked.
 

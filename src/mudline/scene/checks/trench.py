@@ -28,7 +28,7 @@ _LOCKED = "mu2 tan(theta) must be below 1, else the wall of the trench locks its
 _HIDDEN = "; sets or lines that this deck does not show may give them another friction"
 
 
-@check(EXT003)
+@check(EXT003, of=(_KEYWORD,))
 def bad_trench(scene: ResolvedDeck) -> Iterator[Problem]:
     """A trench has no possible geometry, no resistance, no friction spring, or a wall that locks itself.
 
