@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cache
-from typing import Literal, TypeGuard
+from typing import Literal, TypeGuard, cast
 
 from mudline.keywords.model import Block, FieldSpec, Part, record_schema
 from mudline.keywords.unknown import UNKNOWN_NAME
@@ -12,6 +12,12 @@ from mudline.keywords.values import Equation, Label, Names
 
 Role = Literal["names", "defines"]
 """What a field does with a name: it uses that of another thing, or gives a thing its own."""
+
+
+@cache
+def is_part(kind: type) -> bool:
+    """Whether a class is one of parts: to ask a model itself takes several times as long."""
+    return issubclass(kind, Part)
 
 
 @cache
@@ -65,13 +71,17 @@ def _given(
 ) -> Iterator[tuple[Names, Path, str]]:
     for slot in slots:
         value = getattr(part, slot.name, None)
-        for at, item in enumerate_items(slot, value) if value is not None else ():
-            if isinstance(item, Part):
+        if value is None:
+            continue
+        if _is_name(value):
+            if (kind := getattr(slot.about, role)) is not None:
+                yield kind, (slot.json,), value
+            continue
+        for at, item in enumerate_items(slot, value):
+            if is_part(type(item)):
                 inner = _naming(type(item), what, role)
-                for kind, path, name in _given(item, inner, role, what) if inner else ():
+                for kind, path, name in _given(cast("Part", item), inner, role, what) if inner else ():
                     yield kind, (*at, *path), name
-            elif item is value and (kind := getattr(slot.about, role)) is not None and _is_name(item):
-                yield kind, at, item
 
 
 def _is_name(item: object) -> TypeGuard[str]:
