@@ -128,6 +128,8 @@ def repeated_set(block: Block) -> Path:
         given: dict[str, Part] = {}
         for index, entry in enumerate(getattr(block, listed.name)):
             name = getattr(entry, named.name, None)
-            if isinstance(name, str) and name and given.setdefault(name.casefold(), entry) != entry:
-                return listed.json, index, named.json
+            if isinstance(name, str) and name:
+                first = given.setdefault(name.casefold(), entry)
+                if first is not entry and first != entry:
+                    return listed.json, index, named.json
     return ()

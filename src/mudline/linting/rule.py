@@ -11,11 +11,12 @@ from operator import is_
 from textwrap import dedent
 from typing import Any, TypeVar
 
-from mudline.deck.model import Deck, Opaque
+from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import MORE, Blocks, Code, Problem, Where
 from mudline.keywords.catalogue import holds_in_soil, is_superseded
 from mudline.limits import MOST_REPORTED
+from mudline.scene.context import placed_blocks
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene, resolve
 from mudline.variations.names import (
@@ -62,24 +63,20 @@ class LintContext:
 
     def blocks(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
         """What `Deck.blocks` gives for the deck of the scene, whose equations are evaluated."""
-        return self._evaluated.get((section, keyword), ())
+        return self.scene.context.blocks(keyword, section)
 
     def written(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
         """What `Deck.blocks` gives for the deck itself, with its equations."""
         return self._written.get((section, keyword), ())
 
     @cached_property
-    def _evaluated(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
+    def _written(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
         evaluated, own = self.scene.deck.sections, self.deck.sections
         if len(evaluated) == len(own) and all(
             all(map(is_, a.blocks, b.blocks)) for a, b in zip(evaluated, own, strict=True)
         ):
-            return self._written  # no equation, and no deck that it continues
-        return _by_keyword(self.scene.deck)
-
-    @cached_property
-    def _written(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
-        return _by_keyword(self.deck)
+            return self.scene.context.placed  # no equation, and no deck that it continues
+        return placed_blocks(self.deck)
 
     @cached_property
     def keywords(self) -> set[str]:
@@ -131,18 +128,6 @@ def entries_of_sets(blocks: Iterable[tuple[Where, Any]]) -> Iterator[tuple[Where
     for where, block in blocks:
         for index, entry in enumerate(block.sets):
             yield where.inside("sets", index), entry
-
-
-def _by_keyword(deck: Deck) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
-    """What `Deck.blocks` gives for every section and keyword."""
-    found: dict[tuple[str, str], list[tuple[Where, Any]]] = {}
-    own = len(deck.own_sections)
-    for i in (*range(own, len(deck.sections)), *range(own)):
-        section = deck.sections[i]
-        for j, block in enumerate(section.blocks):
-            if type(block) is not Opaque:  # isinstance of a model takes several times as long
-                found.setdefault((section.name, block.keyword), []).append((Where(i, j), block))
-    return found
 
 
 def _of_variations(deck: Deck) -> Iterator[Problem]:

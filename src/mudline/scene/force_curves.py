@@ -66,12 +66,12 @@ def read_curves(context: Context) -> tuple[list[SceneCurve], list[SceneCurve]]:
     """The curves of `*SEABED STIFFNESS` and those of `*EMBEDMENT`, in the order of the file."""
     named = [
         _curve(context, known_name(entry.name), entry.points, where.inside("curves", index), embedment=False)
-        for where, block in context.deck.blocks("SEABED STIFFNESS")
+        for where, block in context.blocks("SEABED STIFFNESS")
         for index, entry in enumerate(cast("SeabedStiffness", block).curves)
     ]
     by_set = [
         _curve(context, set_name(entry.set_name), entry.points, place, embedment=True)
-        for where, block in context.deck.blocks("EMBEDMENT")
+        for where, block in context.blocks("EMBEDMENT")
         for index, entry in enumerate(cast("Embedment", block).curves)
         for place in (where.inside("curves", index),)
     ]

@@ -16,7 +16,7 @@ from mudline.keywords import catalogue
 from mudline.keywords.naming import set_slots
 from mudline.keywords.unknown import UNKNOWN, is_partly_unknown, known_name
 from mudline.scene.context import Context
-from mudline.scene.deck_values import number, surfaces
+from mudline.scene.deck_values import number
 from mudline.scene.force_curves import SceneCurve, set_name
 from mudline.scene.numbering import FEW, Floats, Indices, Mask, looked_up, one_index, picked
 from mudline.scene.sets import NamedSet, Sets, later_wins
@@ -122,14 +122,14 @@ def _marked(laws: LawTable, kind: LawKind) -> Mask:
 
 
 def _rigid_surface(context: Context, sets: Sets, laws: LawTable) -> Iterator[SetLaw]:
-    for where, _ in context.deck.blocks("RIGID SURFACE"):
+    for where, _ in context.blocks("RIGID SURFACE"):
         laws.types.setdefault("RIGID", []).append(where)
         yield SetLaw(LawKind.RIGID, sets.everything, where, "legacy")
 
 
 def _elastic_surface(context: Context, sets: Sets, laws: LawTable) -> Iterator[SetLaw]:
     """The linear stiffness that holds where no curve of `*EMBEDMENT` does, in whatever order they stand."""
-    for where, block in context.deck.blocks("ELASTIC SURFACE"):
+    for where, block in context.blocks("ELASTIC SURFACE"):
         laws.types.setdefault("ELASTIC", []).append(where)
         place = where.inside("properties")
         stiffness = getattr(cast("ElasticSurface", block).properties, "stiffness", None)
@@ -153,7 +153,7 @@ def _unknown(name: str | None) -> NamedSet:
 def typed_blocks(context: Context) -> Iterator[tuple[Where, SeabedProperties, str | None]]:
     """The `*SEABED PROPERTIES` blocks with their type: a block without TYPE= has that of the block before it."""
     type_: str | None = None
-    for where, block in context.deck.blocks("SEABED PROPERTIES"):
+    for where, block in context.blocks("SEABED PROPERTIES"):
         properties = cast("SeabedProperties", block)
         type_ = type_ if properties.type_ is None else properties.type_
         yield where, properties, type_
@@ -289,7 +289,7 @@ def _of_set(entry: SeabedSet) -> ResistanceValues:
 
 
 def _of_surfaces(context: Context) -> Iterator[tuple[Where, ResistanceValues]]:
-    for where, surface in surfaces(context.deck):
+    for where, surface in context.surfaces:
         properties = surface.properties
         yield (
             where.inside("properties"),
@@ -352,7 +352,7 @@ def _read_extension(context: Context, sets: Sets, keyword: str, count: int) -> E
     entries: list[Record] = []
     places: list[Where] = []
     holders: list[NamedSet | None] = []
-    for where, block in context.deck.blocks(keyword):
+    for where, block in context.blocks(keyword):
         for listed, named in set_slots(type(cast("Block", block))):
             for index, entry in enumerate(getattr(block, listed.name)):
                 entries.append(entry)

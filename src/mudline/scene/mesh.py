@@ -59,7 +59,7 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
     """
     gathered = Definitions()
     waiting: list[_NodeLine] = []
-    for where, block in context.deck.blocks("NODE"):
+    for where, block in context.blocks("NODE"):
         for index, entry in enumerate(cast("Nodes", block).entries):
             place = where.inside("entries", index)
             if hasattr(entry, "nodes"):
@@ -175,7 +175,7 @@ class ElementTable:
 def read_elements(context: Context, nodes: Numbered, external: ExternalElements | None = None) -> ElementTable:
     """The elements of the model, then those of a file, which replace them."""
     gathered = Definitions()
-    for where, block in context.deck.blocks("ELEMENT"):
+    for where, block in context.blocks("ELEMENT"):
         for index, entry in enumerate(cast("Elements", block).entries):
             place = where.inside("entries", index)
             if hasattr(entry, "elements"):

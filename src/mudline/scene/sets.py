@@ -110,7 +110,7 @@ class _Reader:
         context = self.context
         everything = identity(len(self.elements))
         named[ALL] = NamedSet("ALL", everything, None, open=bool(context.external_definers or context.restart))
-        for where, block in context.deck.blocks("ELEMENT SETS"):
+        for where, block in context.blocks("ELEMENT SETS"):
             self._collect(cast("ElementSets", block).sets, where)
         for key, name in context.opaque_set_names.items():
             if key not in self.definitions:

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.linting.rule import LintContext, rule
-from mudline.scene.deck_values import surfaces
 from mudline.scene.laws import DIRECTIONS, Extension, typed_blocks
 from mudline.scene.sets import ALL
-
-if TYPE_CHECKING:
-    from mudline.keywords.surfaces import Surface
 
 SBD007 = Code("SBD007", "lateral-and-friction", Severity.WARNING)
 SBD013 = Code("SBD013", "legacy-friction-order", Severity.WARNING)
@@ -314,7 +310,7 @@ def _found(context: LintContext) -> list[Given]:
             surface.facts.seabed_type,
             legacy=True,
         )
-        for where, surface in context.once(surfaces_of)
+        for where, surface in context.scene.context.surfaces
     ]
     for where, properties, type_ in typed_blocks(context.scene.context):
         for index, entry in enumerate(properties.sets):
@@ -332,11 +328,6 @@ def _resisting(context: LintContext) -> list[Given]:
         or entry.part.lateral is not None
         or entry.part.suction is not None
     ]
-
-
-def surfaces_of(context: LintContext) -> list[tuple[Where, Surface]]:
-    """The legacy surfaces of the deck of the scene; several rules ask `context.once` for them."""
-    return surfaces(context.scene.deck) if context.superseded else []  # newer keywords supersede all of them
 
 
 def positive(value: float | None) -> bool:

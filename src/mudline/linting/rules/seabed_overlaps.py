@@ -17,7 +17,6 @@ from mudline.keywords.model import Record
 from mudline.keywords.text import shown
 from mudline.limits import MOST_REPORTED
 from mudline.linting.rule import LintContext, rule
-from mudline.linting.rules.seabed_friction import surfaces_of
 from mudline.linting.rules.seabed_position import first_of
 from mudline.scene.laws import SetLaw
 from mudline.scene.model import Scene
@@ -150,7 +149,7 @@ def _unused_properties(context: LintContext) -> Iterator[Problem]:
 
 def _unused_surfaces(context: LintContext) -> Iterator[Problem]:
     """Legacy surfaces that a later one replaces, unless SBD002 reports two types."""
-    found = context.once(surfaces_of) if len(context.scene.laws.types) == 1 else []
+    found = context.scene.context.surfaces if len(context.scene.laws.types) == 1 else []
     for where, surface in found[:-1]:
         message = (
             f"these values apply to no element, as a later *{surface.keyword} overrides them: remove one of the two"

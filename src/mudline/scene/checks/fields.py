@@ -91,7 +91,7 @@ def inner_exceeds_outer(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 5:27
     """
-    for where, block in scene.deck.blocks("GEOMETRIC SETS"):
+    for where, block in scene.context.blocks("GEOMETRIC SETS"):
         for index, entry in enumerate(cast("GeometricSets", block).sets):
             outer, inner = (getattr(entry.section, name, None) for name in ("do", "di"))
             if isinstance(outer, int | float) and isinstance(inner, int | float) and inner >= outer > 0:

@@ -136,7 +136,7 @@ def missing_type(scene: ResolvedDeck) -> Iterator[Problem]:
             yield Problem(SBD003, message, where=where)
         for index, entry in enumerate(properties.sets[:1]):
             yield from _without_set(entry.set_name, where.inside("sets", index), "lines")
-    for where, block in scene.deck.blocks("EMBEDMENT"):
+    for where, block in scene.context.blocks("EMBEDMENT"):
         for index, curve in enumerate(cast("Embedment", block).curves[:1]):
             yield from _without_set(curve.set_name, where.inside("curves", index), "points")
 
@@ -168,7 +168,7 @@ def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
     """
     reading = scene.context
     embedment = any(curve.embedment for curve in scene.laws.curves) or "EMBEDMENT" in reading.unread
-    for where, block in scene.deck.blocks("ELASTIC SURFACE"):
+    for where, block in scene.context.blocks("ELASTIC SURFACE"):
         properties = cast("ElasticSurface", block).properties
         lacking = getattr(properties, "stiffness", None) is None
         if lacking and not embedment:
