@@ -179,8 +179,7 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
         if rule.of and holds.isdisjoint(rule.of):
             continue
         if type(check) is not Noticed:
-            for problem in check(context):
-                found.append(_advice(problem))
+            found.extend(map(_advice, check(context)))
         elif noticed:
             found += check(context)
     return [problem for problem in found if not of_base(context.deck, problem)]

@@ -248,7 +248,7 @@ def read_resistance(context: Context, laws: LawTable) -> SeabedResistance:
     values = [entry for _, entry in surfaces]
     places = [where for where, _ in surfaces]
     position_of = np.full(len(laws.set_laws) + 1, len(surfaces) - 1, dtype=np.intp)
-    for index in _present(laws.covered):
+    for index in present(laws.covered):
         where = laws.set_laws[index].where
         block = cast("SeabedProperties", context.deck.sections[where.section].blocks[where.block])
         position = cast("int", where.path[1])
@@ -258,7 +258,7 @@ def read_resistance(context: Context, laws: LawTable) -> SeabedResistance:
     return SeabedResistance(values, places, looked_up(position_of, laws.covered))
 
 
-def _present(covered: Indices) -> list[int]:
+def present(covered: Indices) -> list[int]:
     """The indices that there are, without -1, in ascending order."""
     index = one_index(covered)
     if index is not None:

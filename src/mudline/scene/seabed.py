@@ -86,9 +86,12 @@ class SeabedShape:
         )
 
 
+_FLAT = SeabedShape()
+
+
 def read_seabed(context: Context) -> SeabedShape:
     """The seabed of a deck: the last `*SEABED PLANES`, else the last `*SEABED PROFILE`, else that of the surface."""
-    found = SeabedShape()
+    found = _FLAT
     unreadable: list[tuple[Where, str]] = []
     for where, surface in context.surfaces:
         found = _surface(surface, where, found)

@@ -53,7 +53,7 @@ def lateral_and_friction(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:10
     """
-    for entry in context.once(_resisting):
+    for entry in context.once(resisting):
         friction = entry.value("transverse")
         both = entry.type_ != "RIGID" and positive(entry.value("lateral")) and positive(friction)
         if both and not friction_replaced(context, entry):
@@ -80,7 +80,7 @@ def legacy_friction_order(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:21
     """
-    for entry in context.once(_resisting):
+    for entry in context.once(resisting):
         length = entry.value("longitudinal_mobilisation")
         if not entry.legacy and length in _CHARACTERISTIC:
             message = (
@@ -109,7 +109,7 @@ def unused_friction_stiffness(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:27
     """
-    for entry in context.once(_resisting):
+    for entry in context.once(resisting):
         for direction in DIRECTIONS:
             name = f"{direction}_stiffness"
             idle = positive(entry.value(name)) and absent(entry, direction)
@@ -157,7 +157,7 @@ def extent_without_stiffness(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:15
     """
-    for entry in context.once(_resisting):
+    for entry in context.once(resisting):
         if positive(entry.value("suction_extent")) and absent(entry, "suction_stiffness"):
             message = "a suction zone without suction stiffness has no effect: give the stiffness, or remove the extent"
             yield Problem(SBD015, message, where=entry.place("suction_extent"))
@@ -182,7 +182,7 @@ def unused_characteristic_length(context: LintContext) -> Iterator[Problem]:
 
     Finds: 3:27
     """
-    for entry in context.once(_resisting):
+    for entry in context.once(resisting):
         for direction in DIRECTIONS if entry.legacy else ():
             name = f"{direction}_length"
             both = positive(entry.value(name)) and positive(entry.value(f"{direction}_mobilisation"))
@@ -211,7 +211,7 @@ def one_friction_coefficient(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:11
     """
-    for entry in context.once(_resisting):
+    for entry in context.once(resisting):
         longitudinal = entry.value("longitudinal")
         single = positive(longitudinal) and entry.value("transverse") is None and absent(entry, "transverse")
         sprung = entry.type_ != "RIGID" and positive(entry.value("lateral"))
@@ -254,8 +254,7 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
     Finds: 17:21
     """
     scene = context.scene
-    resistance = scene.resistance
-    if not resistance.has_mobilisation:
+    if not context.once(resisting) or not (resistance := scene.resistance).has_mobilisation:
         return
     lengths, friction = resistance.column("mobilisation"), resistance.column("friction")
     friction[resistance.column("lateral") > 0.0, 1] = 0.0  # a lateral spring replaces it
@@ -318,8 +317,8 @@ def _found(context: LintContext) -> list[Given]:
     return found
 
 
-def _resisting(context: LintContext) -> list[Given]:
-    """Those that may give more than a stiffness: the others have nothing that rules of this module look at."""
+def resisting(context: LintContext) -> list[Given]:
+    """Those that may give more than a stiffness: the others have nothing that rules about friction look at."""
     return [
         entry
         for entry in given(context)

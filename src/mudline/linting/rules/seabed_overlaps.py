@@ -18,9 +18,9 @@ from mudline.keywords.text import shown
 from mudline.limits import MOST_REPORTED
 from mudline.linting.rule import LintContext, rule
 from mudline.linting.rules.seabed_position import first_of
-from mudline.scene.laws import SetLaw
+from mudline.scene.laws import SetLaw, present
 from mudline.scene.model import Scene
-from mudline.scene.numbering import Floats, Indices, one_index
+from mudline.scene.numbering import FEW, Floats, Indices
 from mudline.scene.sets import ALL, NamedSet
 
 SBD008 = Code("SBD008", "overlapping-sets", Severity.INFO)
@@ -119,11 +119,9 @@ def law_without_effect(context: LintContext) -> Iterator[Problem]:
 def _unused_properties(context: LintContext) -> Iterator[Problem]:
     """Sets of *SEABED PROPERTIES without an element that follows them, unless SBD008 or REF010 gives the reason."""
     scene = context.scene
-    idle = np.ones(len(scene.laws.set_laws) + 1, dtype=np.bool_)
-    only = one_index(scene.laws.covered)
-    idle[scene.laws.covered if only is None else only] = False  # the last one is that of no set_law, -1
+    followed = {*present(scene.laws.covered)}
     new = _own_grants(context, "new")
-    idle_grants = {id(grant) for grant, alone in zip(scene.laws.set_laws, idle.tolist(), strict=False) if alone}
+    idle_grants = {id(grant) for index, grant in enumerate(scene.laws.set_laws) if index not in followed}
     if not any(id(grant) in idle_grants for grant in new):
         return
     reported = {earlier for earlier, _ in _properties(scene, new)} if len(new) > 1 else set()
@@ -167,6 +165,9 @@ class _Overlap(NamedTuple):
 
 def _overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[_Overlap]:
     """Each set against those that held its elements until then; sets that are not known against their namesakes."""
+    if count <= FEW:
+        yield from _overlaps_of_few(sets, count)
+        return
     holder = np.full(count, -1, dtype=np.intp)
     names: dict[str, int] = {}
     for index, later in enumerate(sets):
@@ -186,6 +187,25 @@ def _overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[_Overlap]:
             yield _Overlap(names[name], index, later.elements)
         names[name] = index
         holder[later.elements] = index
+
+
+def _overlaps_of_few(sets: Sequence[NamedSet], count: int) -> Iterator[_Overlap]:
+    """The same, element by element."""
+    holder = [-1] * count
+    names: dict[str, int] = {}
+    for index, later in enumerate(sets):
+        elements = later.elements.tolist()
+        before: dict[int, list[int]] = {}
+        for element in elements:
+            before.setdefault(holder[element], []).append(element)
+            holder[element] = index
+        for earlier in sorted(before):
+            if earlier >= 0:
+                yield _Overlap(earlier, index, np.array(before[earlier], dtype=np.intp))
+        name = folded(later.name)
+        if not elements and name in names:
+            yield _Overlap(names[name], index, later.elements)
+        names[name] = index
 
 
 def _properties(scene: Scene, grants: list[SetLaw]) -> Iterator[tuple[int, Problem]]:

@@ -27,7 +27,7 @@ from mudline.scene.assignments import softens, suction_law
 from mudline.scene.deck_values import number
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene
-from mudline.scene.numbering import Floats, Indices
+from mudline.scene.numbering import FEW, Floats, Indices
 from mudline.scene.oscillation import Oscillation, line_of, oscillations, softening_needs
 
 if TYPE_CHECKING:
@@ -350,6 +350,9 @@ def _extremes(entry: SceneCurve) -> tuple[float, float]:
     """The smallest and the largest slope of a curve, flat segments left out; NaN without any."""
     if entry.curve is None or not entry.whole:
         return (math.nan, math.nan)
+    if len(entry.curve.slopes) <= FEW:
+        given = [abs(slope) for slope in entry.curve.slopes.tolist() if slope]
+        return (min(given), max(given)) if given else (math.nan, math.nan)
     slopes = np.abs(entry.curve.slopes)
     slopes = slopes[slopes > 0.0]
     return (float(slopes.min()), float(slopes.max())) if slopes.size else (math.nan, math.nan)

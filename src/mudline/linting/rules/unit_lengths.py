@@ -13,7 +13,7 @@ from mudline.keywords.model import Part
 from mudline.limits import MOST_REPORTED
 from mudline.linting.rule import LARGEST_RATIO, LintContext, rule
 from mudline.linting.rules.coordinates import UNT006, odd_coordinates
-from mudline.linting.rules.seabed_friction import given
+from mudline.linting.rules.seabed_friction import given, resisting
 from mudline.linting.rules.seabed_position import bounds_of, depths
 from mudline.linting.rules.unit_densities import (
     DENSITIES,
@@ -218,8 +218,7 @@ def suspicious_length(context: LintContext) -> Iterator[Problem]:
 def _mobilisation(context: LintContext) -> Iterator[Problem]:
     """Mobilisation lengths against the widest pipe that they hold for, but for those that SBD013 reports."""
     scene = context.scene
-    resistance = scene.resistance
-    if not resistance.has_mobilisation:
+    if not context.once(resisting) or not (resistance := scene.resistance).has_mobilisation:
         return
     widest = np.full(len(resistance.places) + 1, np.nan)
     friction = scene.extensions.get("SEABED FRICTION")

@@ -90,7 +90,6 @@ def steep_slope(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 8:8
     """
-    deck = scene.deck
     for where, block in (*scene.context.surfaces, *scene.context.blocks("SEABED PROFILE")):
         slope, place = number(block, "slope"), where.inside("slope")
         if abs(slope) >= _VERTICAL:
