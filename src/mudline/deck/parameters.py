@@ -286,9 +286,10 @@ def evaluated(deck: Deck) -> tuple[EvaluatedDeck, list[Problem]]:
     """
     copies = [type(one)(one.name, [*one.blocks], one.comments, one.lines) for one in deck.sections]
     ready = EvaluatedDeck(replace(deck, sections=copies))
+    plain = deck.origin.no_equations and not deck.bases
     written = [
         (i, j)
-        for i, section in enumerate(copies)
+        for i, section in enumerate(() if plain else copies)
         if section.name != DEFINING
         for j, block in enumerate(section.blocks)
         if _has_equation(block)

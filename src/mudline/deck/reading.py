@@ -140,6 +140,7 @@ class TextOrigin(Origin):
 
     tree: SyntaxTree
     read: dict[tuple[int, int], ReadBlock] = field(default_factory=dict)
+    no_equations: bool = False
 
     __repr__ = short_repr
 

@@ -245,7 +245,10 @@ def read_deck(data: bytes, name: str, *, units: str | None = None, folder: Path 
 
     Raises DeckError for a JSON or YAML file that holds no deck.
     """
-    return load_bytes(data, name, units=units, folder=folder, read=_read_once)
+    deck = load_bytes(data, name, units=units, folder=folder, read=_read_once)
+    if isinstance(deck.origin, TextOrigin):
+        deck.origin.no_equations = "[" not in deck.origin.source.text
+    return deck
 
 
 def lint_bytes(
