@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cache
-from typing import Literal, TypeGuard, cast
+from typing import Any, Literal, TypeGuard
+
+from pydantic import BaseModel
 
 from mudline.keywords.model import Block, FieldSpec, Part, record_schema
 from mudline.keywords.unknown import UNKNOWN_NAME
@@ -15,7 +17,7 @@ Role = Literal["names", "defines"]
 
 
 @cache
-def is_part(kind: type) -> bool:
+def is_part(kind: type[BaseModel]) -> bool:
     """Whether a class is one of parts: to ask a model itself takes several times as long."""
     return issubclass(kind, Part)
 
@@ -78,9 +80,10 @@ def _given(
                 yield kind, (slot.json,), value
             continue
         for at, item in enumerate_items(slot, value):
-            if is_part(type(item)):
-                inner = _naming(type(item), what, role)
-                for kind, path, name in _given(cast("Part", item), inner, role, what) if inner else ():
+            form: type[Part] = type(item)
+            if is_part(form):
+                inner = _naming(form, what, role)
+                for kind, path, name in _given(item, inner, role, what) if inner else ():
                     yield kind, (*at, *path), name
 
 
@@ -102,7 +105,7 @@ def idents_given(part: Part, what: Names) -> Iterator[tuple[tuple[str | int, ...
                 yield path, item
 
 
-def enumerate_items(slot: FieldSpec, value: object) -> Iterator[tuple[tuple[str | int, ...], object]]:
+def enumerate_items(slot: FieldSpec, value: object) -> Iterator[tuple[tuple[str | int, ...], Any]]:
     """The value of a field, or those of its list, each with the path to it."""
     if isinstance(value, list):
         yield from (((slot.json, index), item) for index, item in enumerate(value))

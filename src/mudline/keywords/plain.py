@@ -119,7 +119,11 @@ def _contents(lines: Iterable[tuple[str, str]], leaves: Sequence[Leaf], declared
 
 
 def _lines(
-    text: str, leaves: Sequence[Leaf], keys: frozenset[str], start: int, tabular: bool  # noqa: FBT001
+    text: str,
+    leaves: Sequence[Leaf],
+    keys: frozenset[str],
+    start: int,
+    tabular: bool,  # noqa: FBT001
 ) -> Iterator[tuple[str, str]]:
     """The terminal of each line, and what stands behind its key; the text of a run that is a table."""
     for kind, (begin, end) in leaves:

@@ -9,6 +9,8 @@ from collections.abc import Iterator
 from functools import cache
 from typing import Any
 
+from pydantic import BaseModel
+
 from mudline.keywords.model import FEWEST_POINTS, FieldSpec, ListRow, Part, Rows, record_schema
 from mudline.keywords.naming import is_part
 from mudline.keywords.table import Table
@@ -48,6 +50,7 @@ def _faults(part: Part) -> list[tuple[_Path, str]]:
         value: Any = getattr(part, slot.name)
         if value is None:
             continue
+        kind: type[BaseModel] = type(value)
         if isinstance(value, float | int):
             if fault := range_fault(value, slot):
                 found.append(((slot.json,), fault))
@@ -55,9 +58,10 @@ def _faults(part: Part) -> list[tuple[_Path, str]]:
             found += [((slot.json, *path), fault) for path, fault in _table_faults(value, slot)]
         elif isinstance(value, list):
             for index, item in enumerate(value):
-                if is_part(type(item)):
+                inner: type[BaseModel] = type(item)
+                if is_part(inner):
                     found += [((slot.json, index, *path), fault) for path, fault in _faults(item)]
-        elif is_part(type(value)):
+        elif is_part(kind):
             found += [((slot.json, *path), fault) for path, fault in _faults(value)]
     return found
 

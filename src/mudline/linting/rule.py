@@ -170,7 +170,7 @@ class Rule:
     `title` is the first sentence, `why` the text after it, `bad` a deck that it finds something in at `place` (line
     and column), `good` the deck corrected; `file` is the name that the examples are read under. `encoding` is that of
     the bad deck's bytes, `dialect` the one under which it is at fault. A rule that is `off` runs only where it is
-    selected, and one with keywords or sections `of` only in a deck that has some of them.
+    selected, and one with anything in `of` only in a deck that holds some of it.
 
     The findings of a rule whose check is not `Noticed` never keep a deck from being evaluated, whatever their severity.
     """
@@ -222,8 +222,7 @@ class Noticed:
 def rule(code: Code, *, off: bool = False, of: tuple[str, ...] = ()) -> Callable[[Check], Check]:
     """Register a function as the rule of a code that only advises; `off` keeps it from running unless it is selected.
 
-    `of` are keywords, and sections as `$NAME`, without all of which a deck has nothing for it to find: it is not asked
-    there.
+    `of` is what a deck may do without (`Context.holds`): it is not asked in one that has nothing of it.
 
     Its docstring begins with the title, a sentence on a line of its own; the text after it says why. Below `Example:`
     are a bad and a good deck in one, indented by four spaces: a line after a space is in both, one after `-` in the bad

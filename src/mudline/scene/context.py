@@ -35,6 +35,8 @@ if TYPE_CHECKING:
     from mudline.keywords.surfaces import Surface
 
 T = TypeVar("T")
+EXTENSION, SUPERSEDED = "extension", "superseded"
+"""What `Context.holds` has of a deck with keywords of that kind."""
 MOST_NAMED = 3
 """Names of which each may be the one that was meant."""
 
@@ -103,9 +105,20 @@ class Context:
         return placed_blocks(self.deck)
 
     @cached_property
+    def holds(self) -> frozenset[str]:
+        """What a deck may do without: its sections as `$NAME`, EXTENSION and SUPERSEDED where it has such keywords."""
+        found = {f"${section.name}" for section in self.deck.sections}
+        for _, keyword in self.placed:
+            if catalogue.is_extension(keyword):
+                found.add(EXTENSION)
+            if catalogue.is_superseded(keyword):
+                found.add(SUPERSEDED)
+        return frozenset(found)
+
+    @cached_property
     def surfaces(self) -> list[tuple[Where, Surface]]:
         """What `surfaces` gives: newer keywords supersede all of them."""
-        return surfaces(self.deck) if any(catalogue.is_superseded(keyword) for _, keyword in self.placed) else []
+        return surfaces(self.deck) if SUPERSEDED in self.holds else []
 
     def report(self, code: Code, message: str, where: Where, severity: Severity | None = None) -> None:
         """Note a problem."""

@@ -50,7 +50,7 @@ def check_references(context: Context, sets: Sets, laws: LawTable, *, with_soil:
     own: dict[str, str] | None = None
     for name, where in ((one.name, one.where) for one in names_used(context, Names.SET)):
         section = context.deck.sections[where.section]
-        if not with_soil and type(section.blocks[where.block]).facts.soil_springs:
+        if not with_soil and cast("Block", section.blocks[where.block]).facts.soil_springs:
             continue
         if section.name not in _OF_THE_MODEL and sets.find(name) is None:
             own = sets_of_postprocessing(context.deck) if own is None else own

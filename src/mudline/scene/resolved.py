@@ -148,12 +148,6 @@ class ResolvedDeck:
         return self.set_table.context
 
     @cached_property
-    def holds(self) -> frozenset[str]:
-        """The keywords of the deck in any of its sections, read or not, and its sections as `$NAME`."""
-        sections = self.deck.sections
-        return frozenset([f"${one.name}" for one in sections] + [b.keyword for one in sections for b in one.blocks])
-
-    @cached_property
     def resistance(self) -> SeabedResistance:
         """Friction, lateral stiffness and suction of each element."""
         return read_resistance(self.context, self.laws)

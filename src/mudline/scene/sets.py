@@ -237,8 +237,9 @@ class _Reader:
         """Indices of the elements of a list in ascending order, and whether these are all."""
         if len(self.elements) <= FEW and not is_partly_unknown(member.elements):
             few = self.elements.by_number()
-            if few.keys() >= {*member.elements}:
-                return np.array(sorted({few[number] for number in member.elements}), dtype=np.intp), True
+            found = {few[one] for one in member.elements if isinstance(one, int) and one in few}
+            if len(found) == len({*member.elements}):
+                return np.array(sorted(found), dtype=np.intp), True
         numbers = np.array([element for element in member.elements if isinstance(element, int)], dtype=np.int64)
         indices = self.elements.indices(numbers)
         known = indices >= 0

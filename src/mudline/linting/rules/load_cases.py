@@ -85,7 +85,7 @@ def _has_waves(context: LintContext) -> bool:
     return any(_WAVES.fullmatch(block.keyword) for section in sections for block in section.blocks)
 
 
-@rule(TIM005, of=("NON LINEAR STATIC",))
+@rule(TIM005, of=("$LOAD CASE",))
 @limited
 def static_steps_without_effect(context: LintContext) -> Iterator[Problem]:
     """*NON LINEAR STATIC stands in a run that is not one in the frequency domain.

@@ -287,7 +287,7 @@ def _whole(words: Iterator[str]) -> Iterator[int]:
 # ------------------------------------------------------------------------------------------------------- cables
 
 
-@rule(GEO011, of=("CABLE",))
+@rule(GEO011)
 def short_cable(context: LintContext) -> Iterator[Problem]:
     """A cable is shorter than the distance between the nodes at its ends.
 
@@ -319,7 +319,7 @@ def short_cable(context: LintContext) -> Iterator[Problem]:
                 yield Problem(GEO011, message, where=where.inside("cables", index, "length"))
 
 
-@rule(GEO012, of=("CABLE",))
+@rule(GEO012)
 def node_beyond_cable(context: LintContext) -> Iterator[Problem]:
     """A node lies farther along a cable than the cable is long.
 

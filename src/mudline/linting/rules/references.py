@@ -154,7 +154,7 @@ def repeated_set(context: LintContext) -> Iterator[Problem]:
         known.add(key)
 
 
-@rule(REF017, of=("PARAMETERS",))
+@rule(REF017, of=("$PREPROCESSOR",))
 @limited
 def repeated_parameter(context: LintContext) -> Iterator[Problem]:
     """A parameter is defined twice: the later value applies everywhere.

@@ -24,6 +24,7 @@ from mudline.linting.rule import LintContext, rule
 from mudline.linting.rules.seabed_position import bounds_of
 from mudline.quantities import unit_names
 from mudline.scene.assignments import softens, suction_law
+from mudline.scene.context import EXTENSION
 from mudline.scene.deck_values import number
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene
@@ -57,7 +58,7 @@ _STICKING = (
 FARTHEST = 1.0e4
 
 
-@rule(STB001, of=("SEABED SUCTION",))
+@rule(STB001, of=(EXTENSION,))
 def suction_snap(context: LintContext) -> Iterator[Problem]:
     """The suction force decreases while the pipe keeps rising.
 
@@ -182,7 +183,7 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
             yield Problem(STB002, message, where=where.inside("fixed", "increment"))
 
 
-@rule(STB004, of=("SEABED FRICTION",))
+@rule(STB004, of=(EXTENSION,))
 def lateral_softening(context: LintContext) -> Iterator[Problem]:
     """The lateral resistance falls while the pipe moves on.
 
@@ -374,7 +375,7 @@ def _neighbours(scene: Scene) -> tuple[Indices, Indices]:
     return one[wanted], other[wanted]
 
 
-@rule(EXT008, of=("SEABED UNLOADING",))
+@rule(EXT008, of=(EXTENSION,))
 def soft_unloading(context: LintContext) -> Iterator[Problem]:
     """The unloading stiffness is below the steepest slope of the loading law.
 

@@ -26,8 +26,8 @@ Find = Callable[["ResolvedDeck"], Iterable[Problem]]
 class Check:
     """A function that finds problems of a code in a scene; each says whether it keeps the deck from being evaluated.
 
-    The page is the docstring of the function, unless the code has one. It is not asked about a scene without any of the
-    keywords and sections `of`, where there are some.
+    The page is the docstring of the function, unless the code has one. It is not asked about a scene that
+    holds none of `of` (`Context.holds`), where there are some.
     """
 
     code: Code
@@ -60,7 +60,7 @@ def checked(scene: ResolvedDeck) -> list[Problem]:
     """What all checks find, of each without the rest where it is very much."""
     found: list[Problem] = []
     for one in all_checks():
-        if one.of and scene.holds.isdisjoint(one.of):
+        if one.of and scene.context.holds.isdisjoint(one.of):
             continue
         most = len(found) + MOST_REPORTED
         for problem in one.find(scene):

@@ -15,6 +15,7 @@ from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.keywords.text import advice_on, shown
 from mudline.keywords.values import Names, number_meant
 from mudline.scene.checks import check
+from mudline.scene.context import SUPERSEDED
 from mudline.scene.laws import NOTHING, typed_blocks
 from mudline.scene.names import CURVES, names_used, undefined
 
@@ -147,7 +148,7 @@ def _without_set(name: str | None, where: Where, what: str) -> Iterator[Problem]
         yield Problem(SBD003, message, None, Severity.WARNING, where)
 
 
-@check(SBD004, of=("ELASTIC SURFACE",))
+@check(SBD004, of=(SUPERSEDED,))
 def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
     """*ELASTIC SURFACE gives no stiffness, and there is no *EMBEDMENT.
 
@@ -176,7 +177,7 @@ def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
             yield reading.missing(SBD004, message, where, "EMBEDMENT")
 
 
-@check(SBD005, of=("EMBEDMENT",))
+@check(SBD005, of=(SUPERSEDED,))
 def embedment_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     """*EMBEDMENT is used with a rigid seabed, or with none.
 

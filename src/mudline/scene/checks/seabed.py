@@ -12,6 +12,7 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.scene.checks import check
+from mudline.scene.context import EXTENSION
 from mudline.scene.deck_values import file_name, missing_files, number
 from mudline.scene.seabed import COMPILED, SeabedKind
 from mudline.syntax.source import BINARY
@@ -32,7 +33,7 @@ _STEEP = 45.0
 _VERTICAL = 90.0
 
 
-@check(SBD011, of=("SEABED PROFILE",))
+@check(SBD011)
 def profile_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     """A rigid seabed has a profile that only an elastic one takes.
 
@@ -138,7 +139,7 @@ def unreadable_profile(scene: ResolvedDeck) -> Iterator[Problem]:
         yield Problem(SBD023, f"{fault}: correct the points", None, Severity.ERROR, where)
 
 
-@check(EXT002, of=("SEABED PLANES",))
+@check(EXT002, of=(EXTENSION,))
 def floor_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     """The seabed is given twice: by planes and by a profile or a slope.
 
