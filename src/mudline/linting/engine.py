@@ -173,7 +173,7 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
     Suppressed problems are among them; unused suppression comments are not.
     """
     found: list[Problem] = []
-    noticed, holds = bool(context.noticed), context.scene.context.holds
+    noticed, holds = bool(context.noticed), context.holds
     for rule in chosen:
         check = rule.check
         if rule.of and holds.isdisjoint(rule.of):

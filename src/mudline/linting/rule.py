@@ -32,6 +32,9 @@ T = TypeVar("T")
 MOST_POINTS = 64
 """Points of a curve that are looked at one by one; longer curves are left to the rules."""
 
+ODD_CURVES = "odd curves"
+"""What `LintContext.holds` has of a deck with curves that rules about the shape of a curve look at."""
+
 LARGEST_RATIO = 5.0
 """Diameters of embedment; a larger ratio is a length or a percentage."""
 STEEPEST = 100.0
@@ -101,6 +104,12 @@ class LintContext:
         slopes that differ by a factor of 100 at most, to a ratio of 5 at most.
         """
         return [(number, entry) for number, entry in enumerate(self.scene.laws.curves) if not _ordinary(entry)]
+
+    @cached_property
+    def holds(self) -> frozenset[str]:
+        """What `Context.holds` gives, and ODD_CURVES where there are some."""
+        found = self.scene.context.holds
+        return found | {ODD_CURVES} if self.odd_curves else found
 
     @cached_property
     def noticed(self) -> dict[str, list[Problem]]:
@@ -222,7 +231,7 @@ class Noticed:
 def rule(code: Code, *, off: bool = False, of: tuple[str, ...] = ()) -> Callable[[Check], Check]:
     """Register a function as the rule of a code that only advises; `off` keeps it from running unless it is selected.
 
-    `of` is what a deck may do without (`Context.holds`): it is not asked in one that has nothing of it.
+    `of` is what a deck may do without (`LintContext.holds`): it is not asked in one that has nothing of it.
 
     Its docstring begins with the title, a sentence on a line of its own; the text after it says why. Below `Example:`
     are a bad and a good deck in one, indented by four spaces: a line after a space is in both, one after `-` in the bad

@@ -281,7 +281,7 @@ class ResolvedDeck:
     @cached_property
     def laws_given(self) -> NDArray[np.int8]:
         """`LawKind` of what each element is granted, whatever replaces it."""
-        kinds = np.array([*(set_law.kind for set_law in self.laws.set_laws), LawKind.NONE], dtype=np.int8)
+        kinds = np.array([*(set_law.kind.value for set_law in self.laws.set_laws), LawKind.NONE.value], dtype=np.int8)
         return kinds[self.laws.of_element]
 
     @cached_property
