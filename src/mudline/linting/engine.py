@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from mudline.deck.coverage import coverage_of
 from mudline.deck.faults import MisspeltDeckError
@@ -126,14 +127,14 @@ def may_recover(deck: Deck) -> bool:
     if deck.problems or (isinstance(origin, TextOrigin) and any(read.lost for read in origin.read.values())):
         return True
     blocks = [block for section in deck.sections for block in section.blocks]
-    keywords = [block.keyword for block in blocks]
+    count = Counter(block.keyword for block in blocks)
     for block in blocks:
-        if isinstance(block, Opaque):
+        if type(block) is Opaque:
             return True
-        facts = block.facts
-        if facts.defines and (keywords.count(block.keyword) > 1 or not {*facts.beside} <= {*keywords}):
+        facts = cast("Block", block).facts
+        if facts.defines and (count[block.keyword] > 1 or not all(map(count.__contains__, facts.beside))):
             return True
-        if repeated_set(block):
+        if facts.later_wins and repeated_set(cast("Block", block)):
             return True
     return False
 

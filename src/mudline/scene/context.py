@@ -334,7 +334,7 @@ class Context:
     @cached_property
     def opaque_set_names(self) -> dict[str, str]:
         """Names of the element sets that lines make, by their folded form."""
-        return opaque_set_names(self.deck)
+        return opaque_set_names(self.deck) if self.external_definers else {}
 
     @cached_property
     def labels(self) -> dict[str, str]:

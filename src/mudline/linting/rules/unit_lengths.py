@@ -93,6 +93,8 @@ def _other_diameters(context: LintContext, section: Part, most: float, source: s
     width = number(section, source.lower())
     others = {label: number(section, label.lower()) for label in ("Dd", "Db") if label != source}
     known = {label: value for label, value in others.items() if 0.0 < value < math.inf}
+    if not known:
+        return
     unit = LENGTH_UNIT.get(context.scene.units)
     behind = f" {unit}" if unit else ""
     widest = max(known.values(), default=0.0)
