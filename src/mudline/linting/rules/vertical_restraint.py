@@ -69,7 +69,9 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
         return  # that there is no stiffness is reported there
     yield from _zeros(scene)
     free = scene.law == LawKind.NONE
-    if np.count_nonzero(free) and ("PIP SECTION" in context.keywords or "PIP CONNECTION" in context.keywords):
+    if not np.count_nonzero(free):
+        return
+    if "PIP SECTION" in context.keywords or "PIP CONNECTION" in context.keywords:
         free &= ~_inner_pipes(scene, free)
     if np.count_nonzero(free):
         yield from _blocks(scene, np.flatnonzero(free & (scene.laws.covered >= 0)))

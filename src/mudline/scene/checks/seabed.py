@@ -176,7 +176,7 @@ def floor_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
         yield Problem(EXT002, message, where=max(places, default=planes[0]))
 
 
-@check(EXT007)
+@check(EXT007, of=(EXTENSION,))
 def bad_plane(scene: ResolvedDeck) -> Iterator[Problem]:
     """A plane of the seabed is incomplete, vertical or empty.
 
