@@ -91,7 +91,8 @@ def read_plain(
     if declared.tabular and leaves and leaves[-1].span.end - leaves[0].span.start > LONGEST_TABLE:
         return None
     try:
-        values = {"keyword": name, **_contents(_lines(text, leaves, keys, start, declared.tabular), leaves, declared)}
+        lines = _lines(text, leaves, keys, start, tabular=declared.tabular)
+        values = {"keyword": name, **_contents(lines, leaves, declared)}
         if can_be_made(declared):
             return cast("Block", make(declared, values))
         return declared.model_validate(values, context=AS_TEXT)
@@ -118,12 +119,12 @@ def _contents(lines: Iterable[tuple[str, str]], leaves: Sequence[Leaf], declared
     return _known_form(declared, tuple(terminals), declared.tabular).values(written)
 
 
+_SETTING_LINE, _RUN_OF_ROWS, _TEXT_LINE = LeafKind.SETTING, LeafKind.RUN, LeafKind.TEXT
+"""Members of an enumeration take longer to find, and each line asks for some."""
+
+
 def _lines(
-    text: str,
-    leaves: Sequence[Leaf],
-    keys: frozenset[str],
-    start: int,
-    tabular: bool,  # noqa: FBT001
+    text: str, leaves: Sequence[Leaf], keys: frozenset[str], start: int, *, tabular: bool
 ) -> Iterator[tuple[str, str]]:
     """The terminal of each line, and what stands behind its key; the text of a run that is a table."""
     for kind, (begin, end) in leaves:
@@ -140,9 +141,6 @@ def _lines(
                 raise _OddError
         elif kind is not LeafKind.BLANK:
             raise _OddError
-
-
-_SETTING_LINE, _RUN_OF_ROWS, _TEXT_LINE = LeafKind.SETTING, LeafKind.RUN, LeafKind.TEXT
 
 
 def _matched(pattern: re.Pattern[str], text: str, start: int, end: int) -> re.Match[str]:

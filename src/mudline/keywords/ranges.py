@@ -5,7 +5,6 @@ Text is read as it is, so that a check reports such a value at its place; no doc
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from functools import cache
 from typing import Any
@@ -47,12 +46,12 @@ def range_faults(part: Part) -> Iterator[tuple[_Path, str]]:
 
 def _faults(part: Part) -> list[tuple[_Path, str]]:
     found: list[tuple[_Path, str]] = []
-    for slot, low, above, high in _limits(type(part)):
+    for slot in ranged_slots(type(part)):
         value: Any = getattr(part, slot.name)
         kind: type[BaseModel] = type(value)
         if isinstance(value, float | int):
-            if not (low <= value <= high and above < value) and (fault := range_fault(value, slot)):
-                found.append(((slot.json,), fault))
+            if slot.about.fault(value):
+                found.append(((slot.json,), range_fault(value, slot)))
         elif isinstance(value, Table):
             found += [((slot.json, *path), fault) for path, fault in _table_faults(value, slot)]
         elif isinstance(value, list):
@@ -63,21 +62,6 @@ def _faults(part: Part) -> list[tuple[_Path, str]]:
         elif is_part(kind):
             found += [((slot.json, *path), fault) for path, fault in _faults(value)]
     return found
-
-
-@cache
-def _limits(part: type[Part]) -> tuple[tuple[FieldSpec, float, float, float], ...]:
-    """The fields of `ranged_slots`, each with the least value, the one that it is above, and the largest."""
-    inf = math.inf
-    return tuple(
-        (
-            slot,
-            -inf if slot.about.at_least is None else slot.about.at_least,
-            -inf if slot.about.above is None else slot.about.above,
-            inf if slot.about.at_most is None else slot.about.at_most,
-        )
-        for slot in ranged_slots(part)
-    )
 
 
 @cache

@@ -238,9 +238,6 @@ class Numbered:
 
     def indices(self, ids: Ids) -> Indices:
         """Indices of numbers, -1 for those not defined."""
-        if len(self.ids) <= FEW and ids.ndim == 1 and len(ids) <= FEW:
-            few = self.by_number()
-            return np.array([few.get(number, -1) for number in ids.tolist()], dtype=np.intp)
         found = np.full(ids.shape, -1, dtype=np.intp)
         for order, ordered in self._ascending():
             at = np.minimum(ordered.searchsorted(ids), len(ordered) - 1)

@@ -20,7 +20,7 @@ from mudline.linting.rule import LintContext, rule
 from mudline.linting.rules.seabed_position import first_of
 from mudline.scene.laws import SetLaw, present
 from mudline.scene.model import Scene
-from mudline.scene.numbering import FEW, Floats, Indices
+from mudline.scene.numbering import Floats, Indices
 from mudline.scene.sets import ALL, NamedSet
 
 SBD008 = Code("SBD008", "overlapping-sets", Severity.INFO)
@@ -165,9 +165,6 @@ class _Overlap(NamedTuple):
 
 def _overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[_Overlap]:
     """Each set against those that held its elements until then; sets that are not known against their namesakes."""
-    if count <= FEW:
-        yield from _overlaps_of_few(sets, count)
-        return
     holder = np.full(count, -1, dtype=np.intp)
     names: dict[str, int] = {}
     for index, later in enumerate(sets):
@@ -187,25 +184,6 @@ def _overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[_Overlap]:
             yield _Overlap(names[name], index, later.elements)
         names[name] = index
         holder[later.elements] = index
-
-
-def _overlaps_of_few(sets: Sequence[NamedSet], count: int) -> Iterator[_Overlap]:
-    """The same, element by element."""
-    holder = [-1] * count
-    names: dict[str, int] = {}
-    for index, later in enumerate(sets):
-        elements = later.elements.tolist()
-        before: dict[int, list[int]] = {}
-        for element in elements:
-            before.setdefault(holder[element], []).append(element)
-            holder[element] = index
-        for earlier in sorted(before):
-            if earlier >= 0:
-                yield _Overlap(earlier, index, np.array(before[earlier], dtype=np.intp))
-        name = folded(later.name)
-        if not elements and name in names:
-            yield _Overlap(names[name], index, later.elements)
-        names[name] = index
 
 
 def _properties(scene: Scene, grants: list[SetLaw]) -> Iterator[tuple[int, Problem]]:

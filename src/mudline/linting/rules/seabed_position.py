@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import isfinite, isnan
+from math import isfinite
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
@@ -123,7 +123,12 @@ class Bounds(NamedTuple):
 def bounds_of(context: LintContext) -> Bounds:
     """What is computed once for the rules that most decks pass by such bounds alone; they ask `context.once`."""
     scene = context.scene
-    (lowest, left, first), (top, right, last) = _extent(scene.coordinates)
+    axes = [*zip(*scene.coordinates.tolist(), strict=True)] if len(scene.coordinates) <= FEW else []
+    if axes and isfinite(sum(map(sum, axes))):  # of few without numpy, which takes three times as long
+        (lowest, left, first), (top, right, last) = map(min, axes), map(max, axes)
+    else:
+        lowest, left, first = np.minimum.reduce(scene.coordinates, axis=0, initial=np.inf).tolist()
+        top, right, last = np.maximum.reduce(scene.coordinates, axis=0, initial=-np.inf).tolist()
     level = _is_level(scene.seabed) and "SEABED TRENCH" not in scene.extensions
     if level and isfinite(left + right + first + last):
         highest, deepest = top, -lowest
@@ -137,24 +142,9 @@ def bounds_of(context: LintContext) -> Bounds:
         lowest,
         first,
         last,
-        *_thinnest_and_thickest(scene.diameter),
+        float(np.fmin.reduce(scene.diameter, initial=np.inf)),
+        float(np.fmax.reduce(scene.diameter, initial=0.0)),
     )
-
-
-def _extent(coordinates: Floats) -> tuple[list[float], list[float]]:
-    """The smallest and the largest of each coordinate, NaN where one is not known; of few one by one."""
-    columns = [*zip(*coordinates.tolist(), strict=True)] if len(coordinates) <= FEW else []
-    if columns and isfinite(sum(map(sum, columns))):
-        return [*map(min, columns)], [*map(max, columns)]
-    least: list[float] = np.minimum.reduce(coordinates, axis=0, initial=np.inf).tolist()
-    return least, np.maximum.reduce(coordinates, axis=0, initial=-np.inf).tolist()
-
-
-def _thinnest_and_thickest(diameters: Floats) -> tuple[float, float]:
-    if len(diameters) <= FEW:
-        known = [diameter for diameter in diameters.tolist() if not isnan(diameter)]
-        return min(known, default=np.inf), max(known, default=0.0)
-    return float(np.fmin.reduce(diameters, initial=np.inf)), float(np.fmax.reduce(diameters, initial=0.0))
 
 
 def steepness(scene: Scene) -> Floats:
