@@ -13,7 +13,7 @@ from mudline.scene.checks import checked
 from mudline.scene.context import Context
 from mudline.scene.deck_curves import check_curves
 from mudline.scene.force_curves import read_curves
-from mudline.scene.laws import read_extensions, read_laws
+from mudline.scene.laws import read_extensions, read_laws, read_resistance
 from mudline.scene.mesh import read_elements, read_nodes
 from mudline.scene.references import check_boundaries, check_idents, check_lines, check_references, check_soil
 from mudline.scene.resolved import ResolvedDeck
@@ -112,6 +112,7 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     sections = read_sections(context, sets, elements.numbered, external)
     named, by_set = read_curves(context)
     laws = read_laws(context, sets, named, by_set, count)
+    resistance = read_resistance(context, laws)
     extensions = read_extensions(context, sets, count)
     seabed = read_seabed(context)
     check_curves(context)
@@ -123,4 +124,4 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
         check_boundaries(context, nodes)
         check_idents(context, nodes, elements.numbered)
     context.report_out_of_sight()
-    return Scene(ready, nodes, elements, sets, sections, laws, extensions, seabed, context.problems)
+    return Scene(ready, nodes, elements, sets, sections, laws, resistance, extensions, seabed, context.problems)

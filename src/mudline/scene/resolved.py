@@ -23,7 +23,7 @@ from mudline.keywords.text import suggestion
 from mudline.limits import SHOWN_LETTERS
 from mudline.scene.context import Context
 from mudline.scene.force_curves import SceneCurve
-from mudline.scene.laws import Extension, LawTable, SeabedResistance, SetLaw, read_resistance
+from mudline.scene.laws import Extension, LawTable, SeabedResistance, SetLaw
 from mudline.scene.mesh import ElementTable
 from mudline.scene.names import CURVES, THINGS, undefined
 from mudline.scene.numbering import Floats, Ids, Indices, Mask, Numbered
@@ -127,6 +127,7 @@ class ResolvedDeck:
         set_table: sets as indices.
         section_table: cross-sections of the elements.
         laws: what gives each element its normal law.
+        resistance: friction, lateral stiffness and suction of each element.
         extensions: what the extension keywords say of each element, by keyword.
         seabed: shape of the seabed.
         noticed: what went wrong while the deck was resolved.
@@ -138,6 +139,7 @@ class ResolvedDeck:
     set_table: Sets
     section_table: SectionTable
     laws: LawTable
+    resistance: SeabedResistance
     extensions: dict[str, Extension]
     seabed: SeabedShape
     noticed: list[Problem]
@@ -146,11 +148,6 @@ class ResolvedDeck:
     def context(self) -> Context:
         """What was noticed on the way, and what could not be read."""
         return self.set_table.context
-
-    @cached_property
-    def resistance(self) -> SeabedResistance:
-        """Friction, lateral stiffness and suction of each element."""
-        return read_resistance(self.context, self.laws)
 
     @property
     def may_have_more_laws(self) -> bool:
