@@ -76,7 +76,12 @@ START = Range(1, 1, 1, 1)
 
 
 class Origin:
-    """What a deck was read from; this class itself: nothing, as a program made the deck."""
+    """What a deck was read from; this class itself: nothing, as a program made the deck.
+
+    `no_equations` says that no value is an equation: it is known of a text that nobody changes once it is read.
+    """
+
+    no_equations = False
 
     def place(self, problem: Problem) -> Range:
         """Lines and columns of a problem."""

@@ -139,8 +139,8 @@ class TextOrigin(Origin):
     """Where the values of a deck are in its text."""
 
     tree: SyntaxTree
-    heads: dict[Where, Span] = field(default_factory=dict)
     read: dict[tuple[int, int], ReadBlock] = field(default_factory=dict)
+    no_equations: bool = False
 
     __repr__ = short_repr
 
@@ -156,7 +156,18 @@ class TextOrigin(Origin):
             return self._not_read(where)
         if block is not None and where.path:
             return block.places.find(where.path)
-        return self.heads.get(where._replace(path=()))
+        return self.head(where)
+
+    def head(self, where: Where) -> Span | None:
+        """The line that begins the section or block of a place; None where there is none."""
+        sections = self.tree.sections
+        if not 0 <= where.section < len(sections):
+            return None
+        section = sections[where.section]
+        if where.block >= len(section.blocks):
+            return None
+        leaf = section.head if where.block < 0 else section.blocks[where.block].head
+        return trimmed(self.source.unified, *leaf.span) if leaf else None
 
     def kept_lines(self, section: int, block: int) -> list[str]:
         """The lines that a block keeps as they are, in the order of the file."""
@@ -210,6 +221,12 @@ def read_source(source: Source, *, units: str | None = None, read: BlockReader =
     return reader.read(units)
 
 
+def _own_name(path: str) -> str:
+    """The name of a file without its folder: what `PurePath` says, which takes long for each of many decks."""
+    name = path.rpartition("/")[2]
+    return PurePath(path).name if name in ("", ".") or "\\" in name or ":" in name else name
+
+
 class _Reader:
     def __init__(self, tree: SyntaxTree, read: BlockReader) -> None:
         self.tree = tree
@@ -218,7 +235,7 @@ class _Reader:
         self.origin = TextOrigin(tree)
         self.problems: list[Problem] = list(tree.source.problems)
         self.findings = Findings(self.problems)
-        self.deck = Deck(tree.source.name, PurePath(tree.source.name).name, origin=self.origin)
+        self.deck = Deck(tree.source.name, _own_name(tree.source.name), origin=self.origin)
 
     def read(self, units: str | None) -> Deck:
         self._preamble()
@@ -272,11 +289,9 @@ class _Reader:
     def _section(self, index: int, raw: RawSection) -> None:
         section = Section(raw.name)
         self.deck.sections.append(section)
-        if raw.head:
-            self.origin.heads[Where(index)] = trimmed(self.text, *raw.head.span)
         known = raw.name in catalogue.SECTIONS
         if not known:
-            self.findings.unknown_section(raw.name, Where(index), self.origin.heads.get(Where(index)))
+            self.findings.unknown_section(raw.name, Where(index), self.origin.head(Where(index)))
         self._stray(raw.leaves, f"of ${raw.name}", title=not known)
         for leaf in raw.leaves:
             line = self._lines(leaf.span)
@@ -284,8 +299,7 @@ class _Reader:
                 section.comments.append(Comment(before=0, text=line[0][1:]))
             elif leaf.kind is not Kind.BLANK:
                 section.lines += line
-        for number, block in enumerate(raw.blocks):
-            self.origin.heads[Where(index, number)] = trimmed(self.text, *block.head.span)
+        for block in raw.blocks:
             self._block(section, index, block)
 
     def _block(self, section: Section, index: int, raw: RawBlock) -> None:
@@ -298,8 +312,8 @@ class _Reader:
         final = tree.sections[-1].blocks
         last = bool(final) and raw is final[-1]
         read = self.read_block(self.text, raw, declared, last=last)
-        head = self.origin.heads[Where(index, number)]
-        empty = last and not raw.leaves and not read.problems and head.end == len(self.text)
+        head = trimmed(self.text, *raw.head.span) if last and not raw.leaves else None
+        empty = head and not read.problems and head.end == len(self.text)
         if empty and set(declared.model_fields) - _OF_EVERY_BLOCK:
             message = f"the file ends after *{raw.name}: it seems to be cut off, add what is missing"
             self.problems.append(Problem(SYN014, message, head, Severity.WARNING))
@@ -318,12 +332,12 @@ class _Reader:
     def _opaque(self, section: Section, where: Where, raw: RawBlock) -> None:
         lines = [line for leaf in raw.leaves for line in self._lines(leaf.span)]
         section.blocks.append(Opaque(keyword=raw.name, lines=lines))
-        head = self.origin.heads[where]
+        head = trimmed(self.text, *raw.head.span)
         if head.end == len(self.text) and catalogue.begins_keyword(raw.name):
             message = f"the file ends inside *{raw.name}: it seems to be cut off, add what is missing"
             self.problems.append(Problem(SYN014, message, head))
             return
-        self.findings.no_model(raw.name, section.name, where, self.origin.heads[where])
+        self.findings.no_model(raw.name, section.name, where, head)
 
     def _truncated(self) -> None:
         """A fault in the very last token of a file without a last line end means that the file was cut."""

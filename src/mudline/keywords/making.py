@@ -5,7 +5,6 @@ Pydantic would check them again, and takes some ms to prepare for that for each 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -29,11 +28,11 @@ class _Recipe:
     """How the models of a part are made.
 
     `defaults` have all fields in their order, `lists` are those that hold an empty list of their own where nothing is
-    given, `rows` those of rows; `names` are the fields by their names in JSON.
+    given, `rows` those of rows; `renamed` are those with another name in JSON, which comes first.
     """
 
-    defaults: Mapping[str, object]
-    names: Mapping[str, str]
+    defaults: dict[str, object]
+    renamed: tuple[tuple[str, str], ...]
     required: frozenset[str]
     lists: tuple[str, ...]
     rows: tuple[tuple[str, type[Part]], ...]
@@ -63,7 +62,7 @@ def _recipe(part: type[Part]) -> _Recipe:
     validators = part.__pydantic_decorators__.model_validators
     return _Recipe(
         defaults,
-        {info.alias or name: name for name, info in part.model_fields.items()},
+        tuple((info.alias, name) for name, info in part.model_fields.items() if info.alias not in (None, name)),
         frozenset(required),
         tuple(name for name, value in defaults.items() if isinstance(value, list)),
         tuple((slot.json, slot.row) for slot in slots if slot.row and slot is not record_schema(part).table),
@@ -83,16 +82,19 @@ def make(part: type[Part], values: dict[str, Any]) -> Part:
             inner = {slot.json: value for slot, value in zip(record_schema(row).columns, inner, strict=False)}
         if isinstance(inner, dict):
             values[name] = make(row, inner)
-    given = {recipe.names[name]: value for name, value in values.items()}
-    if not recipe.required <= given.keys():
+    for json, name in recipe.renamed:
+        if json in values:
+            values[name] = values.pop(json)
+    given = {*values}
+    if not recipe.required <= given:
         raise ValueError("a value is missing")
-    made = part.__new__(part)
-    fields = made.__dict__
-    fields.update(recipe.defaults)
+    fields = recipe.defaults.copy()
     for name in recipe.lists:
         fields[name] = []
-    fields.update(given)
-    _put_fields_set(made, set(given))
+    fields.update(values)
+    made = part.__new__(part)
+    object.__setattr__(made, "__dict__", fields)
+    _put_fields_set(made, given)
     _put_extra(made, None)
     _put_private(made, None)
     for check in recipe.checks:

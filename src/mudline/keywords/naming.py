@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cache
-from typing import Literal, TypeGuard
+from typing import Any, Literal, TypeGuard
+
+from pydantic import BaseModel
 
 from mudline.keywords.model import Block, FieldSpec, Part, record_schema
 from mudline.keywords.unknown import UNKNOWN_NAME
@@ -12,6 +14,12 @@ from mudline.keywords.values import Equation, Label, Names
 
 Role = Literal["names", "defines"]
 """What a field does with a name: it uses that of another thing, or gives a thing its own."""
+
+
+@cache
+def is_part(kind: type[BaseModel]) -> bool:
+    """Whether a class is one of parts: to ask a model itself takes several times as long."""
+    return issubclass(kind, Part)
 
 
 @cache
@@ -65,13 +73,18 @@ def _given(
 ) -> Iterator[tuple[Names, Path, str]]:
     for slot in slots:
         value = getattr(part, slot.name, None)
-        for at, item in enumerate_items(slot, value) if value is not None else ():
-            if isinstance(item, Part):
-                inner = _naming(type(item), what, role)
+        if value is None:
+            continue
+        if _is_name(value):
+            if (kind := getattr(slot.about, role)) is not None:
+                yield kind, (slot.json,), value
+            continue
+        for at, item in enumerate_items(slot, value):
+            form: type[Part] = type(item)
+            if is_part(form):
+                inner = _naming(form, what, role)
                 for kind, path, name in _given(item, inner, role, what) if inner else ():
                     yield kind, (*at, *path), name
-            elif item is value and (kind := getattr(slot.about, role)) is not None and _is_name(item):
-                yield kind, at, item
 
 
 def _is_name(item: object) -> TypeGuard[str]:
@@ -92,7 +105,7 @@ def idents_given(part: Part, what: Names) -> Iterator[tuple[tuple[str | int, ...
                 yield path, item
 
 
-def enumerate_items(slot: FieldSpec, value: object) -> Iterator[tuple[tuple[str | int, ...], object]]:
+def enumerate_items(slot: FieldSpec, value: object) -> Iterator[tuple[tuple[str | int, ...], Any]]:
     """The value of a field, or those of its list, each with the path to it."""
     if isinstance(value, list):
         yield from (((slot.json, index), item) for index, item in enumerate(value))
@@ -118,6 +131,8 @@ def repeated_set(block: Block) -> Path:
         given: dict[str, Part] = {}
         for index, entry in enumerate(getattr(block, listed.name)):
             name = getattr(entry, named.name, None)
-            if isinstance(name, str) and name and given.setdefault(name.casefold(), entry) != entry:
-                return listed.json, index, named.json
+            if isinstance(name, str) and name:
+                first = given.setdefault(name.casefold(), entry)
+                if first is not entry and first != entry:
+                    return listed.json, index, named.json
     return ()

@@ -17,7 +17,7 @@ from mudline.diagnostics import Problem, Span
 from mudline.keywords.grammar import ROW, SMALL, Tree, fitting, records_of, terminal_of
 from mudline.keywords.making import can_be_made, make
 from mudline.keywords.model import AS_TEXT, Block, FieldSpec, ListRow, Part, Record, columns_of, record_schema
-from mudline.keywords.table import LARGEST_WHOLE, Column, from_numbers, from_rows
+from mudline.keywords.table import LARGEST_WHOLE, Column, Widths, from_numbers, from_rows
 from mudline.keywords.text import MIXED_FIELDS, UnreadableError, Value, read_value
 from mudline.keywords.values import Equation, Kind
 from mudline.limits import LONGEST_TABLE
@@ -81,16 +81,18 @@ class _Form:
 
 
 def read_plain(
-    text: str, leaves: Sequence[Leaf], name: str, declared: type[Block], keys: frozenset[str]
+    text: str, leaves: Sequence[Leaf], name: str, declared: type[Block], keys: frozenset[str], start: int = 0
 ) -> Block | None:
     """Return the model of a plain block; None where it is anything else.
 
-    `leaves` are its lines and `name` is its keyword; `keys` are those that the lines may begin with.
+    `leaves` are its lines, in a text of which `text` is the part from `start` on, and `name` is its keyword; `keys` are
+    those that the lines may begin with.
     """
     if declared.tabular and leaves and leaves[-1].span.end - leaves[0].span.start > LONGEST_TABLE:
         return None
     try:
-        values = {"keyword": name, **_contents(text, leaves, declared, keys)}
+        lines = _lines(text, leaves, keys, start, tabular=declared.tabular)
+        values = {"keyword": name, **_contents(lines, leaves, declared)}
         if can_be_made(declared):
             return cast("Block", make(declared, values))
         return declared.model_validate(values, context=AS_TEXT)
@@ -98,9 +100,8 @@ def read_plain(
         return None
 
 
-def _contents(text: str, leaves: Sequence[Leaf], declared: type[Block], keys: frozenset[str]) -> Values:
+def _contents(lines: Iterable[tuple[str, str]], leaves: Sequence[Leaf], declared: type[Block]) -> Values:
     """The values of a block: a record at a time where it is a list of records, else all of its lines at once."""
-    lines = _lines(text, leaves, keys, tabular=declared.tabular)
     records = records_of(declared.rule)
     slots = record_schema(declared).slots
     if records and len(slots) == 1:
@@ -118,18 +119,24 @@ def _contents(text: str, leaves: Sequence[Leaf], declared: type[Block], keys: fr
     return _known_form(declared, tuple(terminals), declared.tabular).values(written)
 
 
-def _lines(text: str, leaves: Sequence[Leaf], keys: frozenset[str], *, tabular: bool) -> Iterator[tuple[str, str]]:
+_SETTING_LINE, _RUN_OF_ROWS, _TEXT_LINE = LeafKind.SETTING, LeafKind.RUN, LeafKind.TEXT
+"""Members of an enumeration take longer to find, and each line asks for some."""
+
+
+def _lines(
+    text: str, leaves: Sequence[Leaf], keys: frozenset[str], start: int, *, tabular: bool
+) -> Iterator[tuple[str, str]]:
     """The terminal of each line, and what stands behind its key; the text of a run that is a table."""
-    for kind, span in leaves:
-        if kind is LeafKind.SETTING:
-            written, fields = _matched(_SETTING, text, *span).groups()
+    for kind, (begin, end) in leaves:
+        if kind is _SETTING_LINE:
+            written, fields = _matched(_SETTING, text, begin - start, end - start).groups()
             yield _terminal(written, keys), fields
-        elif kind is LeafKind.RUN or kind is LeafKind.TEXT:
+        elif kind is _RUN_OF_ROWS or kind is _TEXT_LINE:
             if not tabular:
-                for start, end in line_spans(text, span):
-                    yield ROW, _matched(_LINE, text, start, end + 1)[1]
-            elif text[span.end - 1] == "\n":
-                yield ROW, text[span.start : span.end]
+                for first, last in line_spans(text, Span(begin - start, end - start)):
+                    yield ROW, _matched(_LINE, text, first, last + 1)[1]
+            elif text[end - start - 1] == "\n":
+                yield ROW, text[begin - start : end - start]
             else:
                 raise _OddError
         elif kind is not LeafKind.BLANK:
@@ -235,7 +242,8 @@ def _row_reading(record: type[Record], *, tabular: bool) -> _Reading:
     if tabular:
         if schema.table is None or schema.columns:
             raise _OddError
-        return partial(_table, schema.table.json, columns_of(schema.table))
+        columns = columns_of(schema.table)
+        return partial(_table, schema.table.json, columns, Widths.of(columns))
     if schema.table:
         raise _OddError
     readings = {slot.name: _column_reading(record, slot) for slot in schema.columns}
@@ -298,13 +306,13 @@ def _one(slot: FieldSpec, found: Values, fields: str, _: object) -> None:
     found[slot.json] = _value(fields, slot)
 
 
-def _table(json: str, columns: list[Column], found: Values, run: str, _: object) -> None:
+def _table(json: str, columns: list[Column], widths: Widths, found: Values, run: str, _: object) -> None:
     if len(run) <= _SHORT_TABLE and _NUMBERS.fullmatch(run):
         rows = run.splitlines()
-        commas = rows[0].count(",")
-        if all(row.count(",") == commas for row in rows):
-            numbers = [float(number) for number in ",".join(rows).split(",")]
-            if (short := from_numbers(numbers, commas + 1, columns)) is not None:
+        commas = {row.count(",") for row in rows}
+        if len(commas) == 1:
+            numbers = [*map(float, ",".join(rows).split(","))]
+            if (short := from_numbers(numbers, commas.pop() + 1, widths)) is not None:
                 found[json] = short
                 return
     table, faults = from_rows(read_rows(run, Span(0, len(run)), len(columns)), columns)

@@ -9,7 +9,10 @@ from collections.abc import Iterator
 from functools import cache
 from typing import Any
 
+from pydantic import BaseModel
+
 from mudline.keywords.model import FEWEST_POINTS, FieldSpec, ListRow, Part, Rows, record_schema
+from mudline.keywords.naming import is_part
 from mudline.keywords.table import Table
 
 _Path = tuple[str | int, ...]
@@ -38,21 +41,27 @@ def is_refused(part: Part) -> bool:
 
 def range_faults(part: Part) -> Iterator[tuple[_Path, str]]:
     """Path and message of each value that is out of range."""
+    return iter(_faults(part))
+
+
+def _faults(part: Part) -> list[tuple[_Path, str]]:
+    found: list[tuple[_Path, str]] = []
     for slot in ranged_slots(type(part)):
         value: Any = getattr(part, slot.name)
-        if value is None:
-            continue
+        kind: type[BaseModel] = type(value)
         if isinstance(value, float | int):
-            if fault := range_fault(value, slot):
-                yield (slot.json,), fault
-        elif isinstance(value, Part):
-            yield from (((slot.json, *path), fault) for path, fault in range_faults(value))
+            if slot.about.fault(value):
+                found.append(((slot.json,), range_fault(value, slot)))
         elif isinstance(value, Table):
-            yield from (((slot.json, *path), fault) for path, fault in _table_faults(value, slot))
+            found += [((slot.json, *path), fault) for path, fault in _table_faults(value, slot)]
         elif isinstance(value, list):
             for index, item in enumerate(value):
-                if isinstance(item, Part):
-                    yield from (((slot.json, index, *path), fault) for path, fault in range_faults(item))
+                inner: type[BaseModel] = type(item)
+                if is_part(inner):
+                    found += [((slot.json, index, *path), fault) for path, fault in _faults(item)]
+        elif is_part(kind):
+            found += [((slot.json, *path), fault) for path, fault in _faults(value)]
+    return found
 
 
 @cache
@@ -68,12 +77,14 @@ def _ranged(slot: FieldSpec) -> bool:
     return any(ranged_slots(part) for part in parts if part and not issubclass(part, ListRow))
 
 
+@cache
+def _ranged_columns(row: type[Part]) -> tuple[tuple[int, FieldSpec], ...]:
+    return tuple((index, column) for index, column in enumerate(record_schema(row).columns) if _ranged(column))
+
+
 def _table_faults(table: Table, slot: FieldSpec) -> Iterator[tuple[tuple[int, int], str]]:
     """Row, column and message of each value of a table that is out of range."""
-    columns = record_schema(slot.row).columns if isinstance(slot.about, Rows) and slot.row else []
-    for index, column in enumerate(columns):
-        if not _ranged(column):
-            continue
+    for index, column in _ranged_columns(slot.row) if isinstance(slot.about, Rows) and slot.row else ():
         for row, value in enumerate(table.column(index).tolist()):
             if fault := range_fault(value, column):
                 yield (row, index), fault

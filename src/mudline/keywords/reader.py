@@ -110,19 +110,31 @@ def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
 
 def read_piece(piece: str, start: int, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
     """Read a block as if its own lines were the whole text; `raw` is the block in the text, where it is at `start`."""
-    return read_block(piece, _moved(raw, -start), declared, last=last)
+
+    def found() -> Places:
+        return _places(piece, _moved(raw, -start), declared, last=last)
+
+    plain = _plain(piece, raw, declared, found, start)
+    return plain or _Reader(piece, _moved(raw, -start), declared, last=last).read()
 
 
-def _plain(text: str, raw: RawBlock, declared: type[Block], found: Callable[[], Places]) -> ReadBlock | None:
-    """A plain block, and the comments behind it; its places are found by reading it again, line by line."""
+def _plain(
+    text: str, raw: RawBlock, declared: type[Block], found: Callable[[], Places], start: int = 0
+) -> ReadBlock | None:
+    """A plain block, and the comments behind it; its places are found by reading it again, line by line.
+
+    `start` is where the text begins in that of `raw`.
+    """
     leaves = raw.leaves
     end = len(leaves)
     while end and leaves[end - 1].kind in (Kind.COMMENT, Kind.BLANK):
         end -= 1
-    model = read_plain(text, leaves[:end], raw.name, declared, all_keys(declared))
+    own, behind = (leaves[:end], leaves[end:]) if end < len(leaves) else (leaves, ())
+    model = read_plain(text, own, raw.name, declared, all_keys(declared), start)
     if model is None:
         return None
-    trailing = [text[slice(*leaf.span)].rstrip("\r\n")[1:] for leaf in leaves[end:] if leaf.kind is Kind.COMMENT]
+    comments = [leaf.span for leaf in behind if leaf.kind is Kind.COMMENT]
+    trailing = [text[span.start - start : span.end - start].rstrip("\r\n")[1:] for span in comments]
     return ReadBlock(model, found, [], trailing)
 
 

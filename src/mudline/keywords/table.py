@@ -70,10 +70,10 @@ class Table:
 
     `values` (rows, columns) float64 holds NaN in a field without a number; `words` says what it holds instead: an
     equation, a label, or None for an empty field. A NaN without a word is a field that could not be read, or one
-    beyond the row's end. `lengths` (rows,) counts the fields given in each row.
+    beyond the row's end. `lengths` (rows,) counts the fields given in each row; in a `full` table all are.
     """
 
-    __slots__ = ("lengths", "values", "words")
+    __slots__ = ("_lengths", "values", "words")
 
     def __init__(
         self,
@@ -82,8 +82,20 @@ class Table:
         words: dict[tuple[int, int], Equation | Label | None] | None = None,
     ) -> None:
         self.values = values
-        self.lengths = np.full(len(values), values.shape[1], dtype=np.intp) if lengths is None else lengths
+        self._lengths = lengths
         self.words = words or {}
+
+    @property
+    def full(self) -> bool:
+        """Whether it is known that every row is as long as the table is wide, without a word."""
+        return self._lengths is None and not self.words
+
+    @property
+    def lengths(self) -> NDArray[np.intp]:
+        """The number of fields given in each row."""
+        if self._lengths is None:
+            self._lengths = np.full(len(self.values), self.values.shape[1], dtype=np.intp)
+        return self._lengths
 
     def __len__(self) -> int:
         return len(self.values)
@@ -119,7 +131,7 @@ class Table:
         if index >= self.values.shape[1]:
             return np.full(len(self), default)
         values = self.values[:, index].copy()
-        if not math.isnan(default):
+        if not math.isnan(default) and not self.full:
             values[self.lengths <= index] = default
             for (row, column), word in self.words.items():
                 if column == index and word is None:
@@ -231,16 +243,31 @@ def from_text(text: str, columns: Sequence[Column]) -> Table:
     return table
 
 
-def from_numbers(numbers: list[float], width: int, columns: Sequence[Column]) -> Table | None:
+class Widths(NamedTuple):
+    """How many fields the rows of a table may have, and which of them are whole numbers."""
+
+    fewest: int
+    most: int
+    whole: tuple[int, ...]
+
+    @classmethod
+    def of(cls, columns: Sequence[Column]) -> Widths:
+        """Those of a table with these columns."""
+        whole = tuple(index for index, column in enumerate(columns) if column.whole)
+        return cls(_fewest(columns), len(columns), whole)
+
+
+def from_numbers(numbers: list[float], width: int, widths: Widths) -> Table | None:
     """The table of a few numbers in rows of `width`; None where any of them, or the width, needs a closer look."""
-    if not _fewest(columns) <= width <= len(columns) or math.inf in numbers or -math.inf in numbers:
+    if not widths.fewest <= width <= widths.most or math.inf in numbers or -math.inf in numbers:
         return None
-    for index in range(width):
-        if columns[index].whole:
-            for number in numbers[index::width]:
-                if not number.is_integer() or not 0.0 < abs(number) <= LARGEST_WHOLE:
-                    return None
-    return Table(np.array(numbers).reshape(-1, width))
+    for index in widths.whole:
+        for number in numbers[index::width] if index < width else ():
+            if not number.is_integer() or not 0.0 < abs(number) <= LARGEST_WHOLE:
+                return None
+    values = np.array(numbers)
+    values.shape = (-1, width)
+    return Table(values)
 
 
 def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tuple[int, int], str]]:

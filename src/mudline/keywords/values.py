@@ -200,6 +200,8 @@ class Names(Enum):
     PIP_STIFFNESS = "a stiffness of pipe-in-pipe connections"
     S_N_CURVE = "an S-N curve"
 
+    __hash__ = object.__hash__  # that of `Enum` is a function of Python, and names are looked up by kind
+
 
 class Contents(Enum):
     """What a file that a deck names holds; the words are for a reader."""

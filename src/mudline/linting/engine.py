@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from mudline.deck.coverage import coverage_of
 from mudline.deck.faults import MisspeltDeckError
@@ -126,14 +127,14 @@ def may_recover(deck: Deck) -> bool:
     if deck.problems or (isinstance(origin, TextOrigin) and any(read.lost for read in origin.read.values())):
         return True
     blocks = [block for section in deck.sections for block in section.blocks]
-    keywords = [block.keyword for block in blocks]
+    count = Counter(block.keyword for block in blocks)
     for block in blocks:
-        if isinstance(block, Opaque):
+        if type(block) is Opaque:
             return True
-        facts = block.facts
-        if facts.defines and (keywords.count(block.keyword) > 1 or not {*facts.beside} <= {*keywords}):
+        facts = cast("Block", block).facts
+        if facts.defines and (count[block.keyword] > 1 or not all(map(count.__contains__, facts.beside))):
             return True
-        if repeated_set(block):
+        if facts.later_wins and repeated_set(cast("Block", block)):
             return True
     return False
 
@@ -173,14 +174,15 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
     Suppressed problems are among them; unused suppression comments are not.
     """
     found: list[Problem] = []
-    noticed = bool(context.noticed)
+    noticed, holds = bool(context.noticed), context.holds
     for rule in chosen:
-        if isinstance(rule.check, Noticed):
-            if noticed:
-                found += rule.check(context)
-        else:
-            for problem in rule.check(context):
-                found.append(_advice(problem))
+        check = rule.check
+        if rule.of and holds.isdisjoint(rule.of):
+            continue
+        if type(check) is not Noticed:
+            found.extend(map(_advice, check(context)))
+        elif noticed:
+            found += check(context)
     return [problem for problem in found if not of_base(context.deck, problem)]
 
 
@@ -215,7 +217,7 @@ class _Piece(str):
 
 
 @lru_cache(512)
-def _read_piece(piece: _Piece, declared: type[Block], *, last: bool) -> ReadBlock:
+def _read_piece(piece: _Piece, declared: type[Block], last: bool) -> ReadBlock:  # noqa: FBT001 - for the cache
     return read_piece(piece, piece.start, piece.raw, declared, last=last)
 
 
@@ -227,8 +229,8 @@ def _read_once(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -
         return read_block(text, raw, declared, last=last)
     piece = _Piece(text[start:end])
     piece.raw, piece.start = raw, start
-    known = _read_piece(piece, declared, last=last)
-    return known.at(text, start, [_reported_at(problem, start) for problem in known.problems])
+    known = _read_piece(piece, declared, last)
+    return known.at(text, start, [_reported_at(problem, start) for problem in known.problems] if known.problems else [])
 
 
 def _reported_at(problem: Problem, by: int) -> Problem:
@@ -244,7 +246,10 @@ def read_deck(data: bytes, name: str, *, units: str | None = None, folder: Path 
 
     Raises DeckError for a JSON or YAML file that holds no deck.
     """
-    return load_bytes(data, name, units=units, folder=folder, read=_read_once)
+    deck = load_bytes(data, name, units=units, folder=folder, read=_read_once)
+    if isinstance(deck.origin, TextOrigin):
+        deck.origin.no_equations = "[" not in deck.origin.source.text
+    return deck
 
 
 def lint_bytes(

@@ -11,11 +11,12 @@ from operator import is_
 from textwrap import dedent
 from typing import Any, TypeVar
 
-from mudline.deck.model import Deck, Opaque
+from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import MORE, Blocks, Code, Problem, Where
 from mudline.keywords.catalogue import holds_in_soil, is_superseded
 from mudline.limits import MOST_REPORTED
+from mudline.scene.context import placed_blocks
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene, resolve
 from mudline.variations.names import (
@@ -30,6 +31,9 @@ T = TypeVar("T")
 
 MOST_POINTS = 64
 """Points of a curve that are looked at one by one; longer curves are left to the rules."""
+
+ODD_CURVES = "odd curves"
+"""What `LintContext.holds` has of a deck with curves that rules about the shape of a curve look at."""
 
 LARGEST_RATIO = 5.0
 """Diameters of embedment; a larger ratio is a length or a percentage."""
@@ -62,24 +66,20 @@ class LintContext:
 
     def blocks(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
         """What `Deck.blocks` gives for the deck of the scene, whose equations are evaluated."""
-        return self._evaluated.get((section, keyword), ())
+        return self.scene.context.blocks(keyword, section)
 
     def written(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
         """What `Deck.blocks` gives for the deck itself, with its equations."""
         return self._written.get((section, keyword), ())
 
     @cached_property
-    def _evaluated(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
+    def _written(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
         evaluated, own = self.scene.deck.sections, self.deck.sections
         if len(evaluated) == len(own) and all(
             all(map(is_, a.blocks, b.blocks)) for a, b in zip(evaluated, own, strict=True)
         ):
-            return self._written  # no equation, and no deck that it continues
-        return _by_keyword(self.scene.deck)
-
-    @cached_property
-    def _written(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
-        return _by_keyword(self.deck)
+            return self.scene.context.placed  # no equation, and no deck that it continues
+        return placed_blocks(self.deck)
 
     @cached_property
     def keywords(self) -> set[str]:
@@ -104,6 +104,12 @@ class LintContext:
         slopes that differ by a factor of 100 at most, to a ratio of 5 at most.
         """
         return [(number, entry) for number, entry in enumerate(self.scene.laws.curves) if not _ordinary(entry)]
+
+    @cached_property
+    def holds(self) -> frozenset[str]:
+        """What `Context.holds` gives, and ODD_CURVES where there are some."""
+        found = self.scene.context.holds
+        return found | {ODD_CURVES} if self.odd_curves else found
 
     @cached_property
     def noticed(self) -> dict[str, list[Problem]]:
@@ -131,18 +137,6 @@ def entries_of_sets(blocks: Iterable[tuple[Where, Any]]) -> Iterator[tuple[Where
     for where, block in blocks:
         for index, entry in enumerate(block.sets):
             yield where.inside("sets", index), entry
-
-
-def _by_keyword(deck: Deck) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
-    """What `Deck.blocks` gives for every section and keyword."""
-    found: dict[tuple[str, str], list[tuple[Where, Any]]] = {}
-    own = len(deck.own_sections)
-    for i in (*range(own, len(deck.sections)), *range(own)):
-        section = deck.sections[i]
-        for j, block in enumerate(section.blocks):
-            if type(block) is not Opaque:  # isinstance of a model takes several times as long
-                found.setdefault((section.name, block.keyword), []).append((Where(i, j), block))
-    return found
 
 
 def _of_variations(deck: Deck) -> Iterator[Problem]:
@@ -185,7 +179,7 @@ class Rule:
     `title` is the first sentence, `why` the text after it, `bad` a deck that it finds something in at `place` (line
     and column), `good` the deck corrected; `file` is the name that the examples are read under. `encoding` is that of
     the bad deck's bytes, `dialect` the one under which it is at fault. A rule that is `off` runs only where it is
-    selected.
+    selected, and one with anything in `of` only in a deck that holds some of it.
 
     The findings of a rule whose check is not `Noticed` never keep a deck from being evaluated, whatever their severity.
     """
@@ -201,6 +195,7 @@ class Rule:
     encoding: str
     off: bool
     dialect: str = "mudline"
+    of: tuple[str, ...] = ()
 
     @property
     def bad_bytes(self) -> bytes:
@@ -233,8 +228,10 @@ class Noticed:
         return context.problems_of(self.code)
 
 
-def rule(code: Code, *, off: bool = False) -> Callable[[Check], Check]:
+def rule(code: Code, *, off: bool = False, of: tuple[str, ...] = ()) -> Callable[[Check], Check]:
     """Register a function as the rule of a code that only advises; `off` keeps it from running unless it is selected.
+
+    `of` is what a deck may do without (`LintContext.holds`): it is not asked in one that has nothing of it.
 
     Its docstring begins with the title, a sentence on a line of its own; the text after it says why. Below `Example:`
     are a bad and a good deck in one, indented by four spaces: a line after a space is in both, one after `-` in the bad
@@ -247,7 +244,7 @@ def rule(code: Code, *, off: bool = False) -> Callable[[Check], Check]:
     """
 
     def register(check: Check) -> Check:
-        add(described_by(code, check, check.__doc__ or "", off=off))
+        add(replace(described_by(code, check, check.__doc__ or "", off=off), of=of))
         return check
 
     return register

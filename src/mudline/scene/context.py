@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from mudline.codes.fields import SYN016
 from mudline.deck.model import Deck, Opaque
@@ -25,12 +25,18 @@ from mudline.scene.deck_values import (
     makes_labels,
     opaque_labels,
     opaque_set_names,
+    surfaces,
 )
 from mudline.short_repr import counted, short_repr
 from mudline.spelling import Effort, edits, equally_near, nearest
 from mudline.syntax.tree import canonical_name, mark_of
 
+if TYPE_CHECKING:
+    from mudline.keywords.surfaces import Surface
+
 T = TypeVar("T")
+EXTENSION, SUPERSEDED = "extension", "superseded"
+"""What `Context.holds` has of a deck with keywords of that kind."""
 MOST_NAMED = 3
 """Names of which each may be the one that was meant."""
 
@@ -88,6 +94,31 @@ class Context:
             self._made[make] = make(self)
         found: T = self._made[make]
         return found
+
+    def blocks(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
+        """What `Deck.blocks` gives for the evaluated deck, found once for all."""
+        return self.placed.get((section, keyword), ())
+
+    @cached_property
+    def placed(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
+        """The blocks of every section and keyword."""
+        return placed_blocks(self.deck)
+
+    @cached_property
+    def holds(self) -> frozenset[str]:
+        """What a deck may do without: its sections as `$NAME`, EXTENSION and SUPERSEDED where it has such keywords."""
+        found = {f"${section.name}" for section in self.deck.sections}
+        for _, keyword in self.placed:
+            if catalogue.is_extension(keyword):
+                found.add(EXTENSION)
+            if catalogue.is_superseded(keyword):
+                found.add(SUPERSEDED)
+        return frozenset(found)
+
+    @cached_property
+    def surfaces(self) -> list[tuple[Where, Surface]]:
+        """What `surfaces` gives: newer keywords supersede all of them."""
+        return surfaces(self.deck) if SUPERSEDED in self.holds else []
 
     def report(self, code: Code, message: str, where: Where, severity: Severity | None = None) -> None:
         """Note a problem."""
@@ -303,9 +334,21 @@ class Context:
     @cached_property
     def opaque_set_names(self) -> dict[str, str]:
         """Names of the element sets that lines make, by their folded form."""
-        return opaque_set_names(self.deck)
+        return opaque_set_names(self.deck) if self.external_definers else {}
 
     @cached_property
     def labels(self) -> dict[str, str]:
         """What may be labels of nodes that lines make, by their folded form."""
         return opaque_labels(self.deck)
+
+
+def placed_blocks(deck: Deck) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
+    """What `Deck.blocks` gives for every section and keyword."""
+    found: dict[tuple[str, str], list[tuple[Where, Any]]] = {}
+    own = len(deck.own_sections)
+    for i in (*range(own, len(deck.sections)), *range(own)):
+        section = deck.sections[i]
+        for j, block in enumerate(section.blocks):
+            if type(block) is not Opaque:  # isinstance of a model takes several times as long
+                found.setdefault((section.name, block.keyword), []).append((Where(i, j), block))
+    return found

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -146,6 +147,7 @@ def makes_labels(definer: str) -> bool:
     return kept is not None and kept.labels
 
 
+@lru_cache(1024)
 def _makes(keyword: str) -> tuple[str, ...]:
     kept = catalogue.opaque_keyword("MODEL", keyword)
     return kept.makes if kept else catalogue.facts_of(keyword).makes

@@ -66,12 +66,12 @@ def read_curves(context: Context) -> tuple[list[SceneCurve], list[SceneCurve]]:
     """The curves of `*SEABED STIFFNESS` and those of `*EMBEDMENT`, in the order of the file."""
     named = [
         _curve(context, known_name(entry.name), entry.points, where.inside("curves", index), embedment=False)
-        for where, block in context.deck.blocks("SEABED STIFFNESS")
+        for where, block in context.blocks("SEABED STIFFNESS")
         for index, entry in enumerate(cast("SeabedStiffness", block).curves)
     ]
     by_set = [
         _curve(context, set_name(entry.set_name), entry.points, place, embedment=True)
-        for where, block in context.deck.blocks("EMBEDMENT")
+        for where, block in context.blocks("EMBEDMENT")
         for index, entry in enumerate(cast("Embedment", block).curves)
         for place in (where.inside("curves", index),)
     ]
@@ -110,7 +110,7 @@ def _curve(context: Context, name: str | None, table: Table, where: Where, *, em
 def _points(table: Table) -> tuple[Floats, Indices]:
     """The points (n, 2) of a table, those that have two numbers, and their rows."""
     values = table.values
-    full = values.shape[1] == 2 and np.minimum.reduce(table.lengths, initial=2) == 2
+    full = values.shape[1] == 2 and (table.full or np.minimum.reduce(table.lengths, initial=2) == 2)
     if full and not isnan(np.minimum.reduce(values, axis=None, initial=0.0)):
         return values.copy(), identity(len(values))
     points = side_by_side(table.column(0), table.column(1))

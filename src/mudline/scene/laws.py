@@ -16,9 +16,9 @@ from mudline.keywords import catalogue
 from mudline.keywords.naming import set_slots
 from mudline.keywords.unknown import UNKNOWN, is_partly_unknown, known_name
 from mudline.scene.context import Context
-from mudline.scene.deck_values import number, surfaces
+from mudline.scene.deck_values import number
 from mudline.scene.force_curves import SceneCurve, set_name
-from mudline.scene.numbering import Floats, Indices, Mask, looked_up, one_index, picked
+from mudline.scene.numbering import FEW, Floats, Indices, Mask, looked_up, one_index, picked
 from mudline.scene.sets import NamedSet, Sets, later_wins
 from mudline.short_repr import short_repr
 
@@ -97,8 +97,11 @@ def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: lis
     legacy = [*surfaces, *_embedment(sets, laws, len(named))]
     new = list(_properties(context, sets, laws, named))
     laws.set_laws = legacy + new
-    laws.of_element = later_wins([set_law.set_ for set_law in legacy], count)
     wins = later_wins([set_law.set_ for set_law in new], count)
+    if not legacy and all(set_law.kind is not LawKind.NONE or set_law.unknown for set_law in new):
+        laws.of_element = laws.covered = wins
+        return laws
+    laws.of_element = later_wins([set_law.set_ for set_law in legacy], count)
     laws.covered = looked_up(np.array([*range(len(legacy), len(laws.set_laws)), NOTHING], dtype=np.intp), wins)
     gives = np.array([*(set_law.kind is not LawKind.NONE or set_law.unknown for set_law in laws.set_laws), False])
     replaced = looked_up(gives, laws.covered)
@@ -119,14 +122,14 @@ def _marked(laws: LawTable, kind: LawKind) -> Mask:
 
 
 def _rigid_surface(context: Context, sets: Sets, laws: LawTable) -> Iterator[SetLaw]:
-    for where, _ in context.deck.blocks("RIGID SURFACE"):
+    for where, _ in context.blocks("RIGID SURFACE"):
         laws.types.setdefault("RIGID", []).append(where)
         yield SetLaw(LawKind.RIGID, sets.everything, where, "legacy")
 
 
 def _elastic_surface(context: Context, sets: Sets, laws: LawTable) -> Iterator[SetLaw]:
     """The linear stiffness that holds where no curve of `*EMBEDMENT` does, in whatever order they stand."""
-    for where, block in context.deck.blocks("ELASTIC SURFACE"):
+    for where, block in context.blocks("ELASTIC SURFACE"):
         laws.types.setdefault("ELASTIC", []).append(where)
         place = where.inside("properties")
         stiffness = getattr(cast("ElasticSurface", block).properties, "stiffness", None)
@@ -150,7 +153,7 @@ def _unknown(name: str | None) -> NamedSet:
 def typed_blocks(context: Context) -> Iterator[tuple[Where, SeabedProperties, str | None]]:
     """The `*SEABED PROPERTIES` blocks with their type: a block without TYPE= has that of the block before it."""
     type_: str | None = None
-    for where, block in context.deck.blocks("SEABED PROPERTIES"):
+    for where, block in context.blocks("SEABED PROPERTIES"):
         properties = cast("SeabedProperties", block)
         type_ = type_ if properties.type_ is None else properties.type_
         yield where, properties, type_
@@ -245,7 +248,7 @@ def read_resistance(context: Context, laws: LawTable) -> SeabedResistance:
     values = [entry for _, entry in surfaces]
     places = [where for where, _ in surfaces]
     position_of = np.full(len(laws.set_laws) + 1, len(surfaces) - 1, dtype=np.intp)
-    for index in _present(laws.covered):
+    for index in present(laws.covered):
         where = laws.set_laws[index].where
         block = cast("SeabedProperties", context.deck.sections[where.section].blocks[where.block])
         position = cast("int", where.path[1])
@@ -255,11 +258,13 @@ def read_resistance(context: Context, laws: LawTable) -> SeabedResistance:
     return SeabedResistance(values, places, looked_up(position_of, laws.covered))
 
 
-def _present(covered: Indices) -> list[int]:
+def present(covered: Indices) -> list[int]:
     """The indices that there are, without -1, in ascending order."""
     index = one_index(covered)
     if index is not None:
         return [index] * (index >= 0)
+    if len(covered) <= FEW:
+        return sorted({*covered.tolist()} - {-1})
     found: list[int] = np.bincount(covered[covered >= 0]).nonzero()[0].tolist()
     return found
 
@@ -284,7 +289,7 @@ def _of_set(entry: SeabedSet) -> ResistanceValues:
 
 
 def _of_surfaces(context: Context) -> Iterator[tuple[Where, ResistanceValues]]:
-    for where, surface in surfaces(context.deck):
+    for where, surface in context.surfaces:
         properties = surface.properties
         yield (
             where.inside("properties"),
@@ -347,7 +352,7 @@ def _read_extension(context: Context, sets: Sets, keyword: str, count: int) -> E
     entries: list[Record] = []
     places: list[Where] = []
     holders: list[NamedSet | None] = []
-    for where, block in context.deck.blocks(keyword):
+    for where, block in context.blocks(keyword):
         for listed, named in set_slots(type(cast("Block", block))):
             for index, entry in enumerate(getattr(block, listed.name)):
                 entries.append(entry)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
@@ -14,6 +15,7 @@ from mudline.keywords.text import shown
 from mudline.limits import MOST_GENERATED, MOST_REPORTED
 from mudline.scene.context import Context
 from mudline.scene.numbering import (
+    FEW,
     Batch,
     Definitions,
     Floats,
@@ -21,6 +23,7 @@ from mudline.scene.numbering import (
     Indices,
     Mask,
     Numbered,
+    are_whole,
     blocks_of,
     side_by_side,
     whole_numbers,
@@ -56,7 +59,7 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
     """
     gathered = Definitions()
     waiting: list[_NodeLine] = []
-    for where, block in context.deck.blocks("NODE"):
+    for where, block in context.blocks("NODE"):
         for index, entry in enumerate(cast("Nodes", block).entries):
             place = where.inside("entries", index)
             if hasattr(entry, "nodes"):
@@ -81,13 +84,25 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
 
 def _add_nodes(context: Context, gathered: Definitions, entry: NodeRows, where: Where) -> None:
     table = entry.nodes
-    values = side_by_side(table.column(1), table.column(2), table.column(3, default=0.0))
+    values = _coordinates(table)
     for row in _add_rows(gathered, table.column(0), values, where, "nodes"):
         context.misread("NODE", where.inside("nodes", row, 0))
 
 
+def _coordinates(table: Table) -> Floats:
+    """The coordinates (n, 3) in a table of nodes; z is 0 where it is not given."""
+    if not (table.full and table.values.shape[1] == 3):
+        return side_by_side(table.column(1), table.column(2), table.column(3, default=0.0))
+    found = np.zeros((len(table), 3))
+    found[:, :2] = table.values[:, 1:]
+    return found
+
+
 def _add_rows(gathered: Definitions, numbers: Floats, values: Floats, where: Where, table: str) -> list[int]:
     """Add the rows of a table that have a number; returns the others."""
+    if are_whole(numbers):
+        gathered.add(Batch(numbers.astype(np.int64), values, where, table))
+        return []
     ids, known = whole_numbers(numbers)
     if np.count_nonzero(known) == len(known):
         gathered.add(Batch(ids, values, where, table))
@@ -160,7 +175,7 @@ class ElementTable:
 def read_elements(context: Context, nodes: Numbered, external: ExternalElements | None = None) -> ElementTable:
     """The elements of the model, then those of a file, which replace them."""
     gathered = Definitions()
-    for where, block in context.deck.blocks("ELEMENT"):
+    for where, block in context.blocks("ELEMENT"):
         for index, entry in enumerate(cast("Elements", block).entries):
             place = where.inside("entries", index)
             if hasattr(entry, "elements"):
@@ -173,8 +188,9 @@ def read_elements(context: Context, nodes: Numbered, external: ExternalElements 
     elements = gathered.resolve(2)
     if elements.repeats.size:
         report_repeats(context, elements, elements.repeats[elements.repeats < own], "element")
-    indices = _join(context, elements, nodes)
-    length = _lengths(indices, nodes.values)
+    indices, length = _few(elements, nodes) or (_join(context, elements, nodes), None)
+    if length is None:
+        length = _lengths(indices, nodes.values)
     if external is not None:
         at = elements.indices(external.ids)
         length[at] = np.where(np.isnan(external.length), length[at], external.length)
@@ -235,6 +251,30 @@ def _pattern_fault(gathered: Definitions, master: int, count: int, step: int) ->
             f"GEN={master}, {count}, {step}: no element may have the number {master + (count - 1) * step}: correct it"
         )
     return ""
+
+
+def _few(elements: Numbered, nodes: Numbered) -> tuple[Indices, Floats] | None:
+    """Node indices and lengths of a few elements, number by number: calls of numpy take five times as long.
+
+    None for many, and where a node is not known or a length is not computed as simply as that.
+    """
+    if not 0 < len(elements) <= FEW or len(nodes) > FEW:
+        return None
+    places = nodes.values.tolist()
+    known = nodes.by_number()
+    ends: list[tuple[int, int]] = []
+    lengths: list[float] = []
+    for first, second in elements.values.tolist():
+        one, other = known.get(first), known.get(second)
+        if one is None or other is None:
+            return None
+        (x, y, z), (u, v, w) = places[one], places[other]
+        square = (u - x) * (u - x) + (v - y) * (v - y) + (w - z) * (w - z)
+        if not _SMALLEST_SQUARE <= square <= _LARGEST_SQUARE:
+            return None
+        ends.append((one, other))
+        lengths.append(math.sqrt(square))
+    return np.array(ends, dtype=np.intp), np.array(lengths)
 
 
 def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:

@@ -35,7 +35,9 @@ THINGS = frozenset(
     }
 )
 """Kinds of things that have names and are no curves."""
-_LOOKED_UP = CURVES | THINGS | {Names.CURVE}
+_DEFINED = CURVES | THINGS | {Names.CURVE}
+_USED = _DEFINED | {Names.SET}
+"""What is looked up here: names that fields define, and those that they use."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,15 +61,21 @@ def names_of(context: Context, kinds: Collection[Names]) -> dict[Names, NamesOfK
     return {kind: names for kind, names in context.once(_every_name).items() if kind in kinds}
 
 
+def names_used(context: Context, kind: Names) -> list[GivenName]:
+    """The names of a kind, among them those of sets and force-embedment curves, that the fields of a deck use."""
+    found = context.once(_every_name).get(kind)
+    return found.used if found else []
+
+
 def _every_name(context: Context) -> dict[Names, NamesOfKind]:
     found: dict[Names, NamesOfKind] = {}
     for i, section in enumerate(context.deck.sections):
         for j, block in enumerate(section.blocks):
             if type(block) is Opaque:
                 continue
-            for role in _roles(type(block)):
+            for role, kinds in _roles(type(block)):
                 for kind, path, name in all_names_given(block, role):
-                    if kind not in _LOOKED_UP:
+                    if kind not in kinds:
                         continue
                     names = found.setdefault(kind, NamesOfKind())
                     one = GivenName(name, Where(i, j, path))
@@ -79,10 +87,10 @@ def _every_name(context: Context) -> dict[Names, NamesOfKind]:
 
 
 @cache
-def _roles(block: type[Block]) -> tuple[Role, ...]:
-    """What the fields of a block do with names of the kinds that are looked up here."""
-    roles: tuple[Role, ...] = ("names", "defines")
-    return tuple(role for role in roles if not _LOOKED_UP.isdisjoint(kinds_of(block, role)))
+def _roles(block: type[Block]) -> tuple[tuple[Role, frozenset[Names]], ...]:
+    """What the fields of a block do with names, and with which kinds of those that are looked up here."""
+    roles: tuple[tuple[Role, frozenset[Names]], ...] = (("names", _USED), ("defines", _DEFINED))
+    return tuple((role, kinds) for role, kinds in roles if not kinds.isdisjoint(kinds_of(block, role)))
 
 
 def undefined(context: Context, kinds: Collection[Names], code: Code) -> Iterator[Problem]:

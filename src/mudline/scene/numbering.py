@@ -21,6 +21,8 @@ Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 
+FEW = 64
+"""Things that are looked at one by one: calls of numpy take longer."""
 _FEW = 4096
 _FEW_RUNS = 8
 _AT_ONCE = 1 << 17
@@ -79,6 +81,13 @@ def whole_numbers(column: Floats) -> tuple[Ids, Mask]:
     known = np.abs(column) <= LARGEST_WHOLE
     known &= column == np.floor(column)
     return np.where(known, column, 0.0).astype(np.int64), known
+
+
+def are_whole(column: Floats) -> bool:
+    """Whether all of a few numbers are whole ones that a table may hold; False for many."""
+    return len(column) <= FEW and all(
+        number.is_integer() and -LARGEST_WHOLE <= number <= LARGEST_WHOLE for number in column.tolist()
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,6 +208,8 @@ class Numbered:
     starts: Indices
     batches: list[Batch]
     _runs: list[_Run] | None = None
+    _few: dict[int, int] | None = None
+    """Of a few numbers the indices, once somebody asks."""
 
     __repr__ = short_repr
 
@@ -233,8 +244,17 @@ class Numbered:
             np.copyto(found, order[at], where=ordered[at] == ids)
         return found
 
+    def by_number(self) -> dict[int, int]:
+        """The indices of a few numbers: of no more than FEW."""
+        if self._few is None:
+            self._few = dict(zip(self.ids.tolist(), range(len(self.ids)), strict=True))
+        return self._few
+
     def between(self, start: int, end: int, step: int) -> Indices:
         """Indices of the numbers start, start + step, ... up to end, in ascending order."""
+        if len(self.ids) <= FEW and step > 0:
+            wanted = range(start, end + 1, step)
+            return np.array([index for number, index in self.by_number().items() if number in wanted], dtype=np.intp)
         parts = [self._part(run, start, end, step) for run in self._ascending()]
         found = parts[0] if len(parts) == 1 else np.concatenate([np.zeros(0, dtype=np.intp), *parts])
         return found if _is_ascending(found) else np.sort(found)

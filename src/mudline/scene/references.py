@@ -25,6 +25,7 @@ from mudline.limits import MOST_REPORTED
 from mudline.scene.context import Context
 from mudline.scene.deck_values import bare, makes_labels
 from mudline.scene.laws import LawTable
+from mudline.scene.names import names_used
 from mudline.scene.numbering import Numbered
 from mudline.scene.sets import Sets
 from mudline.spelling import same_marks
@@ -47,15 +48,16 @@ def check_references(context: Context, sets: Sets, laws: LawTable, *, with_soil:
     Postprocessing has sets of its own beside those of the model.
     """
     own: dict[str, str] | None = None
-    for block, where, name in given_names(context.deck, Names.SET):
-        if not with_soil and block.facts.soil_springs:
+    for name, where in ((one.name, one.where) for one in names_used(context, Names.SET)):
+        section = context.deck.sections[where.section]
+        if not with_soil and cast("Block", section.blocks[where.block]).facts.soil_springs:
             continue
-        if context.deck.sections[where.section].name not in _OF_THE_MODEL and sets.find(name) is None:
+        if section.name not in _OF_THE_MODEL and sets.find(name) is None:
             own = sets_of_postprocessing(context.deck) if own is None else own
             if folded(bare(name)) in own or not context.deck.keywords():
                 continue
         sets.check(name, where)
-    laws.referenced.update(folded(name) for _, _, name in given_names(context.deck, Names.CURVE))
+    laws.referenced.update(folded(one.name) for one in names_used(context, Names.CURVE))
 
 
 _OF_THE_MODEL = ("PREPROCESSOR", "MODEL", "LOAD CASE")
@@ -161,7 +163,7 @@ def _shows_nodes(context: Context, nodes: Numbered) -> bool:
 def check_boundaries(context: Context, nodes: Numbered) -> None:
     """Every line of `*BOUNDARY` against the nodes of the deck and the six degrees of freedom."""
     named: list[tuple[object, Where]] = []
-    for where, block in context.deck.blocks("BOUNDARY", "LOAD CASE"):
+    for where, block in context.blocks("BOUNDARY", "LOAD CASE"):
         types = cast("Boundary", block).types
         if not types and not context.deck.lost(where):
             message = "*BOUNDARY is empty: give TYPE= and nodes below it, or remove it"
@@ -235,9 +237,9 @@ def _is_no_freedom(freedom: object) -> bool:
 
 def check_lines(context: Context) -> None:
     """The lines and groups that `*LINE PATH SECTIONS` names, and the labels of elements and sets: warnings at most."""
-    blocks = (cast("LineSectionGroups", block) for _, block in context.deck.blocks("LINE SECTION GROUPS"))
+    blocks = (cast("LineSectionGroups", block) for _, block in context.blocks("LINE SECTION GROUPS"))
     groups = {folded(bare(group.name)): group.name for block in blocks for group in block.groups if group.name}
-    for where, block in context.deck.blocks("LINE PATH SECTIONS"):
+    for where, block in context.blocks("LINE PATH SECTIONS"):
         for index, path in enumerate(cast("LinePathSections", block).paths):
             place = where.inside("paths", index)
             if path.line and "LINE PATHS" in context.external_definers:
@@ -278,7 +280,7 @@ def _check_name(context: Context, what: tuple[str, str, str], name: str, where: 
 
 def _of_elements(context: Context) -> Iterator[tuple[Code, str, Where]]:
     """Labels of nodes."""
-    for where, block in context.deck.blocks("ELEMENT"):
+    for where, block in context.blocks("ELEMENT"):
         for index, entry in enumerate(cast("Elements", block).entries):
             if hasattr(entry, "elements"):
                 for (row, column), word in cast("ElementRows", entry).elements.words.items():
@@ -288,7 +290,7 @@ def _of_elements(context: Context) -> Iterator[tuple[Code, str, Where]]:
 
 def _of_sets(context: Context) -> Iterator[tuple[Code, str, Where]]:
     """Labels of elements."""
-    for where, block in context.deck.blocks("ELEMENT SETS"):
+    for where, block in context.blocks("ELEMENT SETS"):
         for index, entry in enumerate(cast("ElementSets", block).sets):
             for number, member in enumerate(entry.members):
                 for at, element in enumerate(getattr(member, "elements", None) or ()):

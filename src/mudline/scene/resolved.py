@@ -250,7 +250,10 @@ class ResolvedDeck:
     @cached_property
     def replaced(self) -> list[Replaced]:
         """What extension keywords give in place of what elements had, the last one for good."""
-        soft, found = self.laws_given != LawKind.RIGID, []
+        found: list[Replaced] = []
+        if not self.extensions:
+            return found
+        soft = self.laws_given != LawKind.RIGID
         for keyword, extension in reversed(self.extensions.items()):
             law, field = facts_of(keyword).gives_law
             if law:
@@ -275,7 +278,7 @@ class ResolvedDeck:
     @cached_property
     def laws_given(self) -> NDArray[np.int8]:
         """`LawKind` of what each element is granted, whatever replaces it."""
-        kinds = np.array([*(set_law.kind for set_law in self.laws.set_laws), LawKind.NONE], dtype=np.int8)
+        kinds = np.array([*(set_law.kind.value for set_law in self.laws.set_laws), LawKind.NONE.value], dtype=np.int8)
         return kinds[self.laws.of_element]
 
     @cached_property

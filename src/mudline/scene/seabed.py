@@ -16,7 +16,7 @@ from mudline.keywords.text import shown
 from mudline.limits import LARGEST_FILE
 from mudline.outside import without_text
 from mudline.scene.context import Context
-from mudline.scene.deck_values import file_name, find_file, number, surfaces
+from mudline.scene.deck_values import file_name, find_file, number
 from mudline.scene.numbering import Floats, side_by_side
 from mudline.short_repr import counted, short_repr
 from mudline.syntax.rows import read_number
@@ -86,15 +86,18 @@ class SeabedShape:
         )
 
 
+_FLAT = SeabedShape()
+
+
 def read_seabed(context: Context) -> SeabedShape:
     """The seabed of a deck: the last `*SEABED PLANES`, else the last `*SEABED PROFILE`, else that of the surface."""
-    found = SeabedShape()
+    found = _FLAT
     unreadable: list[tuple[Where, str]] = []
-    for where, surface in surfaces(context.deck):
+    for where, surface in context.surfaces:
         found = _surface(surface, where, found)
-    for where, block in context.deck.blocks("SEABED PROFILE"):
+    for where, block in context.blocks("SEABED PROFILE"):
         found = _profile(context, cast("SeabedProfile", block), where, unreadable)
-    blocks = [(where, cast("SeabedPlanes", block)) for where, block in context.deck.blocks("SEABED PLANES")]
+    blocks = [(where, cast("SeabedPlanes", block)) for where, block in context.blocks("SEABED PLANES")]
     if planes := tuple(_plane(plane) for _, block in blocks for plane in block.planes):
         found = SeabedShape(SeabedKind.PLANES, planes=planes, where=blocks[0][0])
     return replace(found, unreadable=tuple(unreadable)) if unreadable else found

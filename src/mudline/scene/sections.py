@@ -67,7 +67,7 @@ def read_sections(
     sections: list[Section] = []
     holders: list[NamedSet | None] = []
     elsewhere = False
-    for where, block in context.deck.blocks("GEOMETRIC SETS"):
+    for where, block in context.blocks("GEOMETRIC SETS"):
         for index, entry in enumerate(cast("GeometricSets", block).sets):
             place = where.inside("sets", index)
             name = known_name(entry.set_name)

@@ -16,7 +16,7 @@ from mudline.keywords.text import advice_on, shown
 from mudline.keywords.unknown import is_partly_unknown, known_name
 from mudline.scene.context import Context
 from mudline.scene.deck_values import bare
-from mudline.scene.numbering import Ids, Indices, Numbered, constant, identity
+from mudline.scene.numbering import FEW, Ids, Indices, Numbered, constant, identity
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
@@ -110,7 +110,7 @@ class _Reader:
         context = self.context
         everything = identity(len(self.elements))
         named[ALL] = NamedSet("ALL", everything, None, open=bool(context.external_definers or context.restart))
-        for where, block in context.deck.blocks("ELEMENT SETS"):
+        for where, block in context.blocks("ELEMENT SETS"):
             self._collect(cast("ElementSets", block).sets, where)
         for key, name in context.opaque_set_names.items():
             if key not in self.definitions:
@@ -235,6 +235,11 @@ class _Reader:
 
     def _listed(self, member: SetList, where: Where) -> tuple[Indices, bool]:
         """Indices of the elements of a list in ascending order, and whether these are all."""
+        if len(self.elements) <= FEW and not is_partly_unknown(member.elements):
+            few = self.elements.by_number()
+            found = {few[one] for one in member.elements if isinstance(one, int) and one in few}
+            if len(found) == len({*member.elements}):
+                return np.array(sorted(found), dtype=np.intp), True
         numbers = np.array([element for element in member.elements if isinstance(element, int)], dtype=np.int64)
         indices = self.elements.indices(numbers)
         known = indices >= 0

@@ -43,9 +43,10 @@ Line = tuple[Where, str]
 
 def check_unread_lines(context: Context, sets: Sets) -> None:
     """Look at every line of a deck itself that is not read."""
-    looking = _Looking(context, sets)
+    looking: _Looking | None = None
     for where, keyword, line in unread_lines(context.written):
         if len(line) <= _LONGEST and _WORTH.search(line):
+            looking = looking or _Looking(context, sets)
             looking.look(where, keyword, line)
 
 

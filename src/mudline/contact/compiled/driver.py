@@ -99,6 +99,10 @@ _Job = tuple[tuple[Any, ...], tuple[Any, ...]]
 """What the loops over elements, and over nodes, take of a batch behind the range."""
 
 
+_NO_LOOP: type[Exception] = getattr(numba.core.errors, "UnsupportedBytecodeError", numba.core.errors.NumbaError)
+"""What numba raises for Python that it cannot compile; an older one a `NumbaError`."""
+
+
 class CompiledDriver:
     """Evaluates batches of steps. Holds no state of a series; may be shared by threads."""
 
@@ -157,7 +161,7 @@ class CompiledDriver:
         job = self._job(batch, part, state, after, 2**64 if together else self._held)
         try:
             wrong = self._run(job, together=together)
-        except (numba.core.errors.NumbaError, numba.core.errors.UnsupportedBytecodeError) as error:
+        except (numba.core.errors.NumbaError, _NO_LOOP) as error:
             first = str(error).strip().splitlines()[0]
             warnings.warn(f"the laws cannot be compiled and are evaluated with numpy: {first}", RuntimeWarning, 3)
             self.broken = True

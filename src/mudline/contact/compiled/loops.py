@@ -145,13 +145,14 @@ def elements_loop(
                 if not slides:
                     continue
 
+                row = np.uint64(e) & ring
                 p = (points[step, a, 0], points[step, a, 1], points[step, a, 2])
                 q = (points[step, b, 0], points[step, b, 1], points[step, b, 2])
                 unit = unit_of_span(q[0] - p[0], q[1] - p[1], q[2] - p[2])
                 if flat:
-                    tangent[step, e & ring, 0], tangent[step, e & ring, 1] = unit[1], unit[2]
+                    tangent[step, row, 0], tangent[step, row, 1] = unit[1], unit[2]
                 else:
-                    tangent[step, e & ring, 0], tangent[step, e & ring, 1], tangent[step, e & ring, 2] = unit
+                    tangent[step, row, 0], tangent[step, row, 1], tangent[step, row, 2] = unit
                 if lateral and index[e, col.SPRINGS_BACK] != NOTHING:
                     held = index[e, col.SPRINGS_BACK]
                     x, y, z = 0.5 * p[0] + 0.5 * q[0], 0.5 * p[1] + 0.5 * q[1], 0.5 * p[2] + 0.5 * q[2]
@@ -172,13 +173,13 @@ def elements_loop(
                         along = default(n)
                     across = cross(along, n)
                     push = lateral_force(table[e, col.LATERAL], dot(across, arm)) if touches else 0.0
-                    sideways[step, e & ring, 0], sideways[step, e & ring, 1] = across[0] * push, across[1] * push
+                    sideways[step, row, 0], sideways[step, row, 1] = across[0] * push, across[1] * push
                     if not flat:
-                        sideways[step, e & ring, 2] = across[2] * push
+                        sideways[step, row, 2] = across[2] * push
                 elif lateral:
-                    sideways[step, e & ring, 0] = sideways[step, e & ring, 1] = 0.0
+                    sideways[step, row, 0] = sideways[step, row, 1] = 0.0
                     if not flat:
-                        sideways[step, e & ring, 2] = 0.0
+                        sideways[step, row, 2] = 0.0
         return wrong
 
     return loop
@@ -262,18 +263,19 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                 tx = ty = tz = gx = gy = gz = 0.0
                 for at in range(first[i], behind[i]):
                     e = elements[at]
+                    row = np.uint64(e) & ring
                     total += force[step, e] * half[e]
                     if slides:
                         sense = senses[at] if turns else 1.0
-                        tx += tangent[step, e & ring, 0] * sense
-                        ty += tangent[step, e & ring, 1] * sense
+                        tx += tangent[step, row, 0] * sense
+                        ty += tangent[step, row, 1] * sense
                         if not flat:
-                            tz += tangent[step, e & ring, 2] * sense
+                            tz += tangent[step, row, 2] * sense
                     if lateral:
-                        gx += sideways[step, e & ring, 0]
-                        gy += sideways[step, e & ring, 1]
+                        gx += sideways[step, row, 0]
+                        gy += sideways[step, row, 1]
                         if not flat:
-                            gz += sideways[step, e & ring, 2]
+                            gz += sideways[step, row, 2]
                 if nodal and index[i, col.NODE_KIND] != NOTHING:
                     z = 0.0 - gap[step, i]
                     if z > table[i, col.NODE_ONSET]:

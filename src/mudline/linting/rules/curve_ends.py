@@ -10,7 +10,7 @@ from mudline.curves import ForceCurve
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.linting.joints import Found, Joined, joint
-from mudline.linting.rule import STEEPEST, LintContext, rule
+from mudline.linting.rule import ODD_CURVES, STEEPEST, LintContext, rule
 from mudline.linting.rules.curve_shape import is_upside_down
 from mudline.linting.rules.seabed_position import DEEPEST, bounds_of
 from mudline.scene.force_curves import SceneCurve
@@ -49,7 +49,7 @@ def _deepest(curve: SceneCurve) -> int:
     return int(np.argmax(curve.points[:, 0]))
 
 
-@rule(CRV007)
+@rule(CRV007, of=(ODD_CURVES,))
 def force_at_zero(context: LintContext) -> Iterator[Problem]:
     """The force at ratio 0 is not 0.
 
@@ -90,7 +90,7 @@ def force_at_zero(context: LintContext) -> Iterator[Problem]:
         yield Problem(CRV007, message, where=entry.where)
 
 
-@rule(CRV012)
+@rule(CRV012, of=(ODD_CURVES,))
 def curve_pulls(context: LintContext) -> Iterator[Problem]:
     """The force of a curve is negative at a ratio above 0.
 
@@ -132,7 +132,7 @@ def curve_pulls(context: LintContext) -> Iterator[Problem]:
                 yield Problem(CRV012, message, where=entry.point(_deepest(entry)))
 
 
-@rule(CRV008)
+@rule(CRV008, of=(ODD_CURVES,))
 def steep_extrapolation(context: LintContext) -> Iterator[Problem]:
     """The last segment of a curve is over 100 times steeper than the one before it.
 
@@ -169,7 +169,7 @@ def steep_extrapolation(context: LintContext) -> Iterator[Problem]:
             yield Problem(CRV008, message, where=entry.point(_deepest(entry)))
 
 
-@rule(CRV013)
+@rule(CRV013, of=(ODD_CURVES,))
 def flat_last_segment(context: LintContext) -> Iterator[Problem]:
     """The last segment of a curve is flat.
 

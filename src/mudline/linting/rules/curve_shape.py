@@ -13,7 +13,7 @@ from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
 from mudline.keywords.text import shown
 from mudline.limits import MOST_REPORTED
 from mudline.linting.joints import Found, Joined, joint
-from mudline.linting.rule import LARGEST_RATIO, LintContext, rule
+from mudline.linting.rule import LARGEST_RATIO, ODD_CURVES, LintContext, rule
 from mudline.scene.deck_curves import other_curves
 from mudline.scene.force_curves import SceneCurve, clashes_and_repeats
 from mudline.scene.model import Scene
@@ -40,7 +40,7 @@ def swapped(curve: SceneCurve) -> bool:
     return bool(exchanged.any() and (exchanged | ((ratios == 0.0) & (forces == 0.0))).all())
 
 
-@rule(CRV009)
+@rule(CRV009, of=(ODD_CURVES,))
 def swapped_columns(context: LintContext) -> Iterator[Problem]:
     """The columns of a curve seem to be exchanged: forces are where the ratios belong.
 
@@ -89,7 +89,7 @@ def _exchange(text: TextOrigin, curve: SceneCurve) -> Repair | None:
     return Repair("unsafe", "exchange the columns", tuple(edits))
 
 
-@rule(CRV010)
+@rule(CRV010, of=(ODD_CURVES,))
 def ratio_range(context: LintContext) -> Iterator[Problem]:
     """The largest ratio of a curve is above 5.
 
@@ -183,7 +183,7 @@ def of_one_curve(_: LintContext, found: Found) -> Iterator[Joined]:
             yield Joined(first, [one for problems in given.values() for one in problems if one is not first])
 
 
-@rule(CRV005)
+@rule(CRV005, of=(ODD_CURVES,))
 def decreasing_force(context: LintContext) -> Iterator[Problem]:
     """The force decreases while the pipe penetrates deeper.
 
@@ -250,7 +250,7 @@ def _needed(scene: Scene, curve: int, slope: float) -> str:
         return f"|slope| / D = {float(np.float64(-slope) / smallest):.6g} ({which})"
 
 
-@rule(CRV006)
+@rule(CRV006, of=(ODD_CURVES,))
 def negative_ratio(context: LintContext) -> Iterator[Problem]:
     """A point of a curve lies above the mudline.
 

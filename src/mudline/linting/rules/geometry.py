@@ -176,6 +176,8 @@ def repeated_section(context: LintContext) -> Iterator[Problem]:
     if not sections or hidden or any(scene.set_table.find(section.name) is None for section in sections):
         return
     lacking = scene.section_table.of_element < 0
+    if not np.count_nonzero(lacking):
+        return
     needing = lacking & ~_without_sections(scene)
     sets = scene.set_table.named.values() if needing.any() else ()
     bare_sets = [one for one in sets if not one.open and lacking[one.elements].all() and needing[one.elements].any()]

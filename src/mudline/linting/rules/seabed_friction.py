@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.linting.rule import LintContext, rule
-from mudline.scene.deck_values import surfaces
 from mudline.scene.laws import DIRECTIONS, Extension, typed_blocks
 from mudline.scene.sets import ALL
-
-if TYPE_CHECKING:
-    from mudline.keywords.surfaces import Surface
 
 SBD007 = Code("SBD007", "lateral-and-friction", Severity.WARNING)
 SBD013 = Code("SBD013", "legacy-friction-order", Severity.WARNING)
@@ -57,7 +53,7 @@ def lateral_and_friction(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:10
     """
-    for entry in context.once(_resisting):
+    for entry in context.once(resisting):
         friction = entry.value("transverse")
         both = entry.type_ != "RIGID" and positive(entry.value("lateral")) and positive(friction)
         if both and not friction_replaced(context, entry):
@@ -84,7 +80,7 @@ def legacy_friction_order(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:21
     """
-    for entry in context.once(_resisting):
+    for entry in context.once(resisting):
         length = entry.value("longitudinal_mobilisation")
         if not entry.legacy and length in _CHARACTERISTIC:
             message = (
@@ -113,7 +109,7 @@ def unused_friction_stiffness(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:27
     """
-    for entry in context.once(_resisting):
+    for entry in context.once(resisting):
         for direction in DIRECTIONS:
             name = f"{direction}_stiffness"
             idle = positive(entry.value(name)) and absent(entry, direction)
@@ -161,7 +157,7 @@ def extent_without_stiffness(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:15
     """
-    for entry in context.once(_resisting):
+    for entry in context.once(resisting):
         if positive(entry.value("suction_extent")) and absent(entry, "suction_stiffness"):
             message = "a suction zone without suction stiffness has no effect: give the stiffness, or remove the extent"
             yield Problem(SBD015, message, where=entry.place("suction_extent"))
@@ -186,7 +182,7 @@ def unused_characteristic_length(context: LintContext) -> Iterator[Problem]:
 
     Finds: 3:27
     """
-    for entry in context.once(_resisting):
+    for entry in context.once(resisting):
         for direction in DIRECTIONS if entry.legacy else ():
             name = f"{direction}_length"
             both = positive(entry.value(name)) and positive(entry.value(f"{direction}_mobilisation"))
@@ -215,7 +211,7 @@ def one_friction_coefficient(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:11
     """
-    for entry in context.once(_resisting):
+    for entry in context.once(resisting):
         longitudinal = entry.value("longitudinal")
         single = positive(longitudinal) and entry.value("transverse") is None and absent(entry, "transverse")
         sprung = entry.type_ != "RIGID" and positive(entry.value("lateral"))
@@ -258,8 +254,7 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
     Finds: 17:21
     """
     scene = context.scene
-    resistance = scene.resistance
-    if not resistance.has_mobilisation:
+    if not context.once(resisting) or not (resistance := scene.resistance).has_mobilisation:
         return
     lengths, friction = resistance.column("mobilisation"), resistance.column("friction")
     friction[resistance.column("lateral") > 0.0, 1] = 0.0  # a lateral spring replaces it
@@ -314,7 +309,7 @@ def _found(context: LintContext) -> list[Given]:
             surface.facts.seabed_type,
             legacy=True,
         )
-        for where, surface in context.once(surfaces_of)
+        for where, surface in context.scene.context.surfaces
     ]
     for where, properties, type_ in typed_blocks(context.scene.context):
         for index, entry in enumerate(properties.sets):
@@ -322,8 +317,8 @@ def _found(context: LintContext) -> list[Given]:
     return found
 
 
-def _resisting(context: LintContext) -> list[Given]:
-    """Those that may give more than a stiffness: the others have nothing that rules of this module look at."""
+def resisting(context: LintContext) -> list[Given]:
+    """Those that may give more than a stiffness: the others have nothing that rules about friction look at."""
     return [
         entry
         for entry in given(context)
@@ -332,11 +327,6 @@ def _resisting(context: LintContext) -> list[Given]:
         or entry.part.lateral is not None
         or entry.part.suction is not None
     ]
-
-
-def surfaces_of(context: LintContext) -> list[tuple[Where, Surface]]:
-    """The legacy surfaces of the deck of the scene; several rules ask `context.once` for them."""
-    return surfaces(context.scene.deck) if context.superseded else []  # newer keywords supersede all of them
 
 
 def positive(value: float | None) -> bool:

@@ -17,11 +17,10 @@ from mudline.keywords.model import Record
 from mudline.keywords.text import shown
 from mudline.limits import MOST_REPORTED
 from mudline.linting.rule import LintContext, rule
-from mudline.linting.rules.seabed_friction import surfaces_of
 from mudline.linting.rules.seabed_position import first_of
-from mudline.scene.laws import SetLaw
+from mudline.scene.laws import SetLaw, present
 from mudline.scene.model import Scene
-from mudline.scene.numbering import Floats, Indices, one_index
+from mudline.scene.numbering import Floats, Indices
 from mudline.scene.sets import ALL, NamedSet
 
 SBD008 = Code("SBD008", "overlapping-sets", Severity.INFO)
@@ -120,11 +119,9 @@ def law_without_effect(context: LintContext) -> Iterator[Problem]:
 def _unused_properties(context: LintContext) -> Iterator[Problem]:
     """Sets of *SEABED PROPERTIES without an element that follows them, unless SBD008 or REF010 gives the reason."""
     scene = context.scene
-    idle = np.ones(len(scene.laws.set_laws) + 1, dtype=np.bool_)
-    only = one_index(scene.laws.covered)
-    idle[scene.laws.covered if only is None else only] = False  # the last one is that of no set_law, -1
+    followed = {*present(scene.laws.covered)}
     new = _own_grants(context, "new")
-    idle_grants = {id(grant) for grant, alone in zip(scene.laws.set_laws, idle.tolist(), strict=False) if alone}
+    idle_grants = {id(grant) for index, grant in enumerate(scene.laws.set_laws) if index not in followed}
     if not any(id(grant) in idle_grants for grant in new):
         return
     reported = {earlier for earlier, _ in _properties(scene, new)} if len(new) > 1 else set()
@@ -150,7 +147,7 @@ def _unused_properties(context: LintContext) -> Iterator[Problem]:
 
 def _unused_surfaces(context: LintContext) -> Iterator[Problem]:
     """Legacy surfaces that a later one replaces, unless SBD002 reports two types."""
-    found = context.once(surfaces_of) if len(context.scene.laws.types) == 1 else []
+    found = context.scene.context.surfaces if len(context.scene.laws.types) == 1 else []
     for where, surface in found[:-1]:
         message = (
             f"these values apply to no element, as a later *{surface.keyword} overrides them: remove one of the two"

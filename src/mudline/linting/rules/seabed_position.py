@@ -13,7 +13,7 @@ from mudline.keywords.table import LARGEST_WHOLE
 from mudline.linting.rule import LintContext, limited, rule
 from mudline.scene.deck_values import number
 from mudline.scene.model import Scene
-from mudline.scene.numbering import Floats, Indices, Mask, blocks_of
+from mudline.scene.numbering import FEW, Floats, Indices, Mask, blocks_of
 from mudline.scene.seabed import SeabedKind, SeabedShape
 from mudline.scene.vertical_axis import FLAT
 
@@ -123,8 +123,12 @@ class Bounds(NamedTuple):
 def bounds_of(context: LintContext) -> Bounds:
     """What is computed once for the rules that most decks pass by such bounds alone; they ask `context.once`."""
     scene = context.scene
-    lowest, left, first = np.minimum.reduce(scene.coordinates, axis=0, initial=np.inf).tolist()
-    top, right, last = np.maximum.reduce(scene.coordinates, axis=0, initial=-np.inf).tolist()
+    axes = [*zip(*scene.coordinates.tolist(), strict=True)] if len(scene.coordinates) <= FEW else []
+    if axes and isfinite(sum(map(sum, axes))):  # of few without numpy, which takes three times as long
+        (lowest, left, first), (top, right, last) = map(min, axes), map(max, axes)
+    else:
+        lowest, left, first = np.minimum.reduce(scene.coordinates, axis=0, initial=np.inf).tolist()
+        top, right, last = np.maximum.reduce(scene.coordinates, axis=0, initial=-np.inf).tolist()
     level = _is_level(scene.seabed) and "SEABED TRENCH" not in scene.extensions
     if level and isfinite(left + right + first + last):
         highest, deepest = top, -lowest

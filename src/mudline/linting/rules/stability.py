@@ -10,28 +10,22 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.contact.input import LawKind
-from mudline.contact.laws.suction import SuctionLaw
-from mudline.contact.stiffest import (
-    ADVISED_OMEGA_DT,
-    CRITICAL_OMEGA_DT,
-    release_stiffness,
-    rounded_down,
-)
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.limits import MOST_REPORTED
 from mudline.linting.rule import LintContext, rule
 from mudline.linting.rules.seabed_position import bounds_of
 from mudline.quantities import unit_names
-from mudline.scene.assignments import softens, suction_law
+from mudline.scene.context import EXTENSION
 from mudline.scene.deck_values import number
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene
-from mudline.scene.numbering import Floats, Indices
-from mudline.scene.oscillation import Oscillation, line_of, oscillations, softening_needs
+from mudline.scene.numbering import FEW, Floats, Indices
 
 if TYPE_CHECKING:
+    from mudline.contact.laws.suction import SuctionLaw
     from mudline.keywords.library.time import TimeSpan
+    from mudline.scene.oscillation import Oscillation
 
 EXT008 = Code("EXT008", "soft-unloading", Severity.WARNING)
 STB001 = Code("STB001", "suction-snap", Severity.INFO)
@@ -42,22 +36,11 @@ STB004 = Code("STB004", "lateral-softening", Severity.INFO)
 _SMALLEST_PART, _LARGEST_PART = 0.01, 0.99
 
 _FAILS = ", central difference fails"
-_CONSEQUENCES = (
-    (1.0, "with Newmark's scheme the rebound may be up to 11 % too fast"),
-    (CRITICAL_OMEGA_DT["central-difference"], "with Newmark's scheme the rebound may be far too fast"),
-    (math.inf, f"with Newmark's scheme the rebound may be up to three times too fast{_FAILS}"),
-)
-"""What happens to a landing pipe, up to a product of frequency and step."""
-_STICKING = (
-    (CRITICAL_OMEGA_DT["central-difference"], "the spring of what sticks is not resolved"),
-    (math.inf, f"the spring of what sticks is not resolved{_FAILS}"),
-)
-"""What happens at friction and lateral springs, which do not lift off."""
 
 FARTHEST = 1.0e4
 
 
-@rule(STB001)
+@rule(STB001, of=(EXTENSION,))
 def suction_snap(context: LintContext) -> Iterator[Problem]:
     """The suction force decreases while the pipe keeps rising.
 
@@ -95,6 +78,8 @@ def suction_snap(context: LintContext) -> Iterator[Problem]:
     extension = scene.extensions.get("SEABED SUCTION")
     if extension is None:
         return
+    from mudline.scene.assignments import suction_law  # noqa: PLC0415 - most decks do without
+
     for index, where in enumerate(extension.places):
         elements = np.flatnonzero(extension.of_element == index)
         needed = _release(suction_law(scene, extension, elements))
@@ -112,6 +97,8 @@ def suction_snap(context: LintContext) -> Iterator[Problem]:
 
 def _release(law: SuctionLaw) -> Floats:
     """|slope| of the release branch, per unit length, of some elements; NaN where it is not known."""
+    from mudline.contact.stiffest import release_stiffness  # noqa: PLC0415 - most decks do without
+
     with np.errstate(all="ignore"):
         usable = (law.second_corner >= _SMALLEST_PART) & (law.second_corner <= _LARGEST_PART)
         return np.where(usable & (law.regularisation > 0.0), release_stiffness(law, law.regularisation), np.nan)
@@ -161,6 +148,9 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
     blocks = context.blocks("TIME", "LOAD CASE")
     if not blocks or not len(scene.element_ids) or scene.blocking("cut"):
         return
+    from mudline.contact.stiffest import ADVISED_OMEGA_DT, rounded_down  # noqa: PLC0415 - most decks do without
+    from mudline.scene.oscillation import oscillations  # noqa: PLC0415 - most decks do without
+
     found = oscillations(scene, scene.contact_input("cut")).found
     springs = [one for one in found if one.omega > 0.0]
     if not springs:
@@ -170,8 +160,7 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
     for where, block in blocks:
         step = getattr(cast("TimeSpan", block).fixed, "increment", None)
         if isinstance(step, int | float) and stiffest.omega * step > ADVISED_OMEGA_DT:
-            table = _STICKING if stiffest.kind in {"friction", "lateral"} else _CONSEQUENCES
-            effect = next(words for limit, words in table if stiffest.omega * step <= limit)
+            effect = _effect(stiffest.kind, stiffest.omega * step)
             if damped := _damped(scene, found):
                 effect = f"{effect.removesuffix(_FAILS)}, {damped}"
             message = (
@@ -182,7 +171,7 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
             yield Problem(STB002, message, where=where.inside("fixed", "increment"))
 
 
-@rule(STB004)
+@rule(STB004, of=(EXTENSION,))
 def lateral_softening(context: LintContext) -> Iterator[Problem]:
     """The lateral resistance falls while the pipe moves on.
 
@@ -224,7 +213,12 @@ def lateral_softening(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     extension = scene.extensions.get("SEABED FRICTION")
-    if extension is None or not any(map(softens, extension.entries)) or scene.blocking("cut"):
+    if extension is None:
+        return
+    from mudline.scene.assignments import softens  # noqa: PLC0415 - most decks do without
+    from mudline.scene.oscillation import oscillations, softening_needs  # noqa: PLC0415 - most decks do without
+
+    if not any(map(softens, extension.entries)) or scene.blocking("cut"):
         return
     known = {one.where: one for one in oscillations(scene, scene.contact_input("cut")).softening}
     needs = "equilibrium needs a structural stiffness per unit length above (peak - residual) N / distance"
@@ -235,8 +229,21 @@ def lateral_softening(context: LintContext) -> Iterator[Problem]:
             yield Problem(STB004, f"the lateral resistance falls behind its peak: {needs}{numbers}", where=where)
 
 
+def _effect(kind: str, product: float) -> str:
+    """What happens to a landing pipe, or to a spring that does not lift off, at a product of frequency and step."""
+    from mudline.contact.stiffest import CRITICAL_OMEGA_DT  # noqa: PLC0415 - most decks do without
+
+    fails = _FAILS if product > CRITICAL_OMEGA_DT["central-difference"] else ""
+    if kind in {"friction", "lateral"}:
+        return f"the spring of what sticks is not resolved{fails}"
+    fast = "up to 11 % too fast" if product <= 1.0 else "up to three times too fast" if fails else "far too fast"
+    return f"with Newmark's scheme the rebound may be {fast}{fails}"
+
+
 def _described(scene: Scene, one: Oscillation) -> str:
     """Law, node and line of a contact, with the file of a deck that this one continues."""
+    from mudline.scene.oscillation import line_of  # noqa: PLC0415 - most decks do without
+
     line, base = line_of(scene, one.where), scene.deck.base_of(one.where)
     place = f", line {line}" if line else ""
     return f"{one.name}, node {scene.node_ids[one.node]}{place}" + (f" of {Path(base[0].file).name}" if base else "")
@@ -247,6 +254,8 @@ def _damped(scene: Scene, found: Sequence[Oscillation]) -> str:
     least = min(found, key=lambda one: one.critical_step("central-difference"))
     if least.rate == 0.0:
         return ""
+    from mudline.contact.stiffest import rounded_down  # noqa: PLC0415 - most decks do without
+
     step = rounded_down(least.critical_step("central-difference"))
     return f"central difference needs {step:.3g} or less for {_described(scene, least)}"
 
@@ -350,6 +359,9 @@ def _extremes(entry: SceneCurve) -> tuple[float, float]:
     """The smallest and the largest slope of a curve, flat segments left out; NaN without any."""
     if entry.curve is None or not entry.whole:
         return (math.nan, math.nan)
+    if len(entry.curve.slopes) <= FEW:
+        given = [abs(slope) for slope in entry.curve.slopes.tolist() if slope]
+        return (min(given), max(given)) if given else (math.nan, math.nan)
     slopes = np.abs(entry.curve.slopes)
     slopes = slopes[slopes > 0.0]
     return (float(slopes.min()), float(slopes.max())) if slopes.size else (math.nan, math.nan)
@@ -371,7 +383,7 @@ def _neighbours(scene: Scene) -> tuple[Indices, Indices]:
     return one[wanted], other[wanted]
 
 
-@rule(EXT008)
+@rule(EXT008, of=(EXTENSION,))
 def soft_unloading(context: LintContext) -> Iterator[Problem]:
     """The unloading stiffness is below the steepest slope of the loading law.
 

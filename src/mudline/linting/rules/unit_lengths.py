@@ -13,7 +13,7 @@ from mudline.keywords.model import Part
 from mudline.limits import MOST_REPORTED
 from mudline.linting.rule import LARGEST_RATIO, LintContext, rule
 from mudline.linting.rules.coordinates import UNT006, odd_coordinates
-from mudline.linting.rules.seabed_friction import given
+from mudline.linting.rules.seabed_friction import given, resisting
 from mudline.linting.rules.seabed_position import bounds_of, depths
 from mudline.linting.rules.unit_densities import (
     DENSITIES,
@@ -93,6 +93,8 @@ def _other_diameters(context: LintContext, section: Part, most: float, source: s
     width = number(section, source.lower())
     others = {label: number(section, label.lower()) for label in ("Dd", "Db") if label != source}
     known = {label: value for label, value in others.items() if 0.0 < value < math.inf}
+    if not known:
+        return
     unit = LENGTH_UNIT.get(context.scene.units)
     behind = f" {unit}" if unit else ""
     widest = max(known.values(), default=0.0)
@@ -218,8 +220,7 @@ def suspicious_length(context: LintContext) -> Iterator[Problem]:
 def _mobilisation(context: LintContext) -> Iterator[Problem]:
     """Mobilisation lengths against the widest pipe that they hold for, but for those that SBD013 reports."""
     scene = context.scene
-    resistance = scene.resistance
-    if not resistance.has_mobilisation:
+    if not context.once(resisting) or not (resistance := scene.resistance).has_mobilisation:
         return
     widest = np.full(len(resistance.places) + 1, np.nan)
     friction = scene.extensions.get("SEABED FRICTION")
@@ -273,10 +274,10 @@ def _in_lengths(scene: Scene) -> Iterator[tuple[SceneCurve, float]]:
 
 def _may_be_in_lengths(curve: SceneCurve) -> bool:
     """Whether most ratios of a curve are not round numbers, and CRV010 reports none of them."""
-    if not curve.usable or len(curve.points) < FEWEST_POINTS:
+    if not curve.usable or np.count_nonzero(curve.points[:, 0]) < FEWEST_POINTS:
         return False
     ratios = _ratios(curve)
-    if len(ratios) < FEWEST_POINTS or ratios.max() > LARGEST_RATIO:
+    if ratios.max() > LARGEST_RATIO:
         return False
     return bool(_is_round(ratios).mean() < MOST_ROUND)
 

@@ -16,7 +16,7 @@ from mudline.keywords.text import shown
 from mudline.limits import MOST_REPORTED
 from mudline.linting.rule import LintContext, entries_of_sets, limited, rule
 from mudline.linting.rules.curve_shape import swapped
-from mudline.linting.rules.seabed_friction import given, surfaces_of
+from mudline.linting.rules.seabed_friction import given
 from mudline.scene.model import Scene
 
 if TYPE_CHECKING:
@@ -207,7 +207,7 @@ def large_friction(context: LintContext) -> Iterator[Problem]:
 def _coefficients(context: LintContext) -> Iterator[tuple[Where, object, tuple[str, str]]]:
     """What holds friction coefficients, and the names of the two."""
     both = ("longitudinal", "transverse")
-    for where, surface in context.once(surfaces_of):
+    for where, surface in context.scene.context.surfaces:
         yield where.inside("properties"), surface.properties, both
     for where, entry in entries_of_sets(context.blocks("SEABED PROPERTIES")):
         if entry.friction is not None:

@@ -69,7 +69,9 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
         return  # that there is no stiffness is reported there
     yield from _zeros(scene)
     free = scene.law == LawKind.NONE
-    if np.count_nonzero(free) and ("PIP SECTION" in context.keywords or "PIP CONNECTION" in context.keywords):
+    if not np.count_nonzero(free):
+        return
+    if "PIP SECTION" in context.keywords or "PIP CONNECTION" in context.keywords:
         free &= ~_inner_pipes(scene, free)
     if np.count_nonzero(free):
         yield from _blocks(scene, np.flatnonzero(free & (scene.laws.covered >= 0)))
@@ -89,12 +91,12 @@ def _stray_laws(context: LintContext) -> Iterator[Problem]:
             if not any(map(_LAW.match, block.lines)) or not context.text:
                 continue
             where = Where(number, index)
-            head = context.text.heads[where]
-            found = _LAW.search(context.text.source.text, head.end)
+            head = context.text.head(where)
+            found = _LAW.search(context.text.source.text, head.end if head else 0)
             message = (
                 f"*{block.keyword} has no such line: begin *SEABED PROPERTIES above it, else no seabed law applies"
             )
-            place = Span(*found.span()) if found else head
+            place = Span(*found.span()) if found else head or Span(0, 0)
             line = (Span(place.start, place.start), "*SEABED PROPERTIES\n")
             repair = Repair("unsafe", "begin *SEABED PROPERTIES above this line", (line,)) if found else None
             yield Problem(SBD006, message, place, repair=repair)

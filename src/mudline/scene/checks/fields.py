@@ -15,6 +15,7 @@ from mudline.keywords.ranges import range_faults, ranged_slots
 from mudline.limits import MOST_REPORTED
 from mudline.scene.checks import check
 from mudline.scene.deck_values import missing_files, not_found
+from mudline.scene.numbering import FEW
 from mudline.scene.sections import format_of
 
 if TYPE_CHECKING:
@@ -91,7 +92,7 @@ def inner_exceeds_outer(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 5:27
     """
-    for where, block in scene.deck.blocks("GEOMETRIC SETS"):
+    for where, block in scene.context.blocks("GEOMETRIC SETS"):
         for index, entry in enumerate(cast("GeometricSets", block).sets):
             outer, inner = (getattr(entry.section, name, None) for name in ("do", "di"))
             if isinstance(outer, int | float) and isinstance(inner, int | float) and inner >= outer > 0:
@@ -125,6 +126,8 @@ def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 9:2
     """
+    if len(scene.length) <= FEW and all(length > 0.0 for length in scene.length.tolist()):
+        return
     suspects = ~(scene.length > 0.0)
     if not np.count_nonzero(suspects):
         return

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, cast
@@ -15,9 +16,10 @@ from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.keywords.text import advice_on, shown
 from mudline.keywords.values import Names, number_meant
 from mudline.scene.checks import check
+from mudline.scene.context import SUPERSEDED
 from mudline.scene.laws import NOTHING, typed_blocks
-from mudline.scene.names import CURVES, undefined
-from mudline.scene.references import given_names
+from mudline.scene.names import CURVES, names_used, undefined
+from mudline.scene.numbering import FEW
 
 if TYPE_CHECKING:
     from mudline.keywords.library.elastic_surface import ElasticSurface
@@ -137,7 +139,7 @@ def missing_type(scene: ResolvedDeck) -> Iterator[Problem]:
             yield Problem(SBD003, message, where=where)
         for index, entry in enumerate(properties.sets[:1]):
             yield from _without_set(entry.set_name, where.inside("sets", index), "lines")
-    for where, block in scene.deck.blocks("EMBEDMENT"):
+    for where, block in scene.context.blocks("EMBEDMENT"):
         for index, curve in enumerate(cast("Embedment", block).curves[:1]):
             yield from _without_set(curve.set_name, where.inside("curves", index), "points")
 
@@ -148,7 +150,7 @@ def _without_set(name: str | None, where: Where, what: str) -> Iterator[Problem]
         yield Problem(SBD003, message, None, Severity.WARNING, where)
 
 
-@check(SBD004)
+@check(SBD004, of=(SUPERSEDED,))
 def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
     """*ELASTIC SURFACE gives no stiffness, and there is no *EMBEDMENT.
 
@@ -169,7 +171,7 @@ def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
     """
     reading = scene.context
     embedment = any(curve.embedment for curve in scene.laws.curves) or "EMBEDMENT" in reading.unread
-    for where, block in scene.deck.blocks("ELASTIC SURFACE"):
+    for where, block in scene.context.blocks("ELASTIC SURFACE"):
         properties = cast("ElasticSurface", block).properties
         lacking = getattr(properties, "stiffness", None) is None
         if lacking and not embedment:
@@ -177,7 +179,7 @@ def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
             yield reading.missing(SBD004, message, where, "EMBEDMENT")
 
 
-@check(SBD005)
+@check(SBD005, of=(SUPERSEDED,))
 def embedment_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     """*EMBEDMENT is used with a rigid seabed, or with none.
 
@@ -262,6 +264,8 @@ def missing_diameter(scene: ResolvedDeck) -> Iterator[Problem]:
     if not scene.replaced and all(set_law.kind is not LawKind.CURVE for set_law in scene.laws.set_laws):
         return
     sections = scene.section_table
+    if len(sections.diameter) <= FEW and not any(map(math.isnan, sections.diameter.tolist())):
+        return
     lacking = np.isnan(sections.diameter) & ~sections.faulty
     if not np.count_nonzero(lacking):
         return
@@ -326,7 +330,7 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     unused = [name for key, name in names.items() if key not in scene.laws.referenced]
     elsewhere = scene.context.possible_definition("SEABED STIFFNESS")
     other = f" (did you mean {unused[0]}, which nothing uses?)" if len(unused) == 1 and not elsewhere else ""
-    for _, where, name in given_names(scene.deck, Names.CURVE):
+    for name, where in ((one.name, one.where) for one in names_used(scene.context, Names.CURVE)):
         if folded(name) in names:
             continue
         hint = scene.context.hint(name, names) or ("" if name[:1].isdigit() else other)

@@ -12,7 +12,8 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.scene.checks import check
-from mudline.scene.deck_values import file_name, missing_files, number, surfaces
+from mudline.scene.context import EXTENSION
+from mudline.scene.deck_values import file_name, missing_files, number
 from mudline.scene.seabed import COMPILED, SeabedKind
 from mudline.syntax.source import BINARY
 
@@ -58,7 +59,7 @@ def profile_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     types = scene.laws.types
     if "RIGID" not in types or "ELASTIC" in types:
         return
-    for where, profile in scene.deck.blocks("SEABED PROFILE"):
+    for where, profile in scene.context.blocks("SEABED PROFILE"):
         if getattr(profile, "type_", None) == "3D":
             message = "a profile in three dimensions needs an elastic seabed: the seabed is rigid"
             yield Problem(SBD011, message, where=where.inside("type"))
@@ -90,8 +91,7 @@ def steep_slope(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 8:8
     """
-    deck = scene.deck
-    for where, block in (*surfaces(deck), *deck.blocks("SEABED PROFILE")):
+    for where, block in (*scene.context.surfaces, *scene.context.blocks("SEABED PROFILE")):
         slope, place = number(block, "slope"), where.inside("slope")
         if abs(slope) >= _VERTICAL:
             message = f"slope {slope!r}: it must be between -90 and 90 degrees"
@@ -139,7 +139,7 @@ def unreadable_profile(scene: ResolvedDeck) -> Iterator[Problem]:
         yield Problem(SBD023, f"{fault}: correct the points", None, Severity.ERROR, where)
 
 
-@check(EXT002)
+@check(EXT002, of=(EXTENSION,))
 def floor_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     """The seabed is given twice: by planes and by a profile or a slope.
 
@@ -163,11 +163,11 @@ def floor_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     Finds: 9:1
     """
     deck = scene.deck
-    planes = [where for where, _ in deck.blocks("SEABED PLANES")]
+    planes = [where for where, _ in scene.context.blocks("SEABED PLANES")]
     if not planes:
         return
-    others = [where for where, _ in deck.blocks("SEABED PROFILE")]
-    for where, surface in surfaces(deck):
+    others = [where for where, _ in scene.context.blocks("SEABED PROFILE")]
+    for where, surface in scene.context.surfaces:
         if surface.slope is not None or surface.profile is not None:
             others.append(where)
     if others:
@@ -176,7 +176,7 @@ def floor_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
         yield Problem(EXT002, message, where=max(places, default=planes[0]))
 
 
-@check(EXT007)
+@check(EXT007, of=(EXTENSION,))
 def bad_plane(scene: ResolvedDeck) -> Iterator[Problem]:
     """A plane of the seabed is incomplete, vertical or empty.
 
@@ -207,7 +207,7 @@ def bad_plane(scene: ResolvedDeck) -> Iterator[Problem]:
 
 
 def _faulty_planes(scene: ResolvedDeck) -> Iterator[Problem]:
-    for where, block in scene.deck.blocks("SEABED PLANES"):
+    for where, block in scene.context.blocks("SEABED PLANES"):
         for index, plane in enumerate(cast("SeabedPlanes", block).planes):
             place = where.inside("planes", index)
             lacking = [key for key in ("POINT", "SLOPE") if getattr(plane, key.lower()) is None]
@@ -240,7 +240,7 @@ def _is_empty(bounds: PlaneBounds | None) -> bool:
 def _repeated(scene: ResolvedDeck) -> Iterator[Problem]:
     """Planes of the deck itself with the name of an earlier one."""
     known: set[str] = set()
-    for where, block in scene.deck.blocks("SEABED PLANES"):
+    for where, block in scene.context.blocks("SEABED PLANES"):
         if where.section >= len(scene.deck.own_sections):
             continue
         for index, plane in enumerate(cast("SeabedPlanes", block).planes):
