@@ -7,17 +7,20 @@ blocks of most decks are plain, and nobody asks for places in a block without a 
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache, partial
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
+
+import numpy as np
 
 from mudline.diagnostics import Problem, Span
 from mudline.keywords.grammar import ROW, SMALL, Tree, fitting, records_of, terminal_of
 from mudline.keywords.making import can_be_made, make
 from mudline.keywords.model import AS_TEXT, Block, FieldSpec, ListRow, Part, Record, columns_of, record_schema
-from mudline.keywords.table import LARGEST_WHOLE, Column, Widths, from_numbers, from_rows
+from mudline.keywords.table import LARGEST_WHOLE, Column, Table, fewest_of, from_rows
 from mudline.keywords.text import MIXED_FIELDS, UnreadableError, Value, read_value
 from mudline.keywords.values import Equation, Kind
 from mudline.limits import LONGEST_TABLE
@@ -243,7 +246,7 @@ def _row_reading(record: type[Record], *, tabular: bool) -> _Reading:
         if schema.table is None or schema.columns:
             raise _OddError
         columns = columns_of(schema.table)
-        return partial(_table, schema.table.json, columns, Widths.of(columns))
+        return partial(_table, schema.table.json, columns, _Widths.of(columns))
     if schema.table:
         raise _OddError
     readings = {slot.name: _column_reading(record, slot) for slot in schema.columns}
@@ -306,13 +309,40 @@ def _one(slot: FieldSpec, found: Values, fields: str, _: object) -> None:
     found[slot.json] = _value(fields, slot)
 
 
-def _table(json: str, columns: list[Column], widths: Widths, found: Values, run: str, _: object) -> None:
+class _Widths(NamedTuple):
+    """How many fields the rows of a table may have, and which of them are whole numbers."""
+
+    fewest: int
+    most: int
+    whole: tuple[int, ...]
+
+    @classmethod
+    def of(cls, columns: Sequence[Column]) -> _Widths:
+        """Those of a table with these columns."""
+        whole = tuple(index for index, column in enumerate(columns) if column.whole)
+        return cls(fewest_of(columns), len(columns), whole)
+
+
+def _from_numbers(numbers: list[float], width: int, widths: _Widths) -> Table | None:
+    """The table of a few numbers in rows of `width`; None where any of them, or the width, needs a closer look."""
+    if not widths.fewest <= width <= widths.most or math.inf in numbers or -math.inf in numbers:
+        return None
+    for index in widths.whole:
+        for number in numbers[index::width] if index < width else ():
+            if not number.is_integer() or not 0.0 < abs(number) <= LARGEST_WHOLE:
+                return None
+    values = np.array(numbers)
+    values.shape = (-1, width)
+    return Table(values)
+
+
+def _table(json: str, columns: list[Column], widths: _Widths, found: Values, run: str, _: object) -> None:
     if len(run) <= _SHORT_TABLE and _NUMBERS.fullmatch(run):
         rows = run.splitlines()
         commas = {row.count(",") for row in rows}
         if len(commas) == 1:
             numbers = [*map(float, ",".join(rows).split(","))]
-            if (short := from_numbers(numbers, commas.pop() + 1, widths)) is not None:
+            if (short := _from_numbers(numbers, commas.pop() + 1, widths)) is not None:
                 found[json] = short
                 return
     table, faults = from_rows(read_rows(run, Span(0, len(run)), len(columns)), columns)

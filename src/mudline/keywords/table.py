@@ -181,7 +181,7 @@ def from_cells(cells: list[object], columns: Sequence[Column]) -> Table:
             raise misfit(f"expected a row: a list of {_count(columns)} values", row)
     rows = cast("list[list[object]]", cells)
     lengths = np.fromiter(map(len, rows), dtype=np.intp, count=len(rows))
-    fewest, width = _fewest(columns), int(lengths.max(initial=0))
+    fewest, width = fewest_of(columns), int(lengths.max(initial=0))
     if width > len(columns) or (len(rows) and int(lengths.min()) < fewest):
         row = int(np.flatnonzero((lengths > len(columns)) | (lengths < fewest))[0])
         raise misfit(f"{counted(int(lengths[row]), 'field')}, expected {_count(columns)}", row)
@@ -243,39 +243,12 @@ def from_text(text: str, columns: Sequence[Column]) -> Table:
     return table
 
 
-class Widths(NamedTuple):
-    """How many fields the rows of a table may have, and which of them are whole numbers."""
-
-    fewest: int
-    most: int
-    whole: tuple[int, ...]
-
-    @classmethod
-    def of(cls, columns: Sequence[Column]) -> Widths:
-        """Those of a table with these columns."""
-        whole = tuple(index for index, column in enumerate(columns) if column.whole)
-        return cls(_fewest(columns), len(columns), whole)
-
-
-def from_numbers(numbers: list[float], width: int, widths: Widths) -> Table | None:
-    """The table of a few numbers in rows of `width`; None where any of them, or the width, needs a closer look."""
-    if not widths.fewest <= width <= widths.most or math.inf in numbers or -math.inf in numbers:
-        return None
-    for index in widths.whole:
-        for number in numbers[index::width] if index < width else ():
-            if not number.is_integer() or not 0.0 < abs(number) <= LARGEST_WHOLE:
-                return None
-    values = np.array(numbers)
-    values.shape = (-1, width)
-    return Table(values)
-
-
 def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tuple[int, int], str]]:
     """A table from raw rows, and what is wrong in it by row and column (column -1: the whole row).
 
     Empty fields behind the last one that holds something, as trailing commas leave them, are dropped.
     """
-    fewest, width = _fewest(columns), raw.values.shape[1]
+    fewest, width = fewest_of(columns), raw.values.shape[1]
     if not raw.words and fewest <= width <= len(columns) and (raw.lengths == width).all():
         table = Table(raw.values, raw.lengths)
         return table, _not_whole(table, columns)
@@ -297,7 +270,7 @@ def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tupl
 
 def _without_empty_ends(table: Table, columns: Sequence[Column]) -> Table:
     """The table without empty fields at the ends of its rows, as far as they may be left out."""
-    fewest = max(_fewest(columns), 1)
+    fewest = max(fewest_of(columns), 1)
     empty = [(row, column) for (row, column), word in table.words.items() if word is None and column >= fewest]
     lengths = table.lengths.copy() if empty else table.lengths
     for row, column in sorted(empty, reverse=True):
@@ -317,12 +290,13 @@ def fewest_fields(required: Iterable[bool]) -> int:
     return max((index + 1 for index, needed in enumerate(required) if needed), default=0)
 
 
-def _fewest(columns: Sequence[Column]) -> int:
+def fewest_of(columns: Sequence[Column]) -> int:
+    """How many fields a row of these columns must have."""
     return fewest_fields(column.required for column in columns)
 
 
 def _count(columns: Sequence[Column]) -> str:
-    fewest, most = _fewest(columns), len(columns)
+    fewest, most = fewest_of(columns), len(columns)
     return f"{fewest}" if fewest == most else f"{fewest} to {most}"
 
 
