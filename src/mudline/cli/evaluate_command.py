@@ -92,6 +92,10 @@ def command(
             raise click.UsageError("--summary-only is for time steps: give a series with --positions")
     wanted = Picture.asked_for(picture, plot_elements)
     form = options.form_of_file(output, FORMS) if output else ""
+    if output:
+        files = (("the deck", decks[0]), ("the file of --against", against), *inputs.files)
+        for path in (Path(output), *beside(Path(output)).values()):
+            options.keep_inputs("-o", path.as_posix(), files)
     if (form and not has_library(form)) or not wanted.has_library():
         return FOUND
     deck = GivenDeck(decks[0], stdin_name, units).load()
