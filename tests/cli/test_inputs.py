@@ -239,7 +239,7 @@ def test_decks_in_json_are_hidden_too(decks: Path) -> None:
     ("words", "said"),
     [
         (("evaluate", "deck.json", "-o", "./deck.json"), "-o deck.json is the deck itself"),
-        (("evaluate", "deck.json", "--positions", "p.csv", "-o", "p.csv"), "-o p.csv is the file of --positions itself"),
+        (("evaluate", "deck.json", "--positions", "p.csv", "-o", "p.csv"), "-o p.csv is the file of --positions"),
         (("evaluate", "deck.json", "--positions", "p-nodes.csv", "-o", "p.csv"), "-o p-nodes.csv is the file of"),
         (("evaluate", "deck.json", "--elements", "p.csv", "-o", "p.csv"), "-o p.csv is the file of --elements itself"),
         (("evaluate", "deck.json", "--against", "p.csv", "-o", "p.csv"), "-o p.csv is the file of --against itself"),

@@ -203,10 +203,10 @@ def form_of_file(path: str, forms: Collection[str]) -> str:
     return form
 
 
-def keep_inputs(option: str, output: str, inputs: Iterable[tuple[str, str | Path | None]]) -> None:
+def keep_inputs(option: str, output: str | None, inputs: Iterable[tuple[str, str | Path | None]]) -> None:
     """Raise click.UsageError where a file to write is one that is read: `inputs` are what each is, and its path."""
     for what, path in inputs:
-        if path is not None and _is_same_file(path, output):
+        if output is not None and path is not None and _is_same_file(path, output):
             raise click.UsageError(f"{option} {output} is {what} itself: give another name")
 
 

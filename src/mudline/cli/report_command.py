@@ -88,8 +88,7 @@ def command(
         return WRONG_USAGE
     settings = checked_settings(config, GivenRules((), (), (), None, units), "none", isolated=isolated, fail_on=None)
     inputs = collect_any_form(decks, stdin_name, gitignore=not every_file)
-    if output is not None:
-        options.keep_inputs("-o", output, (("a deck", file.path) for file in inputs.files))
+    options.keep_inputs("-o", output, (("a deck", file.path) for file in inputs.files))
     look = Look(*(None if one is None else Path(one) for one in (template, logo))) if html else None
     several = len(inputs.files) > 1 or any(os.path.isdir(each) for each in decks)  # noqa: PTH112 - Path raises for a long name
     target = None if output is None or not html else Target(Path(output), several)
