@@ -267,7 +267,7 @@ def test_deck_without_elements(place: Place) -> None:
     assert outcome.err == "deck.keyxm:1:1: error: RUN001 the deck has no elements to evaluate\n"
     outcome = run("evaluate", SAMPLES / "lines-deck.keyxm")
     assert outcome.code == 1
-    assert "no elements to evaluate: *LINES may make them, and is not read; give them with --elements" in outcome.err
+    assert "no elements to evaluate: *LINES may make them, and is not read; give them to `" in outcome.err
     deck = "$MODEL\n*LINE LOCATIONS\n LINE=Riser\n Arch, 20\n*LINES\n LINE=Riser\n SECTION=Riser, 100\n"
     assert "no elements to evaluate: *LINES may make them" in run("evaluate", place(deck)).err
     assert "to export: those of *LINES are" in run("export", place(deck), "--to", "riflex", "-o", "out").err

@@ -15,14 +15,12 @@ from mudline.keywords import catalogue
 from mudline.keywords.values import SUBJECTS
 from mudline.limits import SHOWN_ROWS
 from mudline.quantities import UnitNames, headed, shown, unit_names
-from mudline.results.summary import summarise
+from mudline.results.summary import OPEN, summarise
 from mudline.scene.model import resolve
 from mudline.short_repr import counted
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
-
-_OPEN = "+ a block that is not read may add elements to this set"
 
 
 @options.command("show")
@@ -160,7 +158,7 @@ def _print_folded(printer: Printer, text: str, indent: str) -> None:
 
 def _print_sets(printer: Printer, sets: list[dict[str, Any]], names: UnitNames) -> None:
     rows = [(entry["name"], f"{entry['elements']}{'+' * entry['open']}", entry["length"]) for entry in sets]
-    note = _OPEN if any(entry["open"] for entry in sets) else ""
+    note = OPEN if any(entry["open"] for entry in sets) else ""
     columns = ("set", "elements", headed("length", names.length))
     printer.table("Element sets", columns, rows, left=("set",), note=note)
 

@@ -146,7 +146,7 @@ def prepare(scene: Scene, positions: Positions | None = None, tension: Tension =
 
     Raises DeckError: errors in the deck, elements without known nodes.
     """
-    _require_elements(scene.require_evaluable(tension))
+    require_elements(scene.require_evaluable(tension))
     complete, filled = _with_lengths(scene, positions)
     with as_deck_errors(complete):
         return Prepared(complete, complete.contact(tension), filled)
@@ -163,7 +163,8 @@ def as_deck_errors(scene: Scene) -> Iterator[None]:
         raise scene.refusal(str(error), node=error.node) from error
 
 
-def _require_elements(scene: Scene) -> None:
+def require_elements(scene: Scene) -> None:
+    """Raise DeckError for a scene without elements, or with some that end at nodes that are not known."""
     definers = scene.set_table.context.external_definers
     if not len(scene.element_ids):
         hint = _maker_hint(definers, "ELEMENT") or _unknown_hint(scene)
@@ -179,7 +180,7 @@ def _maker_hint(definers: Sequence[str], keyword: str) -> str:
     makers = unread_makers(definers, keyword)
     names = " or ".join(f"*{one}" for one in makers or definers[:1])
     why = "may make them, and is not read" if makers else "is about lines that may make them"
-    return f": {names} {why}; give them with --elements" if names else ""
+    return f": {names} {why}; give them to `mudline evaluate --elements`" if names else ""
 
 
 def _unknown_hint(scene: Scene) -> str:

@@ -13,6 +13,7 @@ import numpy as np
 from mudline.contact.input import LawKind
 from mudline.contact.stiffest import rounded_down
 from mudline.quantities import finite, shown, time_unit
+from mudline.results.evaluation import require_elements
 from mudline.scene.model import Scene
 from mudline.study.extremes import Extremes, extremes
 from mudline.study.precision import GOALS, Precision, Timer, measured
@@ -113,6 +114,7 @@ def study(
     `timer` measures run times; `tracked` may show which part comes next. Raises DeckError for a deck that cannot be
     evaluated.
     """
+    require_elements(scene)
     given = scene.contact_input("cut" if scene.blocking("keep") else "keep")
     found = Study(scene.deck.file, scene.units, own_step(scene))
     contacts, unknown, softening = contacts_of(scene, given)
@@ -139,8 +141,6 @@ def study(
 
 def _without_springs(scene: Scene) -> str:
     """Why no contact of a scene has a spring and a mass."""
-    if not len(scene.element_ids):
-        return "it has no elements"
     if not np.isin(scene.law, (LawKind.NONE, LawKind.RIGID)).all():
         return "no law has a stiffness" if (scene.mass_per_length > 0.0).any() else "no section has a mass"
     return "the seabed is rigid" if (scene.law == LawKind.RIGID).any() else "no element has a seabed law"
