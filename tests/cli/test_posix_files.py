@@ -10,7 +10,6 @@ import stat
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any
 from unittest.mock import Mock
 
 import pytest
@@ -47,7 +46,7 @@ def test_a_folder_that_may_be_listed_only_keeps_no_other_deck_from_being_read(
     place(CLEAN, "decks/closed/b.keyxm")
     looked = os.stat
 
-    def guarded(path: str | Path, **how: Any) -> os.stat_result:
+    def guarded(path: str | Path, **how: bool) -> os.stat_result:
         if "closed/" in str(path):
             raise PermissionError(errno.EACCES, "Permission denied", str(path))
         return looked(path, **how)
