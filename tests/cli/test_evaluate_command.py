@@ -261,6 +261,13 @@ def test_rigid_bed_is_told(place: Place) -> None:
     assert "2 elements on a rigid seabed: a constraint, whose reaction is not evaluated" in outcome.err
 
 
+def test_a_seabed_that_is_not_there_is_an_error_of_the_run(place: Place) -> None:
+    deck = place(CLEAN.replace("*SEABED PROPERTIES", "*SEABED PROFILE\n TYPE=2D\n FILE=gone.dat\n*SEABED PROPERTIES"))
+    assert ": warning REF015 " in run("lint", deck).out
+    outcome = run("evaluate", deck)
+    assert (outcome.code, ": error: REF015 the file 'gone.dat'" in outcome.err) == (1, True), outcome.err
+
+
 def test_deck_without_elements(place: Place) -> None:
     outcome = run("evaluate", place("$MODEL\n*OCEAN\n 1, 2, 3\n"))
     assert (outcome.code, outcome.out) == (1, "")
