@@ -56,7 +56,12 @@ def divided(sizes: Sizes) -> Iterator[None]:
     with (
         patch.multiple(numpy_driver, BLOCK=sizes.block, _WIDTH=sizes.width),
         patch.multiple(
-            compiled_driver, _RANGE=sizes.width, _STEPS=sizes.batch, _BATCH=sizes.block * sizes.width, _WORTH_THREADS=0
+            compiled_driver,
+            _RANGE=sizes.width,
+            _RANGE_OF_ONE=sizes.width,
+            _STEPS=sizes.batch,
+            _BATCH=sizes.block * sizes.width,
+            _WORTH_THREADS=0,
         ),
     ):
         yield

@@ -93,8 +93,8 @@ def test_loops_are_compiled_once_for_any_number_of_elements_and_springs() -> Non
         contact.evaluate(at_depths([[0.1] * (elements + 1)] * 2))
         driver = contact._driver(2)
         assert driver is not None
-        loops: Any = (driver._element_loop, driver._node_loop)
-        assert [len(loop.signatures) for loop in loops] == [1, 1]
+        loop: Any = driver._loop
+        assert len(loop.signatures) == 1
 
 
 def test_series_of_no_steps_and_lines_of_no_elements() -> None:

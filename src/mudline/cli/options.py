@@ -41,7 +41,7 @@ class GroupedCommand(click.Command):
         for parameter in self.get_params(ctx):
             record = parameter.get_help_record(ctx) if isinstance(parameter, click.Option) else None
             if record is not None:
-                heading = COMMON if parameter is self.get_help_option(ctx) else getattr(parameter, "group", OWN)
+                heading = COMMON if "--help" in parameter.opts else getattr(parameter, "group", OWN)
                 groups.setdefault(heading, []).append(record)
         for heading in sorted(groups, key=COMMON.__eq__):
             if groups[heading]:

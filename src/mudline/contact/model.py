@@ -215,7 +215,7 @@ class ContactModel:
             points = np.array(positions, np.float64).reshape(1, -1, 3)
             rates = None if velocities is None else np.asarray(velocities, np.float64).reshape(1, -1, 3)
             spans = None if dt is None or state.positions is None else np.array([dt])
-            speed = self._speed(points, rates, spans, result.normal[None], state)
+            speed = self._speed(points, rates, spans, result.normal[None], state, points[..., 0])
             return assemble(
                 self._tables, points[0], None if speed is None else speed[0], result, (state, after), back=back
             )
@@ -270,11 +270,11 @@ class ContactModel:
         """
         laid = points[0] if state.laid is None else state.laid
         self._numpy.locate(points, part)
+        batch = Batch(points, self._speed(points, rates, spans, part.normal, state, part.gap), laid)
         if self._tables.level is not None:
             from mudline.contact.directions import lower  # noqa: PLC0415 - few trenches do
 
             lower(self._tables, points, laid, part.normal, part.gap)
-        batch = Batch(points, self._speed(points, rates, spans, part.normal, state), laid)
         after = None if driver is None else driver.run(batch, part, state, spare)
         if after is None:
             after = state.copied() if kept or driver else state
@@ -295,16 +295,20 @@ class ContactModel:
         spans: FloatArray | None,
         normal: FloatArray,
         state: ContactState,
+        heights: FloatArray,
     ) -> FloatArray | None:
         """Velocities (steps, n) along the normals, where a law asks for them.
 
         Those given, else differences over `spans`, the times since the steps before: 0 at the first step of a series.
+        `heights` (steps, n) are those over X = 0, which a horizontal seabed needs alone.
         """
         if not self.input.needs_velocities:
             return None
-        flat = isinstance(self._seabed, FlatSeabed)
+        flat, before = isinstance(self._seabed, FlatSeabed), state.positions
+        if rates is None and flat:
+            return _differences(heights, spans, None if before is None else before[:, 0])
         if rates is None:
-            rates = _differences(points[..., :1] if flat else points, spans, state.positions)
+            rates = _differences(points, spans, before)
         speed: FloatArray
         if flat:
             speed = np.ascontiguousarray(rates[..., 0])
@@ -315,24 +319,24 @@ class ContactModel:
         return speed
 
 
-def _differences(points: FloatArray, spans: FloatArray | None, before: FloatArray | None) -> FloatArray:
-    """Velocities over the times since the steps before: 0 at the first step of a series.
+def _differences(places: FloatArray, spans: FloatArray | None, before: FloatArray | None) -> FloatArray:
+    """Velocities of places (steps, ...) over the times since the steps before: 0 at the first step of a series.
 
-    `points` (steps, n, axes) may have fewer axes than `before` (n, 3).
+    `before` (...) are those of the step before the first.
     """
-    rates = np.empty(points.shape)
+    rates = np.empty(places.shape)
     first = 1
-    if before is not None and spans is not None and len(spans) == len(points):
+    if before is not None and spans is not None and len(spans) == len(places):
         first = 0
-        np.subtract(points[0], before[..., : points.shape[-1]], out=rates[0])
+        np.subtract(places[0], before, out=rates[0])
     else:
         rates[0] = 0.0
-    if len(points) > 1:
-        np.subtract(points[1:], points[:-1], out=rates[1:])
+    if len(places) > 1:
+        np.subtract(places[1:], places[:-1], out=rates[1:])
     if spans is None:
         rates[1:] = 0.0
-    elif first < len(points):
-        rates[first:] /= spans[len(spans) - len(points) + first :, None, None]
+    elif first < len(places):
+        rates[first:] /= spans[len(spans) - len(places) + first :].reshape(-1, *[1] * (places.ndim - 1))
     return rates
 
 

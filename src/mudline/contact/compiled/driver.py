@@ -37,7 +37,7 @@ from mudline.contact.compiled import (
     trench_tables,
 )
 from mudline.contact.compiled.functions import Loop, edition, one_of
-from mudline.contact.compiled.loops import elements_loop, nodes_loop
+from mudline.contact.compiled.loops import ranges_loop
 from mudline.contact.laws import MODULES, PathLaw, every, where
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed import FlatSeabed, Seabed
@@ -45,9 +45,9 @@ from mudline.contact.tables import Batch, ContactState, NormalRows, Tables
 
 _BATCH = 2**20
 """Nodes times steps at a time, at most."""
-_RANGE = 1024
-"""Elements or nodes in a range: what they read and write over a few steps stays in the second-level cache. Of a single
-step it is eight times as many: a call of a loop costs as much as some fifty nodes."""
+_RANGE, _RANGE_OF_ONE = 256, 8192
+"""Elements or nodes in a range: what they read and write over a few steps stays in the second-level cache; and of a
+single step, of which nothing is read again."""
 _STEPS = 64
 _WORTH_THREADS = 60_000
 """Nodes times steps of a batch from which on several threads are worth their start."""
@@ -115,12 +115,14 @@ class CompiledDriver:
         slopes = tuple((_as_reaction(rows.steepest), len(rows.law.parameters)) for rows in normal if has.steepens)
         sources = edition(tuple(rows.law for rows in (*tables.normal, *tables.nodal)))
         paths = tuple((law if isinstance(law := rows.law, PathLaw) else None, len(law.parameters)) for rows in normal)
-        self._element_loop = _loop(
-            elements_loop, callable_in_loops, has, _equations(normal), paths, _choice(slopes), sources
+        self._loop = _loop(
+            ranges_loop,
+            callable_in_loops,
+            (has, _equations(normal), paths, _choice(slopes), sources),
+            (has, _equations(tables.nodal), sources),
         )
         self._index, self._numbers, self._knots = element_tables(tables)
         self._pulls = suction_table(tables)
-        self._node_loop = _loop(nodes_loop, callable_in_loops, has, _equations(tables.nodal), sources)
         self._node_index, self._node_numbers = node_tables(tables)
         self._trenches, self._breaks = trench_tables(tables), breakout_table(tables)
         given_damping = tables.damping, tables.nodal_damping
@@ -132,9 +134,11 @@ class CompiledDriver:
         self._beside = beside(ends, elements_at)
         self.steps = max(1, min(_BATCH // max(self._nodes, 1), _STEPS))
         """How many steps at a time are fastest."""
-        width = _RANGE if self.steps > 1 else 8 * _RANGE
-        self._sequence = _tasks(tables, range(len(range(0, self._elements, width))), width)
-        self._groups = _groups(tables, self._threads, self._sequence, width)
+        width = _RANGE if self.steps > 1 else _RANGE_OF_ONE
+        sequence = _tasks(tables, range(len(range(0, self._elements, width))), width)
+        together, behind = _groups(tables, self._threads, sequence, width)
+        self._sequence = _ranges(sequence)
+        self._together, self._behind = (list(map(_ranges, groups)) for groups in (together, behind))
         self.broken = False
         """Whether a law turned out not to compile."""
 
@@ -161,19 +165,14 @@ class CompiledDriver:
 
     def _run(self, batch: Batch, job: _Job) -> int:
         """Write all ranges; return how many values are not finite."""
-        together, behind = self._groups
-        if len(together) > 1 and len(batch.points) * self._nodes >= _WORTH_THREADS:
-            if self._pool is None:
-                self._pool = ThreadPoolExecutor(self._threads)
-            pool = self._pool
-            wrong = sum(pool.map(lambda tasks: self._run_tasks(tasks, job), together))
-            return wrong + sum(pool.map(lambda tasks: self._run_tasks(tasks, job), behind))
-        return self._run_tasks(self._sequence, job)
-
-    def _run_tasks(self, tasks: list[_Task], job: _Job) -> int:
-        """Write ranges of elements and of nodes in this order; return how many values are not finite."""
-        loops = self._element_loop, self._node_loop
-        return sum(loops[nodes](np.uint64(begin), np.uint64(end), *job[nodes]) for nodes, begin, end in tasks)
+        if len(self._together) < 2 or len(batch.points) * self._nodes < _WORTH_THREADS:
+            return self._loop(self._sequence, *job)
+        if self._pool is None:
+            self._pool = ThreadPoolExecutor(self._threads)
+        pool = self._pool
+        return sum(
+            sum(pool.map(lambda ranges: self._loop(ranges, *job), groups)) for groups in (self._together, self._behind)
+        )
 
     def _job(self, batch: Batch, part: ContactResult, state: ContactState, after: ContactState) -> _Job:
         steps, has = len(batch.points), self._has
@@ -261,7 +260,7 @@ def _tasks(tables: Tables, held: range, width: int) -> list[_Task]:
 def _groups(
     tables: Tables, threads: int, sequence: list[_Task], width: int
 ) -> tuple[list[list[_Task]], list[list[_Task]]]:
-    """The tasks of each thread in their order, and the ranges of nodes between two threads, which come behind."""
+    """The tasks of each thread in their order; and those of nodes between two threads, which come behind."""
     ranges = len(range(0, len(tables.half), width))
     count = min(threads, ranges)
     bounds = [ranges * group // max(count, 1) for group in range(count + 1)]
@@ -271,7 +270,13 @@ def _groups(
         else [sequence]
     )
     done = {task for tasks in together for task in tasks}
-    return together, [[task] for task in sequence if task not in done]
+    rest = [task for task in sequence if task not in done]
+    return together, [share for first in range(count) if (share := rest[first::count])]
+
+
+def _ranges(tasks: list[_Task]) -> Any:
+    """Tasks as the compiled loop takes them."""
+    return read_only(np.array(tasks, np.uint64).reshape(-1, 3))
 
 
 def _equations(laws: Iterable[NormalRows]) -> tuple[tuple[Callable[..., Any], int], ...]:

@@ -323,13 +323,13 @@ def table_resistance(rows: Array, begin: Index, end: Index, distance: float) -> 
 
 def in_limits(t1: float, t2: float, l1: float, l2: float, elliptic: bool) -> tuple[float, float, bool, bool]:  # noqa: FBT001
     """Return forces in the springs and whether they slip, in the ellipse or in the box."""
-    if np.abs(t1) < 0.5 * l1 and np.abs(t2) < 0.5 * l2 and l1 + l2 < math.inf:
-        f1, f2, slip_1, slip_2 = t1, t2, False, False  # well within
-    elif elliptic:
-        f1, f2, slip_1, slip_2 = in_ellipse(t1, t2, l1, l2)
-    else:
+    if not elliptic:
         f1, slip_1 = in_box(t1, l1)
         f2, slip_2 = in_box(t2, l2)
+    elif np.abs(t1) < 0.5 * l1 and np.abs(t2) < 0.5 * l2 and l1 + l2 < math.inf:
+        f1, f2, slip_1, slip_2 = t1, t2, False, False  # well within
+    else:
+        f1, f2, slip_1, slip_2 = in_ellipse(t1, t2, l1, l2)
     return f1, f2, slip_1, slip_2
 
 

@@ -304,10 +304,14 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                         if index[i, col.ACTIVE] > 0 and total > 0.0:
                             p = (points[step, i, 0], points[step, i, 1], points[step, i, 2])
                             held = past_sticking[0, i] > 0
-                            stick, (x, y, z) = p, (0.0, 0.0, 0.0)
-                            if held:
-                                stick = (past_sticks[0, i], past_sticks[1, i], past_sticks[2, i])
-                                x, y, z = p[0] - stick[0], p[1] - stick[1], p[2] - stick[2]
+                            stick = (past_sticks[0, i], past_sticks[1, i], past_sticks[2, i])
+                            # no branch: which nodes are held cannot be guessed
+                            stick = (
+                                stick[0] if held else p[0],
+                                stick[1] if held else p[1],
+                                stick[2] if held else p[2],
+                            )
+                            x, y, z = p[0] - stick[0], p[1] - stick[1], p[2] - stick[2]
                             away = (y, z) if flat else (x, y, z)
                             e1, e2 = dot(along, away), dot(across, away)
                             k1 = table[i, col.CONSTANT_1] + table[i, col.RISING_1] * total
@@ -355,6 +359,26 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                 reaction[step, i, 0], reaction[step, i, 1], reaction[step, i, 2] = total_force
                 if not math.isfinite(total_force[0] + total_force[1] + total_force[2]):
                     wrong += not math.isnan(points[step, i, 0])
+        return wrong
+
+    return loop
+
+
+def ranges_loop(wrap: Wrap, of_elements: tuple[Any, ...], of_nodes: tuple[Any, ...]) -> Loop:
+    """Make the loop over ranges (kind, begin, end), of elements (0) and of nodes (1).
+
+    It takes what the two loops take behind a range; their options are those of `elements_loop` and `nodes_loop`.
+    """
+    elements, nodes = wrap(elements_loop(wrap, *of_elements)), wrap(nodes_loop(wrap, *of_nodes))
+
+    def loop(ranges: Array, element_arrays: Array, node_arrays: Array) -> int:
+        wrong = 0
+        for at in range(len(ranges)):
+            begin, end = ranges[at, 1], ranges[at, 2]
+            if ranges[at, 0] > 0:
+                wrong += nodes(begin, end, *node_arrays)
+            else:
+                wrong += elements(begin, end, *element_arrays)
         return wrong
 
     return loop
