@@ -117,6 +117,7 @@ def test_a_deck_with_nothing_to_draw_says_so(tmp_path: Path) -> None:
     assert "there is nothing to draw" in outcome.err
     assert not (tmp_path / "work.png").exists()
     assert outcome.out.startswith("No contact of this deck has a frequency: no element has a seabed law.\n")
+    assert outcome.out.count("No contact of this deck") == 1
 
 
 def test_a_deck_from_standard_input_in_other_units() -> None:

@@ -130,12 +130,13 @@ def study(
             notes += unknown
         else:
             found.stages = pruned(scene, given, timer)
-        if part != "pruning" and not contacts:
-            notes.append(f"No contact of this deck has a frequency: {_without_springs(scene)}.")
     compared = [part for part in measure if part != "pruning" and part in parts]
+    none = "" if contacts else f"No contact of this deck has a frequency: {_without_springs(scene)}."
+    if none and compared:
+        found.notes[compared[0]].append(none)
     if found.own is None and compared:
         found.notes[compared[0]].append("The deck has no *TIME with a fixed step to compare with.")
-    found.advice = _advice(found, contacts, softening)
+    found.advice = _advice(found, contacts, [*softening, none])
     return found
 
 
@@ -176,8 +177,6 @@ def _advice(found: Study, contacts: Sequence[Contact], softening: Sequence[str])
     texts += [jump_note(found, one.row) for one in found.stability or () if one.row.jump] + [*softening]
     if found.extremes is not None and found.extremes.failed:
         texts.append(f"{len(found.extremes.failed)} of {found.extremes.tried} extreme cases do not hold.")
-    if not contacts:
-        texts += next(iter(found.notes.values()))[:1]
     text = " ".join(filter(None, texts))
     if first is None:
         return Advice(text, own_step=own)
