@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     from mudline.contact.seabed import Seabed
     from mudline.keywords.table import Table
 
+_ALIKE = 1e-3
+"""Part of the longest element by which lengths differ that are alike."""
 _UNITS = {"metric": Units(1.0, 1.0), "imperial": Units(FOOT, POUND)}
 
 
@@ -59,6 +61,11 @@ class Stretch:
     soil: int
     nodes: Indices
     lengths: Floats
+
+    @property
+    def is_even(self) -> bool:
+        """Whether the elements are of one length, but for the rounding of coordinates."""
+        return bool(np.ptp(self.lengths) <= _ALIKE * self.lengths.max())
 
 
 @dataclass(frozen=True, slots=True, eq=False)

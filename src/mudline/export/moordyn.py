@@ -22,8 +22,6 @@ from mudline.scene.seabed import SeabedKind
 TITLE = "MoorDyn v2"
 _FINEST = 2
 """Segments are not more than this times the elements."""
-_ALIKE = 1e-3
-"""Part of the longest element by which lengths differ that are alike."""
 _GRID = 200
 _DRAG, _ADDED = 1.2, 1.0
 
@@ -40,13 +38,11 @@ def alike(model: LineModel, section: int) -> int:
 
 
 def segments(piece: Stretch) -> int:
-    """How many equal segments a line of MoorDyn has: as short as its shortest element, up to a number.
-
-    Lengths that differ by the rounding of coordinates count as equal.
-    """
+    """How many equal segments a line of MoorDyn has: as short as its shortest element, up to a number."""
     elements = len(piece.lengths)
-    wanted = float(piece.lengths.sum() / piece.lengths.min())
-    return min(_FINEST * elements, max(elements, ceil((1.0 - _ALIKE) * wanted)))
+    if piece.is_even:
+        return elements
+    return min(_FINEST * elements, max(elements, ceil(float(piece.lengths.sum() / piece.lengths.min()) - 1e-6)))
 
 
 def write(model: LineModel, name: str) -> dict[str, str]:
@@ -205,7 +201,7 @@ def _report(model: LineModel, types: list[str], stiffness: float, width: dict[in
     blocks = [where for where, _ in model.scene.deck.blocks("ELEMENT")]
     for part in (part for parts in pieces(model) for part in parts):
         lengths, count = part.lengths, segments(part)
-        if np.ptp(lengths) > _ALIKE * lengths.max():
+        if not part.is_even:
             least, most, own = (shown(float(each), 3) for each in (lengths.min(), lengths.max(), lengths.sum() / count))
             effect = f"{len(lengths)} elements of {least} to {most} m: {count} segments of {own} m"
             report.add(blocks[-1], Status.APPROXIMATED, "equal segments", effect, "lengths")
