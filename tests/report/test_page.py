@@ -188,6 +188,7 @@ def test_the_touchdown_is_said_as_evaluate_says_it(tmp_path: Path) -> None:
 def test_sets_of_lines_that_are_not_read_may_have_more_elements(tmp_path: Path) -> None:
     text = made(tmp_path, str(SAMPLES / "lines-deck.keyxm"))
     assert row_of(text, "Static Section").startswith("Static Section | 0+")
+    assert row_of(text, "elements") == "elements | 0+"
     assert row_of(text, "curve:Clay").startswith("curve:Clay | Static Section | 0+")
     assert text.count("+ a block that is not read may add elements to this set") == 2
 

@@ -90,7 +90,8 @@ def _print_static(printer: Printer, rows: list[dict[str, Any]], names: UnitNames
 def _print_head(printer: Printer, summary: dict[str, Any], names: UnitNames) -> None:
     length = f", {shown(summary['length'])} {names.length}".rstrip() + " long" if summary["length"] is not None else ""
     seabed = " and ".join(summary["seabed"]) or "no"
-    counts = f"{summary['nodes']} nodes, {summary['elements']} elements{length}"
+    more = "+" if summary["sets"][0]["open"] else ""  # of ALL, which comes first
+    counts = f"{summary['nodes']}{more} nodes, {summary['elements']}{more} elements{length}"
     bed = _bed(summary["floor"])
     head = f"{summary['file']}: {summary['units']} units, {counts}, {seabed} seabed{bed}"
     printer.line((printer.visible(head), "bold"))

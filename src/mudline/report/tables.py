@@ -63,8 +63,9 @@ def _more(count: int, what: str) -> str:
 
 
 def _model(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
-    counts = [("nodes", found["nodes"]), ("elements", found["elements"]), ("seabed", found["floor"]["kind"])]
-    counts.append((labelled("length of line", names.length), found["length"]))
+    more = "+" if found["sets"][0]["open"] else ""  # of ALL, which comes first
+    counts = [(name, f"{found[name]}{more}") for name in ("nodes", "elements")]
+    counts += [("seabed", found["floor"]["kind"]), (labelled("length of line", names.length), found["length"])]
     yield _table("Size", ("what", "value"), counts)._replace(numeric=frozenset({1}))
     sets = [(one["name"], _elements(one), one["length"]) for one in found["sets"]]
     heads: tuple[str, ...] = ("set", "elements", headed("length", names.length))
