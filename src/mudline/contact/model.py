@@ -175,7 +175,7 @@ class ContactModel:
             raise ValueError("a step takes the positions of one step")
         mask = _as_mask(None, nodes)
         motion = _as_velocities(velocities, series.shape)
-        if self.input.needs_velocities and motion is None and state.positions is not None and dt is None:
+        if self._tables.velocities and motion is None and state.positions is not None and dt is None:
             raise ValueError("a step without velocities needs dt > 0")
         with np.errstate(all="ignore"):
             # a copy: state and result keep it, and whoever steps may write the next positions into the same array
@@ -302,7 +302,7 @@ class ContactModel:
         Those given, else differences over `spans`, the times since the steps before: 0 at the first step of a series.
         `heights` (steps, n) are those over X = 0, which a horizontal seabed needs alone.
         """
-        if not self.input.needs_velocities:
+        if not self._tables.velocities:
             return None
         flat, before = isinstance(self._seabed, FlatSeabed), state.positions
         if rates is None and flat:

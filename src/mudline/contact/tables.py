@@ -195,6 +195,7 @@ class Tables:
         pulling: elements with suction whose curve pulls somewhere; None when there are none.
         cuts: whether curves that pull are cut to 0.
         rigid: (n,) nodes of elements on a rigid seabed; None when there are none.
+        velocities: whether a law asks for velocities along the normals.
         history: whether a step's result depends on the steps before it.
     """
 
@@ -240,10 +241,9 @@ class Tables:
             self.rigid[given.element_nodes[given.assigned["rigid"].rows]] = True
             self.rigid.flags.writeable = False  # results have it too
         parts = (self.unloading, self.suction, self.lateral, self.friction, self.level)
+        self.velocities = bool(given.needs_velocities)
         # velocities are differences to the step before where none are given
-        self.history = (
-            self._paths is not None or bool(given.needs_velocities) or any(part is not None for part in parts)
-        )
+        self.history = self._paths is not None or self.velocities or any(part is not None for part in parts)
 
     def laid_line(self, laid: FloatArray) -> LaidCentreline:
         """Return the line as it was `laid`, prepared once: the states of a run share that array."""
@@ -388,12 +388,12 @@ def _pulling(given: ContactInput) -> IndexArray | None:
 
 def steepest_anywhere(tables: Tables, rows: NormalRows) -> FloatArray:
     """Return the largest stiffness (k,) that a normal law can reach on its elements, or nodes."""
-    if rows.curve >= 0:
-        from mudline.contact.laws.curve import steepest_slopes  # noqa: PLC0415 - only now is it needed
+    with np.errstate(all="ignore"):  # what overflows is refused where a step comes to it
+        if rows.curve >= 0:
+            from mudline.contact.laws.curve import steepest_slopes  # noqa: PLC0415 - only now is it needed
 
-        with np.errstate(all="ignore"):
             slopes: FloatArray = steepest_slopes(tables.given.curves[rows.curve]).max() / tables.diameter[rows.rows]
-        return slopes
-    diameter = tables.diameter[rows.rows] if rows.law.acts_on == "elements" else np.zeros(len(rows.rows))
-    found = rows.steepest(np.full(len(rows.rows), np.inf), diameter, *rows.columns)
+            return slopes
+        diameter = tables.diameter[rows.rows] if rows.law.acts_on == "elements" else np.zeros(len(rows.rows))
+        found = rows.steepest(np.full(len(rows.rows), np.inf), diameter, *rows.columns)
     return np.broadcast_to(found, len(rows.rows)).copy()

@@ -43,7 +43,7 @@ from mudline.contact.result import ContactResult
 from mudline.contact.seabed import FlatSeabed, Seabed
 from mudline.contact.tables import Batch, ContactState, NormalRows, Tables
 
-_BATCH = 2**20
+_BATCH = 3 * 2**19
 """Nodes times steps at a time, at most."""
 _RANGE, _RANGE_OF_ONE = 256, 8192
 """Elements or nodes in a range: what they read and write over a few steps stays in the second-level cache; and of a
@@ -137,7 +137,7 @@ class CompiledDriver:
         width = _RANGE if self.steps > 1 else _RANGE_OF_ONE
         sequence = _tasks(tables, range(len(range(0, self._elements, width))), width)
         together, behind = _groups(tables, self._threads, sequence, width)
-        self._sequence = _ranges(sequence)
+        self._sequence, self._held = _ranges(sequence), _held(tables, sequence)
         self._together, self._behind = (list(map(_ranges, groups)) for groups in (together, behind))
         self.broken = False
         """Whether a law turned out not to compile."""
@@ -153,9 +153,10 @@ class CompiledDriver:
         if speed is not None and not (np.isfinite(speed.sum()) or (np.isfinite(speed) | np.isnan(part.gap)).all()):
             return None
         after = state.blank(spare)
-        job = self._job(batch, part, state, after)
+        together = len(self._together) > 1 and len(batch.points) * self._nodes >= _WORTH_THREADS
+        job = self._job(batch, part, state, after, 2**64 if together else self._held)
         try:
-            wrong = self._run(batch, job)
+            wrong = self._run(job, together=together)
         except (numba.core.errors.NumbaError, numba.core.errors.UnsupportedBytecodeError) as error:
             first = str(error).strip().splitlines()[0]
             warnings.warn(f"the laws cannot be compiled and are evaluated with numpy: {first}", RuntimeWarning, 3)
@@ -163,9 +164,9 @@ class CompiledDriver:
             return None
         return None if wrong else after
 
-    def _run(self, batch: Batch, job: _Job) -> int:
-        """Write all ranges; return how many values are not finite."""
-        if len(self._together) < 2 or len(batch.points) * self._nodes < _WORTH_THREADS:
+    def _run(self, job: _Job, *, together: bool) -> int:
+        """Write all ranges, or several together; return how many values are not finite."""
+        if not together:
             return self._loop(self._sequence, *job)
         if self._pool is None:
             self._pool = ThreadPoolExecutor(self._threads)
@@ -174,13 +175,15 @@ class CompiledDriver:
             sum(pool.map(lambda ranges: self._loop(ranges, *job), groups)) for groups in (self._together, self._behind)
         )
 
-    def _job(self, batch: Batch, part: ContactResult, state: ContactState, after: ContactState) -> _Job:
+    def _job(self, batch: Batch, part: ContactResult, state: ContactState, after: ContactState, held: int) -> _Job:
+        """What the loops take of a batch; what elements leave for nodes is there for `held`, a power of two."""
         steps, has = len(batch.points), self._has
         components = 2 if has.flat else 3
-        shape = (steps, self._elements, components)
+        shape = (steps, min(held, self._elements), components)
         work = (
             np.empty(shape) if has.slides else np.empty((0, 0, components)),
             np.empty(shape) if has.lateral else np.empty((0, 0, components)),
+            np.uint64(held - 1),
         )
         none = np.zeros((0, 0), np.int8)
         paths = np.empty((0, 0)) if after.paths is None else after.paths
@@ -272,6 +275,18 @@ def _groups(
     done = {task for tasks in together for task in tasks}
     rest = [task for task in sequence if task not in done]
     return together, [share for first in range(count) if (share := rest[first::count])]
+
+
+def _held(tables: Tables, sequence: list[_Task]) -> int:
+    """How many elements ranges of nodes look back, at most; the next power of two."""
+    line, far, written = tables.line, 1, 0
+    for of_nodes, begin, end in sequence:
+        if of_nodes:
+            first = line.elements[line.start[begin] : line.start[end]].min(initial=written)
+            far = max(far, written - int(first))
+        else:
+            written = end
+    return 1 << (far - 1).bit_length()
 
 
 def _ranges(tasks: list[_Task]) -> Any:

@@ -68,7 +68,7 @@ def elements_loop(
     ) -> int:  # fmt: skip
         depth, ratio, contact, force, slope, stiffness = out
         cut, state, regularised = extra
-        tangent, sideways = work
+        tangent, sideways, ring = work
         lines, flags, numbers, touchdown, ways = states
         past_lines, past_flags, past_numbers, places = before
         wrong = min(edition, 0)
@@ -149,9 +149,9 @@ def elements_loop(
                 q = (points[step, b, 0], points[step, b, 1], points[step, b, 2])
                 unit = unit_of_span(q[0] - p[0], q[1] - p[1], q[2] - p[2])
                 if flat:
-                    tangent[step, e, 0], tangent[step, e, 1] = unit[1], unit[2]
+                    tangent[step, e & ring, 0], tangent[step, e & ring, 1] = unit[1], unit[2]
                 else:
-                    tangent[step, e, 0], tangent[step, e, 1], tangent[step, e, 2] = unit
+                    tangent[step, e & ring, 0], tangent[step, e & ring, 1], tangent[step, e & ring, 2] = unit
                 if lateral and index[e, col.SPRINGS_BACK] != NOTHING:
                     held = index[e, col.SPRINGS_BACK]
                     x, y, z = 0.5 * p[0] + 0.5 * q[0], 0.5 * p[1] + 0.5 * q[1], 0.5 * p[2] + 0.5 * q[2]
@@ -172,13 +172,13 @@ def elements_loop(
                         along = default(n)
                     across = cross(along, n)
                     push = lateral_force(table[e, col.LATERAL], dot(across, arm)) if touches else 0.0
-                    sideways[step, e, 0], sideways[step, e, 1] = across[0] * push, across[1] * push
+                    sideways[step, e & ring, 0], sideways[step, e & ring, 1] = across[0] * push, across[1] * push
                     if not flat:
-                        sideways[step, e, 2] = across[2] * push
+                        sideways[step, e & ring, 2] = across[2] * push
                 elif lateral:
-                    sideways[step, e, 0] = sideways[step, e, 1] = 0.0
+                    sideways[step, e & ring, 0] = sideways[step, e & ring, 1] = 0.0
                     if not flat:
-                        sideways[step, e, 2] = 0.0
+                        sideways[step, e & ring, 2] = 0.0
         return wrong
 
     return loop
@@ -250,7 +250,7 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
         first, behind = starts
         totals, reaction = out
         friction_force, slipping = extra
-        tangent, sideways = work
+        tangent, sideways, ring = work
         sticks, sticking, moved_so_far = states
         past_sticks, past_sticking = before
         wrong = min(edition, 0)
@@ -265,15 +265,15 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                     total += force[step, e] * half[e]
                     if slides:
                         sense = senses[at] if turns else 1.0
-                        tx += tangent[step, e, 0] * sense
-                        ty += tangent[step, e, 1] * sense
+                        tx += tangent[step, e & ring, 0] * sense
+                        ty += tangent[step, e & ring, 1] * sense
                         if not flat:
-                            tz += tangent[step, e, 2] * sense
+                            tz += tangent[step, e & ring, 2] * sense
                     if lateral:
-                        gx += sideways[step, e, 0]
-                        gy += sideways[step, e, 1]
+                        gx += sideways[step, e & ring, 0]
+                        gy += sideways[step, e & ring, 1]
                         if not flat:
-                            gz += sideways[step, e, 2]
+                            gz += sideways[step, e & ring, 2]
                 if nodal and index[i, col.NODE_KIND] != NOTHING:
                     z = 0.0 - gap[step, i]
                     if z > table[i, col.NODE_ONSET]:
@@ -367,7 +367,8 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
 def ranges_loop(wrap: Wrap, of_elements: tuple[Any, ...], of_nodes: tuple[Any, ...]) -> Loop:
     """Make the loop over ranges (kind, begin, end), of elements (0) and of nodes (1).
 
-    It takes what the two loops take behind a range; their options are those of `elements_loop` and `nodes_loop`.
+    It takes what the two loops take behind a range; their options are those of `elements_loop` and `nodes_loop`. What
+    elements leave for nodes is in the row e & ring of `work`, so that it need not hold all elements.
     """
     elements, nodes = wrap(elements_loop(wrap, *of_elements)), wrap(nodes_loop(wrap, *of_nodes))
 
