@@ -76,6 +76,11 @@ def test_a_deck_may_have_no_such_value(text: str) -> None:
         (CLEAN, "OCEAN.depth=abc", "cannot be 'abc': expected a number or an equation"),
         (CLEAN, "OCEAN.depth=1e999", "cannot be '1e999'"),
         (CLEAN, "SEABED PROPERTIES.type=SOFT", "cannot be 'SOFT': expected one of RIGID, ELASTIC"),
+        (
+            f"{CLEAN}$LOAD CASE\n*ANALYSIS TYPE\n TYPE=STATIC\n",
+            "ANALYSIS TYPE.type=DYNAMC",
+            r"DYNAMIC, TIME DOMAIN, FREQUENCY DOMAIN \(did you mean DYNAMIC\?\)",
+        ),
         (CLEAN, "NODE[node=2].node=2.5", "expected a whole number"),
         (CLEAN, "OCEAN.depth=-1", "must be greater than 0"),
         (TIMES, "TIME.step=0", "must be greater than 0"),

@@ -173,6 +173,9 @@ def test_a_folder_and_a_deck_are_not_compared() -> None:
     ran = run("diff", "old", "new/here.keyxm")
     assert ran.code == 2
     assert "give two decks or two folders" in ran.err
+    for words in (("old", "nowhere"), ("nowhere", "old")):
+        ran = run("diff", *words)
+        assert (ran.code, ran.err) == (2, "mudline: nowhere: no such file or directory\n")
 
 
 @pytest.mark.usefixtures("folders")

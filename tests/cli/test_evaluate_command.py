@@ -261,13 +261,25 @@ def test_rigid_bed_is_told(place: Place) -> None:
     assert "2 elements on a rigid seabed: a constraint, whose reaction is not evaluated" in outcome.err
 
 
+def test_a_seabed_that_is_not_there_is_an_error_of_the_run(place: Place) -> None:
+    deck = place(CLEAN.replace("*SEABED PROPERTIES", "*SEABED PROFILE\n TYPE=2D\n FILE=gone.dat\n*SEABED PROPERTIES"))
+    assert ": warning REF015 " in run("lint", deck).out
+    outcome = run("evaluate", deck)
+    assert (outcome.code, ": error: REF015 the file 'gone.dat'" in outcome.err) == (1, True), outcome.err
+
+
 def test_deck_without_elements(place: Place) -> None:
     outcome = run("evaluate", place("$MODEL\n*OCEAN\n 1, 2, 3\n"))
     assert (outcome.code, outcome.out) == (1, "")
     assert outcome.err == "deck.keyxm:1:1: error: RUN001 the deck has no elements to evaluate\n"
     outcome = run("evaluate", SAMPLES / "lines-deck.keyxm")
     assert outcome.code == 1
-    assert "no elements to evaluate: *LINES may make them, and is not read; give them with --elements" in outcome.err
+    assert "no elements to evaluate: *LINES may make them, and is not read; give them to `" in outcome.err
+    deck = "$MODEL\n*LINE LOCATIONS\n LINE=Riser\n Arch, 20\n*LINES\n LINE=Riser\n SECTION=Riser, 100\n"
+    assert "no elements to evaluate: *LINES may make them" in run("evaluate", place(deck)).err
+    assert "to export: those of *LINES are" in run("export", place(deck), "--to", "riflex", "-o", "out").err
+    outcome = run("evaluate", place("$MODEL\n*NODE,,,\n1,0,0,\n*ELEMENT,,,\n1,1,2,\n"))
+    assert "no elements to evaluate: 2 keywords of it not known, `mudline lint` names them" in outcome.err
 
 
 @pytest.mark.parametrize("decks", [("a.keyxm", "b.keyxm"), (".",), ("file:///a.keyxm",)], ids=["two", "folder", "URL"])

@@ -54,7 +54,7 @@ def test_a_dry_run_shows_a_table_and_writes_nothing(place: Place, folder: Path) 
 def test_decks_and_their_list_are_written(place: Place, folder: Path) -> None:
     outcome = run("expand", place(STUDY), "-o", "out/study")
     assert (outcome.code, outcome.out) == (0, "")
-    assert outcome.err == "mudline: deck.keyxm: 4 decks to write into out/study\n"
+    assert outcome.err == "mudline: deck.keyxm: 4 decks -> out/study\n"
     out = folder / "out/study"
     assert files(out) == FILES
     listed = json.loads((out / "manifest.json").read_text(encoding="utf-8"))
@@ -85,7 +85,7 @@ def test_the_list_is_printed_as_it_is_written(place: Place, folder: Path) -> Non
 
 def test_more_is_told_of_each_deck(place: Place) -> None:
     outcome = run("expand", place(STUDY), "-o", "out", "-v")
-    assert outcome.err.splitlines()[1:] == [
+    assert outcome.err.splitlines()[:-1] == [
         "mudline: out/Near/at 50.keyxm",
         "mudline: out/Far/at 50.keyxm",
         "mudline: out/Near/at 100.keyxm",

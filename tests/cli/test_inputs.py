@@ -233,3 +233,29 @@ def test_decks_in_json_are_hidden_too(decks: Path) -> None:
     for options, found in ((), False), (("--no-gitignore",), True):
         rows = json.loads(run("validate", "decks", "--output-format", "json", *options).out)
         assert ("x.json" in json.dumps(rows)) is found
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("evaluate", "deck.json", "-o", "./deck.json"), "-o deck.json is the deck itself"),
+        (("evaluate", "deck.json", "--positions", "p.csv", "-o", "p.csv"), "-o p.csv is the file of --positions"),
+        (("evaluate", "deck.json", "--positions", "p-nodes.csv", "-o", "p.csv"), "-o p-nodes.csv is the file of"),
+        (("evaluate", "deck.json", "--elements", "p.csv", "-o", "p.csv"), "-o p.csv is the file of --elements itself"),
+        (("evaluate", "deck.json", "--against", "p.csv", "-o", "p.csv"), "-o p.csv is the file of --against itself"),
+        (("study", "deck.json", "-o", "deck.json"), "-o deck.json is the deck itself"),
+        (("report", "deck.keyxm", "-o", "deck.keyxm"), "-o deck.keyxm is a deck itself"),
+        (("export", "deck.keyxm", "--to", "riflex", "-o", "deck.keyxm"), "-o deck.keyxm is the deck itself"),
+        (("lint", ".", "--output-format", "json=deck.keyxm"), "--output-format json: deck.keyxm is a deck itself"),
+        (("lint", ".", "--baseline", "deck.keyxm", "--write-baseline"), "--baseline deck.keyxm is a deck itself"),
+    ],
+)
+def test_no_output_replaces_an_input(place: Place, words: tuple[str, ...], said: str) -> None:
+    place(CLEAN)
+    assert run("convert", "deck.keyxm", "-o", "deck.json").code == 0
+    for name in ("p.csv", "p-nodes.csv"):
+        place("node,x,y,z\n1,0,0,0\n", name)
+    held = {path: path.read_bytes() for path in Path().iterdir()}
+    outcome = run(*words)
+    assert (outcome.code, said in outcome.err) == (2, True), outcome.err
+    assert {path: path.read_bytes() for path in Path().iterdir()} == held

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import fcntl
 import os
 import signal
@@ -30,8 +31,31 @@ def test_links_and_pipes_in_a_directory_are_no_trap(place: Place, folder: Path) 
     place(CLEAN, "decks/a.keyxm")
     (folder / "decks/loop").symlink_to(folder / "decks", target_is_directory=True)
     (folder / "decks/gone.keyxm").symlink_to(folder / "nowhere")
+    (folder / "decks/.#a.keyxm").symlink_to("user@host.1234:5678")  # as editors lock files
     os.mkfifo(folder / "decks/pipe.keyxm")
-    assert [file.name for file in collect(["decks"]).files] == ["decks/a.keyxm"]
+    assert [file.name for file in collect(["decks"]).files] == ["decks/a.keyxm", "decks/gone.keyxm"]
+    for command in (("lint", "-q"), ("format", "-q"), ("validate", "-q")):
+        outcome = run(*command, "decks")
+        assert (outcome.code, outcome.err) == (2, "mudline: decks/gone.keyxm: no such file or directory\n"), command
+
+
+def test_a_folder_that_may_be_listed_only_keeps_no_other_deck_from_being_read(
+    place: Place, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    place(CLEAN, "decks/a.keyxm")
+    place(CLEAN, "decks/closed/b.keyxm")
+    looked = os.stat
+
+    def guarded(path: str | Path, **how: bool) -> os.stat_result:
+        if "closed/" in str(path):
+            raise PermissionError(errno.EACCES, "Permission denied", str(path))
+        return looked(path, **how)
+
+    monkeypatch.setattr(os, "stat", guarded)
+    assert [file.name for file in collect(["decks"]).files] == ["decks/a.keyxm", "decks/closed/b.keyxm"]
+    for command in ("lint", "validate"):
+        outcome = run(command, "decks", "-q")
+        assert (outcome.code, "cannot be" in outcome.err) == (0, False), command
 
 
 @pytest.mark.parametrize("bits", [0o600, 0o644, 0o755, 0o666])

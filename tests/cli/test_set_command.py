@@ -73,6 +73,7 @@ def test_one_refused_deck_keeps_all_from_being_written(place: Place, bad: str, w
     assert ran.err.startswith("mudline: in/z.keyxm")
     assert why in ran.err
     assert "nothing was written: 2 decks would have changed" in ran.err
+    assert ran.err.endswith("\n4 decks: 2 not written, 1 without it, 1 refused\n")
     assert (text("in/a.keyxm"), text("in/b.keyxm"), text("in/z.keyxm")) == (CLEAN, DEEP, bad)
 
 

@@ -15,7 +15,7 @@ from mudline.linting.output import form, visible, visible_lines
 from mudline.syntax.source import Source
 from tests.builders.decks import BAD_NUMBER, CLEAN, UNUSED
 from tests.cli.conftest import Place
-from tests.cli.runner import Outcome, assert_fits, process, run
+from tests.cli.runner import SAMPLES, Outcome, assert_fits, process, run
 
 ESCAPE = re.compile(r"\x1b\[[0-9;]*m")
 COMMANDS = [("lint",), ("validate",), ("show",), ("curves",), ("evaluate",)]
@@ -205,6 +205,18 @@ def test_table_folds_its_texts(place: Place, monkeypatch: pytest.MonkeyPatch, *,
     text = plain(run("show", name, terminal=terminal).out)
     assert max(map(len, text.splitlines())) <= width
     assert " ".join(text.split()).count("The whole of the pipe") >= 8
+
+
+def test_a_table_of_numbers_stands_closer_where_it_would_not_fit(monkeypatch: pytest.MonkeyPatch) -> None:
+    heads = {}
+    for width in (80, 100):
+        monkeypatch.setenv("COLUMNS", str(width))
+        text = plain(run("evaluate", SAMPLES / "scr-touchdown.keyxm", "-q", terminal=True).out)
+        assert max(map(len, text.splitlines())) <= width
+        heads[width] = next(line for line in text.splitlines() if line.startswith("line"))
+    assert heads[100].split() == heads[80].split()
+    assert "line  elements  " in heads[100]
+    assert "line elements " in heads[80]
 
 
 def test_number_is_never_cut(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:

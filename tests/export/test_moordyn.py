@@ -47,6 +47,12 @@ def test_a_line_on_a_linear_seabed() -> None:
     assert option(options, "dtM") == pytest.approx(0.4 * 5.0 / (1e8 / 50.0) ** 0.5, rel=0.05)
 
 
+def test_lengths_that_differ_by_rounding_are_as_many_segments() -> None:
+    model = model_of(text().replace("*ELEMENT\n", " 6, 0.0, 24.9993\n*ELEMENT\n", 1))
+    assert written(model)["LINES"] == [["1", "ALL", "1", "2", "50.0", "10", "p"]]
+    assert not [entry for entry in model.report.entries if entry.keyword == "*ELEMENT lengths"]
+
+
 def test_sections_of_the_same_numbers_are_one_line_type() -> None:
     model = sample("scr-touchdown.keyxm")
     found = written(model)

@@ -37,6 +37,13 @@ def test_samples_keep_to_the_schema_of_what_is_written(name: str) -> None:
     assert {row[0] for line in found["Lines"] for row in line["LineType, Length, TargetSegmentLength"]} == types
 
 
+@pytest.mark.parametrize(("place", "lost"), [("25.0", False), ("24.9993", False), ("24.9", True)])
+def test_segments_are_the_elements_where_these_are_of_one_length(place: str, lost: bool) -> None:
+    model = model_of(text().replace("*ELEMENT\n", f" 6, 0.0, {place}\n*ELEMENT\n", 1))
+    written(model)
+    assert ("*ELEMENT lengths" in [entry.keyword for entry in model.report.lost]) == lost
+
+
 def test_a_line_on_a_linear_seabed() -> None:
     found = written(model_of(text()))
     sea = found["Environment"]

@@ -118,6 +118,82 @@ def test_the_content_is_what_the_other_commands_say() -> None:
     assert any(one["keyword"] == "SEABED STIFFNESS" for one in found["inferred"])
 
 
+ON_SOIL = """$MODEL
+*NODE
+ 1, -0.01, 0, 0
+ 2, -0.01, 5, 0
+ 3, -0.01, 10, 0
+ 4, 7.0, 15, 0
+*ELEMENT
+ 1, 1, 2
+ GEN=1, 2
+ 11, 3, 4
+*ELEMENT SETS
+ SET=Laid
+ 1, 2
+ SET=Free
+ 11
+*GEOMETRIC SETS
+ OPTION=RIGID
+ SET=ALL
+ 2.07E11, 7.96E10, 0.3, 0.27, 7850
+*SEABED PROPERTIES
+ TYPE=ELASTIC
+ SET=Laid
+ STIFFNESS=Clay
+ SET=Free
+ STIFFNESS=Clay
+*SEABED STIFFNESS
+ CURVE=Clay
+ 0, 0
+ 0.5, 900
+*SEABED FRICTION
+ SET=Laid
+ COEFFICIENTS=0.4, 0.7
+ STIFFNESS=40000, 60000
+ LATERAL=PEAK-RESIDUAL
+ PEAK=1.3, 0.03
+ RESIDUAL=0.6, 0.5
+"""
+
+
+def row_of(text: str, first: str) -> str:
+    """The text of the row of a table that begins with a cell."""
+    row = re.search(rf"<tr[^>]*><td[^>]*>{re.escape(first)}</td>.*?</tr>", text, re.DOTALL)
+    assert row is not None, first
+    return " | ".join(re.findall(r"<td[^>]*>(.*?)</td>", row[0]))
+
+
+def test_values_are_written_for_people(tmp_path: Path) -> None:
+    (tmp_path / "deck.keyxm").write_text(ON_SOIL, encoding="utf-8")
+    text = made(tmp_path, str(tmp_path / "deck.keyxm"))
+    law = "coefficients 0.4, 0.7; stiffness 40000, 60000; lateral PEAK-RESIDUAL; peak 1.3, 0.03; residual 0.6, 0.5"
+    assert row_of(text, "*SEABED FRICTION").startswith(f"*SEABED FRICTION | Laid | 2 | {law} | line 31")
+    assert ">force [N/m]</th>" in text
+    assert ">slope to the next [N/m]</th>" in text
+    assert '<td>seabed</td><td class="number">flat</td>' in text
+    assert "curve:Clay | Free | 1 | 0 |  | 0" in re.sub('</td><td(?: class="number")?>', " | ", text)
+
+
+def test_the_touchdown_is_said_as_evaluate_says_it(tmp_path: Path) -> None:
+    laid = tmp_path / "deck.keyxm"
+    laid.write_text(ON_SOIL.replace(" 11, 3, 4\n", "").replace(" SET=Free\n 11\n", " SET=Free\n"), encoding="utf-8")
+    assert "all on the seabed" in run("evaluate", str(laid)).out
+    text = made(tmp_path, str(laid))
+    assert row_of(text, "1").split(" | ")[2] == "all on the seabed"
+    assert "touchdown point</" not in text
+    laid.write_text(ON_SOIL, encoding="utf-8")
+    assert "touchdown point</" in made(tmp_path, str(laid))
+
+
+def test_sets_of_lines_that_are_not_read_may_have_more_elements(tmp_path: Path) -> None:
+    text = made(tmp_path, str(SAMPLES / "lines-deck.keyxm"))
+    assert row_of(text, "Static Section").startswith("Static Section | 0+")
+    assert row_of(text, "elements") == "elements | 0+"
+    assert row_of(text, "curve:Clay").startswith("curve:Clay | Static Section | 0+")
+    assert text.count("+ a block that is not read may add elements to this set") == 2
+
+
 def test_a_study_is_on_the_page_only_where_it_is_asked_for(tmp_path: Path) -> None:
     deck = str(SAMPLES / "legacy-flowline.keyxm")
     page = checked(made(tmp_path, deck, sections="verdict,study"))
@@ -239,7 +315,7 @@ def test_several_decks_have_an_index_and_a_page_each(tmp_path: Path) -> None:
     (folder / "bad.keyxm").write_bytes((SAMPLES / "broken.keyxm").read_bytes())
     out = tmp_path / "all.html"
     outcome = run("report", str(folder), "-o", str(out), "--sections", "verdict", "--jobs", "2")
-    assert outcome.code == FOUND
+    assert (outcome.code, outcome.err) == (FOUND, f"mudline: report -> {out.as_posix()}, 1 of 3 decks not legal\n")
     index = Page(out.read_text(encoding="utf-8"))
     assert index.policy == CSP
     pages = sorted((tmp_path / "all").iterdir())

@@ -11,8 +11,8 @@ from mudline.study import precision, report, stability
 from tests.cli.runner import SAMPLES, assert_fits, run
 from tests.study.decks import CURVE, EVERYTHING, Ticking, deck
 
-DECKS = ("scr-dynamic.keyxm", "full-cycle.keyxm", "imperial-riser.keyxi", "lines-deck.keyxm")
-"""With a time step, with suction, in feet and pounds, and without elements."""
+DECKS = ("scr-dynamic.keyxm", "full-cycle.keyxm", "imperial-riser.keyxi")
+"""With a time step, with suction, and in feet and pounds."""
 
 
 @pytest.fixture(autouse=True)
@@ -46,6 +46,13 @@ def test_the_screen_of_a_sample_is_one_screen(name: str) -> None:
     assert len(lines) <= 60
     assert max(map(len, lines)) <= 100
     assert "What the deck needs: a step of" in outcome.out
+
+
+def test_a_deck_without_elements_is_refused_as_evaluate_does() -> None:
+    outcome = run("study", SAMPLES / "lines-deck.keyxm")
+    assert (outcome.code, outcome.out) == (1, "")
+    assert outcome.err == run("evaluate", SAMPLES / "lines-deck.keyxm").err
+    assert "RUN001 the deck has no elements" in outcome.err
 
 
 def test_the_screen_of_a_dynamic_deck_has_three_tables_and_advice(small: Path) -> None:
@@ -111,6 +118,7 @@ def test_a_deck_with_nothing_to_draw_says_so(tmp_path: Path) -> None:
     assert "there is nothing to draw" in outcome.err
     assert not (tmp_path / "work.png").exists()
     assert outcome.out.startswith("No contact of this deck has a frequency: no element has a seabed law.\n")
+    assert outcome.out.count("No contact of this deck") == 1
 
 
 def test_a_deck_from_standard_input_in_other_units() -> None:

@@ -21,6 +21,7 @@ from mudline.keywords.values import Equation, Kind
 from mudline.limits import LISTED
 from mudline.scene.model import resolve
 from mudline.short_repr import cut
+from mudline.spelling import nearest
 from mudline.syntax.edits import TextEdit, edited_bytes
 from mudline.syntax.fields import Field, first_key, split
 from mudline.syntax.source import Source
@@ -57,7 +58,9 @@ def assigned(deck: Deck, assignment: Assignment, target: Target, units: str | No
         if next(values_of(deck, target), None) is None:
             return None
         expected = " or ".join(dict.fromkeys(_kinds(target)))
-        raise AssignmentError(f"{target.path} cannot be {assignment.value!r}: expected {expected}")
+        near = nearest(assignment.value, {choice for field in target.fields for choice in field.slot.choices})
+        hint = f" (did you mean {near}?)" if near else ""
+        raise AssignmentError(f"{target.path} cannot be {assignment.value!r}: expected {expected}{hint}")
     found = _the_one(deck, target)
     if found is None:
         return None
@@ -125,7 +128,7 @@ def _kinds(target: Target) -> Iterator[str]:
         if field.slot.choices:
             several = "one of " if len(field.slot.choices) > 1 else ""
             yield several + ", ".join(field.slot.choices)
-        if field.slot.kind:
+        if field.slot.kind and field.slot.kind is not Kind.OTHER:
             yield field.slot.kind.value
 
 

@@ -112,6 +112,9 @@ def command(
         raise click.UsageError("--tolerance: expected a number from 0 to 1")
     folders = [os.path.isdir(path) for path in (before, after)]  # noqa: PTH112 - Path raises for a long name
     if any(folders) and not all(folders):
+        for path in (before, after):
+            if path != STDIN and not os.path.exists(path):  # noqa: PTH110 - as above
+                raise click.ClickException(f"{path}: no such file or directory")
         raise click.UsageError("one of A and B is a folder, the other is not: give two decks or two folders")
     if all(folders):
         return _compare_folders(_Folders(before, after, tolerance, strict, units), output_format, view, every_file)

@@ -16,7 +16,7 @@ from mudline.contact.result import Part
 from mudline.quantities import SLIDING, STATES, UnitNames, headed, shown, unit_names
 from mudline.results.against import Comparison
 from mudline.results.evaluation import Evaluation
-from mudline.results.totals import LineWatch, StepSummary, Total, acted_on, reaction, states, totals
+from mudline.results.totals import LineWatch, StepSummary, Total, acted_on, reaction, states, totals, touchdown_words
 from mudline.scene.numbering import Floats, Indices
 from mudline.short_repr import counted
 
@@ -174,8 +174,6 @@ def _print_peaks(printer: Printer, digest: StepSummary) -> None:
 
 _SHOWN_POINTS = 3
 """Touchdown points that a cell shows."""
-_SLACK = 1e-9
-"""Part of a line by which the sums of its lengths may differ."""
 
 
 def _print_lines(printer: Printer, lines: LineWatch) -> None:
@@ -212,17 +210,8 @@ def _print_lines(printer: Printer, lines: LineWatch) -> None:
 
 
 def _touchdown(row: LineSummary) -> str:
-    """The arc lengths of the touchdown points, or where all of the line is; "" where that is not known.
-
-    A line of which only a part has a gap may lie on the seabed there without a touchdown point.
-    """
-    if not row.touchdown and not row.contact_length:
-        return "none"
-    if not row.touchdown:
-        return "all on the seabed" if row.contact_length > (1.0 - _SLACK) * row.length else ""
-    found = ", ".join(shown(point.arc_length) for point in row.touchdown[:_SHOWN_POINTS])
-    more = len(row.touchdown) - _SHOWN_POINTS
-    return f"{found}, {more} more" if more > 0 else found
+    places = [point.arc_length for point in row.touchdown]
+    return touchdown_words(places, row.contact_length, row.length, _SHOWN_POINTS)
 
 
 def _print_extents(printer: Printer, lines: LineWatch) -> None:

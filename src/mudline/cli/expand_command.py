@@ -62,8 +62,6 @@ def _notify_some(messages: list[str]) -> None:
 
 
 def _write(planned: ExpansionPlan, folder: Path, view: View) -> None:
-    if not view.quiet:
-        notify(f"{planned.source}: {counted(len(planned.decks), 'deck')} to write into {folder.as_posix()}")
     for deck in planned.decks:
         path = folder / deck.path
         _make_folder(path.parent)
@@ -72,6 +70,8 @@ def _write(planned: ExpansionPlan, folder: Path, view: View) -> None:
             notify(path.as_posix())
     _make_folder(folder)
     write_text(folder / MANIFEST, [manifest_text(planned.source, planned.decks)])
+    if not view.quiet:
+        notify(f"{planned.source}: {counted(len(planned.decks), 'deck')} -> {folder.as_posix()}")
 
 
 def _make_folder(path: Path) -> None:

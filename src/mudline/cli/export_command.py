@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import asdict
 from importlib import import_module
 from pathlib import Path
@@ -35,8 +34,7 @@ def command(*, deck: GivenDeck, target: str, output: str, strict: bool, output_f
     path = Path(output)
     if output == STDIN:
         raise click.UsageError("-o -: a model may need several files; give the name of a file")
-    if os.path.exists(deck.path) and os.path.exists(output) and os.path.samefile(deck.path, output):  # noqa: PTH110, PTH121 - Path raises for long names
-        raise click.UsageError(f"-o {output} is the deck itself: give another name")
+    options.keep_inputs("-o", output, [("the deck", deck.path)])
     read = deck.load()
     with naming_causes(read):
         scene = resolve(read).require_evaluable()

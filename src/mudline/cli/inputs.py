@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache, wraps
 from pathlib import Path, PurePath
+from stat import S_ISREG
 from typing import TYPE_CHECKING, NamedTuple
 
 import click
@@ -150,12 +151,13 @@ def collect(
 ) -> Inputs:
     """Files as given; directories searched for wanted files, in sorted order; `-` for standard input.
 
+    What is there and cannot be looked at is taken, and reported when it is read: no deck passes unseen.
     `gitignore` leaves out of a search what `.gitignore` files hide. With `urls` those of files and folders are taken.
     `skipped` gets a line, with the reason, for each file of a searched directory that is not taken.
     """
 
     def taken(path: str) -> bool:
-        found = wanted(path) and (is_url(path) or os.path.isfile(path))  # noqa: PTH113 - Path raises for long names
+        found = wanted(path) and (is_url(path) or _may_be_file(path))
         if not found and skipped is not None:
             skipped.append(f"{_slashed(path)}: skipped, {_why_skipped(path)}")
         return found
@@ -181,19 +183,28 @@ def _why_skipped(path: str) -> str:
     return f"its name does not end as that of a deck ({', '.join(sorted(SUFFIXES))}), and no include names it"
 
 
+def _may_be_file(path: str) -> bool:
+    """Whether a path is a file, or cannot be looked at; not a hidden link to nothing: editors lock files by such."""
+    try:
+        return S_ISREG(os.stat(path).st_mode)  # noqa: PTH116 - Path raises for long names
+    except FileNotFoundError:
+        return os.path.islink(path) and not path.rpartition(os.sep)[2].startswith(".")  # noqa: PTH114 - as above
+    except OSError:
+        return True
+
+
 def _is_deck_in_any_form(path: str) -> bool:
     """Whether a file is a deck by its suffix or its content; one that cannot be opened is taken, and reported later."""
     if not is_deck(path) and form_of(path) == "keyword":
         return False
     if is_url(path):
         return is_deck(path) or MARK.encode() in storage.read(path, _HEAD)
-    file = Path(path)
-    if file.exists() and not file.is_file():
+    if not _may_be_file(path):
         return False
     if is_deck(path):
         return True
     try:
-        with file.open("rb") as stream:
+        with Path(path).open("rb") as stream:
             return MARK.encode() in stream.read(_HEAD)
     except OSError:
         return True

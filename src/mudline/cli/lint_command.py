@@ -135,6 +135,9 @@ def command(
         skipped: list[str] | None = [] if view.verbose else None
         searched = {"gitignore": not every_file, "urls": not (fix or diff)}
         inputs = collect(paths, stdin_name, configured.wanted, skipped=skipped, **searched)
+        written = [(f"--output-format {form}:", str(path)) for form, path in wanted.files]
+        for option, path in [*written, *([("--baseline", baseline)] if baseline and recording else [])]:
+            options.keep_inputs(option, path, (("a deck", file.path) for file in inputs.files))
         for line in sorted(skipped or ()):
             notify(line)
         aside = diff or (fix and any(file.path is None for file in inputs.files))

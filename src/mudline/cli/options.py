@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Collection, Sequence
+import os
+from collections.abc import Callable, Collection, Iterable, Sequence
 from functools import partial, wraps
+from pathlib import Path
 from typing import Any
 
 import click
@@ -199,3 +201,17 @@ def form_of_file(path: str, forms: Collection[str]) -> str:
         *others, last = (f".{name}" for name in forms)
         raise click.UsageError(f"{path}: unknown file format: give a name ending in {', '.join(others)} or {last}")
     return form
+
+
+def keep_inputs(option: str, output: str | None, inputs: Iterable[tuple[str, str | Path | None]]) -> None:
+    """Raise click.UsageError where a file to write is one that is read: `inputs` are what each is, and its path."""
+    for what, path in inputs:
+        if output is not None and path is not None and _is_same_file(path, output):
+            raise click.UsageError(f"{option} {output} is {what} itself: give another name")
+
+
+def _is_same_file(one: str | Path, other: str) -> bool:
+    try:
+        return os.path.samefile(one, other)  # noqa: PTH121 - Path raises for long names
+    except (OSError, ValueError):
+        return False

@@ -25,7 +25,8 @@ EXCERPT_WIDTH = 120
 
 _STYLES = {Severity.ERROR: "bold red", Severity.WARNING: "bold yellow", Severity.INFO: "bold blue"}
 _WIDE = 10_000
-_GAP = "  "
+_GAPS = (2, 1)
+"""Blanks between columns, the second where a table is too wide for the first."""
 _NARROWEST = 12
 """Columns of text are not folded below this width."""
 
@@ -123,11 +124,11 @@ class Printer:
         widths = [max(map(cell_len, column)) for column in zip(*heads, *texts, strict=True)]
         to_left = [name in left for name in names]
         foldable = [name in left and name not in whole for name in names]
-        layout = _Layout(_fitted(widths, foldable, self.width), to_left)
+        layout = _layout(widths, foldable, to_left, self.width)
         if title:
             self.line((self.visible(title), "bold"))
         lines: list[Iterable[_Styled]] = [layout.line([(text, "") for text in head]) for head in heads]
-        lines.append([(self._rule * (sum(layout.widths) + len(_GAP) * (len(names) - 1)), "dim")])
+        lines.append([(self._rule * layout.width, "dim")])
         lines += (layout.line(part) for row in cells for part in layout.folded(row, self._console))
         if self.colored:
             for line in lines:
@@ -149,10 +150,16 @@ _Styled = tuple[str, str]
 
 
 class _Layout(NamedTuple):
-    """Widths of the columns, and which of them are aligned left."""
+    """Widths of the columns, which of them are aligned left, and the blanks between them."""
 
     widths: list[int]
     to_left: list[bool]
+    gap: int
+
+    @property
+    def width(self) -> int:
+        """Of the whole table."""
+        return sum(self.widths) + self.gap * (len(self.widths) - 1)
 
     def folded(self, row: Sequence[_Styled], console: Console) -> Iterable[Sequence[_Styled]]:
         """A row as one line of cells, or several where a text is folded."""
@@ -172,7 +179,7 @@ class _Layout(NamedTuple):
             yield gap + ("" if left else blanks), ""
             yield text, style
             yield blanks if left else "", ""
-            gap = _GAP
+            gap = " " * self.gap
 
 
 def _stripped(text: Text) -> Text:
@@ -180,10 +187,16 @@ def _stripped(text: Text) -> Text:
     return text
 
 
-def _fitted(widths: list[int], foldable: list[bool], available: int) -> list[int]:
+def _layout(widths: list[int], foldable: list[bool], to_left: list[bool], available: int) -> _Layout:
+    """Columns that fit, closer together where they would not fit otherwise."""
+    made = [_Layout(_fitted(widths, foldable, available, gap), to_left, gap) for gap in _GAPS]
+    return next((one for one in made if one.width <= available), made[0])
+
+
+def _fitted(widths: list[int], foldable: list[bool], available: int, gap: int) -> list[int]:
     """Take from the widest column of text until the table fits or all of them are narrow."""
     fitted = list(widths)
-    while sum(fitted) + len(_GAP) * (len(fitted) - 1) > available:
+    while sum(fitted) + gap * (len(fitted) - 1) > available:
         widest = max((width for width, text in zip(fitted, foldable, strict=True) if text), default=0)
         if widest <= _NARROWEST:
             return fitted

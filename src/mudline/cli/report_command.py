@@ -24,6 +24,7 @@ from mudline.linting.configuration import Given as GivenRules
 from mudline.linting.engine import LintSettings
 from mudline.report.content import SECTIONS, Given, Look, Stamp, report_on
 from mudline.running.executors import executor, in_order
+from mudline.short_repr import counted
 
 _LEGAL = "legal"
 
@@ -88,6 +89,7 @@ def command(
         return WRONG_USAGE
     settings = checked_settings(config, GivenRules((), (), (), None, units), "none", isolated=isolated, fail_on=None)
     inputs = collect_any_form(decks, stdin_name, gitignore=not every_file)
+    options.keep_inputs("-o", output, (("a deck", file.path) for file in inputs.files))
     look = Look(*(None if one is None else Path(one) for one in (template, logo))) if html else None
     several = len(inputs.files) > 1 or any(os.path.isdir(each) for each in decks)  # noqa: PTH112 - Path raises for a long name
     target = None if output is None or not html else Target(Path(output), several)
@@ -113,8 +115,7 @@ def command(
         _print(contents, output)
     elif target is not None and rows:
         _finish(target, rows, look, view)
-    illegal = any(row["kind"] != _LEGAL and row["kind"] != "as far as read" for row in rows)
-    return max(inputs.code, FOUND if illegal else DONE)
+    return max(inputs.code, FOUND if _illegal(rows) else DONE)
 
 
 def _sections(text: str) -> tuple[str, ...]:
@@ -211,13 +212,19 @@ def _row(content: dict[str, Any], page: Path | None, target: Target | None) -> d
     return {"deck": content["deck"], "page": address, "verdict": words, "kind": kind} | counts | read
 
 
+def _illegal(rows: list[dict[str, Any]]) -> int:
+    """How many decks are not legal."""
+    return sum(row["kind"] not in {_LEGAL, "as far as read"} for row in rows)
+
+
 def _finish(target: Target, rows: list[dict[str, Any]], look: Look | None, view: View) -> None:
     if target.folder is not None and look is not None:
         from mudline.report.page import index_page  # noqa: PLC0415 - needs jinja2
 
         write_text(target.index, [index_page(rows, __version__, look)])
     if not view.quiet:
-        notify(f"report -> {target.index.as_posix()}")
+        illegal = f", {_illegal(rows)} of {counted(len(rows), 'deck')} not legal" if _illegal(rows) else ""
+        notify(f"report -> {target.index.as_posix()}{illegal}")
 
 
 def _print(contents: list[dict[str, Any]], output: str | None) -> None:

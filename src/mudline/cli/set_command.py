@@ -24,6 +24,7 @@ from mudline.syntax.edits import TextEdit, edited_bytes
 from mudline.syntax.source import Source
 
 _CHANGED, _SAME, _WITHOUT, _UNMET, _REFUSED = "changed", "the same already", "without it", "not selected", "refused"
+_UNWRITTEN = "not written"
 
 
 @options.command("set")
@@ -71,7 +72,7 @@ def command(
         run.write()
     if not view.quiet:
         run.notify_counts("would be " if check or diff else "")
-    nowhere = run.counts[_WITHOUT] and not (run.counts[_CHANGED] or run.counts[_SAME] or run.counts[_REFUSED])
+    nowhere = run.counts[_WITHOUT] and not any(run.counts[one] for one in (_CHANGED, _UNWRITTEN, _SAME, _REFUSED))
     if nowhere:
         notify(f"no deck has {change.path}")
     found = run.counts[_CHANGED] and (check or diff)
@@ -142,7 +143,8 @@ class _Run:
             self.inputs.fail(f"{file.name}: cannot be written: permission denied")
         if self.counts[_REFUSED] or locked or self.inputs.code:
             if self.counts[_CHANGED]:
-                notify(f"nothing was written: {counted(self.counts.pop(_CHANGED), 'deck')} would have changed")
+                self.counts[_UNWRITTEN] = self.counts.pop(_CHANGED)
+                notify(f"nothing was written: {counted(self.counts[_UNWRITTEN], 'deck')} would have changed")
             return
         for content in self.printed:
             emit_deck(content)
@@ -155,7 +157,7 @@ class _Run:
 
     def notify_counts(self, would: str) -> None:
         """Print how many decks were changed, and how many were not, by the reason."""
-        words = {_CHANGED: f"{would}changed", _SAME: _SAME, _WITHOUT: _WITHOUT, _UNMET: _UNMET, _REFUSED: _REFUSED}
+        words = {_CHANGED: f"{would}changed"} | {one: one for one in (_UNWRITTEN, _SAME, _WITHOUT, _UNMET, _REFUSED)}
         if texts := [f"{self.counts[one]} {word}" for one, word in words.items() if self.counts[one]]:
             click.echo(f"{counted(self.counts.total(), 'deck')}: {', '.join(texts)}", err=True)
 

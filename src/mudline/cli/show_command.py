@@ -15,14 +15,12 @@ from mudline.keywords import catalogue
 from mudline.keywords.values import SUBJECTS
 from mudline.limits import SHOWN_ROWS
 from mudline.quantities import UnitNames, headed, shown, unit_names
-from mudline.results.summary import summarise
+from mudline.results.summary import OPEN, summarise
 from mudline.scene.model import resolve
 from mudline.short_repr import counted
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
-
-_OPEN = "+ a block that is not read may add elements to this set"
 
 
 @options.command("show")
@@ -92,7 +90,8 @@ def _print_static(printer: Printer, rows: list[dict[str, Any]], names: UnitNames
 def _print_head(printer: Printer, summary: dict[str, Any], names: UnitNames) -> None:
     length = f", {shown(summary['length'])} {names.length}".rstrip() + " long" if summary["length"] is not None else ""
     seabed = " and ".join(summary["seabed"]) or "no"
-    counts = f"{summary['nodes']} nodes, {summary['elements']} elements{length}"
+    more = "+" if summary["sets"][0]["open"] else ""  # of ALL, which comes first
+    counts = f"{summary['nodes']}{more} nodes, {summary['elements']}{more} elements{length}"
     bed = _bed(summary["floor"])
     head = f"{summary['file']}: {summary['units']} units, {counts}, {seabed} seabed{bed}"
     printer.line((printer.visible(head), "bold"))
@@ -160,7 +159,7 @@ def _print_folded(printer: Printer, text: str, indent: str) -> None:
 
 def _print_sets(printer: Printer, sets: list[dict[str, Any]], names: UnitNames) -> None:
     rows = [(entry["name"], f"{entry['elements']}{'+' * entry['open']}", entry["length"]) for entry in sets]
-    note = _OPEN if any(entry["open"] for entry in sets) else ""
+    note = OPEN if any(entry["open"] for entry in sets) else ""
     columns = ("set", "elements", headed("length", names.length))
     printer.table("Element sets", columns, rows, left=("set",), note=note)
 

@@ -87,10 +87,10 @@ def notify(message: str) -> None:
 
 
 def notify_diagnostics(diagnostics: Sequence[Diagnostic]) -> None:
-    """Print why a deck cannot be used."""
+    """Print why a deck cannot be used: errors here, also what lint only warns of."""
     for found in diagnostics[:SHOWN_ROWS]:
         place = visible(f"{found.file}:{found.line}:{found.column}")
-        click.echo(f"{place}: {found.severity}: {found.code} {visible(found.message)}", err=True)
+        click.echo(f"{place}: error: {found.code} {visible(found.message)}", err=True)
     if len(diagnostics) > SHOWN_ROWS:
         notify(f"{len(diagnostics) - SHOWN_ROWS} more errors: mudline lint shows all")
 

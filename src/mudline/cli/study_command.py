@@ -67,6 +67,7 @@ def command(
         if path is not None and suffix_of(path) not in forms:
             names = " or ".join(f".{form}" for form in forms)
             raise click.UsageError(f"{option} {path}: unknown file format: give a name ending in {names}")
+    options.keep_inputs("-o", output, [("the deck", deck)])
     if plot and find_spec("matplotlib") is None:
         notify_missing("--plot", "matplotlib", "plot")
         return WRONG_USAGE

@@ -23,7 +23,7 @@ from mudline.export.report import Report, Status
 from mudline.export.soil import Soil, Units, soils_of
 from mudline.quantities import shown
 from mudline.scene.contact_input import made_seabed
-from mudline.scene.deck_values import FOOT, POUND, number
+from mudline.scene.deck_values import FOOT, POUND, number, unread_makers
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices
 from mudline.scene.seabed import SeabedKind
@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     from mudline.contact.seabed import Seabed
     from mudline.keywords.table import Table
 
+_ALIKE = 1e-3
+"""Part of the longest element by which lengths differ that are alike."""
 _UNITS = {"metric": Units(1.0, 1.0), "imperial": Units(FOOT, POUND)}
 
 
@@ -59,6 +61,11 @@ class Stretch:
     soil: int
     nodes: Indices
     lengths: Floats
+
+    @property
+    def is_even(self) -> bool:
+        """Whether the elements are of one length, but for the rounding of coordinates."""
+        return bool(np.ptp(self.lengths) <= _ALIKE * self.lengths.max())
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -159,12 +166,13 @@ def build(scene: Scene) -> LineModel:
 
 def _require_elements(scene: Scene) -> None:
     if not len(scene.element_ids):
-        definers = scene.set_table.context.external_definers
+        makers = unread_makers(scene.set_table.context.external_definers, "ELEMENT")
         blocks = (
             (i, j, block.keyword) for i, one in enumerate(scene.deck.sections) for j, block in enumerate(one.blocks)
         )
-        where = next((Where(i, j) for i, j, keyword in blocks if keyword in definers), None)
-        why = f": those of *{definers[0]} are not in it, as its lines have no public format" if definers else ""
+        where = next((Where(i, j) for i, j, keyword in blocks if keyword in makers), None)
+        names = " or ".join(f"*{one}" for one in makers)
+        why = f": those of {names} are not in it, as its lines have no public format" if makers else ""
         raise scene.refusal(f"the deck shows no elements to export{why}; give nodes and elements", where)
     unknown = np.flatnonzero((scene.element_nodes < 0).any(axis=1) | ~np.isfinite(scene.length))
     if unknown.size:

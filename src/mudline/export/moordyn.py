@@ -40,6 +40,8 @@ def alike(model: LineModel, section: int) -> int:
 def segments(piece: Stretch) -> int:
     """How many equal segments a line of MoorDyn has: as short as its shortest element, up to a number."""
     elements = len(piece.lengths)
+    if piece.is_even:
+        return elements
     return min(_FINEST * elements, max(elements, ceil(float(piece.lengths.sum() / piece.lengths.min()) - 1e-6)))
 
 
@@ -199,7 +201,7 @@ def _report(model: LineModel, types: list[str], stiffness: float, width: dict[in
     blocks = [where for where, _ in model.scene.deck.blocks("ELEMENT")]
     for part in (part for parts in pieces(model) for part in parts):
         lengths, count = part.lengths, segments(part)
-        if np.ptp(lengths) > 1e-3 * lengths.max():
+        if not part.is_even:
             least, most, own = (shown(float(each), 3) for each in (lengths.min(), lengths.max(), lengths.sum() / count))
             effect = f"{len(lengths)} elements of {least} to {most} m: {count} segments of {own} m"
             report.add(blocks[-1], Status.APPROXIMATED, "equal segments", effect, "lengths")

@@ -247,7 +247,8 @@ def _report(model: LineModel, names: dict[Key, str], soil: Soil) -> None:
         if off := 0.5 * (section.diameter - soil.diameter):
             effect = f"its axis touches {distance(off)} higher than in the deck, as the diameters differ"
             report.add(section.where, Status.APPROXIMATED, "one seabed", effect, "diameter")
-    for where, _ in model.scene.deck.blocks("ELEMENT"):
+    uneven = any(not part.is_even for parts in pieces(model) for part in parts)
+    for where, _ in model.scene.deck.blocks("ELEMENT") if uneven else ():
         effect = "segments as long as the shortest of a section"
         report.add(where, Status.APPROXIMATED, "TargetSegmentLength", effect, "lengths")
     report.finish()

@@ -273,7 +273,8 @@ class Search:
 def _in(folder: Path, code_fault: CodeFault | None) -> Configuration | None:
     for name in ("mudline.toml", "pyproject.toml"):
         path = folder / name
-        if path.is_file() and (found := read_configuration(path, demanded=False, code_fault=code_fault)):
+        is_there = os.path.isfile(path)  # noqa: PTH113 - Path raises for a folder that may not be searched
+        if is_there and (found := read_configuration(path, demanded=False, code_fault=code_fault)):
             return found
     return None
 

@@ -258,8 +258,11 @@ def _law(
     scene: Scene, law: str, set_name: str | None, values: dict[str, Any], follow: Mask, where: Where
 ) -> dict[str, Any]:
     (found,) = scene.deck.diagnose([Problem(SBD025, "", where=where)])
+    name = set_name or "ALL"
+    known = scene.set_table.find(name)
+    counts = {"elements": int(follow.sum()), "open": known is not None and known.open}
     place = {"file": found.file, "line": found.line}
-    return {"law": law, "set": set_name or "ALL", "elements": int(follow.sum()), "values": values} | place
+    return {"law": law, "set": name} | counts | {"values": values} | place
 
 
 def _given(value: Any) -> Any:  # noqa: ANN401 - a number, or one for each direction

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -11,10 +11,12 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from mudline.codes.lines import SYN009
 from mudline.contact import ContactModel, ElementError, PositionError
 from mudline.contact.columns import ElementTable, NodeTable, Others
 from mudline.contact.result import Part
 from mudline.contact.touchdown import LineTable
+from mudline.scene.deck_values import unread_makers
 from mudline.scene.mesh import distances
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, Mask
@@ -144,7 +146,7 @@ def prepare(scene: Scene, positions: Positions | None = None, tension: Tension =
 
     Raises DeckError: errors in the deck, elements without known nodes.
     """
-    _require_elements(scene.require_evaluable(tension))
+    require_elements(scene.require_evaluable(tension))
     complete, filled = _with_lengths(scene, positions)
     with as_deck_errors(complete):
         return Prepared(complete, complete.contact(tension), filled)
@@ -161,16 +163,30 @@ def as_deck_errors(scene: Scene) -> Iterator[None]:
         raise scene.refusal(str(error), node=error.node) from error
 
 
-def _require_elements(scene: Scene) -> None:
+def require_elements(scene: Scene) -> None:
+    """Raise DeckError for a scene without elements, or with some that end at nodes that are not known."""
     definers = scene.set_table.context.external_definers
-    hint = f": *{definers[0]} may make them, and is not read; give them with --elements" if definers else ""
     if not len(scene.element_ids):
+        hint = _maker_hint(definers, "ELEMENT") or _unknown_hint(scene)
         raise scene.refusal(f"the deck has no elements to evaluate{hint}")
     dangling = np.flatnonzero((scene.element_nodes < 0).any(axis=1))
     if dangling.size:
         count = f"{dangling.size} elements end" if dangling.size > 1 else "an element ends"
-        message = f"{count} at nodes that are not known{hint}"
+        message = f"{count} at nodes that are not known{_maker_hint(definers, 'NODE')}"
         raise scene.refusal(message, scene.table.numbered.where(int(dangling[0])))
+
+
+def _maker_hint(definers: Sequence[str], keyword: str) -> str:
+    makers = unread_makers(definers, keyword)
+    names = " or ".join(f"*{one}" for one in makers or definers[:1])
+    why = "may make them, and is not read" if makers else "is about lines that may make them"
+    return f": {names} {why}; give them to `mudline evaluate --elements`" if names else ""
+
+
+def _unknown_hint(scene: Scene) -> str:
+    """Where keywords are not known, those of the elements may be among them."""
+    unknown = sum(one.code == SYN009 for one in scene.deck.problems)
+    return f": {counted(unknown, 'keyword')} of it not known, `mudline lint` names them" if unknown else ""
 
 
 def _with_lengths(scene: Scene, positions: Positions | None) -> tuple[Scene, int]:

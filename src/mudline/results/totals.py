@@ -5,6 +5,7 @@ Memory does not grow with the number of steps, but for the figures of the steps 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -15,7 +16,7 @@ from mudline.contact import ContactResult
 from mudline.contact.lines import LineSummary
 from mudline.contact.result import Part
 from mudline.contact.touchdown import LineSeries, Touchdown
-from mudline.quantities import SLIDING, STATES, Names, finite
+from mudline.quantities import SLIDING, STATES, Names, finite, shown
 from mudline.results.evaluation import Evaluation
 from mudline.scene.numbering import Floats, Indices, Mask
 
@@ -33,6 +34,23 @@ class Total(NamedTuple):
     touching: int
     deepest: float | None
     reaction: float | None
+
+
+_SLACK = 1e-9
+"""Part of a line by which the sums of its lengths may differ."""
+
+
+def touchdown_words(places: Sequence[float], contact: float | None, length: float | None, most: int) -> str:
+    """The arc lengths of the touchdown points of a line, or where all of it is; "" where that is not known.
+
+    A line of which only a part has a gap may lie on the seabed there without a touchdown point.
+    """
+    if places:
+        more = f", {len(places) - most} more" if len(places) > most else ""
+        return ", ".join(shown(place) for place in places[:most]) + more
+    if not contact:
+        return "none"
+    return "all on the seabed" if length is not None and contact > (1.0 - _SLACK) * length else ""
 
 
 class StepTotal(NamedTuple):

@@ -141,6 +141,11 @@ def definition_by(definer: str, keyword: str) -> str:
     return f"*{definer}, {why}, may define it"
 
 
+def unread_makers(definers: Iterable[str], keyword: str) -> list[str]:
+    """The definers that are not read and may define things that are a matter of `keyword`."""
+    return [one for one in definers if keyword in _makes(one) and not is_read_definer(one)]
+
+
 def makes_labels(definer: str) -> bool:
     """Whether a definer gives labels to nodes."""
     kept = catalogue.opaque_keyword("MODEL", definer)

@@ -70,7 +70,7 @@ def _finish(axes: Axes, motion: str, *, first: bool) -> None:
     for goal in GOALS:
         axes.axvline(goal, color="0.4", linewidth=1.0, linestyle=":")
         text = f"{100.0 * goal:g} % "
-        axes.annotate(text, (goal, 1.0), xycoords=("data", "axes fraction"), ha="right", va="top", color="0.3")
+        axes.annotate(text, (goal, 0.98), xycoords=("data", "axes fraction"), ha="right", va="top", color="0.3")
     axes.grid(visible=True, which="major", color="0.9")
     axes.set_title(motion, fontsize="medium")
     axes.set_xlabel("largest error of speed, duration and force up to a step [-]")

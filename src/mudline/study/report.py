@@ -13,6 +13,7 @@ import numpy as np
 from mudline.contact.input import LawKind
 from mudline.contact.stiffest import rounded_down
 from mudline.quantities import finite, shown, time_unit
+from mudline.results.evaluation import require_elements
 from mudline.scene.model import Scene
 from mudline.study.extremes import Extremes, extremes
 from mudline.study.precision import GOALS, Precision, Timer, measured
@@ -113,6 +114,7 @@ def study(
     `timer` measures run times; `tracked` may show which part comes next. Raises DeckError for a deck that cannot be
     evaluated.
     """
+    require_elements(scene)
     given = scene.contact_input("cut" if scene.blocking("keep") else "keep")
     found = Study(scene.deck.file, scene.units, own_step(scene))
     contacts, unknown, softening = contacts_of(scene, given)
@@ -128,19 +130,18 @@ def study(
             notes += unknown
         else:
             found.stages = pruned(scene, given, timer)
-        if part != "pruning" and not contacts:
-            notes.append(f"No contact of this deck has a frequency: {_without_springs(scene)}.")
     compared = [part for part in measure if part != "pruning" and part in parts]
+    none = "" if contacts else f"No contact of this deck has a frequency: {_without_springs(scene)}."
+    if none and compared:
+        found.notes[compared[0]].append(none)
     if found.own is None and compared:
         found.notes[compared[0]].append("The deck has no *TIME with a fixed step to compare with.")
-    found.advice = _advice(found, contacts, softening)
+    found.advice = _advice(found, contacts, [*softening, none])
     return found
 
 
 def _without_springs(scene: Scene) -> str:
     """Why no contact of a scene has a spring and a mass."""
-    if not len(scene.element_ids):
-        return "it has no elements"
     if not np.isin(scene.law, (LawKind.NONE, LawKind.RIGID)).all():
         return "no law has a stiffness" if (scene.mass_per_length > 0.0).any() else "no section has a mass"
     return "the seabed is rigid" if (scene.law == LawKind.RIGID).any() else "no element has a seabed law"
@@ -176,8 +177,6 @@ def _advice(found: Study, contacts: Sequence[Contact], softening: Sequence[str])
     texts += [jump_note(found, one.row) for one in found.stability or () if one.row.jump] + [*softening]
     if found.extremes is not None and found.extremes.failed:
         texts.append(f"{len(found.extremes.failed)} of {found.extremes.tried} extreme cases do not hold.")
-    if not contacts:
-        texts += next(iter(found.notes.values()))[:1]
     text = " ".join(filter(None, texts))
     if first is None:
         return Advice(text, own_step=own)

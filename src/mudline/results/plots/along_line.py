@@ -234,14 +234,16 @@ def _touchdown_points(axes: Axes, data: PlotData, chosen: Chosen, stretch: Stret
     size, look = (8.0 if len(points) <= 12 else 5.0), {"color": "black", "markerfacecolor": "white", "zorder": 5}
     axes.plot(*places, "v", markersize=size, label="touchdown point", **look)  # type: ignore[arg-type]
     unit = unit_names(data.given.units).length
-    for point in points if len(points) <= _LABELLED_POINTS else ():
-        right = point.arc_length < 0.5 * (low + high)
+    labelled = points if len(points) <= _LABELLED_POINTS else []
+    for number, point in enumerate(sorted(labelled, key=lambda one: one.arc_length)):
+        right, above = point.arc_length < 0.5 * (low + high), number % 2 == 0
         axes.annotate(
             f"TDP {point.arc_length:.5g} {unit}".rstrip(),
             (point.arc_length, point.x),
-            (8.0 if right else -8.0, 9.0),
+            (8.0 if right else -8.0, 9.0 if above else -9.0),
             textcoords="offset points",
             ha="left" if right else "right",
+            va="bottom" if above else "top",
             fontsize="small",
             bbox={"boxstyle": "square,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.8},
             zorder=6,
@@ -261,7 +263,8 @@ def _soil(axes: Axes, chosen: Chosen, stretch: Stretch) -> None:
     if not (is_number(bottom) and is_number(highest)):
         return
     axes.fill_between(arcs[drawn], level, bottom, color=LIGHT, linewidth=0.0, zorder=0)
-    axes.set_ylim(bottom, highest + 0.04 * (highest - bottom))
+    room = 0.1 if len(axes.texts) > 1 else 0.04  # of the labels of touchdown points at the top
+    axes.set_ylim(bottom, highest + room * (highest - bottom))
 
 
 def _line_handles(stretch: Stretch) -> list[Line2D]:

@@ -118,5 +118,7 @@ def _draw_ground(axes: Axes, data: PlotData, side: _Side) -> None:
     part = Part(data.drawn.step, data.drawn.result.as_series())
     finder = Touchdown(data.given)
     points = [point for row in finder.summaries(part, finder.series(part)) for point in row.touchdown]
+    if not points:
+        return
     places = [[(one.x, one.y, one.z)[axis] for one in points] for axis in (side.along, side.up)]
     axes.plot(*places, "v", color="black", markerfacecolor="white", markersize=8, label="touchdown point", zorder=5)
