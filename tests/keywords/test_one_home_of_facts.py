@@ -40,6 +40,7 @@ EXCEPTIONS = {
     "export/soil.py": "says which settings of a law another program has not",
     "migration/refusals.py": "what a seabed or a deck before has instead, and whose laws a migrated surface would meet",
     "migration/rewriting.py": "writes these blocks",
+    "results/evaluation.py": "says what may make the elements, or the nodes, that a deck lacks",
     "results/laws_in_use.py": "inner pipes need no law of the seabed",
     "results/warnings.py": "what is not read and makes a line heavier",
     "results/summary.py": "says which of two blocks a curve came from",
