@@ -106,12 +106,12 @@ def line_of(scene: ResolvedDeck, where: Where | None) -> int:
 
 
 def softening_needs(scene: ResolvedDeck, one: Oscillation) -> str:
-    """What a structure and a motion need where a resistance falls: " = stiffness, and a step"."""
+    """What a structure and time steps need where a resistance falls: " = stiffness; steps"."""
     from mudline.contact.stiffest import ADVISED_OMEGA_DT, rounded_down  # noqa: PLC0415 - loaded when it is needed
 
     unit, time = unit_names(scene.units).behind("stiffness"), f" {time_unit(scene.units)}".rstrip()
-    step = rounded_down(ADVISED_OMEGA_DT / one.omega)
-    return f" = {one.stiffness:.6g}{unit} (node {scene.node_ids[one.node]}), and a motion a step up to {step:.3g}{time}"
+    place, step = f"node {scene.node_ids[one.node]}", rounded_down(ADVISED_OMEGA_DT / one.omega)
+    return f" = {one.stiffness:.6g}{unit} ({place}); in time, the fall needs steps of {step:.3g}{time} or less"
 
 
 class _Carried:
