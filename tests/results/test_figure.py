@@ -129,6 +129,13 @@ def test_the_labels_of_a_span_do_not_lie_over_each_other() -> None:
     assert first.y1 <= axes.get_window_extent().y1
 
 
+@pytest.mark.parametrize("touches", [False, True])
+def test_the_legend_has_contact_where_there_is_some(touches: bool) -> None:
+    legend = panel(PlotData.of_result(heave() if touches else raised()), "line").get_legend()
+    assert legend is not None
+    assert ("in contact" in [text.get_text() for text in legend.get_texts()]) is touches
+
+
 def test_the_line_has_its_touchdown_point_and_lies_on_its_nodes() -> None:
     state = heave().step(0)
     axes = panel(PlotData.of_result(state), "line")

@@ -35,7 +35,7 @@ _BATCH = 2**20
 _NONE = np.empty(0, np.intp)
 _KEPT = {-3: 2**25, -1: 2**29}
 """By the number of an option of `mallopt`: arrays that are kept at most (M_MMAP_THRESHOLD, which takes no more), and
-freed memory at the end of the heap (M_TRIM_THRESHOLD): the results of four million nodes."""
+freed memory at the end of the heap (M_TRIM_THRESHOLD): the results of five million nodes."""
 
 
 class NumpyDriver:

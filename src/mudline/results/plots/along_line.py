@@ -168,22 +168,23 @@ _LABELLED_POINTS = 3
 def line(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     """Draw the lines on the seabed, thick where they touch it, with their touchdown points."""
     chosen = data.drawn
-    heights, seabed = chosen.heights, chosen.seabed
+    heights, seabed, touching = chosen.heights, chosen.seabed, False
     for place, number in enumerate(stretch.lines):
         nodes, arcs = stretch.nodes(number)
         drawn, style = thinned(chosen.result.gap[nodes]), stretch.style(place)
         axes.plot(arcs[drawn], seabed[nodes[drawn]], color=SEABED, linewidth=1.2, zorder=1)
         look = {"color": style.color, "linestyle": style.linestyle}
         axes.plot(arcs[drawn], heights[nodes[drawn]], linewidth=1.1, zorder=3, **look)  # type: ignore[arg-type]
-        _thick(axes, data, heights, number, style)
+        touching |= _thick(axes, data, heights, number, style)
     _crop(axes, data, chosen, stretch)
     _touchdown_points(axes, data, chosen, stretch)
     if len(stretch.lines) == 1:
         _soil(axes, chosen, stretch)
     axes.set_ylabel(NODES["x"].axis(data.given.units))
+    thick = Line2D([], [], color=stretch.style(0).color, linewidth=3.5, label="in contact")
     handles: list[Artist] = [
         *_line_handles(stretch),
-        Line2D([], [], color=stretch.style(0).color, linewidth=3.5, label="in contact"),
+        *([thick] if touching else []),
         Line2D([], [], color=SEABED, linewidth=1.2, label="seabed"),
         *axes.get_legend_handles_labels()[0],
     ]
@@ -204,17 +205,18 @@ def _crop(axes: Axes, data: PlotData, chosen: Chosen, stretch: Stretch) -> None:
         axes.set_ylim(low - 0.05 * (high - low), high)
 
 
-def _thick(axes: Axes, data: PlotData, heights: Floats, number: int, style: Style) -> None:
-    """Draw the elements of a line that touch the seabed over it."""
+def _thick(axes: Axes, data: PlotData, heights: Floats, number: int, style: Style) -> bool:
+    """Draw the elements of a line that touch the seabed over it; return whether there are any."""
     lines = data.given.lines
     here = np.flatnonzero(data.drawn.result.contact[lines.elements[number]])
     if not here.size:
-        return
+        return False
     arcs, along = lines.node_arcs(number, data.given.length), heights[lines.nodes[number]]
     here = here[thinned(np.nan_to_num(along[here]), MOST_POINTS)]
     none = np.full(len(here), np.nan)
     x, y = (np.column_stack([values[here], values[here + 1], none]).ravel() for values in (arcs, along))
     axes.plot(x, y, color=style.color, linewidth=3.5, solid_capstyle="butt", zorder=2)
+    return True
 
 
 def _touchdown_points(axes: Axes, data: PlotData, chosen: Chosen, stretch: Stretch) -> None:
