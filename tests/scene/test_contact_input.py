@@ -100,6 +100,27 @@ def test_submerged_weight() -> None:
     np.testing.assert_allclose(scene_of(later).submerged_weight, WEIGHT * 3.7 / 9.81, rtol=1e-14)
 
 
+@pytest.mark.parametrize("units", [METRIC, IMPERIAL], ids=["metric", "imperial"])
+def test_a_pipe_on_a_seabed_above_the_water_has_its_weight_in_air(units: Units) -> None:
+    """The bed rises from 0 to 20 m over 100 m, through 11 m of water at 55 m: in the middle of element 6."""
+    profile = f"*SEABED PROFILE\n TYPE=SLOPING\n SLOPE={math.degrees(math.atan(0.2))!r}\n"
+    water = f"*OCEAN\n {units.value(11.0, 1)}, {units.value(1025.0, -4, 1)}, {units.value(9.81, 1)}\n"
+    scene = scene_of(line_deck(units, profile + water), f"deck.{units.suffix}")
+    in_air = 7850.0 * math.pi / 4 * (0.25**2 - 0.22**2) * 9.81  # 852.8 N/m; in water WEIGHT, 359.2 N/m
+    wanted = [WEIGHT] * 5 + [0.5 * (WEIGHT + in_air)] + [in_air] * 4
+    np.testing.assert_allclose(scene.submerged_weight * units.force / units.length, wanted, rtol=1e-12)
+    deep = scene_of(line_deck(METRIC, profile))
+    np.testing.assert_allclose(deep.submerged_weight, WEIGHT, rtol=1e-14)
+
+
+def test_elements_that_begin_outside_of_the_seabed_are_in_the_water() -> None:
+    """The plane begins at 70 m, where element 8 does; the bed of the water, 500 m deep, is not known."""
+    planes = "*SEABED PLANES\n PLANE=Land\n POINT=600, 0, 0\n SLOPE=0\n BOUNDS=70, 200, -10, 10\n"
+    weight = scene_of(line_deck(METRIC, planes)).submerged_weight
+    assert weight[:7] == pytest.approx(WEIGHT)
+    assert weight[7:] == pytest.approx(7850.0 * math.pi / 4 * (0.25**2 - 0.22**2) * 9.81)
+
+
 def test_widths_of_linear_laws() -> None:
     def width(lines: str) -> list[float]:
         given = made(LINEAR_BED + f"*SEABED CONTACT\n SET=Left\n{lines}")

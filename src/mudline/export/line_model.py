@@ -22,12 +22,12 @@ from mudline.export.held import TRANSLATIONS, End, read_held, report_inside
 from mudline.export.report import Report, Status
 from mudline.export.soil import Soil, Units, soils_of
 from mudline.quantities import shown
-from mudline.scene.contact_input import made_seabed
 from mudline.scene.deck_values import FOOT, POUND, number, unread_makers
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices
 from mudline.scene.seabed import SeabedKind
 from mudline.scene.sections import Section, format_of, surroundings
+from mudline.scene.shore import made_seabed
 
 if TYPE_CHECKING:
     from mudline.contact.seabed import Seabed

@@ -7,23 +7,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, Literal, cast
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from mudline.codes import RUN001
 from mudline.contact import ElementError
 from mudline.contact.input import ContactInput, LawAssignment, LawKind
-from mudline.contact.seabed import PlanesSeabed, SlopingSeabed
 from mudline.diagnostics import DeckError, Problem
 from mudline.scene.numbering import Floats, Indices, Mask
 from mudline.scene.resolved import LawArrays, ResolvedDeck
-from mudline.scene.seabed import SeabedKind, SeabedShape
+from mudline.scene.seabed import SeabedKind
+from mudline.scene.shore import made_seabed
 from mudline.short_repr import counted
 
 if TYPE_CHECKING:
     from mudline.contact.seabed import Seabed
-    from mudline.contact.seabed.profile import Interpolation
 
 _REFUSED = "; this cannot be evaluated"
 
@@ -192,25 +191,6 @@ def _seabed(scene: ResolvedDeck) -> Seabed | None:
         return made_seabed(seabed)
     except ValueError as error:
         raise scene.refusal(f"{error}{_REFUSED}", seabed.where) from error
-
-
-def made_seabed(seabed: SeabedShape) -> Seabed:
-    """The evaluator's shape of a seabed that is not flat; raises ValueError for numbers that make none."""
-    if seabed.kind is SeabedKind.SLOPING:
-        return SlopingSeabed(seabed.slope, seabed.direction)
-    if seabed.kind is SeabedKind.PROFILE:
-        from mudline.contact.seabed.profile import ProfileSeabed  # noqa: PLC0415 - only now is it needed
-
-        how = cast("Interpolation", seabed.interpolation)
-        return ProfileSeabed(seabed.points[:, 0], seabed.points[:, 1], how, seabed.direction)
-    if seabed.kind is SeabedKind.PLANES:
-        columns = (
-            [getattr(plane, name) for plane in seabed.planes] for name in ("point", "slope", "direction", "bounds")
-        )
-        return PlanesSeabed(*map(np.array, columns))
-    from mudline.contact.seabed.scattered import ScatteredSeabed  # noqa: PLC0415 - only now is it needed
-
-    return ScatteredSeabed(seabed.points, cast("Literal['LINEAR', 'CUBIC']", seabed.interpolation))
 
 
 def _left_out(scene: ResolvedDeck, laws: Sequence[str]) -> dict[str, str]:

@@ -27,7 +27,7 @@ from mudline.scene.laws import Extension, LawTable, SeabedResistance, SetLaw
 from mudline.scene.mesh import ElementTable
 from mudline.scene.names import CURVES, THINGS, undefined
 from mudline.scene.numbering import Floats, Ids, Indices, Mask, Numbered
-from mudline.scene.seabed import SeabedShape
+from mudline.scene.seabed import SeabedKind, SeabedShape
 from mudline.scene.sections import SectionTable, mass_per_length, submerged_weight, surroundings
 from mudline.scene.sets import Sets, set_key
 from mudline.short_repr import LETTERS, UnknownNameError, counted, cut, listed, short_repr
@@ -210,8 +210,16 @@ class ResolvedDeck:
 
     @cached_property
     def submerged_weight(self) -> Floats:
-        """Weight less buoyancy per length (m,), in the deck's units; NaN where it is not known or overflows."""
-        return submerged_weight(self.section_table, surroundings(self.deck))
+        """Weight less buoyancy per length (m,), in the deck's units; NaN where it is not known or overflows.
+
+        Where the seabed lies above the water that `*OCEAN` gives, as at a landfall, it is the weight in air.
+        """
+        around, land = surroundings(self.deck), None
+        if self.seabed.kind is not SeabedKind.FLAT:
+            from mudline.scene.shore import on_land  # noqa: PLC0415 - only now is it needed
+
+            land = on_land(self.seabed, around.depth, self.coordinates, self.element_nodes)
+        return submerged_weight(self.section_table, around, land)
 
     @cached_property
     def sets(self) -> ByName[Ids]:

@@ -101,20 +101,25 @@ def format_of(entry: GeometricSet) -> str:
 
 
 class Surroundings(NamedTuple):
-    """Density of the water and gravity, in the deck's units; NaN where they are not known."""
+    """Density of the water, gravity, and the depth, which is the height of the water's level, in the deck's units.
+
+    NaN where they are not known.
+    """
 
     density: float
     gravity: float
+    depth: float
 
 
 def surroundings(deck: Deck) -> Surroundings:
     """Those of the last `*OCEAN`, whose defaults are known in metric and imperial units; NaN without one."""
     oceans = [block for _, block in deck.blocks("OCEAN")]
     if not oceans:
-        return Surroundings(math.nan, math.nan)
+        return Surroundings(math.nan, math.nan, math.nan)
     return Surroundings(
         number(oceans[-1], "density", DEFAULT_DENSITY.get(deck.units, math.nan)),
         number(oceans[-1], "gravity", DEFAULT_GRAVITY.get(deck.units, math.nan)),
+        number(oceans[-1], "depth"),
     )
 
 
@@ -124,15 +129,18 @@ def mass_per_length(table: SectionTable) -> Floats:
     return np.where(mass > 0.0, mass, np.nan)
 
 
-def submerged_weight(table: SectionTable, around: Surroundings) -> Floats:
+def submerged_weight(table: SectionTable, around: Surroundings, on_land: Floats | None) -> Floats:
     """Weight less buoyancy per length (m,), in the deck's units; NaN where it is not known or overflows.
 
-    Contents do not count. Elements whose diameter comes from a file of elements have the weight of their section, if
-    they have one.
+    The share `on_land` (m,) of an element has no buoyancy; None stands for none. Contents do not count. Elements whose
+    diameter comes from a file of elements have the weight of their section, if they have one.
     """
-    entries = (section.entry for section in table.sections)
+    entries = [section.entry for section in table.sections]
     weights = ((_mass(entry) - around.density * _displaced(entry)) * around.gravity for entry in entries)
     found = picked(weights, table.of_element)
+    if on_land is not None:
+        lifts = (around.density * _displaced(entry) * around.gravity for entry in entries)
+        found = found + on_land * picked(lifts, table.of_element)
     return np.where(np.isfinite(found), found, np.nan)
 
 

@@ -254,7 +254,7 @@ def _repeated(scene: ResolvedDeck) -> Iterator[Problem]:
 
 def _fault(scene: ResolvedDeck) -> str:
     """Why the seabed cannot be made from its numbers, or ""."""
-    from mudline.scene.contact_input import made_seabed  # noqa: PLC0415 - as above
+    from mudline.scene.shore import made_seabed  # noqa: PLC0415 - as above
 
     try:
         made_seabed(scene.seabed)
