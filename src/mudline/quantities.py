@@ -187,14 +187,14 @@ LINES = _by_name(
     Quantity("largest_uplift", "largest pull, negative, by suction or a curve", "line_force"),
     Quantity("largest_uplift_element", "the element"),
     Quantity("largest_uplift_arc_length", "arc length of its middle", "length"),
-    Quantity("reaction", "total normal force on its nodes", "force"),
+    Quantity("reaction", "total normal force on its nodes; `null` on a rigid seabed", "force"),
     Quantity("submerged_weight", "of its elements in contact", "force"),
     Quantity("ratio", "reaction / submerged weight"),
 )
 """Of a line, in the order of the columns; `null` where there is none."""
 
 STEPS = _by_name(
-    Quantity("reaction", "total normal force on all nodes", "force", label="total reaction"),
+    Quantity("reaction", "total normal force on all nodes; `null` on a rigid seabed", "force", label="total reaction"),
     Quantity(
         "force",
         "largest magnitude of an element's force per unit length, with its sign",
@@ -235,7 +235,12 @@ CASES = _by_name(
     Quantity("largest_uplift", "largest pull, negative, by suction or a curve", "line_force", label="largest\nuplift"),
     Quantity("largest_uplift_element", "the element"),
     Quantity("largest_uplift_time", "when; `null` for one state"),
-    Quantity("reaction", "largest total normal force on all nodes", "force", label="total\nreaction"),
+    Quantity(
+        "reaction",
+        "largest total normal force on all nodes; `null` on a rigid seabed",
+        "force",
+        label="total\nreaction",
+    ),
     Quantity("ratio", "this reaction / submerged weight of the elements in contact at that step", label="ratio"),
     Quantity("warnings", "number of warnings about the results", label="warn-\nings"),
     Quantity("warning_codes", "their codes, separated by spaces"),

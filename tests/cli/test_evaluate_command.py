@@ -258,7 +258,7 @@ def test_plan_needs_no_coordinates() -> None:
 def test_rigid_bed_is_told(place: Place) -> None:
     outcome = run("evaluate", place(RIGID))
     assert outcome.code == 0
-    assert "2 elements on a rigid seabed: a constraint, whose reaction is not evaluated" in outcome.err
+    assert "2 elements (first: 1) are held by a rigid seabed, a constraint: its force is not known" in outcome.err
 
 
 def test_a_seabed_that_is_not_there_is_an_error_of_the_run(place: Place) -> None:

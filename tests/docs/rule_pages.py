@@ -25,7 +25,7 @@ makes a *safe* fix, `--fix --unsafe-fixes` also an *unsafe* one; the column show
 | --- | --- | --- | --- | --- |
 {rows}
 
-Nine more codes are not rules and cannot be ignored; they say why a file could not be used, changed or checked, or what
+Ten more codes are not rules and cannot be ignored; they say why a file could not be used, changed or checked, or what
 is doubtful in the results of one:
 
 | code | slug | severity | says |
@@ -39,6 +39,7 @@ is doubtful in the results of one:
 | [RUN002](RUN002.md) | `rule-failed` | error | A rule of a plugin failed on the deck. |
 | [RUN003](RUN003.md) | `no-equilibrium` | warning | The deck's own coordinates are far from an equilibrium. |
 | [RUN004](RUN004.md) | `floating-pipe` | warning | Elements in contact float: their submerged weight is negative. |
+| [RUN005](RUN005.md) | `rigid-reaction` | warning | A rigid seabed holds elements with a force that is not known. |
 """
 
 _PAGE = """{made}

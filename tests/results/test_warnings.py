@@ -197,7 +197,7 @@ def test_vertical_riser_is_no_line_with_its_height_as_z() -> None:
 
 def test_rigid_seabed_touches_at_no_depth() -> None:
     rigid = "*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n"
-    assert brief(pipe(rigid, "0.0, 0.0, 0.0", "0.0, 0.0, 100.0")) == []
+    assert brief(pipe(rigid, "0.0, 0.0, 0.0", "0.0, 0.0, 100.0")) == [("RUN005", LINE + 2, 10, 1)]
     assert brief(pipe(rigid, "0.1, 0.0, 0.0", "0.1, 0.0, 100.0")) == [("GEO005", 5, 10, 1)]
 
 
@@ -256,6 +256,29 @@ def test_what_floats_far_above_is_no_concern(height: str, found: list[object]) -
     nodes = f" 6, -0.02, 0.0, 50.0\n GEN=1, 6\n 7, {height}, 0.0, 60.0\n 11, {height}, 0.0, 100.0\n GEN=7, 11\n"
     text = text.replace(" 11, -0.02, 0.0, 100.0\n GEN=1, 11\n", nodes)
     assert [each for each in brief(text) if each[0] == "RUN004"] == found
+
+
+# -------------------------------------------------------------------------------------------------------- rigid seabed
+
+RIGID = "*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n"
+
+
+def test_the_reaction_of_a_rigid_seabed_is_not_known() -> None:
+    text = pipe(RIGID, last="0.5, 0.0, 100.0")
+    assert brief(text) == [("RUN005", LINE + 2, 1, 1)]
+    assert message(text, "RUN005") == (
+        "element 1 is held by a rigid seabed, a constraint: its force is not known, nor is the total reaction"
+    )
+    scene = legal_scene(pipe(RIGID))
+    (found,) = scene.contact().evaluate(scene.coordinates).summary()
+    assert (found.reaction, found.ratio) == (None, None)
+    assert found.submerged_weight == pytest.approx(WEIGHT)
+    _, note = watched(pipe(RIGID))
+    assert f"total reaction not known on 10 elements in contact, their submerged weight {WEIGHT:.6g} N" in note
+
+
+def test_nothing_is_said_of_a_rigid_seabed_that_nothing_touches() -> None:
+    assert [code for code, *_ in brief(pipe(RIGID, "2.0, 0.0, 0.0", "2.0, 0.0, 100.0"))] == ["GEO005"]
 
 
 # -------------------------------------------------------------------------------------------------------------- curves

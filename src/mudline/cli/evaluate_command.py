@@ -17,7 +17,6 @@ from mudline.cli.pictures import Picture
 from mudline.cli.result_files import behind, beside, has_library, line_watch, result_files, write_tables
 from mudline.cli.streams import counted, emit, emit_json, notify
 from mudline.cli.view import Progress, View, wants_bar
-from mudline.contact import LawKind
 from mudline.files import is_url, suffix_of
 from mudline.limits import SHOWN_ROWS
 from mudline.quantities import csv_lines
@@ -233,8 +232,6 @@ def _notify_before(evaluation: Evaluation, comparison: Comparison | None) -> Non
         notify(f"no positions for {counted(missing, 'node')}: {counted(evaluation.skipped, 'element')} left out")
     if evaluation.lengths_from_positions:
         notify(f"the length of {counted(evaluation.lengths_from_positions, 'element')} comes from the first positions")
-    if rigid := int((evaluation.scene.law == LawKind.RIGID).sum()):
-        notify(f"{counted(rigid, 'element')} on a rigid seabed: a constraint, whose reaction is not evaluated")
     for stage, why in evaluation.model.input.left_out.items():
         notify(f"{stage}: {why}")
     if comparison is not None:

@@ -16,7 +16,17 @@ from mudline.contact.result import Part
 from mudline.quantities import SLIDING, STATES, UnitNames, headed, shown, unit_names
 from mudline.results.against import Comparison
 from mudline.results.evaluation import Evaluation
-from mudline.results.totals import LineWatch, StepSummary, Total, acted_on, reaction, states, totals, touchdown_words
+from mudline.results.totals import (
+    NOT_KNOWN,
+    LineWatch,
+    StepSummary,
+    Total,
+    acted_on,
+    reaction,
+    states,
+    totals,
+    touchdown_words,
+)
 from mudline.scene.numbering import Floats, Indices
 from mudline.short_repr import counted
 
@@ -113,10 +123,14 @@ def _print_totals(printer: Printer, evaluation: Evaluation, part: Part) -> None:
     if len(found) > 1 or any(each.law == "nodal" for each in found):
         sums = (sum(each.elements for each in found), sum(each.touching for each in found))
         deepest = max((each for each in found if each.deepest is not None), key=_by_depth, default=found[0])
-        rows.append(("total", "", *sums, _depth(deepest), reaction(evaluation, part.result.step(0))))
+        rows.append(("total", "", *sums, _depth(deepest), _known(reaction(evaluation, part.result.step(0)))))
     depth, force = headed("largest\ndepth", names.length), headed("total\nreaction", names.force)
     columns = ("law", "set", "elements", "in\ncontact", depth, force)
     printer.table(_title(evaluation), columns, rows, left=("law", "set"))
+
+
+def _known(reaction: float | None) -> Cell:
+    return NOT_KNOWN if reaction is None or math.isnan(reaction) else reaction
 
 
 def _by_depth(total: Total) -> float:
@@ -188,7 +202,7 @@ def _print_lines(printer: Printer, lines: LineWatch) -> None:
         cells += [None, ""] if push is None else [push.force, push.element]
         if pulled:
             cells += [None, ""] if pull is None else [pull.force, pull.element]
-        rows.append((*cells, row.reaction, row.submerged_weight, row.ratio))
+        rows.append((*cells, _known(row.reaction), row.submerged_weight, row.ratio))
     uplift = (headed("largest\nuplift", names.line_force), "element")
     columns = (
         *((_time(names),) if timed else ()),

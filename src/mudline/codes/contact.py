@@ -1,7 +1,7 @@
 """Codes that lint's rules and the warnings of an evaluated deck share, and those that such warnings alone have.
 
 The pages of the shared ones are the docstrings of their rules.
-RUN003 and RUN004 are no rules: they depend on positions.
+RUN003 to RUN005 are no rules: they depend on positions.
 """
 
 from __future__ import annotations
@@ -15,3 +15,4 @@ SBD025 = Code("SBD025", "law-without-effect", Severity.WARNING)
 GEO005 = Code("GEO005", "not-on-the-seabed", Severity.WARNING)
 RUN003 = Code("RUN003", "no-equilibrium", Severity.WARNING)
 RUN004 = Code("RUN004", "floating-pipe", Severity.WARNING)
+RUN005 = Code("RUN005", "rigid-reaction", Severity.WARNING)

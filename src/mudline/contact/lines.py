@@ -158,7 +158,8 @@ class LineSummary:
         contact_length: how much of it lies below the seabed, between the touchdown points.
         largest_force: where the seabed pushes most; None where it does not push.
         largest_uplift: where the seabed pulls most, by suction or a curve; its force is negative. None without a pull.
-        reaction: total normal force on its nodes; a node of several lines counts for the first of them.
+        reaction: total normal force on its nodes; a node of several lines counts for the first of them. None on a rigid
+            seabed, whose force is not known.
         submerged_weight: of its elements in contact with a law that carries; None where it is not known.
         ratio: reaction / submerged weight; None where that is not above 0.
     """

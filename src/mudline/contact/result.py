@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.arguments import ArgumentRangeError, expect, several
-from mudline.contact.arrays import BoolArray, FloatArray, IdArray, StateArray
+from mudline.contact.arrays import BoolArray, FloatArray, IdArray, IndexArray, StateArray
 from mudline.contact.input import ContactInput, ElementError, PositionError
 from mudline.contact.tables import Tables
 from mudline.short_repr import counted, outline, short_repr
@@ -100,6 +100,15 @@ class ContactResult:
     def restrained(self) -> BoolArray | None:
         """Nodes (..., n) that a rigid seabed restrains along their `normal`: its own, at the seabed or below it."""
         return None if self.rigid is None else self.rigid & (self.gap <= 0.0)
+
+    def total_normal_force(self, nodes: IndexArray | BoolArray) -> FloatArray:
+        """Return the total normal force (...) on some nodes; NaN where a rigid seabed may hold one of them.
+
+        Its force follows from the equilibrium of the line, which is not known here. Nodes without a position count 0.
+        """
+        if self.rigid is not None and self.rigid[nodes].any():
+            return np.full(self.gap.shape[:-1], np.nan)
+        return np.asarray(np.nansum(self.normal_force[..., nodes], axis=-1))
 
     def friction_state_of(self, side: int) -> StateArray:
         """Return the states (..., n) along u1 (0) or u2 (1); -1 without friction."""

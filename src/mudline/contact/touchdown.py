@@ -63,7 +63,7 @@ class Touchdown:
         self.lines = given.lines
         self._arcs = [self.lines.node_arcs(line, given.length) for line in range(len(self.lines.elements))]
         self._own_nodes = [np.flatnonzero(self.lines.of_node == line) for line in range(len(self.lines.elements))]
-        self._carries = (given.law != LawKind.NONE) & (given.law != LawKind.RIGID)
+        self._carries = given.law != LawKind.NONE
         with np.errstate(over="ignore", invalid="ignore"):
             self._weights = None if given.weight is None else given.weight * given.length
 
@@ -117,7 +117,7 @@ class Touchdown:
             first,
             last,
             lies,
-            np.nansum(result.normal_force[:, own], axis=1),
+            result.total_normal_force(own),
             weight,
             *pushes,
             *pulls,

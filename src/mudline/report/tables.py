@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from mudline.limits import SHOWN_ROWS
 from mudline.quantities import UnitNames, headed, labelled, shown
 from mudline.results.summary import OPEN
-from mudline.results.totals import touchdown_words
+from mudline.results.totals import NOT_KNOWN, touchdown_words
 from mudline.scene.deck_curves import OF_SEABED
 from mudline.short_repr import counted, cut
 from mudline.study import Study
@@ -135,7 +135,7 @@ def _value(value: Any) -> str:  # noqa: ANN401 - whatever JSON holds
 
 def _contact(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
     figures = [
-        (labelled("total reaction", names.force), found["reaction"]),
+        (labelled("total reaction", names.force), _known(found["reaction"])),
         (labelled("submerged weight of the elements in contact", names.force), found["weight"]),
         ("reaction over weight", found["ratio"]),
     ]
@@ -157,7 +157,7 @@ def _contact(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
             _touchdown(one),
             one["contact_length"],
             (one["largest_force"] or {}).get("force"),
-            one["reaction"],
+            _known(one["reaction"]),
             one["ratio"],
         )
         for one in found["lines"]
@@ -169,6 +169,10 @@ def _contact(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
     yield _table("States", ("law", "state", "count"), states)
     warnings = [(one["code"], one["line"], cut(one["message"], LONGEST)) for one in found["warnings"]]
     yield Table("Warnings about these results", ("code", "deck line", "message"), warnings[:SHOWN_ROWS])
+
+
+def _known(reaction: float | None) -> float | str:
+    return NOT_KNOWN if reaction is None else reaction
 
 
 def _touchdown(line: dict[str, Any]) -> str:

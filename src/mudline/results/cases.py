@@ -116,7 +116,7 @@ class CaseWatch:
             )
         self._length = max(self._length, float(length.max()))
         step = int(reaction.argmax())
-        if reaction[step] > self._reaction:
+        if np.isnan(reaction[step]) or reaction[step] > self._reaction:
             self._reaction, self._weight = float(reaction[step]), float(weight[step])
 
     def summary(self, deck: str, warnings: Sequence[ContactWarning], result: str | None) -> CaseSummary:

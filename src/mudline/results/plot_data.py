@@ -199,7 +199,7 @@ class PlotData:
         self._take_loop(part)
 
     def _choose(self, part: Part, reaction: Floats, pull: Floats) -> None:
-        step = int(np.argmax(reaction))
+        step = int(np.argmax(np.nan_to_num(reaction, posinf=np.inf)))
         if self.chosen is None or reaction[step] > self._largest:
             self._largest = float(reaction[step])
             self.chosen = Chosen(part.start + step, part.result.step(step))
@@ -225,6 +225,11 @@ class PlotData:
             result = part.result
             found = result.ratio[step, element], result.force[step, element]
             self.points.append(Points(self._curve_of[element], *found, part.start + step))
+
+    @property
+    def known(self) -> bool:
+        """Whether the total reaction is known at some step."""
+        return not np.isnan(self.reaction.most).all()
 
     def points_of(self, chosen: Chosen) -> Points:
         """The points of a step on the curves: of all elements, or of some at even distances."""

@@ -36,6 +36,8 @@ class Total(NamedTuple):
     reaction: float | None
 
 
+NOT_KNOWN = "not known"
+"""What tables say of the reaction of a rigid seabed, and of one that overflows."""
 _SLACK = 1e-9
 """Part of a line by which the sums of its lengths may differ."""
 
@@ -109,8 +111,9 @@ def totals(evaluation: Evaluation, part: Part) -> list[Total]:
 
 
 def reaction(evaluation: Evaluation, result: ContactResult) -> float:
-    """Total normal force of a step on all nodes."""
-    return _sum(result.normal_force[evaluation.nodes])
+    """Total normal force of a step on all nodes; NaN on a rigid seabed, whose force is not known."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        return float(result.total_normal_force(evaluation.nodes))
 
 
 def _step(evaluation: Evaluation, time: float, result: ContactResult) -> StepTotal:
@@ -217,7 +220,7 @@ def traces(part: Part) -> dict[str, Trace]:
     """The figures of the steps of a part by the names of `STEPS`."""
     result, chosen = part.result, np.flatnonzero(part.result.evaluated)
     with np.errstate(over="ignore", invalid="ignore"):
-        reaction = result.normal_force[:, result.present].sum(axis=1)
+        reaction = result.total_normal_force(result.present)
     force = result.force[:, chosen]
     return {
         "reaction": Trace(reaction),

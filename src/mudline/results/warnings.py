@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.arguments import as_array
-from mudline.codes.contact import GEO005, RUN003, RUN004, SBD006
+from mudline.codes.contact import GEO005, RUN003, RUN004, RUN005, SBD006
 from mudline.codes.lines import SYN009
 from mudline.contact import ContactResult, LawKind
 from mudline.contact.result import Part
@@ -154,6 +154,7 @@ class ContactWatch:
         free = evaluated & (scene.law == LawKind.NONE)
         self._waiting = np.flatnonzero(free | (evaluated & (scene.submerged_weight < 0.0)))
         self._touched = np.zeros(len(evaluated), dtype=np.bool_)
+        self._restrained = np.zeros(len(scene.nodes), dtype=np.bool_)
         self._sprung = bool(scene.nodal.any()) or "SEABED SUCTION" in scene.extensions
         self._sprung |= bool((scene.resistance.column("suction") > 0.0).any())
         self._acts = False
@@ -181,6 +182,8 @@ class ContactWatch:
             touched = np.logical_or.reduce(contact, axis=0)[self._waiting]
             self._touched[self._waiting[touched]] = True
             self._waiting = self._waiting[~touched]
+        if result.restrained is not None:
+            self._restrained |= np.atleast_2d(result.restrained).any(axis=0)
         if not self._acts:
             self._acts = touches or self._is_held(result)
             if not self._acts:
@@ -206,16 +209,18 @@ class ContactWatch:
     def _weigh(self, contact: Mask, normal_force: Floats) -> _Balance:
         scene = self._scene
         law = scene.law[self._elements]
-        held = self._elements[contact[self._elements] & (law != LawKind.NONE) & (law != LawKind.RIGID)]
+        held = self._elements[contact[self._elements] & (law != LawKind.NONE)]
         with np.errstate(over="ignore", invalid="ignore"):
             weight = float((scene.submerged_weight[held] * scene.length[held]).sum())
-            return _Balance(float(normal_force[self._nodes].sum()), weight, held)
+            reaction = math.nan if (law == LawKind.RIGID).any() else float(normal_force[self._nodes].sum())
+            return _Balance(reaction, weight, held)
 
     # ----------------------------------------------------------------------------------------------- what it found
 
     def warnings(self) -> list[ContactWarning]:
         """What is doubtful, in the order of the deck; ask when all steps are taken."""
-        found = [*self._without_law(), *self._apart(), *self._unbalanced(), *self._floating(), *self._curves()]
+        found = [*self._without_law(), *self._on_rigid(), *self._apart(), *self._unbalanced()]
+        found += [*self._floating(), *self._curves()]
         return sorted(found, key=lambda one: one.diagnostic.sort_key)
 
     def note(self) -> str:
@@ -241,6 +246,17 @@ class ContactWatch:
         some = len(free) < len(self._elements)
         for missing in missing_laws(self._scene, free, self._unknown, some=some):
             yield self._warning(*missing)
+
+    def _on_rigid(self) -> Iterator[ContactWarning]:
+        """Elements that a rigid seabed holds at some step, as its force is not known."""
+        ends = self._restrained[self._scene.element_nodes[self._elements]].any(axis=1)
+        held = self._elements[ends & (self._scene.law[self._elements] == LawKind.RIGID)]
+        if held.size:
+            which = self._scene.describe(held, "is held", "are held")
+            message = f"{which} by a rigid seabed, a constraint: its force is not known, nor is the total reaction"
+            law = self._scene.set_law(int(held[0]))
+            where = None if law is None else law.where
+            yield self._warning(RUN005, message, where, held, "reaction of a rigid seabed not known")
 
     @cached_property
     def _unknown(self) -> list[UnknownKeyword]:
@@ -298,7 +314,8 @@ class ContactWatch:
     def _balanced(self, balance: _Balance) -> str:
         behind = unit_names(self._scene.units).behind("force")
         elements = counted(len(balance.elements), "element")
-        carried = f"total reaction {shown(balance.reaction)}{behind} on {elements} in contact"
+        reaction = "not known" if math.isnan(balance.reaction) else f"{shown(balance.reaction)}{behind}"
+        carried = f"total reaction {reaction} on {elements} in contact"
         if math.isnan(balance.weight):
             return f"{carried}, whose submerged weight is not known"
         more = " without coatings and contents" if self._weighs_more else ""

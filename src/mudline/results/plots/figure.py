@@ -69,7 +69,7 @@ def panels_of(data: PlotData, spelled: Spelled) -> list[Panel]:
             touches_down(data),
             Panel("touchdown", "time", partial(touchdown, data=data, stretch=stretch)),
         ),
-        (data.steps > 1, Panel("reaction", "time", partial(reaction, data=data))),
+        (data.steps > 1 and data.known, Panel("reaction", "time", partial(reaction, data=data))),
         (lined and data.pulled is not None, along["suction"]),
         (lined and data.slid is not None, along["friction"]),
         (touched and data.on_curve.size, Panel("curves", "own", partial(on_curves, data=data, spelled=spelled))),
