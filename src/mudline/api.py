@@ -94,23 +94,27 @@ class Scene:
     def _repr_html_(self) -> str:
         """Counts, laws, curves and sets, for notebooks."""
         from mudline.html_repr import html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
+        from mudline.results.summary import OPEN  # noqa: PLC0415 - as above
 
+        sets = [
+            (one.name, _members(len(one.elements), is_open=one.open)) for one in self._resolved.set_table.named.values()
+        ]
+        some_open = any(isinstance(number, str) for _, number in sets)
         counts = (
             ("nodes", len(self.node_ids)),
-            ("elements", len(self.element_ids)),
+            ("elements", _members(len(self.element_ids), is_open=self._resolved.set_table.everything.open)),
             ("sets", len(self.sets)),
             ("curves", len(self.curves)),
         )
         laws = Counter(self.law_names)
         curves = ((name, len(curve.ratios), float(curve.forces.max())) for name, curve in self.curves.items())
-        sets = ((name, len(numbers)) for name, numbers in self.sets.items())
         return html_page(
             "Scene",
-            f"{self.deck.file}, {self.units}",
+            f"{self.deck.file}, {self.units}{f'; {OPEN}' * some_open}",
             html_table(("", "number"), counts, 4),
             html_table(("law", "elements"), laws.items(), len(laws)),
             html_table(("curve", "points", "largest force"), curves, len(self.curves)),
-            html_table(("set", "elements"), sets, len(self.sets)),
+            html_table(("set", "elements"), sets, len(sets)),
         )
 
     @property
@@ -193,10 +197,19 @@ class Scene:
         compiling pays.
 
         Raises ImportError where "fast" is not installed, and DeckError for the findings that keep the scene from being
-        evaluated, and (RUN001) for what no check covers.
+        evaluated, and (RUN001) for what no check covers, as a deck without elements.
         """
         expect_word(tension, "tension", ("keep", "cut"), "'keep' or 'cut'")
+        if not len(self.element_ids):
+            from mudline.results.evaluation import require_elements  # noqa: PLC0415 - few scenes need it
+
+            require_elements(self._resolved.require_evaluable(tension))
         return self._resolved.contact(tension, backend=backend)
+
+
+def _members(number: int, *, is_open: bool) -> int | str:
+    """How many elements a set has; a text where it may have more, which are not read."""
+    return (f"{number}+" if number else "not known") if is_open else number
 
 
 def read(path: str | os.PathLike[str], *, units: str | None = None) -> Deck:

@@ -238,6 +238,12 @@ def test_positions_of_a_scene(path: Path, tmp_path: Path) -> None:
         mudline.read_positions(file, scene)
 
 
+def test_a_scene_without_elements_cannot_be_evaluated() -> None:
+    scene = mudline.from_keyword(CLEAN.partition("*NODE")[0]).scene()
+    with pytest.raises(mudline.DeckError, match="RUN001 the deck has no elements to evaluate"):
+        scene.contact()
+
+
 def test_scene_of_a_deck_with_errors(path: Path) -> None:
     deck = mudline.read(changed(path, ILLEGAL))
     with pytest.raises(mudline.DeckError, match="REF001") as caught:

@@ -101,15 +101,6 @@ class ContactResult:
         """Nodes (..., n) that a rigid seabed restrains along their `normal`: its own, at the seabed or below it."""
         return None if self.rigid is None else self.rigid & (self.gap <= 0.0)
 
-    def total_normal_force(self, nodes: IndexArray | BoolArray) -> FloatArray:
-        """Return the total normal force (...) on some nodes; NaN where a rigid seabed may hold one of them.
-
-        Its force follows from the equilibrium of the line, which is not known here. Nodes without a position count 0.
-        """
-        if self.rigid is not None and self.rigid[nodes].any():
-            return np.full(self.gap.shape[:-1], np.nan)
-        return np.asarray(np.nansum(self.normal_force[..., nodes], axis=-1))
-
     def friction_state_of(self, side: int) -> StateArray:
         """Return the states (..., n) along u1 (0) or u2 (1); -1 without friction."""
         if _whole(side, "side") not in (0, 1):
@@ -254,6 +245,16 @@ class Part:
     def steps(self) -> slice:
         """Where the steps stand among all steps."""
         return slice(self.start, self.start + self.count)
+
+
+def total_normal_force(result: ContactResult, nodes: IndexArray | BoolArray) -> FloatArray:
+    """Return the total normal force (...) on some nodes; NaN where a rigid seabed may hold one of them.
+
+    Its force follows from the equilibrium of the line, which is not known here. Nodes without a position count 0.
+    """
+    if result.rigid is not None and result.rigid[nodes].any():
+        return np.full(result.gap.shape[:-1], np.nan)
+    return np.asarray(np.nansum(result.normal_force[..., nodes], axis=-1))
 
 
 _OF_ALL_STEPS = ("evaluated", "present", "rigid", "given")

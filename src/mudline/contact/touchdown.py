@@ -12,7 +12,7 @@ from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.contact.columns import NO_ELEMENT, Column, Table, Values
 from mudline.contact.input import ContactInput, LawKind
 from mudline.contact.lines import ElementForce, LineSummary, TouchdownPoint
-from mudline.contact.result import ContactResult, Part
+from mudline.contact.result import ContactResult, Part, total_normal_force
 from mudline.quantities import LINES, finite
 
 _NOWHERE = (math.nan, math.nan, math.nan)
@@ -117,7 +117,7 @@ class Touchdown:
             first,
             last,
             lies,
-            result.total_normal_force(own),
+            total_normal_force(result, own),
             weight,
             *pushes,
             *pulls,

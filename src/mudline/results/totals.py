@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from mudline.contact import ContactResult
 from mudline.contact.lines import LineSummary
-from mudline.contact.result import Part
+from mudline.contact.result import Part, total_normal_force
 from mudline.contact.touchdown import LineSeries, Touchdown
 from mudline.quantities import SLIDING, STATES, Names, finite, shown
 from mudline.results.evaluation import Evaluation
@@ -113,7 +113,7 @@ def totals(evaluation: Evaluation, part: Part) -> list[Total]:
 def reaction(evaluation: Evaluation, result: ContactResult) -> float:
     """Total normal force of a step on all nodes; NaN on a rigid seabed, whose force is not known."""
     with np.errstate(over="ignore", invalid="ignore"):
-        return float(result.total_normal_force(evaluation.nodes))
+        return float(total_normal_force(result, evaluation.nodes))
 
 
 def _step(evaluation: Evaluation, time: float, result: ContactResult) -> StepTotal:
@@ -220,7 +220,7 @@ def traces(part: Part) -> dict[str, Trace]:
     """The figures of the steps of a part by the names of `STEPS`."""
     result, chosen = part.result, np.flatnonzero(part.result.evaluated)
     with np.errstate(over="ignore", invalid="ignore"):
-        reaction = result.total_normal_force(result.present)
+        reaction = total_normal_force(result, result.present)
     force = result.force[:, chosen]
     return {
         "reaction": Trace(reaction),
