@@ -101,6 +101,19 @@ def test_json(place: Place) -> None:
     assert found["seabed"] == ["elastic"]
 
 
+def test_springs_of_nodes_replace_the_law_of_their_set(place: Place) -> None:
+    """Element 2 has a spring at each of its nodes; it follows the curve no more."""
+    halves = CLEAN.replace(" 1, 2\n*GEO", " 1, 2\n SET=Rock\n 2\n*GEO")
+    found = run(
+        "show", place(f"{halves}*SEABED CONTACT\n SET=Rock\n NODAL STIFFNESS=250000\n"), "--output-format", "json"
+    ).json()
+    assert found["laws"] == [
+        {"law": "curve:Clay", "set": "Pipe", "elements": 1, "stiffness": None},
+        {"law": "nodal", "set": "Rock", "elements": 1, "stiffness": None},
+    ]
+    assert [curve["elements"] for curve in found["curves"]] == [1]
+
+
 def test_linear_law_shows_its_stiffness(place: Place) -> None:
     text = run("show", place(LINEAR)).out
     assert "stiffness" in text

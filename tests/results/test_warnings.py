@@ -249,6 +249,13 @@ def test_floating_pipe() -> None:
     assert brief(text + "$LOAD CASE\n*INTERNAL FLUID\n 30.0, 900.0\n") == []
 
 
+def test_what_springs_of_the_soil_hold_may_float() -> None:
+    """Half of the line is in the soil, without a law of the seabed; the other half floats."""
+    springs = "*P-Y\n SET=East\n DEPTH=0.0\n 0.0, 0.0\n 4000.0, 0.01\n"
+    text = pipe(LAW.replace("ALL", "West") + springs, di=0.3139)
+    assert brief(text) == [("RUN004", 18, 5, 1)]
+
+
 @pytest.mark.parametrize(("height", "found"), [("-0.02", [("RUN004", 24, 5, 6)]), ("30.0", [])])
 def test_what_floats_far_above_is_no_concern(height: str, found: list[object]) -> None:
     light = " SET=East\n 207.0E9, 79.6E9, 0.3239, 0.3139, 7850.0\n"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import asdict
 from typing import Any, NamedTuple
 
@@ -104,10 +105,9 @@ def _curves(scene: Scene) -> list[dict[str, Any]]:
 
 
 def followers(scene: Scene, curve: int) -> BoolArray:
-    """The elements (m,) that follow a curve."""
-    found: BoolArray = np.array([grant.curve == curve for grant in scene.laws.set_laws] + [False])[
-        scene.laws.of_element
-    ]
+    """The elements (m,) that follow a curve, which no extension keyword replaces."""
+    granted = np.array([grant.curve == curve for grant in scene.laws.set_laws] + [False])[scene.laws.of_element]
+    found: BoolArray = granted & (scene.law == LawKind.CURVE)
     return found
 
 
@@ -122,15 +122,18 @@ def _diameters(scene: Scene) -> list[dict[str, Any]]:
 
 
 def _laws(scene: Scene) -> list[dict[str, Any]]:
-    """Laws with the number of their elements; linear ones by stiffness."""
+    """Laws with the number of their elements; linear ones by stiffness; then those that replace what sets gave."""
     rows: list[dict[str, Any]] = []
+    own = scene.law == scene.laws_given
     for index, grant in enumerate(scene.laws.set_laws):
-        count = int((scene.laws.of_element == index).sum())
+        count = int(((scene.laws.of_element == index) & own).sum())
         if count:
             law = scene.law_name(grant)
             stiffness = grant.stiffness if grant.kind is LawKind.LINEAR else None
             rows.append({"law": law, "set": grant.set_.name, "elements": count, "stiffness": stiffness})
-    free = int((scene.laws.of_element < 0).sum())
+    replaced = Counter((scene.law_names[at], scene.law_sets[at]) for at in np.flatnonzero(~own).tolist())
+    rows += [{"law": law, "set": name, "elements": count, "stiffness": None} for (law, name), count in replaced.items()]
+    free = int(((scene.laws.of_element < 0) & own).sum())
     return [*rows, {"law": "none", "set": None, "elements": free, "stiffness": None}] if free else rows
 
 

@@ -20,6 +20,7 @@ from mudline.codes.lines import SYN009
 from mudline.contact import ContactResult, LawKind
 from mudline.contact.result import Part
 from mudline.diagnostics import Code, DeckError, Diagnostic, Problem, Severity, Where
+from mudline.keywords.catalogue import holds_in_soil
 from mudline.quantities import shown, unit_names
 from mudline.results.evaluation import Evaluation, evaluate_scene
 from mudline.results.laws_in_use import UnknownKeyword, missing_laws, unknown_keywords, unused_curves
@@ -326,6 +327,8 @@ class ContactWatch:
         """Elements in contact that float; where nothing is in contact, all of them if they do."""
         scene = self._scene
         floats = scene.submerged_weight[self._elements] < 0.0
+        if any(map(holds_in_soil, scene.deck.keywords())):  # springs of the soil hold what has no law of the seabed
+            floats &= scene.law[self._elements] != LawKind.NONE
         light = self._elements[floats & (self._touched[self._elements] | (not self._acts and bool(floats.all())))]
         if not light.size or self._weighs_more:
             return
