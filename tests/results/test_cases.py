@@ -15,6 +15,8 @@ from mudline.results.cases import CaseSummary, CaseWatch, worst_first, write_par
 from mudline.results.evaluation import Evaluation, evaluate_scene
 from mudline.scene.model import resolve
 from mudline.scene.positions import read_positions
+from tests.builders.decks import CLEAN
+from tests.builders.scenes import legal_scene
 from tests.samples import SAMPLES
 
 
@@ -53,6 +55,20 @@ def test_row_is_the_worst_of_the_lines() -> None:
     heaviest = max(lines, key=lambda line: line.reaction or 0.0)
     assert (found.reaction, found.ratio) == (heaviest.reaction, heaviest.ratio)
     assert (found.steps, found.in_contact, found.largest_uplift) == (8, 30, None)
+
+
+def test_a_conductor_in_the_soil_has_no_touchdown() -> None:
+    """The line touches down on a quarter of element 2; of a conductor of 9 m beside it 6 m are in the soil."""
+    conductor = CLEAN.replace("*ELEMENT\n", " 4, -6.0, 40.0\n 5, 3.0, 40.0\n*ELEMENT\n 3, 4, 5\n", 1)
+    rows = []
+    for text in (CLEAN, conductor + "*P-Y\n SET=ALL\n DEPTH=0.0\n 0.0, 0.0\n 4000.0, 0.01\n"):
+        evaluation = evaluate_scene(legal_scene(text))
+        watch = CaseWatch(evaluation)
+        for part in evaluation.parts():
+            watch.take(part)
+        rows.append(watch.summary("deck", [], None))
+    assert rows[1].touchdown_from == rows[0].touchdown_from == pytest.approx(10.0 + 10.008 / 4, rel=1e-4)
+    assert rows[1].contact_length == rows[0].contact_length
 
 
 def test_row_does_not_depend_on_how_many_steps_come_at_a_time() -> None:

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mudline.codes.contact import SBD025
+from mudline.contact.input import LawKind
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
@@ -287,7 +288,9 @@ def _contact(scene: Scene, made: Report) -> dict[str, Any]:
     warnings = watch.warnings()
     made.doubt = caption(warnings)
     result = part.result.step(0)
-    depth = np.where(result.evaluated & ~np.isnan(result.depth), result.depth, -np.inf)
+    lying = scene.law != LawKind.NONE  # others may be held in soil
+    lying = lying if lying.any() else ~lying
+    depth = np.where(lying & result.evaluated & ~np.isnan(result.depth), result.depth, -np.inf)
     deepest = int(depth.argmax()) if depth.size else -1
     touches = deepest >= 0 and depth[deepest] > 0.0
     return {

@@ -9,6 +9,7 @@ from typing import BinaryIO, Literal
 
 import numpy as np
 
+from mudline.contact.input import LawKind
 from mudline.contact.result import Part
 from mudline.contact.touchdown import Touchdown
 from mudline.quantities import finite
@@ -93,6 +94,8 @@ class CaseWatch:
     def __init__(self, evaluation: Evaluation) -> None:
         self._evaluation = evaluation
         self._finder = Touchdown(evaluation.model.input)
+        lying = evaluation.model.input.law != LawKind.NONE
+        self._lying = {line for line, each in enumerate(self._finder.lines.elements) if lying[each].any()}
         self._touching = 0
         self._from, self._to, self._length = math.inf, -math.inf, 0.0
         self._force, self._uplift = _Worst(1.0), _Worst(-1.0)
@@ -101,6 +104,7 @@ class CaseWatch:
     def take(self, part: Part) -> None:
         """Look at some steps."""
         result, lines = part.result, self._finder.series(part)
+        lines = [line for line in lines if line.number in self._lying] or lines  # others may be held in soil
         self._touching = max(self._touching, int(result.contact[:, self._evaluation.elements].sum(axis=1).max()))
         if not lines:
             return
