@@ -68,7 +68,8 @@ def test_extremes_are_those_of_all_results(place: Place, folder: Path, deck: str
         assert found["nodes_slip_steps"].tolist() == np.broadcast_to(slips, (STEPS, 3)).sum(axis=0).tolist()
         held = np.isin(np.broadcast_to(whole["state"], (STEPS, 2)), ("suction", "hold"))
         assert found["elements_suction_steps"].tolist() == held.sum(axis=0).tolist()
-        assert found["totals_largest"][0] == whole["normal_force"].sum(axis=1).max()
+        total = np.nan if deck == RIGID else whole["normal_force"].sum(axis=1).max()  # of a constraint it is not known
+        np.testing.assert_equal(found["totals_largest"][0], total)
 
 
 @pytest.mark.usefixtures("long")
