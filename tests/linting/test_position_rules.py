@@ -241,6 +241,13 @@ def test_a_profile_has_one_finding(
         assert [(one.code, str(one.severity)) for one in findings] == told
 
 
+def test_nodes_beyond_a_steep_profile_are_deep() -> None:
+    """The bed rises by 12 from Y = -1 to 0 and is level from there on: nodes at Y > 0 lie 12.05 below it."""
+    steep = "*ELASTIC SURFACE\n 50000.0\n -1.0, 0.0\n 0.0, 12.0\n"
+    assert len(found(PIPE + steep, "SBD022")) == 1
+    assert found(PIPE + steep.replace("0.0, 12.0", "0.0, 1.1"), "SBD022") == []  # 1.15 of 1.25
+
+
 # ------------------------------------------------------------------------------------------- what lies where it should
 
 INNER = "*ELEMENT SETS\n SET=Outer\n GEN=1, 5\n SET=Inner\n GEN=6, 10\n"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from mudline.deck.loading import load_bytes
@@ -154,6 +156,35 @@ def test_a_steep_slope_is_a_warning_and_a_vertical_one_an_error() -> None:
     for slope, severity in ((45.1, "warning"), (-89.9, "warning"), (90.0, "error")):
         text = f"{PIPE}*SEABED PROFILE\n TYPE=SLOPING\n SLOPE={slope}\n"
         assert [one.severity for one in lint_bytes(text.encode(), "deck.keyxm", select(["SBD012"]))] == [severity]
+
+
+@pytest.mark.parametrize(
+    ("points", "expected"),
+    [
+        ([(0.0, 0.0), (-0.8, 60.0), (-1.2, 120.0)], "rises by 120 and is 1.2 wide in Y"),
+        ([(0.0, 0.0), (60.0, -0.8), (120.0, -1.2)], ""),
+        ([(0.0, 0.0), (60.0, 60.0)], ""),
+    ],
+)
+def test_a_profile_that_is_higher_than_wide(points: list[tuple[float, float]], expected: str) -> None:
+    lines = "".join(f" {y}, {elevation}\n" for y, elevation in points)
+    text = PIPE + "*ELASTIC SURFACE\n 50000.0\n" + lines
+    findings = lint_bytes(text.encode(), "deck.keyxm", select(["SBD012"]))
+    assert len(findings) == bool(expected)
+    assert all(expected in one.message for one in findings)
+
+
+@pytest.mark.parametrize(
+    ("files", "expected"),
+    [
+        ("0, 0, 0\n100, 0.5, -40\n200, -0.5, 40\n", 1),  # Y, elevation, Z: it spans 1 by 80
+        ("0, 0, 0\n0.5, 100, -40\n-0.5, 200, 40\n", 0),
+    ],
+)
+def test_a_surface_that_is_higher_than_wide(files: str, expected: int, tmp_path: Path) -> None:
+    (tmp_path / "bed.txt").write_text(files, encoding="utf-8")
+    text = PIPE + PROPERTIES + "*SEABED PROFILE\n TYPE=3D\n FILE=bed.txt\n"
+    assert len(lint_bytes(text.encode(), "deck.keyxm", select(["SBD012"]), folder=tmp_path)) == expected
 
 
 # ----------------------------------------------------------------------------------------------------- uNT001 to UNT003

@@ -181,9 +181,11 @@ def _slopes(points: Floats) -> Floats:
 
 
 def _below_profile(floor: SeabedShape, x: Floats, along: Floats) -> Floats:
+    """Distances to the profile at least; beyond its ends, where it is level, they are exact."""
     points = floor.points[np.argsort(floor.points[:, 0], kind="stable")]
     steepest = float(_slopes(points).max(initial=0.0))
-    below: Floats = (np.interp(along, points[:, 0], points[:, 1]) - x) / np.hypot(1.0, steepest)
+    below: Floats = np.interp(along, points[:, 0], points[:, 1]) - x
+    below[(along >= points[0, 0]) & (along <= points[-1, 0])] /= np.hypot(1.0, steepest)
     return below
 
 

@@ -14,7 +14,7 @@ from mudline.keywords.text import shown
 from mudline.scene.checks import check
 from mudline.scene.context import EXTENSION
 from mudline.scene.deck_values import file_name, missing_files, number
-from mudline.scene.seabed import COMPILED, SeabedKind
+from mudline.scene.seabed import COMPILED, SeabedKind, SeabedShape
 from mudline.syntax.source import BINARY
 
 if TYPE_CHECKING:
@@ -76,7 +76,8 @@ def steep_slope(scene: ResolvedDeck) -> Iterator[Problem]:
     """The slope of the seabed is steep.
 
     A slope is an angle in degrees: one of 90 or more is not a seabed, and one above 45 is steeper than soil can stand.
-    A gradient in percent, typed as degrees, is a common cause. Correct it.
+    A gradient in percent, typed as degrees, is a common cause. Correct it. A profile that rises by more than its whole
+    width most likely has its columns exchanged: those of 2D are Y and elevation, those of 3D elevation, Y and Z.
 
     Example:
          $MODEL
@@ -99,6 +100,22 @@ def steep_slope(scene: ResolvedDeck) -> Iterator[Problem]:
         elif abs(slope) > _STEEP:
             message = f"slope {slope!r} is over 45 degrees, steeper than soil can stand: correct it"
             yield Problem(SBD012, message, None, Severity.WARNING, place)
+    if scene.seabed.points.size:
+        yield from _exchanged_columns(scene.seabed)
+
+
+def _exchanged_columns(floor: SeabedShape) -> Iterator[Problem]:
+    """A profile or surface that is higher than it is wide."""
+    extents = np.ptp(floor.points, axis=0)
+    surface = floor.kind is SeabedKind.SURFACE
+    rise, *sides = extents if surface else extents[::-1]
+    if rise > math.hypot(*sides):
+        form, wide = ("elevation, Y, Z", "wide") if surface else ("Y, elevation", "wide in Y")
+        message = (
+            f"the profile rises by {rise:.5g} and is {math.hypot(*sides):.5g} {wide}, steeper than soil can stand: "
+            f"are its columns exchanged? expected `{form}` for each point"
+        )
+        yield Problem(SBD012, message, None, Severity.WARNING, floor.where)
 
 
 @check(SBD023)
