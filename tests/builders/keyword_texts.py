@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from mudline.deck.loading import dump, load_bytes
 from mudline.diagnostics import DeckError
-from mudline.keywords.text import cut_number
+from mudline.keywords.numbers import cut_number
 from tests.builders.documents import document
 from tests.builders.spellings import cased, comments, gaps, pads
 

@@ -139,3 +139,22 @@ def test_samples() -> None:
     assert {verdicts.pop(f"{name}.keyxm") for name in ("broken", "scr-vessel-bad")} == {"illegal"}
     assert {verdict.partition(":")[0] for verdict in verdicts.values()} <= {"legal", "legal as far as read"}
     assert len(verdicts) >= 6
+
+
+def test_a_deck_of_misspelt_keywords_alone_is_illegal(place: Place) -> None:
+    """As a spreadsheet saves it, with separators behind the names: nothing of it was read, so nothing is legal."""
+    exported = "".join(f"{line};;\n" if line[0] in "$*" else f"{line}\n" for line in CLEAN.splitlines())
+    outcome = run("validate", place(exported), "--output-format", "json")
+    (deck,) = outcome.json()["decks"]
+    assert outcome.code == 1
+    assert (deck["verdict"], deck["keywords"]["read"], deck["warnings"]) == ("illegal", 0, 0)
+    assert [each["code"] for each in deck["findings"]] == ["SYN010", *["SYN009"] * deck["keywords"]["total"]]
+    assert {each["severity"] for each in deck["findings"]} == {"error"}
+
+
+def test_keywords_without_a_near_name_leave_a_deck_legal_as_far_as_read(place: Place) -> None:
+    outcome = run("validate", place("$MODEL\n*GUIDE\n x\n"), "--output-format", "json")
+    assert (outcome.code, outcome.json()["decks"][0]["verdict"]) == (
+        0,
+        "legal as far as read: 0 of 1 keyword; not read: *GUIDE",
+    )

@@ -13,8 +13,9 @@ SYN002 = Code(
 
     A letter O for a zero, two decimal points or a value that a spreadsheet wrote as NaN are easily overlooked, and
     programs differ in what they make of them: some stop, some read the digits up to the first strange character. Values
-    that are infinite or too large for double precision are no numbers either. Correct the field; an equation is written
-    `=[...]`.
+    that are infinite or too large for double precision are no numbers either. Nor is what a word processor made of
+    one: a dash or another minus sign, a blank that does not break, wide digits. Correct the field; an equation is
+    written `=[...]`.
 
     Example:
          $MODEL

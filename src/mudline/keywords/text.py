@@ -14,6 +14,7 @@ from mudline.codes.fields import SYN002, SYN003, SYN015, SYN016
 from mudline.codes.lines import SYN001, SYN004, SYN005
 from mudline.diagnostics import Problem, Repair, Severity, Span
 from mudline.keywords.model import FieldSpec, columns_of, record_schema
+from mudline.keywords.numbers import looks_numeric, maybe_number, not_a_number, not_finite
 from mudline.keywords.places import Path, Places
 from mudline.keywords.table import LARGEST_WHOLE, Column, Table, from_rows, not_whole, row_format
 from mudline.keywords.values import Equation, Kind, Label
@@ -21,7 +22,7 @@ from mudline.limits import MOST_REPORTED
 from mudline.spelling import Effort, nearest
 from mudline.syntax.fields import Field, is_one_field, split, trimmed
 from mudline.syntax.rows import Rows as RawRows
-from mudline.syntax.rows import read_number, read_rows, row_fields, row_starts, spells_number
+from mudline.syntax.rows import read_number, read_rows, row_fields, row_starts
 
 Value = float | int | str | None
 _REAL = (Kind.REAL, Kind.REAL_OR_NAME)
@@ -29,9 +30,6 @@ MIXED_FIELDS = 4
 """Fields of a row in which a comma can be a decimal one beside others that are not: with fewer nobody can tell."""
 _WHOLE = re.compile(r"[-+]?[0-9]+")
 _FRACTION = re.compile(r"[0-9]+(?:[eEdD][-+]?[0-9]+)?")
-
-_GROUPED = re.compile(r"[-+]?[0-9]{1,3}(?:[ '_\xa0\u202f][0-9]{3})+(?:\.[0-9]*)?")
-"""A number with its digits in groups of three."""
 
 
 class UnreadableError(Exception):
@@ -48,7 +46,7 @@ def read_value(field: Field, slot: FieldSpec, problems: list[Problem]) -> Value:
         return field.text
     if slot.kind is Kind.OTHER:
         return _open_choice(field, slot, problems)
-    if slot.choices and (slot.kind is None or not _maybe_number(field.text)):
+    if slot.choices and (slot.kind is None or not maybe_number(field.text)):
         return _choice(field, slot)
     equation = None if slot.kind is Kind.IDENT else Equation.match(field.text)
     return equation or _number(field, slot, problems)
@@ -59,9 +57,9 @@ def _number(field: Field, slot: FieldSpec, problems: list[Problem]) -> Value:
     if number is None:
         if slot.kind in (Kind.IDENT, Kind.WHOLE_OR_LABEL):
             return _label(field, slot, problems)
-        if slot.kind is Kind.REAL_OR_NAME and not field.text.startswith("=[") and not _looks_numeric(field.text):
+        if slot.kind is Kind.REAL_OR_NAME and not field.text.startswith("=[") and not looks_numeric(field.text):
             return field.text
-        raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label), field.span))
+        raise UnreadableError(not_a_number(field.text, field.span, slot.label))
     if slot.kind not in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL):
         return number
     if not number.is_integer() or abs(number) > LARGEST_WHOLE:
@@ -74,7 +72,7 @@ def _label(field: Field, slot: FieldSpec, problems: list[Problem]) -> Label:
         return label
     braced = maybe_label(field.text)
     if braced is None:
-        raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label, slot.kind), field.span))
+        raise UnreadableError(not_a_number(field.text, field.span, slot.label, slot.kind))
     message = f"{shown(field.text)} is not a number: if it is a label, write {braced}"
     problems.append(Problem(SYN016, message, field.span, repair=in_braces(field.text, field.span)))
     return braced
@@ -82,55 +80,14 @@ def _label(field: Field, slot: FieldSpec, problems: list[Problem]) -> Label:
 
 def reads_as_name(text: str) -> bool:
     """Whether a field where a number or a name belongs takes this text, as it stands, for a name."""
-    return is_one_field(text) and not _maybe_number(text)
+    return is_one_field(text) and not maybe_number(text)
 
 
 def maybe_label(text: str) -> Label | None:
     """A text that is a label if its braces were forgotten: it begins with a letter, and is no NaN or infinity."""
-    if not text[:1].isalpha() or _not_finite(text):
+    if not text[:1].isalpha() or not_finite(text):
         return None
     return Label.match("{" + text + "}")
-
-
-def _maybe_number(text: str) -> bool:
-    """Whether a text is a number or an equation, or was meant as one."""
-    return text.startswith("=") or read_number(text) is not None or _looks_numeric(text)
-
-
-def _looks_numeric(text: str) -> bool:
-    """Whether a text that is not a finite number was meant as one."""
-    return _not_finite(text) or spells_number(text) or bool(_GROUPED.fullmatch(text))
-
-
-def _not_finite(text: str) -> bool:
-    return text.lower().lstrip("+-") in ("nan", "inf", "infinity")
-
-
-def cut_number(text: str) -> bool:
-    """Whether a text is the beginning of a number: a sign, or digits with an exponent that has none."""
-    return text in ("+", "-") or (text.rstrip("+-")[-1:] in ("e", "E", "d", "D") and spells_number(f"{text}0"))
-
-
-def number_fault(text: str, label: str, kind: Kind | None = None) -> str:
-    """Why a text is not a number, in words that say what to do."""
-    lower = text.lower().lstrip("+-")
-    if _not_finite(text):
-        return f"{text!r} is not a finite number: {label} needs a number"
-    if kind is Kind.IDENT and Equation.match(text):
-        return f"{shown(text)} is an equation: expected {kind.value} for {label}"
-    if text.startswith(("[", "=")):
-        return f"{text!r} is not an equation: write =[...] for {label}"
-    if lower[:1].isdigit() and any(mark in lower for mark in "ed"):
-        try:
-            float(lower.replace("d", "e"))
-        except ValueError:
-            pass
-        else:
-            return f"{text} is too large for a double-precision number: {label} must be below 1.8E308"
-    if _GROUPED.fullmatch(text):
-        whole = "".join(char for char in text if char in "+-.0123456789")
-        return f"{text!r} is not a number because its digits are grouped: write {whole} for {label}"
-    return f"{shown(text)} is not a number: expected a number or an equation =[...] for {label}"
 
 
 def shown(text: str) -> str:
@@ -441,9 +398,8 @@ class TableBuilder:
             return
         place = row_fields(text, line, len(self.columns))[column].span
         word = raw.words.get((row, column))
-        if word:
-            fault = number_fault(word, self.columns[column].label, self.columns[column].kind)
         if word == "":
             self.builder.short(fault, place)
-        else:
-            self.builder.problems.append(Problem(SYN002, fault, place))
+            return
+        wrong = word and not_a_number(word, place, self.columns[column].label, self.columns[column].kind)
+        self.builder.problems.append(wrong or Problem(SYN002, fault, place))

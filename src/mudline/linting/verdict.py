@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import NamedTuple
 
@@ -63,11 +63,15 @@ def judge(context: LintContext) -> Judgement:
     wrong = [one for one in problems if one.weight is Severity.ERROR]
     # of the deck itself as it is written, and not as it was meant
     wrong = wrong or [one for one in context.scene.errors() if not of_base(deck, one)]
-    if not wrong and any(one.repair for one in deck.problems):  # a name that was meant otherwise is not what it says
-        wrong = [one for one in context.scene.blocking() if one.weight is not Severity.INFO]
-    errors = deck.diagnose(wrong)
-    warnings = _warnings(context, problems, legal=not errors)
     keywords = coverage_of(deck)
+    misspelt = [one for one in deck.problems if one.repair]
+    if not wrong and misspelt:  # a name that was meant otherwise is not what it says
+        wrong = [one for one in context.scene.blocking() if one.weight is not Severity.INFO]
+        if not (wrong or keywords.read or keywords.partly):  # nothing of the deck was judged
+            wrong = [replace(one, severity=Severity.ERROR) for one in misspelt]
+    errors = deck.diagnose(wrong)
+    known = {(one.code, one.line) for one in errors}
+    warnings = [one for one in _warnings(context, problems, legal=not errors) if (one.code, one.line) not in known]
     curves, elements = len(context.scene.laws.curves), len(context.scene.element_ids)
     verdict = "illegal" if errors else _legal(len(warnings), keywords) if deck.sections else "empty"
     counts = (len(deck.sections), keywords, curves, elements, len(errors), len(warnings))
