@@ -23,6 +23,7 @@ from mudline.keywords.text import (
     instead,
     mixed_commas,
     read_value,
+    semicolons,
 )
 from mudline.keywords.unknown import UNKNOWN, Partly
 from mudline.keywords.values import Kind, Names
@@ -339,6 +340,9 @@ class Builder:
             fields = self._apart(fields[0])
         while len(fields) > max(fewest, 1) and not fields[-1].text:
             fields.pop()
+        if len(columns) > 1 and (problem := semicolons(self.text, fields)):
+            self.problems.append(problem)
+            return fields[:1]
         if fewest <= len(fields) <= len(columns):
             if problem := mixed_commas(fields, [slot.kind for slot in columns], fewest):
                 self.problems.append(problem)

@@ -22,13 +22,14 @@ from mudline.limits import MOST_REPORTED
 from mudline.spelling import Effort, nearest
 from mudline.syntax.fields import Field, is_one_field, split, trimmed
 from mudline.syntax.rows import Rows as RawRows
-from mudline.syntax.rows import read_number, read_rows, row_fields, row_starts
+from mudline.syntax.rows import read_number, read_rows, row_fields, row_starts, spells_number
 
 Value = float | int | str | None
 _REAL = (Kind.REAL, Kind.REAL_OR_NAME)
 MIXED_FIELDS = 4
 """Fields of a row in which a comma can be a decimal one beside others that are not: with fewer nobody can tell."""
 _WHOLE = re.compile(r"[-+]?[0-9]+")
+_DECIMAL = re.compile(r"[-+]?[0-9]+,[0-9]+(?:[eEdD][-+]?[0-9]+)?")
 _FRACTION = re.compile(r"[0-9]+(?:[eEdD][-+]?[0-9]+)?")
 
 
@@ -125,6 +126,20 @@ def decimal_comma(values: list[Field], kinds: list[Kind | None], fewest: int) ->
         if sum(widths) == len(values) > length and len(numbers) >= len(values) - names and _is_tight(*values[first:]):
             return _two_fields(values[first], values[first + 1], Severity.ERROR)
     return None
+
+
+def semicolons(text: str, fields: list[Field]) -> Problem | None:
+    """The finding about numbers that semicolons separate, as a spreadsheet writes them where commas are decimal."""
+    if not any(";" in field.text for field in fields):
+        return None
+    span = Span(fields[0].span.start, fields[-1].span.end)
+    numbers = [part.strip() for part in text[span.start : span.end].split(";")]
+    numbers = [part.replace(",", ".") if _DECIMAL.fullmatch(part) else part for part in numbers]
+    if not all(map(spells_number, numbers)):
+        return None
+    message = "the numbers are separated by semicolons: write commas between them"
+    repair = Repair("unsafe", f"write {', '.join(numbers)}", ((span, ", ".join(numbers)),))
+    return Problem(SYN003, message, span, repair=repair)
 
 
 def _is_tight(one: Field, two: Field, *_: Field) -> bool:
@@ -388,6 +403,9 @@ class TableBuilder:
             if problem := decimal_comma(fields, [column.kind for column in self.columns], sum(required)):
                 self.builder.problems.append(problem)
                 return
+            if problem := semicolons(text, fields):
+                self.builder.problems.append(problem)
+                return
             wanted = row_format([column.label for column in self.columns], required)
             place = Span(fields[0].span.start, fields[-1].span.end)
             message = f"{fault} (`{wanted}`)"
@@ -400,6 +418,9 @@ class TableBuilder:
         word = raw.words.get((row, column))
         if word == "":
             self.builder.short(fault, place)
+            return
+        if word and (problem := semicolons(text, row_fields(text, line, len(self.columns)))):
+            self.builder.problems.append(problem)
             return
         wrong = word and not_a_number(word, place, self.columns[column].label, self.columns[column].kind)
         self.builder.problems.append(wrong or Problem(SYN002, fault, place))
