@@ -6,7 +6,7 @@ text, or a path into the values). A *diagnostic* is the public form of the same 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import NamedTuple
@@ -58,7 +58,10 @@ class Where(NamedTuple):
 
 
 class Blocks(StrEnum):
-    """Whether a finding keeps a deck from being evaluated, whatever severity a configuration gives it."""
+    """Whether a finding keeps a deck from being evaluated, whatever severity a configuration gives it.
+
+    The members are in ascending order.
+    """
 
     NEVER = "never"
     WITH_TENSION = "with tension keep"
@@ -126,6 +129,11 @@ class Problem:
     def blocking(self) -> Blocks:
         """Whether the deck can be evaluated in spite of it."""
         return self.blocks or (Blocks.ALWAYS if self.weight is Severity.ERROR else Blocks.NEVER)
+
+
+def strongest(problems: Iterable[Problem]) -> Blocks:
+    """Return how far problems keep a deck from being evaluated: as the one that does so the most."""
+    return max((one.blocking for one in problems), key=[*Blocks].index)
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,7 +17,7 @@ from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.limits import MOST_PASSES
 from mudline.linting import fixing as fixing_module
-from mudline.linting.engine import Fixing, LintSettings
+from mudline.linting.engine import Fixing, LintSettings, lint_bytes
 from mudline.linting.fixing import Fixed, fix_bytes, lint_one, with_severities
 from mudline.linting.registry import rules
 from mudline.linting.rule import LintContext, Rule
@@ -45,9 +45,10 @@ def changed(text: str, *chosen: Rule, fixing: Fixing = Fixing.SAFE) -> str:
 
 
 def test_all_findings_of_a_pass_are_fixed_at_once() -> None:
-    result = fix(DECK.replace(", ", ",\t"), TABS)
+    text = DECK.replace(", ", ",\t")
+    result = fix(text, TABS)
     assert result.changed == DECK.encode()
-    assert len(result.fixed) == DECK.count(", ")
+    assert list(result.fixed) == lint_bytes(text.encode(), "deck.keyxm", (TABS,))
     assert result.note == ""
 
 
@@ -270,7 +271,8 @@ def test_errors_of_reading_may_be_fixed_themselves() -> None:
     mend = replacing("STIFNESS", "STIFFNESS", code="SYN004", kind="unsafe", severity=Severity.ERROR)
     assert fix(text, mend, TABS).changed is None
     assert changed(text, mend, TABS, fixing=Fixing.UNSAFE) == DECK
-    wrong = replacing("STIFNESS", "STIFNES", code="SYN004", kind="unsafe", severity=Severity.ERROR)
+    text = text.replace("STIFNESS", "PRICE")
+    wrong = replacing("PRICE", "PRICES", code="SYN004", kind="unsafe", severity=Severity.ERROR)
     assert fix(text, wrong, TABS, fixing=Fixing.UNSAFE).changed is None
 
 

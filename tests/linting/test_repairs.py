@@ -159,6 +159,12 @@ def test_a_point_that_stands_there_again_is_removed(rows: str, wanted: str) -> N
     assert fixed(CLAY + rows, "CRV004", fixing=Fixing.SAFE) == CLAY + wanted
 
 
+@pytest.mark.parametrize("used", ["Clay", "Sand"])
+def test_no_fix_removes_the_first_point_of_a_curve_whose_name_is_missing(used: str) -> None:
+    text = f"{CLAY} 0, 0\n 0.5, 4000\n 0, 0\n 0.5, 9000\n".replace("STIFFNESS=Clay", f"STIFFNESS={used}")
+    assert fixed(text, fixing=Fixing.SAFE) is None
+
+
 def test_a_point_that_is_equal_by_an_equation_is_kept() -> None:
     found = findings(f"{CLAY} 0, 0\n 0.5, 4000\n 0.5, =[2 * 2000]\n", "CRV004")
     assert [one.fix for one in found] == [None]

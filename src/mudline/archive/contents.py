@@ -24,10 +24,10 @@ from mudline.keywords.catalogue import is_extension, is_superseded
 from mudline.keywords.keeping import kept_lines
 from mudline.keywords.table import AS_TABLES, Listing
 from mudline.keywords.values import Equation, Names
-from mudline.linting.engine import LintSettings, lint_context, problems_in
+from mudline.linting.engine import LintSettings, lint_context
 from mudline.linting.fixing import with_severities
-from mudline.linting.registry import rules
-from mudline.linting.rule import LintContext, Noticed
+from mudline.linting.rule import LintContext
+from mudline.linting.verdict import all_findings, errors_of
 from mudline.scene.deck_curves import OF_SEABED, other_curves
 from mudline.scene.deck_values import bare, number
 from mudline.scene.model import Scene
@@ -93,9 +93,7 @@ class _Deck:
         self._laws()
         self._parameters()
         counts = Counter(one.severity for one in found)
-        illegal = counts[Severity.ERROR] or any(
-            one.weight is Severity.ERROR for one in problems_in(self.context, _checks())
-        )
+        illegal = errors_of(all_findings(self.context))
         oceans = [block for _, block in self.scene.deck.blocks("OCEAN")]
         row = (
             self.deck.units,
@@ -210,11 +208,6 @@ class _Deck:
             amount = None if text is not None or value is None else float(value)
             row = (found.name, amount, text, equation, is_used, self._line(found.where))
             self.made["parameters"].append(row)
-
-
-def _checks() -> list[Any]:
-    """The rules whose findings say whether a deck is legal."""
-    return [one for one in rules() if isinstance(one.check, Noticed)]
 
 
 def _names_in_equations(data: bytes) -> set[str]:

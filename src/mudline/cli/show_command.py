@@ -14,9 +14,11 @@ from mudline.diagnostics import Coverage
 from mudline.keywords import catalogue
 from mudline.keywords.values import SUBJECTS
 from mudline.limits import SHOWN_ROWS
+from mudline.linting.engine import of_base
+from mudline.linting.rule import LintContext
+from mudline.linting.verdict import all_findings, errors_of
 from mudline.quantities import UnitNames, headed, shown, unit_names
 from mudline.results.summary import OPEN, summarise
-from mudline.scene.model import resolve
 from mudline.short_repr import counted
 
 if TYPE_CHECKING:
@@ -31,9 +33,10 @@ def command(*, deck: GivenDeck, output_format: str, view: View) -> int:
 
     A deck with errors is shown as far as it can be read; the exit code is then 1.
     """
-    scene = resolve(deck.load())
+    context = LintContext(deck.load())
+    scene = context.scene
     summary = summarise(scene)
-    errors = scene.errors()
+    errors = [*errors_of(all_findings(context)), *(one for one in scene.errors() if of_base(context.deck, one))]
     if output_format == "json":
         emit_json(summary)
     else:

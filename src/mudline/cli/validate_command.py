@@ -67,17 +67,18 @@ def command(
     """Validate decks: print the errors of each, then a table with a row per deck.
 
     A deck is legal when no rule of severity error finds anything, and when it has a section at all. Warnings are
-    counted in its verdict, those about a pipe without a seabed under it among them; -v prints them too. A deck of which
-    not all keywords could be read is legal as far as it was read, and the verdict says how far that is.
+    counted in its verdict, those about a pipe without a seabed under it among them; -v and JSON list them too. A deck
+    of which not all keywords could be read is legal as far as it was read, and the verdict says how far that is.
 
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that begin
     as decks do), URLs of either, or - for standard input. Of many decks -q shows the table without the errors.
     """
     inputs = collect_any_form(paths, stdin_name, gitignore=not every_file, urls=True)
-    total, wanted = Total(), Wanted(inputs, units, no_outside)
+    listed = view.verbose or output_format == "json"
+    total, wanted = Total(), Wanted(inputs, units, no_outside, listed)
     shown = wants_bar(view) and (output_format == "text" or not sys.stdout.isatty())
     progress = Progress(len(inputs.files), view, shown=shown)
-    with executor(jobs, scheduler) as pool, closing(_judged(pool, wanted, total, view, progress)) as judged:
+    with executor(jobs, scheduler) as pool, closing(_judged(pool, wanted, total, progress)) as judged:
         if output_format == "json":
             _print_json(judged, total)
         elif output_format == "csv":
@@ -139,11 +140,19 @@ class Judged(NamedTuple):
 
 
 class Wanted(NamedTuple):
-    """The decks, the units that they are read in, and whether they may name no file outside of their project."""
+    """The decks, and how they are read.
+
+    Attributes:
+        inputs: the decks.
+        units: their units, None for those of each file.
+        no_outside: they may name no file outside of their project.
+        warnings: list their warnings in addition to their errors.
+    """
 
     inputs: Inputs
     units: str | None
     no_outside: bool
+    warnings: bool
 
 
 class Order(NamedTuple):
@@ -153,12 +162,12 @@ class Order(NamedTuple):
     file: Input
     units: str | None
     no_outside: bool
-    verbose: bool
+    warnings: bool
     here: str
 
 
 def judge_order(order: Order) -> tuple[Verdict, list[Diagnostic]]:
-    """The verdict on a deck and its errors; `verbose` adds the warnings."""
+    """The verdict on a deck and its errors, with its warnings where they are listed."""
     with refusing_outside(lambda folder: order.no_outside or refuses_outside(folder)):
         return _judge_order(order)
 
@@ -170,16 +179,16 @@ def _judge_order(order: Order) -> tuple[Verdict, list[Diagnostic]]:
     except DeckError as error:
         return refused(file.name, error), list(error.diagnostics)
     verdict, errors, warnings = judge(LintContext(deck))
-    found = sorted([*errors, *warnings], key=lambda one: one.sort_key) if order.verbose else errors
+    found = sorted([*errors, *warnings], key=lambda one: one.sort_key) if order.warnings else errors
     return verdict, found
 
 
 # ------------------------------------------------------------------------------------------------------- all files
 
 
-def _judged(pool: Pool, wanted: Wanted, total: Total, view: View, progress: Progress) -> Generator[Judged, None, None]:
+def _judged(pool: Pool, wanted: Wanted, total: Total, progress: Progress) -> Generator[Judged, None, None]:
     """Each deck that can be read; all are counted. The bar is hidden while a deck with errors is printed."""
-    orders = _orders(wanted, total, view, progress)
+    orders = _orders(wanted, total, progress)
     with progress, closing(in_order(pool, judge_order, orders, len(wanted.inputs.files))) as results:
         for data, made in results:
             if made is not None and data is not None:
@@ -191,9 +200,7 @@ def _judged(pool: Pool, wanted: Wanted, total: Total, view: View, progress: Prog
             progress.advance()
 
 
-def _orders(
-    wanted: Wanted, total: Total, view: View, progress: Progress
-) -> Iterator[tuple[bytes | None, Order | None]]:
+def _orders(wanted: Wanted, total: Total, progress: Progress) -> Iterator[tuple[bytes | None, Order | None]]:
     """The content of each file and what is sent of it; None for one that cannot be read."""
     here = os.getcwd()  # noqa: PTH109 - sent as text
     for file in wanted.inputs.files:
@@ -205,7 +212,7 @@ def _orders(
             wanted.inputs.fail(f"{file.name}: {reason(error)}")
             yield None, None
         else:
-            yield data, Order(data, file, wanted.units, wanted.no_outside, view.verbose, here)
+            yield data, Order(data, file, wanted.units, wanted.no_outside, wanted.warnings, here)
 
 
 # ---------------------------------------------------------------------------------------------------------- output

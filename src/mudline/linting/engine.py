@@ -11,12 +11,13 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
+from mudline.codes.lines import SYN009, SYN010
 from mudline.deck.coverage import coverage_of
 from mudline.deck.faults import MisspeltDeckError
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import BaseProblem, Deck, Opaque
 from mudline.deck.reading import TextOrigin, units_of
-from mudline.diagnostics import Blocks, Coverage, DeckError, Diagnostic, Problem, Severity
+from mudline.diagnostics import Blocks, Coverage, DeckError, Diagnostic, Problem, Severity, strongest
 from mudline.keywords.model import Block
 from mudline.keywords.naming import repeated_set
 from mudline.keywords.reader import ReadBlock, read_block, read_piece
@@ -77,7 +78,8 @@ def joined_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: b
     found = problems_in(meant.context if meant else context, chosen)
     if meant is not None:
         found = [*meant.as_written(found)]
-        found = [*_as_severe(context, meant.causes, found), *found]
+        found = [*_as_severe(context, meant), *found]
+    found = _misspelt_as_errors(context, found)
     found = unsuppressed(context, found, chosen) if suppress else found
     if not found:
         return found
@@ -105,20 +107,34 @@ def _meant(context: LintContext, chosen: Sequence[Rule], *, suppress: bool) -> R
     return recovered(context, {rule.code.code for rule in chosen}, Reading(again, _read_once, reported))
 
 
-def _as_severe(context: LintContext, causes: list[Problem], others: list[Problem]) -> list[Problem]:
-    """The causes of a deck; where nothing else says that it is illegal as it is written, they do."""
-    if any(one.blocking is Blocks.ALWAYS for one in (*causes, *others)):
+def _as_severe(context: LintContext, meant: Recovered) -> list[Problem]:
+    """Return the causes of a deck, as severe as what follows from them: errors where the deck is refused for it."""
+    causes = meant.causes
+    if any(one.weight is Severity.ERROR for one in causes):
         return causes
-    refused = [one.weight for one in context.scene.findings if one.blocking is Blocks.ALWAYS]
-    if not refused:
-        return causes
-    severity = {Severity.WARNING: max(refused, key=lambda each: each.rank)}
-    return [
+    others = {(one.code, one.message) for one in meant.context.scene.blocking()}
+    following = [
         one
-        if one.weight is Severity.INFO
-        else replace(one, severity=severity.get(one.weight, one.severity), blocks=Blocks.ALWAYS)
-        for one in causes
+        for one in context.scene.blocking()
+        if one.weight is not Severity.INFO and (one.code, one.message) not in others
     ]
+    if not following:
+        return causes
+    worst = max((one.weight for one in causes), key=lambda severity: severity.rank)
+    return [_as_error(one, strongest(following)) if one.weight is worst else one for one in causes]
+
+
+def _as_error(problem: Problem, blocks: Blocks) -> Problem:
+    return replace(problem, severity=Severity.ERROR, blocks=blocks)
+
+
+def _misspelt_as_errors(context: LintContext, found: list[Problem]) -> list[Problem]:
+    """Make errors of the misspelt names in a deck of which nothing can be judged, as no keyword in it is read."""
+    misspelt = [one for one in found if one.repair and one.code in (SYN009, SYN010)]
+    coverage = coverage_of(context.deck) if misspelt else None
+    if coverage is None or coverage.read or coverage.partly:
+        return found
+    return [_as_error(one, Blocks.ALWAYS) if one in misspelt else one for one in found]
 
 
 def may_recover(deck: Deck) -> bool:
@@ -137,12 +153,6 @@ def may_recover(deck: Deck) -> bool:
         if facts.later_wins and repeated_set(cast("Block", block)):
             return True
     return False
-
-
-def repairs_of_causes(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
-    """The faults of a deck that a repair clears, as far as the deck as it was meant shows them; see `problems_in`."""
-    meant = _meant(context, [rule for rule in chosen if isinstance(rule.check, Noticed)], suppress=True)
-    return [one for one in meant.causes if one.repair is not None] if meant else []
 
 
 def named_causes(deck: Deck, refused: Sequence[Diagnostic], chosen: Sequence[Rule]) -> list[Diagnostic]:

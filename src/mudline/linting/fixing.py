@@ -19,11 +19,12 @@ from mudline.deck.reading import read_source
 from mudline.diagnostics import Coverage, Diagnostic, Problem, Repair, Severity, Span
 from mudline.files import recording_looks
 from mudline.limits import MOST_PASSES, MOST_TRIES
-from mudline.linting.engine import Fixing, LintSettings, covered_findings, problems_in, repairs_of_causes, unsuppressed
-from mudline.linting.rule import LintContext, Rule
+from mudline.linting.engine import Fixing, LintSettings, covered_findings, joined_problems
+from mudline.linting.recovery.blocks import start_of
+from mudline.linting.rule import LintContext
 from mudline.linting.suppression import MARK
 from mudline.outside import refusing_outside
-from mudline.syntax.edits import TextEdit, edited_bytes
+from mudline.syntax.edits import TextEdit, Undoing, edited_bytes, with_line_ends
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, SyntaxTree, parse
 
@@ -242,32 +243,32 @@ def _overlap(one: Span, other: Span) -> bool:
 
 @dataclass
 class FixState:
-    """One stage of a deck, and what rules find in it."""
+    """One stage of a deck, and what lint reports of it, with what follows from its findings."""
 
     data: bytes
     source: Source
     context: LintContext
-    rules: Sequence[Rule]
-    found: list[Problem]
+    findings: list[Problem]
 
     @property
     def deck(self) -> Deck:
         """The deck."""
         return self.context.deck
 
-    @cached_property
-    def errors(self) -> Counter[str]:
-        """How many errors of each code it has."""
-        everything = [*self.deck.problems, *self.context.scene.problems, *self.found]
-        return Counter(problem.code.code for problem in everything if problem.weight is Severity.ERROR)
+    def errors(self, edits: Sequence[TextEdit] = (), source: Source | None = None) -> Counter[tuple[str, int]]:
+        """Return code and line of each error, of the deck as it is written and as it was meant.
 
-    @cached_property
-    def findings(self) -> list[Problem]:
-        """Those that its comments do not suppress, and those of causes that a repair clears."""
-        found = unsuppressed(self.context, self.found, self.rules)
-        made = {edit for one in found if one.repair for edit in one.repair.edits}
-        causes = repairs_of_causes(self.context, self.rules)
-        return found + [one for one in causes if one.repair and not made.issuperset(one.repair.edits)]
+        After some edits of a source: the lines that they had there, 0 for those that the edits brought.
+        """
+        text, undoing, written = self.context.text, Undoing(edits), source or self.source
+        found: Counter[tuple[str, int]] = Counter()
+        for one in (*self.deck.problems, *self.context.scene.problems, *self.findings):
+            if one.weight is Severity.ERROR:
+                start = start_of(text, one) if text else -1
+                place = Span(start, start + 1)
+                new = start < 0 or undoing.is_in_new_lines(place)
+                found[one.code.code, 0 if new else written.position(undoing.before(place).start)[0]] += 1
+        return found
 
     @property
     def unreadable(self) -> list[Problem]:
@@ -313,11 +314,13 @@ class Reader:
         deck = read_source(source, units=self.settings.units)
         deck.folder = self.folder
         context = LintContext(deck, dialect=self.settings.dialect, fixing=True)
-        return FixState(data, source, context, self.settings.rules, problems_in(context, self.settings.rules))
+        found = joined_problems(context, self.settings.rules)
+        return FixState(data, source, context, [each for one in found for each in (one, *one.following)])
 
     def after(self, before: FixState, repairs: Sequence[Repair]) -> FixState | None:
         """The stage after some repairs; None if they cannot be made, change nothing, or make the deck worse."""
-        edits = [TextEdit(span, text) for repair in repairs for span, text in repair.edits]
+        made = (TextEdit(span, text) for repair in repairs for span, text in repair.edits)
+        edits = with_line_ends(before.source, made)
         try:
             data = edited_bytes(before.source, edits)
         except ValueError:  # edits that overlap or lie outside, a character that the encoding lacks
@@ -325,10 +328,11 @@ class Reader:
         if data == before.data:
             return None
         after = self.read(data)
+        errors, known = after.errors(edits, before.source), before.errors()
         if any(repair.applicability != "safe" for repair in repairs):
-            worse = after.errors.total() > before.errors.total()
+            worse = errors.total() > known.total()
         else:
-            worse = bool(after.errors - before.errors) or not _same_elsewhere(before, after, edits)
+            worse = bool(errors - known) or not _same_elsewhere(before, after, edits)
         return None if worse or before.comments - after.comments else after
 
 

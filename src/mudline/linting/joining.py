@@ -15,7 +15,7 @@ from mudline.codes.lines import SYN001, SYN004, SYN014
 from mudline.codes.references import REF007
 from mudline.deck.model import Origin
 from mudline.deck.reading import TextOrigin
-from mudline.diagnostics import MORE, Blocks, Problem, Repair, Severity
+from mudline.diagnostics import MORE, Blocks, Problem, Repair, Severity, strongest
 from mudline.linting.joints import JOINTS, Joined
 from mudline.linting.recovery.blocks import ROW_NUMBER, also_in
 from mudline.linting.rule import LintContext
@@ -30,7 +30,6 @@ MOST_NAMED = 4
 _OF_ROWS = frozenset(code.code for code in (SYN001, SYN002, SYN003, SYN004, SYN014, SYN015, REF007))
 """Codes of faults of a row, which one slip gives to many rows."""
 _DIGITS = re.compile(r"-?[0-9]+")
-_STRENGTH = (Blocks.NEVER, Blocks.WITH_TENSION, Blocks.ALWAYS)
 
 
 def joined_findings(context: LintContext, problems: list[Problem]) -> list[Problem]:
@@ -59,7 +58,7 @@ def joined_findings(context: LintContext, problems: list[Problem]) -> list[Probl
 def _joined(cause: Problem, others: Sequence[Problem], words: str) -> Problem:
     """A finding with others under it: as severe as the worst of them, and an error if one keeps from evaluation."""
     everything = (cause, *others)
-    blocks = max((one.blocking for one in everything), key=_STRENGTH.index)
+    blocks = strongest(everything)
     severity = max((one.weight for one in everything), key=lambda severity: severity.rank)
     below = tuple(each for one in others for each in (replace(one, following=()), *one.following))
     return replace(

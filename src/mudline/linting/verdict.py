@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 from typing import NamedTuple
 
 from mudline.codes.contact import SBD006
 from mudline.deck.coverage import coverage_of
 from mudline.diagnostics import Coverage, DeckError, Diagnostic, Problem, Severity
-from mudline.linting.engine import joined_problems, of_base, unsuppressed
+from mudline.linting.engine import joined_problems, unsuppressed
 from mudline.linting.registry import rules, select
 from mudline.linting.rule import LintContext
 from mudline.results.warnings import seabed_warnings
@@ -56,20 +56,22 @@ def refused(file: str, error: DeckError) -> Verdict:
     return Verdict(file, 0, Coverage(), 0, 0, len(error.diagnostics), 0, "illegal")
 
 
+def all_findings(context: LintContext) -> list[Problem]:
+    """Return the findings of all rules in a deck, those too that its comments suppress."""
+    return joined_problems(context, rules(), suppress=False)
+
+
+def errors_of(problems: list[Problem]) -> list[Problem]:
+    """Return those of all findings in a deck that make it illegal, the same in every command."""
+    return [one for one in problems if one.weight is Severity.ERROR]
+
+
 def judge(context: LintContext) -> Judgement:
     """The verdict on a deck, by all rules of severity error and the warnings of the default ones."""
     deck = context.deck
-    problems = joined_problems(context, rules(), suppress=False)
-    wrong = [one for one in problems if one.weight is Severity.ERROR]
-    # of the deck itself as it is written, and not as it was meant
-    wrong = wrong or [one for one in context.scene.errors() if not of_base(deck, one)]
+    problems = all_findings(context)
+    errors = deck.diagnose(errors_of(problems))
     keywords = coverage_of(deck)
-    misspelt = [one for one in deck.problems if one.repair]
-    if not wrong and misspelt:  # a name that was meant otherwise is not what it says
-        wrong = [one for one in context.scene.blocking() if one.weight is not Severity.INFO]
-        if not (wrong or keywords.read or keywords.partly):  # nothing of the deck was judged
-            wrong = [replace(one, severity=Severity.ERROR) for one in misspelt]
-    errors = deck.diagnose(wrong)
     known = {(one.code, one.line) for one in errors}
     warnings = [one for one in _warnings(context, problems, legal=not errors) if (one.code, one.line) not in known]
     curves, elements = len(context.scene.laws.curves), len(context.scene.element_ids)

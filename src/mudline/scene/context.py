@@ -275,11 +275,11 @@ class Context:
         self._placeless.add(self._position(Problem(SYN016, "", where=where)))
 
     def of_deck(self) -> list[Problem]:
-        """What reading the deck noticed; guessed labels that elements end at keep it from being evaluated."""
+        """What reading the deck noticed; guessed labels that elements end at are errors."""
         if not self._placeless:
             return self.deck.problems
         return [
-            replace(problem, blocks=Blocks.ALWAYS)
+            replace(problem, severity=Severity.ERROR)
             if problem.code == SYN016 and self._position(problem) in self._placeless
             else problem
             for problem in self.deck.problems

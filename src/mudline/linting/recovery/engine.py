@@ -82,7 +82,7 @@ class Recovered:
             return False
         self.causes += self.as_written(map(_cause, corrections))
         self.steps.append(Undoing(edits))
-        self.context = LintContext(deck, dialect=self.context.dialect)
+        self.context = LintContext(deck, self.context.dialect, self.context.fixing)
         return True
 
     def as_written(self, problems: Iterable[Problem]) -> Iterator[Problem]:

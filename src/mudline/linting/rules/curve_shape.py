@@ -321,7 +321,10 @@ def repeated_point(context: LintContext) -> Iterator[Problem]:
         for index in repeats:
             ratio, force = curve.points[index].tolist()
             message = f"the point ({ratio!r}, {force!r}) is given twice and counts once: remove it"
-            repair = removal(rows, int(curve.rows[index])) if rows else None
+            row = int(curve.rows[index])
+            # A point further up is of another curve, if the line with the name of this one is missing.
+            is_next = bool((curve.points[index - 1] == curve.points[index]).all())
+            repair = removal(rows, row) if rows and is_next else None
             yield Problem(CRV004, message, where=curve.point(index), repair=repair)
     for other in other_curves(context.scene.deck):
         for index in clashes_and_repeats(other.points)[1][:MOST_REPORTED].tolist():

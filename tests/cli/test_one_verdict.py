@@ -1,0 +1,45 @@
+"""Whether a deck has errors is one question: all commands that answer it agree."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.builders.decks import CLEAN, ILLEGAL, UNUSED
+from tests.cli.runner import run
+
+COMMANDS = (
+    ("lint", "--fail-on", "error"),
+    ("validate",),
+    ("evaluate",),
+    ("show",),
+    ("report", "-o", "page.html"),
+)
+LONE_NAMES = CLEAN.replace("*NODE", "*NODE;;").replace("*ELEMENT", "*ELEMENT;;").replace("$MODEL", "$MODEL;;")
+
+
+@pytest.mark.parametrize(
+    ("deck", "code"),
+    [
+        (CLEAN, 0),
+        (UNUSED, 0),
+        (ILLEGAL, 1),
+        (CLEAN.replace("*SEABED STIFFNESS", "*SEABED STIFFENSS"), 1),  # no curve
+        (CLEAN.replace("*GEOMETRIC SETS", "*GEOMETRIC SET"), 1),  # no diameter
+        (CLEAN.replace("*NODE", "*NODS"), 1),
+        (CLEAN.replace(" 1, 1, 2\n", " 1, ALL, 2\n"), 1),  # a label without braces
+        (LONE_NAMES, 1),
+    ],
+    ids=["clean", "warning", "error", "no-curve", "no-diameter", "no-nodes", "label", "nothing-read"],
+)
+def test_all_commands_agree_on_whether_a_deck_has_errors(
+    deck: str, code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("deck.keyxm").write_text(deck, encoding="utf-8")
+    assert {name: run(name, *more, "deck.keyxm").code for name, *more in COMMANDS} == dict.fromkeys(
+        (name for name, *_ in COMMANDS), code
+    )
+    found = run("validate", "deck.keyxm", "--output-format", "json").json()["decks"][0]
+    assert len(found["findings"]) == found["errors"] + found["warnings"]
