@@ -128,8 +128,7 @@ class Problem:
         return self.blocks or (Blocks.ALWAYS if self.weight is Severity.ERROR else Blocks.NEVER)
 
 
-@dataclass(frozen=True, slots=True)
-class Edit:
+class Edit(NamedTuple):
     """Replace the text from `start` to `end` (line, column; from 1, end exclusive) by `text`."""
 
     start: tuple[int, int]
@@ -137,15 +136,15 @@ class Edit:
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Fix:
+class Fix(NamedTuple):
     """Edits that clear a finding; `applicability` is "safe" or "unsafe"."""
 
     applicability: str
     message: str
     edits: tuple[Edit, ...]
 
-    __repr__ = short_repr
+    def __repr__(self) -> str:
+        return short_repr(self)
 
 
 @dataclass(frozen=True, slots=True)

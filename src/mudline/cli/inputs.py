@@ -35,8 +35,7 @@ _HEAD = 4096
 """Bytes at the beginning of a JSON or YAML file that name its format."""
 
 
-@dataclass(frozen=True, slots=True)
-class Input:
+class Input(NamedTuple):
     """A file by the name that it is reported under; `path` None is standard input."""
 
     name: str
@@ -353,8 +352,7 @@ class _Search:
 # ------------------------------------------------------------------------------------------------ the one deck
 
 
-@dataclass(frozen=True, slots=True)
-class GivenDeck:
+class GivenDeck(NamedTuple):
     """The one deck of a command, with the name of standard input and the units that its options give."""
 
     path: str

@@ -277,8 +277,7 @@ def _comments_in(part: Part) -> Iterator[str]:
             yield from _comments_in(record)
 
 
-@dataclass(frozen=True, slots=True)
-class Base:
+class Base(NamedTuple):
     """A deck that another one continues: as written, its `$MODEL` sections evaluated, and what is wrong in it.
 
     `sections` has them by their number in the deck.
@@ -288,7 +287,8 @@ class Base:
     sections: dict[int, Section]
     problems: tuple[Problem, ...]
 
-    __repr__ = short_repr
+    def __repr__(self) -> str:
+        return short_repr(self)
 
     @property
     def errors(self) -> list[Problem]:

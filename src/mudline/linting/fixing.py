@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import islice
 from pathlib import Path
+from typing import NamedTuple
 
 from mudline.deck.forms import form_of
 from mudline.deck.model import Deck
@@ -88,8 +89,7 @@ def _with_severity(found: Diagnostic, given: Mapping[str, Severity]) -> Diagnost
 # -------------------------------------------------------------------------------------------------------------- fixes
 
 
-@dataclass(frozen=True, slots=True)
-class Fixed:
+class Fixed(NamedTuple):
     """The new content (None: nothing was changed), the findings that are fixed, and why others are not, or ""."""
 
     changed: bytes | None
@@ -299,8 +299,7 @@ class FixState:
                     yield index, number
 
 
-@dataclass(frozen=True, slots=True)
-class Reader:
+class Reader(NamedTuple):
     """Reads and lints the stages of one file."""
 
     name: str

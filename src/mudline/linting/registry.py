@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 from types import ModuleType
 from typing import TYPE_CHECKING
@@ -136,7 +136,7 @@ def load(known: dict[str, Rule]) -> tuple[str, ...]:
             known.update(before)
             faults.append(f"the plugin {entry.name} of {package} cannot be used: {fault}, or uninstall the package")
         for code in known.keys() - before.keys():
-            known[code] = replace(known[code], check=Guarded(known[code].check, code, package))
+            known[code] = known[code]._replace(check=Guarded(known[code].check, code, package))
             _ORIGINS[code] = package
     return tuple(faults)
 

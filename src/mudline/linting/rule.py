@@ -9,7 +9,7 @@ from functools import cached_property, wraps
 from itertools import chain, islice, pairwise
 from operator import is_
 from textwrap import dedent
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
@@ -172,8 +172,7 @@ RULES: dict[str, Rule] = {}
 """The rules that are registered, by code, in the order of their registration."""
 
 
-@dataclass(frozen=True, slots=True)
-class Rule:
+class Rule(NamedTuple):
     """A rule: its code, the function that finds, and what its page says.
 
     `title` is the first sentence, `why` the text after it, `bad` a deck that it finds something in at `place` (line
@@ -244,7 +243,7 @@ def rule(code: Code, *, off: bool = False, of: tuple[str, ...] = ()) -> Callable
     """
 
     def register(check: Check) -> Check:
-        add(replace(described_by(code, check, check.__doc__ or "", off=off), of=of))
+        add(described_by(code, check, check.__doc__ or "", off=off)._replace(of=of))
         return check
 
     return register

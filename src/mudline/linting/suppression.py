@@ -44,8 +44,7 @@ _NOTHING = ("nothing",)
 """The scope of a comment that applies to nothing."""
 
 
-@dataclass(frozen=True, slots=True)
-class Word:
+class Word(NamedTuple):
     """What a comment names: the text, its place, and the codes of the rules behind it (none: no rule has that name)."""
 
     text: str

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from functools import cache
+from typing import NamedTuple
 
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import folded
@@ -40,8 +41,7 @@ _USED = _DEFINED | {Names.SET}
 """What is looked up here: names that fields define, and those that they use."""
 
 
-@dataclass(frozen=True, slots=True)
-class GivenName:
+class GivenName(NamedTuple):
     """A name as the deck gives it, and where."""
 
     name: str

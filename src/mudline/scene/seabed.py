@@ -7,7 +7,7 @@ import re
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -43,8 +43,7 @@ class SeabedKind(Enum):
     PLANES = "planes"
 
 
-@dataclass(frozen=True, slots=True)
-class SeabedPlane:
+class SeabedPlane(NamedTuple):
     """A plane: a point (elevation, Y, Z), slope and direction in degrees, bounds (Y and Z, infinite where open)."""
 
     name: str
