@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from mudline.codes import all_codes
 from mudline.diagnostics import Code, PluginError, Problem, Severity, Where
 from mudline.installed import may_declare
-from mudline.linting.rule import RULES, Check, LintContext, Noticed, Rule, add, described_by
+from mudline.linting.rule import RULES, Check, LintContext, Noticed, Rule, add
 from mudline.resources import modules_of, rule_file
 from mudline.scene.checks import all_checks
 from mudline.spelling import nearest
@@ -55,7 +55,7 @@ def _collected() -> tuple[tuple[Rule, ...], tuple[str, ...]]:
     for found in all_checks():
         declared.setdefault(found.code.code, (found.code, found.find.__doc__ or ""))
     for code, page in declared.values():
-        add(described_by(code, Noticed(code), page))
+        add(Rule(code, Noticed(code), page))
     modules_of("mudline.linting.rules")
     faults = load(RULES)
     return tuple(RULES[code] for code in sorted(RULES)), faults
@@ -178,6 +178,16 @@ def _fault_of(added: Sequence[Rule], own: set[str]) -> str:
             return f"codes like {code.code} belong to mudline: choose other letters"
         if not _SLUG.fullmatch(code.slug):
             return f"the name {code.slug!r} of {code.code} must be words in lower case with hyphens: change it"
+    return _fault_of_pages(added)
+
+
+def _fault_of_pages(added: Sequence[Rule]) -> str:
+    """What the docstrings of the rules that a plugin added lack."""
+    try:
+        for one in added:
+            one.page  # noqa: B018 - own rules are read in tests
+    except ValueError as error:
+        return f"{_said(error)}: report it to its authors"
     return ""
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property, wraps
+from functools import cache, cached_property, wraps
 from itertools import chain, islice, pairwise
 from operator import is_
 from textwrap import dedent
@@ -172,19 +172,14 @@ RULES: dict[str, Rule] = {}
 """The rules that are registered, by code, in the order of their registration."""
 
 
-class Rule(NamedTuple):
-    """A rule: its code, the function that finds, and what its page says.
+class RulePage(NamedTuple):
+    """What the docstring of a rule says.
 
-    `title` is the first sentence, `why` the text after it, `bad` a deck that it finds something in at `place` (line
-    and column), `good` the deck corrected; `file` is the name that the examples are read under. `encoding` is that of
-    the bad deck's bytes, `dialect` the one under which it is at fault. A rule that is `off` runs only where it is
-    selected, and one with anything in `of` only in a deck that holds some of it.
-
-    The findings of a rule whose check is not `Noticed` never keep a deck from being evaluated, whatever their severity.
+    `title` is the first sentence, `why` the text after it, `bad` a deck that the rule finds something in at `place`
+    (line and column), `good` the deck corrected; `file` is the name that the examples are read under. `encoding` is
+    that of the bad deck's bytes, `dialect` the one under which it is at fault.
     """
 
-    code: Code
-    check: Check
     title: str
     why: str
     bad: str
@@ -192,9 +187,7 @@ class Rule(NamedTuple):
     place: tuple[int, int]
     file: str
     encoding: str
-    off: bool
-    dialect: str = "mudline"
-    of: tuple[str, ...] = ()
+    dialect: str
 
     @property
     def bad_bytes(self) -> bytes:
@@ -214,6 +207,27 @@ class Rule(NamedTuple):
         if self.encoding != "utf-8":
             return f"saved as {self.encoding.upper()}"
         return "" if self.bad.endswith("\n") else "the file ends without a line end"
+
+
+class Rule(NamedTuple):
+    """A rule: its code, the function that finds, and the docstring that becomes its page.
+
+    A rule that is `off` runs only where it is selected, and one with anything in `of` only in a deck that holds some of
+    it.
+
+    The findings of a rule whose check is not `Noticed` never keep a deck from being evaluated, whatever their severity.
+    """
+
+    code: Code
+    check: Check
+    docstring: str
+    off: bool = False
+    of: tuple[str, ...] = ()
+
+    @property
+    def page(self) -> RulePage:
+        """What the docstring says; raises ValueError for one that lacks a part."""
+        return described_by(self.code, self.docstring)
 
 
 @dataclass(frozen=True, slots=True)
@@ -238,12 +252,12 @@ def rule(code: Code, *, off: bool = False, of: tuple[str, ...] = ()) -> Callable
     deck. `File: name` (default deck.keyxm) is the name of both decks. `Bytes: encoding` saves the bad deck in another
     encoding than UTF-8; `Cut: yes` leaves out its last line end; `Dialect: name` reads both decks in a dialect.
 
-    Raises ValueError for a docstring that lacks a part, for a line of the example that has no mark, for two decks that
-    are the same, and for a code or slug that another rule has.
+    Raises ValueError for a code or slug that another rule has. A docstring that lacks a part, a line of the example
+    that has no mark, and two decks that are the same are faults of a plugin, found when it is loaded.
     """
 
     def register(check: Check) -> Check:
-        add(described_by(code, check, check.__doc__ or "", off=off)._replace(of=of))
+        add(Rule(code, check, check.__doc__ or "", off, of))
         return check
 
     return register
@@ -259,17 +273,18 @@ def limited(check: Check) -> Check:
     return first
 
 
-def add(described: Rule) -> None:
+def add(declared: Rule) -> None:
     """Register a rule; raises ValueError for a code or slug that another rule has."""
-    code = described.code
+    code = declared.code
     if code.code in RULES or any(code.slug == known.code.slug for known in RULES.values()):
         raise ValueError(f"there is already a rule {code.code} or {code.slug}")
-    RULES[code.code] = described
+    RULES[code.code] = declared
 
 
-def described_by(code: Code, check: Check, page: str, *, off: bool = False) -> Rule:
-    """The rule that a docstring describes (see `rule`); raises ValueError for a docstring that lacks a part."""
-    first, _, rest = page.partition("\n")
+@cache
+def described_by(code: Code, docstring: str) -> RulePage:
+    """Return what a docstring says of a rule (see `rule`); raises ValueError for a docstring that lacks a part."""
+    first, _, rest = docstring.partition("\n")
     parts = _HEADINGS.split(f"{first.strip()}\n{dedent(rest)}")
     title, _, why = parts[0].strip().partition("\n")
     found = {name: (line, body) for name, line, body in zip(parts[1::3], parts[2::3], parts[3::3], strict=True)}
@@ -281,9 +296,7 @@ def described_by(code: Code, check: Check, page: str, *, off: bool = False) -> R
     if place is None:
         raise ValueError(f"Finds: {words['Finds']} of {code.code} must be line:column of the bad deck")
     bad, good = _decks(code, found["Example"][1].replace(r"\t", "\t"))  # Python 3.13 makes blanks of TABs in docstrings
-    described = Rule(
-        code=code,
-        check=check,
+    described = RulePage(
         title=title.strip(),
         why=why.strip(),
         bad=bad.removesuffix("\n") if "Cut" in words else bad,
@@ -291,7 +304,6 @@ def described_by(code: Code, check: Check, page: str, *, off: bool = False) -> R
         place=(int(place[1]), int(place[2])),
         file=words.get("File", "deck.keyxm"),
         encoding=words.get("Bytes", "utf-8"),
-        off=off,
         dialect=words.get("Dialect", "mudline"),
     )
     if described.bad_bytes == described.good_bytes:
