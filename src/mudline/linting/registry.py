@@ -38,8 +38,6 @@ RESERVED = {"DOC", "DAT", "EXP", "MIG", "RUN"}
 
 _FEW = 4
 """Rules that are listed where a word is a part of their names."""
-_CODE = re.compile(r"[A-Z]{2,8}[0-9]{3}")
-_SLUG = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 _ORIGINS: dict[str, str] = {}
 
 
@@ -172,11 +170,11 @@ def _fault_of(added: Sequence[Rule], own: set[str]) -> str:
     if not added:
         return "it adds no rule: use the decorator mudline.plugins.rule in it"
     for code in (rule.code for rule in added):
-        if not _CODE.fullmatch(code.code):
+        if not re.fullmatch(r"[A-Z]{2,8}[0-9]{3}", code.code):
             return f"the code {code.code!r} must be 2 to 8 capital letters and 3 digits, as ACM001: change it"
         if code.code.rstrip("0123456789") in own:
             return f"codes like {code.code} belong to mudline: choose other letters"
-        if not _SLUG.fullmatch(code.slug):
+        if not re.fullmatch(r"[a-z][a-z0-9]*(-[a-z0-9]+)*", code.slug):
             return f"the name {code.slug!r} of {code.code} must be words in lower case with hyphens: change it"
     return _fault_of_pages(added)
 

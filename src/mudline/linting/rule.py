@@ -165,9 +165,7 @@ def _ordinary(entry: SceneCurve) -> bool:
 
 Check = Callable[[LintContext], Iterable[Problem]]
 
-_HEADINGS = re.compile(r"^(Example|Finds|File|Bytes|Cut|Dialect):[ \t]*(.*)$", re.MULTILINE)
-_MARKED = re.compile(r"    ([ +-])(.*)")
-_PLACE = re.compile(r"([0-9]+):([0-9]+)")
+_HEADINGS = r"(?m)^(Example|Finds|File|Bytes|Cut|Dialect):[ \t]*(.*)$"
 RULES: dict[str, Rule] = {}
 """The rules that are registered, by code, in the order of their registration."""
 
@@ -285,14 +283,14 @@ def add(declared: Rule) -> None:
 def described_by(code: Code, docstring: str) -> RulePage:
     """Return what a docstring says of a rule (see `rule`); raises ValueError for a docstring that lacks a part."""
     first, _, rest = docstring.partition("\n")
-    parts = _HEADINGS.split(f"{first.strip()}\n{dedent(rest)}")
+    parts = re.split(_HEADINGS, f"{first.strip()}\n{dedent(rest)}")
     title, _, why = parts[0].strip().partition("\n")
     found = {name: (line, body) for name, line, body in zip(parts[1::3], parts[2::3], parts[3::3], strict=True)}
     lacking = [name for name in ("Example", "Finds") if name not in found]
     if lacking or not title or not why.strip():
         raise ValueError(f"the docstring of {code.code} must have {' and '.join(lacking) or 'a title and a reason'}")
     words = {name: line.strip() for name, (line, _) in found.items()}
-    place = _PLACE.fullmatch(words["Finds"])
+    place = re.fullmatch(r"([0-9]+):([0-9]+)", words["Finds"])
     if place is None:
         raise ValueError(f"Finds: {words['Finds']} of {code.code} must be line:column of the bad deck")
     bad, good = _decks(code, found["Example"][1].replace(r"\t", "\t"))  # Python 3.13 makes blanks of TABs in docstrings
@@ -316,7 +314,7 @@ def _decks(code: Code, example: str) -> tuple[str, str]:
     bad: list[str] = []
     good: list[str] = []
     for line in example.strip("\n").split("\n"):
-        marked = _MARKED.fullmatch(line or "     ")
+        marked = re.fullmatch(r"    ([ +-])(.*)", line or "     ")
         if marked is None:
             raise ValueError(
                 f"the line {line!r} of the example of {code.code} must have four spaces, then a space, - or +"
