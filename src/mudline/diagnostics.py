@@ -79,7 +79,7 @@ class Code:
     page: str = field(default="", compare=False, repr=False)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Repair:
     """What clears a problem: spans of the deck's text, and what is to stand there.
 
@@ -93,7 +93,7 @@ class Repair:
     __repr__ = short_repr
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Problem:
     """Something noticed in a deck, at a span of its text or among its values.
 
@@ -147,7 +147,7 @@ class Fix(NamedTuple):
         return short_repr(self)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Diagnostic:
     """A finding with its place in the file; lines and columns count from 1, the end is exclusive.
 

@@ -78,7 +78,7 @@ def _folder(path: str) -> Path:
     return Path(path)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Inputs:
     """The files found, each once, and whether something could not be found or read."""
 
@@ -285,7 +285,7 @@ class _Rules(NamedTuple):
         return next((not one.negated for one in self.patterns if one.fits(own, folder=folder)), None)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class _Search:
     """A search of a directory and all below it; links to directories are not followed.
 

@@ -51,7 +51,7 @@ def outputs(given: Sequence[str]) -> Outputs:
     return Outputs(printed[0] if printed else TEXT, tuple(files))
 
 
-@dataclass
+@dataclass(eq=False)
 class Report:
     """What a run found. `aside`: standard output carries something else, and findings go to standard error."""
 

@@ -28,7 +28,7 @@ class Opaque(Part):
     lines: list[Text]
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, repr=False)
 class Section:
     """A `$SECTION`; `lines` are stray ones before its first keyword."""
 
@@ -96,7 +96,7 @@ class Origin:
         return True
 
 
-@dataclass
+@dataclass(repr=False)
 class Deck:
     """A deck: its sections and blocks as validated models, equations as written.
 
@@ -296,7 +296,7 @@ class Base(NamedTuple):
         return [problem for problem in self.problems if problem.blocking is Blocks.ALWAYS]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class BaseProblem(Problem):
     """A problem of a deck that is continued, in that deck's own terms."""
 

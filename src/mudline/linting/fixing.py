@@ -240,7 +240,7 @@ def _overlap(one: Span, other: Span) -> bool:
     return one.start < other.end and other.start < one.end
 
 
-@dataclass
+@dataclass(eq=False)
 class FixState:
     """One stage of a deck, and what rules find in it."""
 

@@ -41,7 +41,7 @@ STEEPEST = 100.0
 """Ratio of two slopes of a curve."""
 
 
-@dataclass
+@dataclass(eq=False)
 class LintContext:
     """A deck as it is written (equations and all) and its scene (evaluated and resolved, as far as that goes).
 

@@ -52,7 +52,7 @@ class Word(NamedTuple):
     codes: frozenset[str]
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Directive:
     """One comment. `scope` is what it applies to: a line, a block or the file; nothing after the last line.
 
@@ -68,7 +68,7 @@ class Directive:
     reason: str = ""
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Suppressions:
     """All comments of a deck that hide findings, and those that look like one (`misspelt`: the word, what was meant).
 

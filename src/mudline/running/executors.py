@@ -68,7 +68,7 @@ class RunError(Exception):
 # -------------------------------------------------------------------------------------------------------- what to use
 
 
-@dataclass
+@dataclass(eq=False)
 class Pool:
     """At most so many processes (0: one for each processor), or the workers of a scheduler, once they are used."""
 

@@ -54,7 +54,7 @@ class SetLaw(NamedTuple):
         return short_repr(self)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, repr=False, eq=False)
 class LawTable:
     """The set_laws as they were found, legacy ones first, and the one that each element follows (m,), -1 for none.
 

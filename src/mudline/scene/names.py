@@ -48,7 +48,7 @@ class GivenName(NamedTuple):
     where: Where
 
 
-@dataclass
+@dataclass(eq=False)
 class NamesOfKind:
     """The names of a kind: those that fields use, and those that they define, by their folded form."""
 

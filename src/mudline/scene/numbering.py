@@ -113,7 +113,7 @@ class Batch(NamedTuple):
         return self.where.inside(self.table, row)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, repr=False, eq=False)
 class Definitions:
     """Definitions in the order of the file, numbered through as rows."""
 
@@ -192,7 +192,7 @@ class Definitions:
         return Numbered(ids[firsts], values[lasts], firsts, lasts, repeats, starts, self.batches)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, repr=False, eq=False)
 class Numbered:
     """Numbers and values of the definitions that hold.
 

@@ -53,7 +53,7 @@ class SeabedPlane(NamedTuple):
     bounds: tuple[float, float, float, float]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class SeabedShape:
     """The seabed, angles in degrees, lengths in the deck's units.
 
