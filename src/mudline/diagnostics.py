@@ -82,7 +82,7 @@ class Code:
     page: str = field(default="", compare=False, repr=False)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Repair:
     """What clears a problem: spans of the deck's text, and what is to stand there.
 
@@ -96,7 +96,7 @@ class Repair:
     __repr__ = short_repr
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Problem:
     """Something noticed in a deck, at a span of its text or among its values.
 
@@ -136,8 +136,7 @@ def strongest(problems: Iterable[Problem]) -> Blocks:
     return max((one.blocking for one in problems), key=[*Blocks].index)
 
 
-@dataclass(frozen=True, slots=True)
-class Edit:
+class Edit(NamedTuple):
     """Replace the text from `start` to `end` (line, column; from 1, end exclusive) by `text`."""
 
     start: tuple[int, int]
@@ -145,18 +144,18 @@ class Edit:
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Fix:
+class Fix(NamedTuple):
     """Edits that clear a finding; `applicability` is "safe" or "unsafe"."""
 
     applicability: str
     message: str
     edits: tuple[Edit, ...]
 
-    __repr__ = short_repr
+    def __repr__(self) -> str:
+        return short_repr(self)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Diagnostic:
     """A finding with its place in the file; lines and columns count from 1, the end is exclusive.
 

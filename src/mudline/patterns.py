@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from functools import cache
+from typing import NamedTuple
 
 _PIECE = re.compile(r"(?P<stars>\*+)|\?|\[(?P<not>[!^]?)(?P<set>\]?(?:\\.|[^]\\])*)\]|\\(?P<plain>.)|(?P<other>.)")
 _ESCAPED = re.compile(r"\\.", re.DOTALL)
@@ -13,8 +13,7 @@ _FOLDERS = "(?:[^/]*/)*"
 _MEMBER = re.compile(r"\\?(.)(?:-\\?([^]]))?")
 
 
-@dataclass(frozen=True, slots=True)
-class Pattern:
+class Pattern(NamedTuple):
     """A pattern: what it fits, whether it takes back what patterns before it say (`!`), whether it means folders only.
 
     A pattern with a "/" before its end is matched against `whole` paths, any other against each name on its own.

@@ -6,7 +6,6 @@ import csv
 import io
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 from mudline.short_repr import cut
@@ -63,8 +62,7 @@ SLIDING: Names = ("open", "stick", "slip", None)
 """Of a direction of a node with friction."""
 
 
-@dataclass(frozen=True, slots=True)
-class Quantity:
+class Quantity(NamedTuple):
     """What a column of results, or a figure of a step, is.
 
     Attributes:

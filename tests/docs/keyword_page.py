@@ -137,7 +137,7 @@ def _names(kept: OpaqueKeyword) -> Iterator[str]:
 
 def _rules(declared: Declared) -> str:
     found = rules_of(declared)
-    rows = [f"| [{rule.code.code}](../rules/{rule.code.code}.md) | {marked(rule.title)} |" for rule in found]
+    rows = [f"| [{rule.code.code}](../rules/{rule.code.code}.md) | {marked(rule.page.title)} |" for rule in found]
     return _RULES.format(table="\n".join(["| code | finds |", "| --- | --- |", *rows, "", ""]) if found else "")
 
 

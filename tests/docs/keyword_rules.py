@@ -40,8 +40,8 @@ def rules_of(declared: Declared) -> list[Rule]:
 @cache
 def _named_by(rule: Rule) -> set[str]:
     """The keywords in the text of a rule, and the one that its bad deck has the finding in."""
-    named = set(_keyword().findall(f"{rule.title}\n{rule.why}"))
-    return named | set(_keyword().findall("\n".join(rule.bad.splitlines()[: rule.place[0]]))[-1:])
+    named = set(_keyword().findall(f"{rule.page.title}\n{rule.page.why}"))
+    return named | set(_keyword().findall("\n".join(rule.page.bad.splitlines()[: rule.page.place[0]]))[-1:])
 
 
 @cache

@@ -86,14 +86,14 @@ def _row(rule: Rule) -> str:
         f"`{code.slug}`",
         severity,
         ", ".join(sorted(fixes)),
-        marked(rule.title),
+        marked(rule.page.title),
     )
     return f"| {' | '.join(fields)} |"
 
 
 def _found(rule: Rule) -> list[Diagnostic]:
     """What a rule finds in its bad deck."""
-    return lint_bytes(rule.bad_bytes, rule.file, [rule], folder=Path("decks"), dialect=rule.dialect)
+    return lint_bytes(rule.page.bad_bytes, rule.page.file, [rule], folder=Path("decks"), dialect=rule.page.dialect)
 
 
 def rule_page(rule: Rule) -> str:
@@ -104,10 +104,10 @@ def rule_page(rule: Rule) -> str:
         slug=rule.code.slug,
         severity=rule.code.severity,
         off=", off unless selected" if rule.off else "",
-        title=marked(rule.title),
-        why=marked(rule.why),
-        remark=f" ({rule.remark})" if rule.remark else "",
-        bad=rule.bad.rstrip("\n"),
+        title=marked(rule.page.title),
+        why=marked(rule.page.why),
+        remark=f" ({rule.page.remark})" if rule.page.remark else "",
+        bad=rule.page.bad.rstrip("\n"),
         says="\n".join(str(finding) for finding in _found(rule)),
-        good=rule.good.rstrip("\n"),
+        good=rule.page.good.rstrip("\n"),
     )

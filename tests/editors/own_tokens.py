@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import cast
 
 from mudline.diagnostics import Span
-from mudline.expression.parsing import tokens as equation_tokens
+from mudline.expression.parsing import equation_grammar
 from mudline.keywords.catalogue import block_class, keywords
 from mudline.keywords.model import Block, Part, record_schema
 from mudline.keywords.reader import all_keys
@@ -18,6 +19,7 @@ Classes = list[str]
 """A class for each character, "" where none is expected: blanks, commas, signs."""
 
 _SIGNS = "(),[]"
+_ROUND = str.maketrans("[]", "()")  # the lexer of equations has no word for square ones
 _EQUATION = {"NUMBER": "number", "TEXT": "text", "NAME": "name", "AND": "word", "OR": "word", "NOT": "word"}
 
 
@@ -79,9 +81,10 @@ def _field(given: Field, choices: set[str]) -> Iterator[tuple[Span, str]]:
     if text.startswith("=["):
         yield span, "operator"
         yield Span(span.start + 2, span.end - text.endswith("]")), ""
-        for match in equation_tokens().finditer(text.removesuffix("]"), 2):
-            kind = _EQUATION.get(str(match.lastgroup), "" if match[0] in _SIGNS else "operator")
-            yield Span(span.start + match.start(), span.start + match.end()), kind
+        start = span.start + 2
+        for token in equation_grammar().lex(text[2:].removesuffix("]").translate(_ROUND)):
+            kind = _EQUATION.get(token.type, "" if token in _SIGNS else "operator")
+            yield Span(start + cast("int", token.start_pos), start + cast("int", token.end_pos)), kind
     elif spells_number(text):
         yield span, "number"
     else:

@@ -116,10 +116,17 @@ def test_deeper_nesting_is_refused(text: str) -> None:
     assert 0 < caught.value.start < caught.value.end <= len(text)
 
 
-def test_the_fault_of_deep_nesting_is_its_first_bracket_too_many() -> None:
-    with pytest.raises(ExpressionError) as caught:
-        parse("(" * 3000 + "1" + ")" * 3000)
-    assert caught.value.span == (30, 6001)
+@pytest.mark.parametrize(
+    ("opening", "closing", "at"),
+    [("(", ")", 0), ("- ", "", 0), ("2 ^ ", "", 2), ("f (", ")", 2)],
+)
+def test_the_fault_of_deep_nesting_begins_where_the_first_part_too_deep_opens(
+    opening: str, closing: str, at: int
+) -> None:
+    text = opening * 2000 + "1" + closing * 2000
+    with pytest.raises(ExpressionError, match="nested more than 30") as caught:
+        parse(text)
+    assert caught.value.span == (DEEPEST * len(opening) + at, len(text))
 
 
 def test_length_limit() -> None:

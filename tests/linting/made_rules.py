@@ -26,7 +26,7 @@ def replacing(
             span = Span(*match.span())
             yield Problem(name, "replace this", span, repair=Repair(kind, "replace", ((span, match.expand(text)),)))
 
-    return Rule(name, check, "A title.", "A reason.", "", "", (1, 1), "deck.keyxm", "utf-8", off=False)
+    return Rule(name, check, "")
 
 
 # -------------------------------------------------------------------------------------------------------------- outputs

@@ -4,21 +4,19 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from mudline.codes import all_codes
-from mudline.codes.lines import SYN001
 from mudline.deck.forms.json import to_json
 from mudline.deck.forms.yaml import to_yaml
 from mudline.deck.loading import load_bytes
-from mudline.diagnostics import Code, DeckError, Problem, Severity
+from mudline.diagnostics import Code, DeckError, Severity
 from mudline.linting.engine import LintSettings, lint_bytes
 from mudline.linting.fixing import FixState, Reader
 from mudline.linting.registry import rules
-from mudline.linting.rule import LintContext, Rule, described_by
+from mudline.linting.rule import Rule, described_by
 
 ROW = re.compile(r"\| \[([A-Z]+[0-9]+)\]\(\1\.md\) \| `([a-z0-9-]+)` \| (\w+)(, off)? \| (\w*) \| .+ \|")
 PAGE = Path(__file__).parents[2] / "docs" / "rules" / "README.md"
@@ -42,13 +40,13 @@ each_rule = pytest.mark.parametrize("given", rules(), ids=lambda given: given.co
 
 @each_rule
 def test_a_docstring_says_what_the_rule_does(given: Rule) -> None:
-    (found,) = lint_bytes(given.bad_bytes, given.file, [given], folder=NOWHERE, dialect=given.dialect)
-    assert (found.line, found.column, found.code, found.slug) == (*given.place, given.code.code, given.code.slug)
+    (found,) = lint_bytes(given.page.bad_bytes, given.page.file, [given], folder=NOWHERE, dialect=given.page.dialect)
+    assert (found.line, found.column, found.code, found.slug) == (*given.page.place, given.code.code, given.code.slug)
     assert ADVICE.search(found.message), found.message
     assert found.message == found.message.strip().removesuffix(".").replace("\n", "")
-    assert given.title.endswith((".", "?"))
-    assert given.why.endswith(".")
-    assert len(given.why.split()) >= 10
+    assert given.page.title.endswith((".", "?"))
+    assert given.page.why.endswith(".")
+    assert len(given.page.why.split()) >= 10
     off, fix = ", off" if given.off else None, found.fix.applicability if found.fix else ""
     agreed = AGREED.get(given.code.code)
     assert agreed == (given.code.slug, given.code.severity.value, off, fix), "run make docs, and look at what changed"
@@ -56,7 +54,7 @@ def test_a_docstring_says_what_the_rule_does(given: Rule) -> None:
 
 @each_rule
 def test_the_good_deck_is_clean_under_all_rules(given: Rule) -> None:
-    assert lint_bytes(given.good_bytes, given.file, rules(), folder=NOWHERE, dialect=given.dialect) == []
+    assert lint_bytes(given.page.good_bytes, given.page.file, rules(), folder=NOWHERE, dialect=given.page.dialect) == []
 
 
 def test_no_code_that_was_agreed_is_gone() -> None:
@@ -69,8 +67,8 @@ FIXABLE = [given for given in rules() if AGREED.get(given.code.code, ("",))[-1]]
 @pytest.mark.parametrize("given", FIXABLE, ids=lambda given: given.code.code)
 def test_the_fix_clears_the_finding_and_brings_no_other(given: Rule) -> None:
     """All rules are on, those too that are off unless they are selected."""
-    reader = Reader(given.file, LintSettings(tuple(rules()), dialect=given.dialect), NOWHERE)
-    before = reader.read(given.bad_bytes)
+    reader = Reader(given.page.file, LintSettings(tuple(rules()), dialect=given.page.dialect), NOWHERE)
+    before = reader.read(given.page.bad_bytes)
     fixes = [one.repair for one in before.findings if one.code == given.code and one.repair]
     assert len(fixes) == 1
     after = reader.after(before, fixes)
@@ -89,7 +87,7 @@ SYNTAX = [given for given in rules() if given.code.code.startswith("SYN")]
 @pytest.mark.parametrize("given", SYNTAX, ids=lambda given: given.code.code)
 def test_a_fault_of_writing_is_told_once(given: Rule) -> None:
     """What could not be read leads to no second finding; a decimal comma explains a wrong number of fields."""
-    found = {one.code for one in lint_bytes(given.bad_bytes, given.file, rules())}
+    found = {one.code for one in lint_bytes(given.page.bad_bytes, given.page.file, rules())}
     assert found == {given.code.code}
 
 
@@ -97,19 +95,19 @@ MEANING = [
     given
     for given in rules()
     if (given.code.code == "STY010" or not given.code.code.startswith("STY"))
-    and not load_bytes(given.bad_bytes, given.file).problems
+    and not load_bytes(given.page.bad_bytes, given.page.file).problems
 ]
 
 
 @pytest.mark.parametrize("given", MEANING, ids=lambda given: given.code.code)
 def test_a_fault_of_meaning_is_found_in_json_and_yaml_too(given: Rule) -> None:
-    deck = load_bytes(given.bad_bytes, given.file)
+    deck = load_bytes(given.page.bad_bytes, given.page.file)
     for text, name in ((to_json(deck), "deck.json"), (to_yaml(deck), "deck.yaml")):
         if given.code.code in OF_MODELS:
             with pytest.raises(DeckError, match="DOC002"):
                 load_bytes(text.encode(), name)
             continue
-        found = lint_bytes(text.encode(), name, [given], folder=NOWHERE, dialect=given.dialect)
+        found = lint_bytes(text.encode(), name, [given], folder=NOWHERE, dialect=given.page.dialect)
         assert [one.code for one in found] == [given.code.code]
         assert found[0].line > 1
 
@@ -131,15 +129,6 @@ OF_MODELS = {"CRV001", "SBD010"}
 EXAMPLE = "A title.\n\nA reason.\n\nExample:\n{lines}\n\nFinds: 1:1\n"
 
 
-def described(lines: str, more: str = "") -> Rule:
-    """A rule with an example."""
-
-    def check(context: LintContext) -> Iterator[Problem]:
-        yield from context.problems_of(SYN001)
-
-    return described_by(Code("ABC001", "nothing", Severity.INFO), check, EXAMPLE.format(lines=lines) + more)
-
-
 @pytest.mark.parametrize(
     ("lines", "bad", "good"),
     [
@@ -153,4 +142,5 @@ def described(lines: str, more: str = "") -> Rule:
     ids=["both", "bad only", "empty lines", "empty lines of one", "blanks and tabs", "signs"],
 )
 def test_an_example_holds_both_decks(lines: str, bad: str, good: str) -> None:
-    assert (described(lines).bad, described(lines).good) == (bad, good)
+    said = described_by(Code("ABC001", "nothing", Severity.INFO), EXAMPLE.format(lines=lines))
+    assert (said.bad, said.good) == (bad, good)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import pickle
 import re
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -231,7 +230,7 @@ def test_a_safe_fix_moves_no_block_before_others() -> None:
         yield Problem(TABS.code, "move this", edits[0][0], repair=Repair("safe", "move it", edits))
 
     assert load_bytes(text.encode(), "deck.keyxm").problems == []
-    assert fix(text, replace(TABS, check=check)).changed is None
+    assert fix(text, TABS._replace(check=check)).changed is None
 
 
 def test_a_safe_fix_may_add_to_the_end_of_its_block() -> None:
@@ -320,7 +319,7 @@ def test_units_folder_and_dialect_reach_the_rules_before_and_after_fixing(tmp_pa
             span = Span(*match.span())
             yield Problem(name, message, span, repair=Repair("safe", "replace", ((span, "sand"),)))
 
-    rule = replace(TABS, check=told)
+    rule = TABS._replace(check=told)
     settings = LintSettings((rule,), units="imperial", dialect="flexcom", fixing=Fixing.SAFE)
     report = lint_one("deck.keyxm", DECK.encode(), settings, tmp_path)
     assert report.changed == DECK.replace("Clay", "sand").encode()

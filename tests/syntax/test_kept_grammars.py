@@ -7,10 +7,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from lark import Lark, Token, UnexpectedCharacters, UnexpectedToken
+from lark import Lark, Token, UnexpectedToken
 
 from mudline import cache_folder
-from mudline.expression import parsing
 from mudline.keywords import catalogue, grammar, recovery
 from mudline.syntax import scanning
 from mudline.syntax.scanning import kept_parser
@@ -114,17 +113,3 @@ def test_the_rules_of_keywords_are_the_same(rule: str) -> None:
     for start in range(len(known)):
         for terminals in (known[start:], known[: start + 1], [known[start]] * 3, [*known[:start], *known[: start + 2]]):
             assert sequence(kept, terminals) == sequence(made, terminals)
-
-
-@pytest.mark.usefixtures("folder")
-def test_equations_are_read_the_same() -> None:
-    made, kept = parsing._grammar.__wrapped__(), parsing._grammar.__wrapped__()
-    assert scanning.scanner(kept) == scanning.scanner(made)
-    for text in ("1", "a + 2 * -b ^ 2", 'if(a <> "x", max(1, 2), not (b > 1.5D3 and c))'):
-        assert kept.parse(text) == made.parse(text)
-    faults = []
-    for parser in (made, kept):
-        with pytest.raises(UnexpectedCharacters) as fault:
-            parser.parse("a ? b")
-        faults.append(str(fault.value))
-    assert faults[0] == faults[1]

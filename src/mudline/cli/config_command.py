@@ -68,7 +68,7 @@ def _rows(found: Configuration) -> Iterator[tuple[str, Any, str]]:
 # ---------------------------------------------------------------------------------------------------- of each deck
 
 
-@dataclass
+@dataclass(eq=False)
 class Configured:
     """The configuration of each deck: that of `--config`, none (`isolated`), or the nearest one upwards.
 

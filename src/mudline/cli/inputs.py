@@ -35,8 +35,7 @@ _HEAD = 4096
 """Bytes at the beginning of a JSON or YAML file that name its format."""
 
 
-@dataclass(frozen=True, slots=True)
-class Input:
+class Input(NamedTuple):
     """A file by the name that it is reported under; `path` None is standard input."""
 
     name: str
@@ -79,7 +78,7 @@ def _folder(path: str) -> Path:
     return Path(path)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Inputs:
     """The files found, each once, and whether something could not be found or read."""
 
@@ -286,7 +285,7 @@ class _Rules(NamedTuple):
         return next((not one.negated for one in self.patterns if one.fits(own, folder=folder)), None)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class _Search:
     """A search of a directory and all below it; links to directories are not followed.
 
@@ -353,8 +352,7 @@ class _Search:
 # ------------------------------------------------------------------------------------------------ the one deck
 
 
-@dataclass(frozen=True, slots=True)
-class GivenDeck:
+class GivenDeck(NamedTuple):
     """The one deck of a command, with the name of standard input and the units that its options give."""
 
     path: str

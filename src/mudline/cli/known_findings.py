@@ -14,7 +14,7 @@ from mudline.linting.configuration import Given
 from mudline.running.remembered import Memory, of_working_folder
 
 
-@dataclass
+@dataclass(eq=False)
 class KnownFindings:
     """The memory, and what it knows of the decks of a run in which nothing is found.
 

@@ -6,6 +6,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import KW_ONLY, dataclass, field
 from pathlib import Path
+from typing import NamedTuple
 
 import click
 
@@ -22,8 +23,7 @@ def complete(_context: click.Context, _parameter: click.Parameter, incomplete: s
     return [name for name in (TEXT, *form_names()) if name.startswith(incomplete)]
 
 
-@dataclass(frozen=True, slots=True)
-class Outputs:
+class Outputs(NamedTuple):
     """The format of standard output, and those of files."""
 
     form: str
@@ -51,7 +51,7 @@ def outputs(given: Sequence[str]) -> Outputs:
     return Outputs(printed[0] if printed else TEXT, tuple(files))
 
 
-@dataclass
+@dataclass(eq=False)
 class Report:
     """What a run found. `aside`: standard output carries something else, and findings go to standard error."""
 

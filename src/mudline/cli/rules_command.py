@@ -47,10 +47,10 @@ def _object(rule: Rule) -> dict[str, Any]:
         "code": rule.code.code,
         "slug": rule.code.slug,
         "severity": rule.code.severity.value,
-        "title": rule.title,
-        "why": rule.why,
-        "bad": rule.bad,
-        "good": rule.good,
+        "title": rule.page.title,
+        "why": rule.page.why,
+        "bad": rule.page.bad,
+        "good": rule.page.good,
         "origin": origin(rule.code.code),
     }
 
@@ -71,7 +71,7 @@ def _severity(rule: Rule, printer: Printer) -> tuple[str, str]:
 def _finds(rule: Rule) -> str:
     """What a rule finds, and the package that it comes from if that is another than mudline."""
     package = origin(rule.code.code)
-    return rule.title if package == "mudline" else f"{rule.title} [{package}]"
+    return rule.page.title if package == "mudline" else f"{rule.page.title} [{package}]"
 
 
 def _print_rule(rule: Rule, view: View) -> None:
@@ -79,11 +79,11 @@ def _print_rule(rule: Rule, view: View) -> None:
     printer = view.printer()
     width = min(printer.width, _PAGE)
     printer.line((rule.code.code, "bold"), f" {rule.code.slug} (", _severity(rule, printer), ")", fold=False)
-    line, column = rule.place
+    line, column = rule.page.place
     package = origin(rule.code.code)
-    bad, good = (visible_lines(indent(deck, "    ").rstrip("\n")) for deck in (rule.bad, rule.good))
+    bad, good = (visible_lines(indent(deck, "    ").rstrip("\n")) for deck in (rule.page.bad, rule.page.good))
     for paragraph in (
-        *(fill(text, width) for text in (rule.title, *rule.why.split("\n\n")) if text),
+        *(fill(text, width) for text in (rule.page.title, *rule.page.why.split("\n\n")) if text),
         *([] if package == "mudline" else [f"A rule of {package}."]),
         f"Bad (found at line {line}, column {column}):",
         bad,

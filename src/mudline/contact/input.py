@@ -76,7 +76,7 @@ class LawKind(IntEnum):
     """A law that was registered."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class LawAssignment:
     """A law of some elements or nodes.
 
@@ -93,7 +93,7 @@ class LawAssignment:
     __repr__ = short_repr
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class AssignedLaw:
     """All rows of an input that have a law, ascending, with every parameter as an array (k,) of floats."""
 
@@ -138,7 +138,7 @@ class Names(Protocol):
         """(m,) the set through which each element got its law."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class ContactInput:
     """Nodes (n), elements (m) and their laws. The arrays are not copied; do not change them.
 

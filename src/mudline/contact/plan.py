@@ -29,7 +29,7 @@ class Stage:
     why: str
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Plan:
     """The stages in the order in which they are evaluated.
 

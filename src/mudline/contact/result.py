@@ -31,7 +31,7 @@ if TYPE_CHECKING:  # each is imported when it is asked for
 TableName = Literal["elements", "nodes", "summary"]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class ContactResult:
     """Arrays over elements (m) and nodes (n); over (steps, m) and (steps, n) for a series of positions.
 
@@ -227,7 +227,7 @@ def _module(name: str) -> ModuleType:
     return import_module(name)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Part:
     """Steps `start` and on of a series, with their results (steps, ...)."""
 

@@ -28,7 +28,7 @@ class Opaque(Part):
     lines: list[Text]
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, repr=False)
 class Section:
     """A `$SECTION`; `lines` are stray ones before its first keyword."""
 
@@ -96,7 +96,7 @@ class Origin:
         return True
 
 
-@dataclass
+@dataclass(repr=False)
 class Deck:
     """A deck: its sections and blocks as validated models, equations as written.
 
@@ -277,8 +277,7 @@ def _comments_in(part: Part) -> Iterator[str]:
             yield from _comments_in(record)
 
 
-@dataclass(frozen=True, slots=True)
-class Base:
+class Base(NamedTuple):
     """A deck that another one continues: as written, its `$MODEL` sections evaluated, and what is wrong in it.
 
     `sections` has them by their number in the deck.
@@ -288,7 +287,8 @@ class Base:
     sections: dict[int, Section]
     problems: tuple[Problem, ...]
 
-    __repr__ = short_repr
+    def __repr__(self) -> str:
+        return short_repr(self)
 
     @property
     def errors(self) -> list[Problem]:
@@ -296,7 +296,7 @@ class Base:
         return [problem for problem in self.problems if problem.blocking is Blocks.ALWAYS]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class BaseProblem(Problem):
     """A problem of a deck that is continued, in that deck's own terms."""
 

@@ -66,7 +66,7 @@ def list_items(prefix: str, text: str) -> tuple[list[ListItem], str]:
     return items, rest if rest.strip(" ,\t") else ""
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Definition:
     """A parameter: the name as written, its value or equation, and where it stands.
 
@@ -88,7 +88,7 @@ class NoValueError(Exception):
         super().__init__(problem.message if problem else "")
 
 
-@dataclass
+@dataclass(eq=False)
 class Parameters:
     """All parameters of a deck, evaluated when asked for; names compare without case, the last definition holds."""
 

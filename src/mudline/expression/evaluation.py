@@ -32,7 +32,6 @@ from mudline.expression.nodes import (
     Name,
     Node,
     Number,
-    Plain,
     Power,
     Prefix,
     Text,
@@ -264,10 +263,6 @@ def evaluate(expression: Expression, lookup: Lookup) -> float | str:
             too many or too few arguments.
     """
     value: Value | None = None
-    if isinstance(expression.content, Plain):
-        value = plain_value(expression.content, lookup)
-        if value is not None:
-            return value
     waiting: list[Steps] = []
     steps = _steps(expression.root, lookup)
     while True:
@@ -374,17 +369,3 @@ def _call(node: Call) -> Steps:
     for argument in node.arguments:
         arguments.append(Operand((yield argument), argument.span))  # noqa: PERF401 - a comprehension cannot yield
     return apply(FUNCTIONS[name], arguments, node.span)
-
-
-def plain_value(plain: Plain, lookup: Callable[[str], float | str]) -> float | None:
-    """Return the value of a plain equation; None unless it and those in it are finite numbers that `lookup` has."""
-    left, operator, right, _ = plain
-    try:
-        a = lookup(left) if isinstance(left, str) else left
-        b = lookup(right) if isinstance(right, str) else right
-        if type(a) is not float or type(b) is not float:
-            return None
-        value = ARITHMETIC[operator](a, b) if operator else a
-    except (KeyError, ZeroDivisionError):
-        return None
-    return value if math.isfinite(a) and math.isfinite(b) and math.isfinite(value) else None

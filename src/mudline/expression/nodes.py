@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from mudline.diagnostics import Span
@@ -51,40 +49,35 @@ def shorten(text: str) -> str:
     return visible if len(text) <= 40 else visible + "..."
 
 
-@dataclass(frozen=True, slots=True)
-class Number:
+class Number(NamedTuple):
     """A number; infinite where the text names one beyond the range of a double."""
 
     span: Span
     value: float
 
 
-@dataclass(frozen=True, slots=True)
-class Text:
+class Text(NamedTuple):
     """Text in double quotes; the value is without them."""
 
     span: Span
     value: str
 
 
-@dataclass(frozen=True, slots=True)
-class Name:
+class Name(NamedTuple):
     """A parameter, or a constant such as pi, as written."""
 
     span: Span
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class Group:
+class Group(NamedTuple):
     """A part in brackets; the span holds the brackets."""
 
     span: Span
     inner: Node
 
 
-@dataclass(frozen=True, slots=True)
-class Prefix:
+class Prefix(NamedTuple):
     """A sign or `not` before its operand."""
 
     span: Span
@@ -92,8 +85,7 @@ class Prefix:
     operand: Node
 
 
-@dataclass(frozen=True, slots=True)
-class Power:
+class Power(NamedTuple):
     """A base raised to an exponent."""
 
     span: Span
@@ -101,8 +93,7 @@ class Power:
     exponent: Node
 
 
-@dataclass(frozen=True, slots=True)
-class Comparison:
+class Comparison(NamedTuple):
     """Two parts compared; the operator is one of < <= > >= = <>."""
 
     span: Span
@@ -111,8 +102,7 @@ class Comparison:
     right: Node
 
 
-@dataclass(frozen=True, slots=True)
-class Chain:
+class Chain(NamedTuple):
     """Operands joined from left to right by + and -, or by * and /: one operator less than operands."""
 
     span: Span
@@ -120,8 +110,7 @@ class Chain:
     operands: tuple[Node, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Logical:
+class Logical(NamedTuple):
     """Operands joined by `and`, or by `or`."""
 
     span: Span
@@ -129,8 +118,7 @@ class Logical:
     operands: tuple[Node, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Call:
+class Call(NamedTuple):
     """A function with its arguments; the name is as written."""
 
     span: Span
@@ -153,20 +141,7 @@ class NameSpan(NamedTuple):
     end: int
 
 
-class Plain(NamedTuple):
-    """An equation of one name or number, or of two joined by + - * or /; `read` gives the tree of its text.
-
-    A name is a text here, a number a float; an equation of one of them has no operator and the right side 0.
-    """
-
-    left: str | float
-    operator: str
-    right: str | float
-    read: Callable[[str], Node]
-
-
-@dataclass(frozen=True, slots=True)
-class Expression:
+class Expression(NamedTuple):
     """An equation that has been read.
 
     Attributes:
@@ -174,18 +149,13 @@ class Expression:
         name_spans: every use of a name that is not a function, in the order of the text; constants such as `pi` are
             among them, as a parameter may bear that name.
         functions: the functions called, as written, each spelling once, in the order of the text.
-        content: the tree of its parts, or what stands for it until somebody asks for `root`.
+        root: the whole as a tree of parts.
     """
 
     text: str
-    name_spans: tuple[NameSpan, ...] = field(compare=False)
-    functions: tuple[str, ...] = field(compare=False)
-    content: Node | Plain = field(repr=False, compare=False)
-
-    @property
-    def root(self) -> Node:
-        """The whole as a tree of parts."""
-        return self.content.read(self.text) if isinstance(self.content, Plain) else self.content
+    name_spans: tuple[NameSpan, ...]
+    functions: tuple[str, ...]
+    root: Node
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import islice
 from pathlib import Path
+from typing import NamedTuple
 
 from mudline.deck.forms import form_of
 from mudline.deck.model import Deck
@@ -89,8 +90,7 @@ def _with_severity(found: Diagnostic, given: Mapping[str, Severity]) -> Diagnost
 # -------------------------------------------------------------------------------------------------------------- fixes
 
 
-@dataclass(frozen=True, slots=True)
-class Fixed:
+class Fixed(NamedTuple):
     """The new content (None: nothing was changed), the findings that are fixed, and why others are not, or ""."""
 
     changed: bytes | None
@@ -241,7 +241,7 @@ def _overlap(one: Span, other: Span) -> bool:
     return one.start < other.end and other.start < one.end
 
 
-@dataclass
+@dataclass(eq=False)
 class FixState:
     """One stage of a deck, and what lint reports of it, with what follows from its findings."""
 
@@ -300,8 +300,7 @@ class FixState:
                     yield index, number
 
 
-@dataclass(frozen=True, slots=True)
-class Reader:
+class Reader(NamedTuple):
     """Reads and lints the stages of one file."""
 
     name: str

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 from types import ModuleType
 from typing import TYPE_CHECKING
@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from mudline.codes import all_codes
 from mudline.diagnostics import Code, PluginError, Problem, Severity, Where
 from mudline.installed import may_declare
-from mudline.linting.rule import RULES, Check, LintContext, Noticed, Rule, add, described_by
+from mudline.linting.rule import RULES, Check, LintContext, Noticed, Rule, add
 from mudline.resources import modules_of, rule_file
 from mudline.scene.checks import all_checks
 from mudline.spelling import nearest
@@ -38,8 +38,6 @@ RESERVED = {"DOC", "DAT", "EXP", "MIG", "RUN"}
 
 _FEW = 4
 """Rules that are listed where a word is a part of their names."""
-_CODE = re.compile(r"[A-Z]{2,8}[0-9]{3}")
-_SLUG = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 _ORIGINS: dict[str, str] = {}
 
 
@@ -55,7 +53,7 @@ def _collected() -> tuple[tuple[Rule, ...], tuple[str, ...]]:
     for found in all_checks():
         declared.setdefault(found.code.code, (found.code, found.find.__doc__ or ""))
     for code, page in declared.values():
-        add(described_by(code, Noticed(code), page))
+        add(Rule(code, Noticed(code), page))
     modules_of("mudline.linting.rules")
     faults = load(RULES)
     return tuple(RULES[code] for code in sorted(RULES)), faults
@@ -136,7 +134,7 @@ def load(known: dict[str, Rule]) -> tuple[str, ...]:
             known.update(before)
             faults.append(f"the plugin {entry.name} of {package} cannot be used: {fault}, or uninstall the package")
         for code in known.keys() - before.keys():
-            known[code] = replace(known[code], check=Guarded(known[code].check, code, package))
+            known[code] = known[code]._replace(check=Guarded(known[code].check, code, package))
             _ORIGINS[code] = package
     return tuple(faults)
 
@@ -172,12 +170,22 @@ def _fault_of(added: Sequence[Rule], own: set[str]) -> str:
     if not added:
         return "it adds no rule: use the decorator mudline.plugins.rule in it"
     for code in (rule.code for rule in added):
-        if not _CODE.fullmatch(code.code):
+        if not re.fullmatch(r"[A-Z]{2,8}[0-9]{3}", code.code):
             return f"the code {code.code!r} must be 2 to 8 capital letters and 3 digits, as ACM001: change it"
         if code.code.rstrip("0123456789") in own:
             return f"codes like {code.code} belong to mudline: choose other letters"
-        if not _SLUG.fullmatch(code.slug):
+        if not re.fullmatch(r"[a-z][a-z0-9]*(-[a-z0-9]+)*", code.slug):
             return f"the name {code.slug!r} of {code.code} must be words in lower case with hyphens: change it"
+    return _fault_of_pages(added)
+
+
+def _fault_of_pages(added: Sequence[Rule]) -> str:
+    """What the docstrings of the rules that a plugin added lack."""
+    try:
+        for one in added:
+            one.page  # noqa: B018 - own rules are read in tests
+    except ValueError as error:
+        return f"{_said(error)}: report it to its authors"
     return ""
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property, wraps
+from functools import cache, cached_property, wraps
 from itertools import chain, islice, pairwise
 from operator import is_
 from textwrap import dedent
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
@@ -41,7 +41,7 @@ STEEPEST = 100.0
 """Ratio of two slopes of a curve."""
 
 
-@dataclass
+@dataclass(eq=False)
 class LintContext:
     """A deck as it is written (equations and all) and its scene (evaluated and resolved, as far as that goes).
 
@@ -165,27 +165,19 @@ def _ordinary(entry: SceneCurve) -> bool:
 
 Check = Callable[[LintContext], Iterable[Problem]]
 
-_HEADINGS = re.compile(r"^(Example|Finds|File|Bytes|Cut|Dialect):[ \t]*(.*)$", re.MULTILINE)
-_MARKED = re.compile(r"    ([ +-])(.*)")
-_PLACE = re.compile(r"([0-9]+):([0-9]+)")
+_HEADINGS = r"(?m)^(Example|Finds|File|Bytes|Cut|Dialect):[ \t]*(.*)$"
 RULES: dict[str, Rule] = {}
 """The rules that are registered, by code, in the order of their registration."""
 
 
-@dataclass(frozen=True, slots=True)
-class Rule:
-    """A rule: its code, the function that finds, and what its page says.
+class RulePage(NamedTuple):
+    """What the docstring of a rule says.
 
-    `title` is the first sentence, `why` the text after it, `bad` a deck that it finds something in at `place` (line
-    and column), `good` the deck corrected; `file` is the name that the examples are read under. `encoding` is that of
-    the bad deck's bytes, `dialect` the one under which it is at fault. A rule that is `off` runs only where it is
-    selected, and one with anything in `of` only in a deck that holds some of it.
-
-    The findings of a rule whose check is not `Noticed` never keep a deck from being evaluated, whatever their severity.
+    `title` is the first sentence, `why` the text after it, `bad` a deck that the rule finds something in at `place`
+    (line and column), `good` the deck corrected; `file` is the name that the examples are read under. `encoding` is
+    that of the bad deck's bytes, `dialect` the one under which it is at fault.
     """
 
-    code: Code
-    check: Check
     title: str
     why: str
     bad: str
@@ -193,9 +185,7 @@ class Rule:
     place: tuple[int, int]
     file: str
     encoding: str
-    off: bool
-    dialect: str = "mudline"
-    of: tuple[str, ...] = ()
+    dialect: str
 
     @property
     def bad_bytes(self) -> bytes:
@@ -215,6 +205,27 @@ class Rule:
         if self.encoding != "utf-8":
             return f"saved as {self.encoding.upper()}"
         return "" if self.bad.endswith("\n") else "the file ends without a line end"
+
+
+class Rule(NamedTuple):
+    """A rule: its code, the function that finds, and the docstring that becomes its page.
+
+    A rule that is `off` runs only where it is selected, and one with anything in `of` only in a deck that holds some of
+    it.
+
+    The findings of a rule whose check is not `Noticed` never keep a deck from being evaluated, whatever their severity.
+    """
+
+    code: Code
+    check: Check
+    docstring: str
+    off: bool = False
+    of: tuple[str, ...] = ()
+
+    @property
+    def page(self) -> RulePage:
+        """What the docstring says; raises ValueError for one that lacks a part."""
+        return described_by(self.code, self.docstring)
 
 
 @dataclass(frozen=True, slots=True)
@@ -239,12 +250,12 @@ def rule(code: Code, *, off: bool = False, of: tuple[str, ...] = ()) -> Callable
     deck. `File: name` (default deck.keyxm) is the name of both decks. `Bytes: encoding` saves the bad deck in another
     encoding than UTF-8; `Cut: yes` leaves out its last line end; `Dialect: name` reads both decks in a dialect.
 
-    Raises ValueError for a docstring that lacks a part, for a line of the example that has no mark, for two decks that
-    are the same, and for a code or slug that another rule has.
+    Raises ValueError for a code or slug that another rule has. A docstring that lacks a part, a line of the example
+    that has no mark, and two decks that are the same are faults of a plugin, found when it is loaded.
     """
 
     def register(check: Check) -> Check:
-        add(replace(described_by(code, check, check.__doc__ or "", off=off), of=of))
+        add(Rule(code, check, check.__doc__ or "", off, of))
         return check
 
     return register
@@ -260,31 +271,30 @@ def limited(check: Check) -> Check:
     return first
 
 
-def add(described: Rule) -> None:
+def add(declared: Rule) -> None:
     """Register a rule; raises ValueError for a code or slug that another rule has."""
-    code = described.code
+    code = declared.code
     if code.code in RULES or any(code.slug == known.code.slug for known in RULES.values()):
         raise ValueError(f"there is already a rule {code.code} or {code.slug}")
-    RULES[code.code] = described
+    RULES[code.code] = declared
 
 
-def described_by(code: Code, check: Check, page: str, *, off: bool = False) -> Rule:
-    """The rule that a docstring describes (see `rule`); raises ValueError for a docstring that lacks a part."""
-    first, _, rest = page.partition("\n")
-    parts = _HEADINGS.split(f"{first.strip()}\n{dedent(rest)}")
+@cache
+def described_by(code: Code, docstring: str) -> RulePage:
+    """Return what a docstring says of a rule (see `rule`); raises ValueError for a docstring that lacks a part."""
+    first, _, rest = docstring.partition("\n")
+    parts = re.split(_HEADINGS, f"{first.strip()}\n{dedent(rest)}")
     title, _, why = parts[0].strip().partition("\n")
     found = {name: (line, body) for name, line, body in zip(parts[1::3], parts[2::3], parts[3::3], strict=True)}
     lacking = [name for name in ("Example", "Finds") if name not in found]
     if lacking or not title or not why.strip():
         raise ValueError(f"the docstring of {code.code} must have {' and '.join(lacking) or 'a title and a reason'}")
     words = {name: line.strip() for name, (line, _) in found.items()}
-    place = _PLACE.fullmatch(words["Finds"])
+    place = re.fullmatch(r"([0-9]+):([0-9]+)", words["Finds"])
     if place is None:
         raise ValueError(f"Finds: {words['Finds']} of {code.code} must be line:column of the bad deck")
     bad, good = _decks(code, found["Example"][1].replace(r"\t", "\t"))  # Python 3.13 makes blanks of TABs in docstrings
-    described = Rule(
-        code=code,
-        check=check,
+    described = RulePage(
         title=title.strip(),
         why=why.strip(),
         bad=bad.removesuffix("\n") if "Cut" in words else bad,
@@ -292,7 +302,6 @@ def described_by(code: Code, check: Check, page: str, *, off: bool = False) -> R
         place=(int(place[1]), int(place[2])),
         file=words.get("File", "deck.keyxm"),
         encoding=words.get("Bytes", "utf-8"),
-        off=off,
         dialect=words.get("Dialect", "mudline"),
     )
     if described.bad_bytes == described.good_bytes:
@@ -305,7 +314,7 @@ def _decks(code: Code, example: str) -> tuple[str, str]:
     bad: list[str] = []
     good: list[str] = []
     for line in example.strip("\n").split("\n"):
-        marked = _MARKED.fullmatch(line or "     ")
+        marked = re.fullmatch(r"    ([ +-])(.*)", line or "     ")
         if marked is None:
             raise ValueError(
                 f"the line {line!r} of the example of {code.code} must have four spaces, then a space, - or +"

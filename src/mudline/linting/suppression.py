@@ -36,7 +36,7 @@ MARK = re.compile(r"[Cc][ \t]+mudline[ \t]*:[ \t]*", re.IGNORECASE)
 _NAMED = re.compile(r"mudline", re.IGNORECASE)
 _ORDER = re.compile(r"[\w-]+")
 _WORD = re.compile(r"[^,\s]+")
-_REASON = re.compile(r"(?:(?<=[\s,])|^)--(?=\s|$)")
+_REASON = r"(?:(?<=[\s,])|^)--(?=\s|$)"
 _PLACES = {"ignore": "the next line", "ignore-block": "this block", "ignore-file": "this file"}
 _NOWHERE = ("outside",)
 """The scope of what is in no block."""
@@ -44,8 +44,7 @@ _NOTHING = ("nothing",)
 """The scope of a comment that applies to nothing."""
 
 
-@dataclass(frozen=True, slots=True)
-class Word:
+class Word(NamedTuple):
     """What a comment names: the text, its place, and the codes of the rules behind it (none: no rule has that name)."""
 
     text: str
@@ -53,7 +52,7 @@ class Word:
     codes: frozenset[str]
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Directive:
     """One comment. `scope` is what it applies to: a line, a block or the file; nothing after the last line.
 
@@ -69,7 +68,7 @@ class Directive:
     reason: str = ""
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Suppressions:
     """All comments of a deck that hide findings, and those that look like one (`misspelt`: the word, what was meant).
 
@@ -251,7 +250,7 @@ def _directive(text: str, leaf: Span, where: Where, found: Suppressions) -> Dire
             found.misspelt.append((Word(order.group(), Span(*order.span()), frozenset()), near, where))
         return None
     end = leaf.start + len(text[slice(*leaf)].rstrip())
-    reason = _REASON.search(text[order.end() : end])
+    reason = re.search(_REASON, text[order.end() : end])
     names = list(_WORD.finditer(text, order.end(), order.end() + reason.start() if reason else end))
     codes = {word: frozenset(rule.code.code for rule in find(word)) for word in {one.group() for one in names}}
     words = [Word(one.group(), Span(*one.span()), codes[one.group()]) for one in names]

@@ -220,8 +220,8 @@ def _hidden(context: LintContext, settings: LintSettings, sections: list[tuple[i
 
 
 def _titles(codes: Collection[str]) -> dict[str, str]:
-    titles = {rule.code.code: rule.title for rule in rules()} if codes else {}
-    return {code: titles.get(code, "") for code in sorted(set(codes))}
+    found = {rule.code.code: rule for rule in rules()} if codes else {}
+    return {code: found[code].page.title if code in found else "" for code in sorted(set(codes))}
 
 
 # ----------------------------------------------------------------------------------------------------- model and curves

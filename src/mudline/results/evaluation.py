@@ -199,7 +199,7 @@ def _with_lengths(scene: Scene, positions: Positions | None) -> tuple[Scene, int
     between = distances(ends[:, 0], ends[:, 1])
     length = scene.length.copy()
     length[unknown] = np.where(np.isnan(between), 0.0, between)
-    return replace(scene, table=replace(scene.table, length=length)), int((~np.isnan(between)).sum())
+    return replace(scene, table=scene.table._replace(length=length)), int((~np.isnan(between)).sum())
 
 
 def _require_coordinates(scene: Scene) -> None:

@@ -51,7 +51,7 @@ _COUNTED = 5.0
 _MOST_ON_WINDOWS = 61
 """Processes that one process can wait for there."""
 
-_ADDRESS = re.compile(r"(?P<protocol>tcp|tls)://(?P<host>\[[0-9A-Fa-f:.]+\]|[A-Za-z0-9._-]+):(?P<port>[0-9]{1,5})")
+_ADDRESS = r"(?P<protocol>tcp|tls)://(?P<host>\[[0-9A-Fa-f:.]+\]|[A-Za-z0-9._-]+):(?P<port>[0-9]{1,5})"
 """Strict: what Dask takes apart in another way would not be checked."""
 
 _ENDED = "a process has ended early, perhaps out of memory: give fewer files, or use --jobs 1"
@@ -68,7 +68,7 @@ class RunError(Exception):
 # -------------------------------------------------------------------------------------------------------- what to use
 
 
-@dataclass
+@dataclass(eq=False)
 class Pool:
     """At most so many processes (0: one for each processor), or the workers of a scheduler, once they are used."""
 
@@ -295,7 +295,7 @@ def check_address(address: str) -> None:
 
     A scheduler runs whatever code it is sent, and so do its workers: one that others can reach needs TLS.
     """
-    found = _ADDRESS.fullmatch(address)
+    found = re.fullmatch(_ADDRESS, address)
     if found is None or not 0 < int(found["port"]) < 1 << 16:
         raise RunError(f"--scheduler {address}: expected tcp://HOST:PORT or tls://HOST:PORT")
     if find_spec("distributed") is None:

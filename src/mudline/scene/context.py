@@ -44,7 +44,7 @@ _NUMBERED = {"NODE": "node", "ELEMENT": "element"}
 """Keywords of what has numbers."""
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class _Uses:
     """How often a deck uses things of a kind that it does not show, number and place of the first, what that blocks."""
 
@@ -55,7 +55,7 @@ class _Uses:
     blocks: Blocks = Blocks.NEVER
 
 
-@dataclass
+@dataclass(repr=False, eq=False)
 class Context:
     """The evaluated deck, the deck as written, and what was noticed.
 

@@ -6,9 +6,8 @@ Force-embedment curves are resolved in `force_curves`, as elements follow them; 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -33,8 +32,7 @@ OF_SEABED = "force-embedment curve"
 _CODES = {code.code: code for code in (CRV001, CRV011)}
 
 
-@dataclass(frozen=True, slots=True)
-class DeckCurve:
+class DeckCurve(NamedTuple):
     """A curve: its kind in words, its keyword and name, its points (n, 2), abscissa first, and where they stand.
 
     `rows` (n,) are the places of the points in their table, without those that could not be read; `whole` says that
@@ -52,7 +50,8 @@ class DeckCurve:
     axes: tuple[str, str]
     units: tuple[str, str]
 
-    __repr__ = short_repr
+    def __repr__(self) -> str:
+        return short_repr(self)
 
     def point(self, index: int) -> Where:
         """Where a point of `points` stands."""

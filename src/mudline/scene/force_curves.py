@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import isnan
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -27,8 +26,7 @@ _CODES = {code.code: code for code in (CRV001, CRV011)}
 _NOWHERE = np.zeros(0, dtype=np.intp)
 
 
-@dataclass(frozen=True, slots=True)
-class SceneCurve:
+class SceneCurve(NamedTuple):
     """A curve of the deck: its name (that of its set for `*EMBEDMENT`), its points as given, where it stands.
 
     `points` (n, 2) leaves out rows that could not be read; `rows` (n,) are their places in the table. `curve` is made
@@ -45,7 +43,8 @@ class SceneCurve:
     embedment: bool
     named: bool
 
-    __repr__ = short_repr
+    def __repr__(self) -> str:
+        return short_repr(self)
 
     def point(self, index: int) -> Where:
         """Where a point of `points` stands."""

@@ -35,8 +35,7 @@ NOTHING = -1
 _UNKNOWN = float("nan")
 
 
-@dataclass(frozen=True, slots=True)
-class SetLaw:
+class SetLaw(NamedTuple):
     """What one place of the deck gives to a set of elements; a set that is not known is open and holds none.
 
     `family` is "legacy" or "new"; `curve` an index in the table's curves. `unknown` marks a law that could not be read
@@ -51,10 +50,11 @@ class SetLaw:
     curve: int = NOTHING
     unknown: bool = False
 
-    __repr__ = short_repr
+    def __repr__(self) -> str:
+        return short_repr(self)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, repr=False, eq=False)
 class LawTable:
     """The set_laws as they were found, legacy ones first, and the one that each element follows (m,), -1 for none.
 
@@ -216,8 +216,7 @@ class ResistanceValues(NamedTuple):
 _NO_VALUES = ResistanceValues()
 
 
-@dataclass(frozen=True, slots=True)
-class SeabedResistance:
+class SeabedResistance(NamedTuple):
     """The values of elements (m,) or (m, 2), NaN where the deck gives none, in the deck's units.
 
     `values` and `places` list what the deck gives and where; `of_element` (m,) is the index of each element in them,
@@ -228,7 +227,8 @@ class SeabedResistance:
     places: Sequence[Where]
     of_element: Indices
 
-    __repr__ = short_repr
+    def __repr__(self) -> str:
+        return short_repr(self)
 
     @property
     def has_mobilisation(self) -> bool:
@@ -305,8 +305,7 @@ def _of_surfaces(context: Context) -> Iterator[tuple[Where, ResistanceValues]]:
         )
 
 
-@dataclass(frozen=True, slots=True)
-class Extension:
+class Extension(NamedTuple):
     """The blocks of one keyword in the order of the file; `of_element` (m,) is the one each element follows, or -1."""
 
     entries: list[Record]
@@ -314,7 +313,8 @@ class Extension:
     sets: list[NamedSet | None]
     of_element: Indices
 
-    __repr__ = short_repr
+    def __repr__(self) -> str:
+        return short_repr(self)
 
     def values(self, at: Indices, *names: str, default: float = math.nan) -> Floats:
         """A number of the block of each index, `default` where the block does not give it, NaN for -1.

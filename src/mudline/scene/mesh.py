@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -36,8 +35,7 @@ if TYPE_CHECKING:
     from mudline.scene.csv_file import ExternalElements
 
 
-@dataclass(frozen=True, slots=True)
-class _NodeLine:
+class _NodeLine(NamedTuple):
     """Nodes between two others, not yet placed."""
 
     batch: Batch
@@ -161,15 +159,15 @@ def _late(context: Context, gathered: Definitions, line: _NodeLine) -> bool:
     return False
 
 
-@dataclass(frozen=True, slots=True)
-class ElementTable:
+class ElementTable(NamedTuple):
     """Elements with the indices of their nodes (m, 2), -1 for a node that is not known, and their lengths (m,)."""
 
     numbered: Numbered
     nodes: Indices
     length: Floats
 
-    __repr__ = short_repr
+    def __repr__(self) -> str:
+        return short_repr(self)
 
 
 def read_elements(context: Context, nodes: Numbered, external: ExternalElements | None = None) -> ElementTable:

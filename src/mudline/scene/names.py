@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from functools import cache
+from typing import NamedTuple
 
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import folded
@@ -40,15 +41,14 @@ _USED = _DEFINED | {Names.SET}
 """What is looked up here: names that fields define, and those that they use."""
 
 
-@dataclass(frozen=True, slots=True)
-class GivenName:
+class GivenName(NamedTuple):
     """A name as the deck gives it, and where."""
 
     name: str
     where: Where
 
 
-@dataclass
+@dataclass(eq=False)
 class NamesOfKind:
     """The names of a kind: those that fields use, and those that they define, by their folded form."""
 

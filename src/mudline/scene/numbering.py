@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import pairwise
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -90,8 +90,7 @@ def are_whole(column: Floats) -> bool:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class Batch:
+class Batch(NamedTuple):
     """Definitions that stand together: rows of a table, or all of one generator (`table` "").
 
     `rows` are their places in the table; None stands for all of them in order.
@@ -103,7 +102,8 @@ class Batch:
     table: str = ""
     rows: Indices | None = None
 
-    __repr__ = short_repr
+    def __repr__(self) -> str:
+        return short_repr(self)
 
     def place(self, index: int) -> Where:
         """Where a definition of the batch stands."""
@@ -113,7 +113,7 @@ class Batch:
         return self.where.inside(self.table, row)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, repr=False, eq=False)
 class Definitions:
     """Definitions in the order of the file, numbered through as rows."""
 
@@ -178,7 +178,7 @@ class Definitions:
             rows = identity(len(ids))
             if len(self.batches) > 1:  # they keep no memory of their own
                 bounds = zip(self.batches, self._starts, self._starts[1:], strict=False)
-                self.batches = [replace(batch, ids=ids[a:b], values=values[a:b]) for batch, a, b in bounds]
+                self.batches = [batch._replace(ids=ids[a:b], values=values[a:b]) for batch, a, b in bounds]
             runs = [(rows, ids)] if ascending and len(ids) else None
             return Numbered(ids, values, rows, rows, rows[:0], starts, self.batches, runs)
         order = np.argsort(ids, kind="stable")
@@ -192,7 +192,7 @@ class Definitions:
         return Numbered(ids[firsts], values[lasts], firsts, lasts, repeats, starts, self.batches)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, repr=False, eq=False)
 class Numbered:
     """Numbers and values of the definitions that hold.
 

@@ -82,7 +82,7 @@ class StepFile(StepReader):
         return found
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Positions:
     """Positions (steps, nodes, 3) in the order of the scene's nodes, NaN for those that the file has not.
 

@@ -7,7 +7,7 @@ import re
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -43,8 +43,7 @@ class SeabedKind(Enum):
     PLANES = "planes"
 
 
-@dataclass(frozen=True, slots=True)
-class SeabedPlane:
+class SeabedPlane(NamedTuple):
     """A plane: a point (elevation, Y, Z), slope and direction in degrees, bounds (Y and Z, infinite where open)."""
 
     name: str
@@ -54,7 +53,7 @@ class SeabedPlane:
     bounds: tuple[float, float, float, float]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class SeabedShape:
     """The seabed, angles in degrees, lengths in the deck's units.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
@@ -25,8 +24,7 @@ if TYPE_CHECKING:
 _FORMATS = ("flexible", "rigid", "mooring", "truss")
 
 
-@dataclass(frozen=True, slots=True)
-class Section:
+class Section(NamedTuple):
     """An entry of `*GEOMETRIC SETS`. `diameter` is NaN where there is none, or none that can be used.
 
     `source` is "Do" or "Dd"; `faulty` says that the diameter could not be read or is out of range, which is reported.
@@ -39,11 +37,11 @@ class Section:
     faulty: bool
     entry: GeometricSet
 
-    __repr__ = short_repr
+    def __repr__(self) -> str:
+        return short_repr(self)
 
 
-@dataclass(frozen=True, slots=True)
-class SectionTable:
+class SectionTable(NamedTuple):
     """Sections in the order of the file; `of_element` (m,) is the one that each element has, -1 for none.
 
     `diameter` (m,) is the external diameter, NaN where there is none; `faulty` (m,) marks elements whose section could
@@ -57,7 +55,8 @@ class SectionTable:
     faulty: Mask
     open: bool
 
-    __repr__ = short_repr
+    def __repr__(self) -> str:
+        return short_repr(self)
 
 
 def read_sections(

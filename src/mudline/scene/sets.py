@@ -41,7 +41,7 @@ def set_key(name: str) -> str:
     return folded(bare(name))
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, repr=False, eq=False)
 class NamedSet:
     """A set: its name as first written, the indices of its elements in ascending order, where it is defined.
 
@@ -56,7 +56,7 @@ class NamedSet:
     __repr__ = short_repr
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, repr=False, eq=False)
 class Sets:
     """All sets by folded name; ALL is always there."""
 

@@ -81,7 +81,7 @@ class Parameter(NamedTuple):
         return found & ~np.isnan(values) if self.optional else found
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Law:
     """A contact law.
 
@@ -121,7 +121,7 @@ def _never(*parameters: Value) -> Value:
     return 0.0 * parameters[0]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class NormalLaw(Law):
     """A law of the reaction along the normal of the seabed, without history.
 
@@ -140,7 +140,7 @@ class NormalLaw(Law):
     __repr__ = short_repr
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class PathLaw(NormalLaw):
     """A normal law whose force depends on the path of an element; `reaction` and `steepest` are those of its first way.
 

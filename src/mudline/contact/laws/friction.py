@@ -125,7 +125,7 @@ class FrictionLaw:
         return found
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class FrictionHistory:
     """What friction remembers. It is never changed: a step gives a new one.
 

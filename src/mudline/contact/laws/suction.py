@@ -217,7 +217,7 @@ def from_cohesion(
     return SuctionFactors(factor, np.full(factor.shape, FORCE_EXPONENT), depth, np.full(depth.shape, DEPTH_EXPONENT))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class SuctionHistory:
     """What the elements (m,) remember. A step gives a new one and leaves the old one as it is.
 

@@ -24,7 +24,7 @@ from mudline.contact.laws import Law, Parameter, Value, where
 from mudline.short_repr import short_repr
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class UnloadingHistory:
     """What the elements (k,) remember. A step gives a new one and leaves the old one as it is.
 

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import partial
 from hashlib import sha256
 from importlib import import_module
 from pkgutil import iter_modules
 from types import ModuleType
+from typing import NamedTuple
 
 from mudline.diagnostics import Diagnostic
 from mudline.limits import LONGEST_MESSAGE
@@ -28,8 +28,7 @@ TEXT_SUMMARY = "for people: place, message, the source line with a mark; standar
 _REPLACEMENT = "\ufffd"
 
 
-@dataclass(frozen=True, slots=True)
-class LintRun:
+class LintRun(NamedTuple):
     """What a form may say besides the findings: the files linted, in their order, and the version of mudline."""
 
     files: Sequence[str]

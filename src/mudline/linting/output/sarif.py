@@ -97,8 +97,8 @@ def _edit(edit: Edit) -> dict[str, Any]:
 def _descriptor(found: Diagnostic) -> dict[str, Any]:
     """The reporting descriptor of the code of a finding."""
     rule = next((rule for rule in rules() if rule.code.code == found.code), None)
-    title = rule.title if rule else f"{found.slug.replace('-', ' ').capitalize()}."
-    why = rule.why if rule else _NO_RULE
+    title = rule.page.title if rule else f"{found.slug.replace('-', ' ').capitalize()}."
+    why = rule.page.why if rule else _NO_RULE
     severity = rule.code.severity if rule else found.severity
     help_uri = page(found.code)
     return {
@@ -113,5 +113,6 @@ def _descriptor(found: Diagnostic) -> dict[str, Any]:
 
 
 def _markdown(rule: Rule) -> str:
-    examples = f"Bad:\n\n```text\n{rule.bad.rstrip()}\n```\n\nGood:\n\n```text\n{rule.good.rstrip()}\n```\n"
-    return f"# {rule.title}\n\n{rule.why}\n\n{examples}"
+    said = rule.page
+    examples = f"Bad:\n\n```text\n{said.bad.rstrip()}\n```\n\nGood:\n\n```text\n{said.good.rstrip()}\n```\n"
+    return f"# {said.title}\n\n{said.why}\n\n{examples}"

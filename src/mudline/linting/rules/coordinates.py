@@ -33,7 +33,7 @@ BETTER = 3.0
 COMMA_ROWS = 1000
 """Rows of a table in which decimal commas are looked for."""
 
-_HALVES = re.compile(r"([-+]?[0-9]+),([0-9]+)")
+_HALVES = r"([-+]?[0-9]+),([0-9]+)"
 
 
 def odd_coordinates(context: LintContext) -> Iterator[Problem]:
@@ -283,7 +283,7 @@ def _split_rows(text: TextOrigin, table: Table, where: Where) -> list[tuple[Wher
         fields = _fields(text, where.inside(row))
         for column, names in ((1, "x and y"), (2, "y and z")) if len(fields) == 4 else ():
             halves = ",".join(fields[column : column + 2])
-            if not _HALVES.fullmatch(halves):
+            if not re.fullmatch(_HALVES, halves):
                 continue
             beside = [other for other in (row - 1, row + 1) if 0 <= other < len(table) and table.lengths[other] == 3]
             pointed = all(field.count(".") for other in beside for field in _fields(text, where.inside(other))[1:])

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import chain
+from typing import NamedTuple
 
 import numpy as np
 
@@ -333,8 +333,7 @@ def repeated_point(context: LintContext) -> Iterator[Problem]:
             yield Problem(CRV004, message, where=other.point(index))
 
 
-@dataclass(frozen=True, slots=True)
-class PlainRows:
+class PlainRows(NamedTuple):
     """The lines of a table, without white space and line ends after them; `before` is what its curve has above them."""
 
     source: str

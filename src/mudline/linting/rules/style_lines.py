@@ -24,15 +24,15 @@ STY009 = Code("STY009", "indented-comment", Severity.WARNING)
 
 _DATA = (Kind.RUN, Kind.SETTING, Kind.TEXT)
 
-_KEY_LIKE = re.compile(r"\n[Cc][A-Za-z]")
+_KEY_LIKE = r"\n[Cc][A-Za-z]"
 INDENTED_COMMENT = re.compile(r"[ \t]++[Cc](?:[ \t]++[^ \t\r\n]|[-*=#_.~+]{2})")
-_COMMENT_BELOW = re.compile(rf"\n{INDENTED_COMMENT.pattern}")
+_COMMENT_BELOW = rf"\n{INDENTED_COMMENT.pattern}"
 
-_SMALL = re.compile(r"[a-z]")
-_INDENTED_HEAD = re.compile(r"[ \t]++[*$]")
-_HEAD_BELOW = re.compile(rf"\n{_INDENTED_HEAD.pattern}")
-_SMALL_HEAD = re.compile(r"[ \t]*+[*$][^\na-z]*+[a-z]")
-_SMALL_BELOW = re.compile(rf"\n{_SMALL_HEAD.pattern}")
+_SMALL = r"[a-z]"
+_INDENTED_HEAD = r"[ \t]++[*$]"
+_HEAD_BELOW = rf"\n{_INDENTED_HEAD}"
+_SMALL_HEAD = r"[ \t]*+[*$][^\na-z]*+[a-z]"
+_SMALL_BELOW = rf"\n{_SMALL_HEAD}"
 _ODD = re.compile(r"[Cc][A-Za-z]|[ \t]++(?:[Cc](?:[ \t]|[-*=#_.~+]{2})|[*$])|[*$][^\na-z]*+[a-z]")
 _ODD_BELOW = re.compile(rf"\n(?:{_ODD.pattern})")
 _UPPER = {code: code - 32 for code in range(ord("a"), ord("z") + 1)}
@@ -140,7 +140,7 @@ def lower_case_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
             yield Problem(STY002, "the comment begins with a lower-case c: write a capital C", mark, repair=repair)
 
 
-@rule_of_text(STY008, _KEY_LIKE.search, odd=True)
+@rule_of_text(STY008, lambda source: re.search(_KEY_LIKE, source), odd=True)
 def key_like_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A setting such as CURVE= begins in column 1, where a C makes a comment.
 
@@ -170,7 +170,7 @@ def key_like_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
             yield Problem(STY008, message, Span(start, source.index("=", start) + 1), repair=repair)
 
 
-@rule_of_text(STY009, lambda source: _COMMENT_BELOW.search(source) or INDENTED_COMMENT.match(source), odd=True)
+@rule_of_text(STY009, lambda source: re.search(_COMMENT_BELOW, source) or INDENTED_COMMENT.match(source), odd=True)
 def indented_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A line that looks like a comment is indented, and so it is data.
 
@@ -195,7 +195,7 @@ def indented_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
             yield Problem(STY009, message, trimmed(source, *leaf.span))
 
 
-@rule_of_text(STY005, lambda source: _HEAD_BELOW.search(source) or _INDENTED_HEAD.match(source), odd=True)
+@rule_of_text(STY005, lambda source: re.search(_HEAD_BELOW, source) or re.match(_INDENTED_HEAD, source), odd=True)
 def indented_keyword(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A keyword or a section does not begin in column 1.
 
@@ -220,7 +220,7 @@ def indented_keyword(text: TextOrigin, source: str) -> Iterator[Problem]:
             yield Problem(STY005, message, head, repair=repair)
 
 
-@rule_of_text(STY006, lambda source: _SMALL_BELOW.search(source) or _SMALL_HEAD.match(source), odd=True)
+@rule_of_text(STY006, lambda source: re.search(_SMALL_BELOW, source) or re.match(_SMALL_HEAD, source), odd=True)
 def keyword_case(text: TextOrigin, source: str) -> Iterator[Problem]:
     """The name of a keyword or a section is not in upper case.
 
@@ -238,7 +238,7 @@ def keyword_case(text: TextOrigin, source: str) -> Iterator[Problem]:
     for line in head_lines(text):
         head = trimmed(source, *line)
         written = source[slice(*head)]
-        if _SMALL.search(written) and _known(written):
+        if re.search(_SMALL, written) and _known(written):
             what = "section" if written[0] == "$" else "keyword"
             repair = Repair("safe", "write it in upper case", ((head, written.translate(_UPPER)),))
             message = f"the {what} is not in upper case: write it in upper case"

@@ -7,9 +7,9 @@ All modules in here are imported.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from mudline.diagnostics import MORE, Code, Problem
 from mudline.limits import MOST_REPORTED
@@ -22,8 +22,7 @@ if TYPE_CHECKING:
 Find = Callable[["ResolvedDeck"], Iterable[Problem]]
 
 
-@dataclass(frozen=True, slots=True)
-class Check:
+class Check(NamedTuple):
     """A function that finds problems of a code in a scene; each says whether it keeps the deck from being evaluated.
 
     The page is the docstring of the function, unless the code has one. It is not asked about a scene that

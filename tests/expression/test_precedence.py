@@ -1,4 +1,4 @@
-"""Descent and plain equations against the grammar and Python: the same equations are read, and to the same values."""
+"""Equations against Python: parts that belong together, and their values."""
 
 from __future__ import annotations
 
@@ -11,81 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mudline.expression.evaluation import evaluate
-from mudline.expression.nodes import EvaluationError, Expression, ExpressionError
-from mudline.expression.parsing import (
-    descend,
-    parse,
-    plain_equations,
-    read_plain,
-    refuse,
-    tokens,
-    tree,
-)
-
-MARKS = st.sampled_from([*'+-*/^(),=<>"#[ \t', "**", "==", "!=", "<>", "<=", ">=", '""'])
-WORDS = st.sampled_from(["and", "or", "not", "AND", "Or", "NOT", "and_1", "nothing", "x", "x y not", "Water Depth"])
-VALUES = st.sampled_from(["1", "2.", ".5", "1e3", "1.0D+3", "1e", "1e999", "Größe", "e\u0301t", "b.1", '"text"'])
-CALLS = st.sampled_from(["if(", "max(", "f()"])
-ANYTHING = st.lists(st.one_of(MARKS, WORDS, VALUES, CALLS), max_size=14).map("".join)
-
-
-def _joined(parts: st.SearchStrategy[str]) -> st.SearchStrategy[str]:
-    operators = st.sampled_from([*"+-*/^<=", " and ", " OR ", "**", "<>", "!="])
-    return st.one_of(
-        st.builds("{}{}{}".format, parts, operators, parts),
-        st.builds("{}{}{} {} {}".format, parts, operators, parts, operators, parts),
-        st.builds("({})".format, parts),
-        st.builds("{}{}".format, st.sampled_from(["-", "+", "not ", "NOT "]), parts),
-        st.lists(parts, max_size=3).map(lambda given: f"max({', '.join(given)})"),
-        st.lists(parts, min_size=1, max_size=2).map(lambda given: f"and({' ,'.join(given)})"),
-    )
-
-
-EQUATIONS = st.recursive(st.sampled_from(["1", "2.5D1", "x", "Water Depth", '"t"']), _joined, max_leaves=12)
-
-
-def _read(read: Callable[[str], object], text: str) -> bool:
-    try:
-        read(text)
-    except ExpressionError:
-        return False
-    return True
-
-
-@given(st.one_of(ANYTHING, EQUATIONS))
-def test_the_grammar_reads_the_same_equations(text: str) -> None:
-    assert _read(parse, text) == _read(refuse, text)
-
-
-@given(st.one_of(ANYTHING, EQUATIONS, st.lists(st.one_of(MARKS, WORDS, VALUES), max_size=4).map(" ".join)))
-def test_a_plain_equation_is_that_of_the_descent(text: str) -> None:
-    found = read_plain(text, plain_equations(), tree)
-    if found is not None:
-        expected = descend(text, tokens())
-        assert repr((found, found.root)) == repr((expected, expected.root))
-
-
-def _outcome(expression: Expression, values: dict[str, float | str]) -> str:
-    """The value of an equation, or why it has none; the sign of zero included."""
-    try:
-        return repr(evaluate(expression, values.__getitem__))
-    except ExpressionError as error:
-        return repr((type(error), error.message, error.span))
-
-
-LEAVES = st.sampled_from(["x", "y", "pi", "nothing", "0", "1", "2.5D1", "1e308", "1e999"])
-NUMBERS = st.one_of(st.sampled_from([0.0, -0.0, math.inf, math.nan, "text", 3]), st.floats())
-
-
-@given(LEAVES, st.sampled_from(["", *"+-*/"]), LEAVES, NUMBERS, NUMBERS)
-def test_a_plain_equation_has_the_value_of_its_tree(
-    left: str, operator: str, right: str, x: float | str, y: float | str
-) -> None:
-    text = f"{left}{operator}{right}" if operator else left
-    plain = read_plain(text, plain_equations(), tree)
-    assert plain is not None
-    assert _outcome(plain, {"x": x, "y": y}) == _outcome(descend(text, tokens()), {"x": x, "y": y})
-
+from mudline.expression.nodes import EvaluationError
+from mudline.expression.parsing import parse
 
 PARAMETERS = {"x": 2.5, "y": -3.0, "zero": 0.0, "big": 1e200}
 
