@@ -5,8 +5,8 @@ from __future__ import annotations
 import pickle
 import re
 from collections.abc import Iterator
-from itertools import combinations, starmap
 from dataclasses import replace
+from itertools import combinations, starmap
 from pathlib import Path
 
 import pytest
