@@ -14,6 +14,13 @@ MISSED = {
 """Kinds of which at least one fault is missed."""
 
 BURIED = {
+    "curve-for-set-in-embedment": "points under no SET= are read as those of SET=ALL, which has consequences",
+    "cut-behind-keyword": "the curves that the lost lines defined are reported too, each where it is used",
+    "new-settings-in-old-block": "each line of the other family is reported, and the row that the block lacks",
+    "parameters-line-missing": "as the first keyword of its section: each undefined parameter is reported",
+    "set-for-curve-in-stiffness": "the curve that is not defined then is reported too, and its points",
+    "table-of-the-interface": "points under no SET= are read as those of SET=ALL, which has consequences",
+    "whole-model-pasted-twice": "each kind of a repeated definition is reported, not the copy as a whole",
     "legacy-curve-in-new-deck": "in a deck in newtons with a suffix of user units, the pasted curve is weak too",
 }
 """Kinds of which at least one fault is found and has more than one other finding beside it."""

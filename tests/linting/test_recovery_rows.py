@@ -81,12 +81,6 @@ def test_decimal_commas_are_recovered_from_and_the_deck_stays_illegal(tmp_path: 
     assert lint_one("deck.keyxm", text.encode(), settings).changed == changed((SECTION, STEEL)).encode()
 
 
-def test_a_setting_that_stands_twice_lacks_the_name_of_its_set() -> None:
-    one = only(DECK.replace(" SET=Right\n STIFF", " STIFF"))
-    assert (one.code, one.line) == ("SYN001", 31)
-    assert one.message.endswith("a line SET= seems to be missing above this one")
-
-
 def test_the_one_curve_that_nothing_uses_is_named_where_one_is_not_defined() -> None:
     one = only(changed(("STIFFNESS=Clay", "STIFFNESS=Silt")))
     assert (one.code, one.line) == ("REF002", 29)
@@ -287,13 +281,6 @@ def test_a_line_that_several_keywords_can_have_names_them() -> None:
     text = text.replace(law, "")
     (one,) = (each for each in found(text) if each.severity is Severity.ERROR)
     assert one.message.startswith("this line and those below it read as *SEABED UNLOADING")
-
-
-def test_a_row_under_another_option_is_told_once() -> None:
-    for option, line in ((" OPTION=FLEXIBLE\n", 19), ("", 18)):
-        one = only(changed((SECTION, STEEL.replace(" OPTION=RIGID\n", option))))
-        assert (one.code, one.line) == ("SYN003", line)
-        assert "OPTION=RIGID" in one.message
 
 
 # --------------------------------------------------------------------------------------------- what is not recovered

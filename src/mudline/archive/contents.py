@@ -31,7 +31,7 @@ from mudline.linting.verdict import all_findings, errors_of
 from mudline.scene.deck_curves import OF_SEABED, other_curves
 from mudline.scene.deck_values import bare, number
 from mudline.scene.model import Scene
-from mudline.scene.references import given_names
+from mudline.scene.references import used_names
 from mudline.scene.sets import ALL
 
 _DIGEST = 63
@@ -146,11 +146,7 @@ class _Deck:
         return len(named)
 
     def _names_of_sets(self) -> set[str]:
-        found = {folded(bare(name)) for _, _, name in given_names(self.scene.deck, Names.SET)}
-        for _, block in self.scene.deck.blocks("ELEMENT SETS"):
-            members = (member for entry in block.sets for member in entry.members if member.rule == "set_subset")
-            found.update(folded(bare(member.subset)) for member in members if member.subset)
-        return found
+        return {folded(bare(name)) for _, name in used_names(self.scene.deck, Names.SET, Names.SUBSET)}
 
     def _opaque_text(self) -> str:
         """The lines that are not read: they may name sets."""

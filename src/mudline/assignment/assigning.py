@@ -14,7 +14,6 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Diagnostic, Problem, Severity, Span
 from mudline.formatting.document import same_meaning
-from mudline.keywords.model import Part, record_schema
 from mudline.keywords.ranges import range_fault
 from mudline.keywords.table import Table
 from mudline.keywords.values import Equation, Kind
@@ -211,21 +210,11 @@ def _value_at(deck: Deck, found: Value) -> object:
 def _owner(deck: Deck, found: Value) -> object:
     """The record or table of a deck where that of the other deck is; None where there is none."""
     try:
-        part: object = deck.sections[found.where.section].blocks[found.where.block]
+        block = deck.sections[found.where.section].blocks[found.where.block]
     except IndexError:
         return None
-    for step in found.where.path[: -2 if isinstance(found.owner, Table) else -1]:
-        part = _inner(part, step)
-    return part
-
-
-def _inner(part: object, step: str | int) -> object:
-    if isinstance(step, int):
-        return part[step] if isinstance(part, list) and step < len(part) else None
-    if not isinstance(part, Part):
-        return None
-    name = next((slot.name for slot in record_schema(type(part)).slots if slot.json == step), "")
-    return getattr(part, name, None)
+    path = found.where.path[: -2 if isinstance(found.owner, Table) else -1]
+    return block.at(path)[1]
 
 
 # ------------------------------------------------------------------------------------------------------------ alignment

@@ -12,7 +12,8 @@ from typing import Any, NamedTuple, Self
 from mudline.arguments import expect
 from mudline.diagnostics import Blocks, Code, DeckError, Diagnostic, Edit, Fix, Problem, Repair, Severity, Where
 from mudline.keywords.model import Block, Comment, Part, record_schema
-from mudline.keywords.values import Text
+from mudline.keywords.naming import Role, holds_name, is_name, roles_of
+from mudline.keywords.values import Names, Text
 from mudline.limits import LONGEST_MESSAGE
 from mudline.quantities import checked_units
 from mudline.short_repr import counted, cut, listed, outline, short_repr
@@ -73,6 +74,15 @@ _INTERNAL = frozenset(
 """What the rest of the program uses of a deck; `dir` leaves it out."""
 
 START = Range(1, 1, 1, 1)
+
+
+class NamedPlace(NamedTuple):
+    """A name in a deck: the kind of the thing, the role of the field, the name as written, its place."""
+
+    kind: Names
+    role: Role
+    name: str
+    where: Where
 
 
 class Origin:
@@ -236,6 +246,20 @@ class Deck:
             return numbered
         own = len(self.own_sections)
         return sorted(numbered, key=lambda placed: placed[0] < own)
+
+    def names(self) -> list[NamedPlace]:
+        """Return every name that the fields of the deck give, in its order, whether it is used or defined there.
+
+        Numbers and labels of nodes and elements are no names.
+        """
+        return [
+            NamedPlace(kind, role, value, Where(i, j, path))
+            for i, section in enumerate(self.sections)
+            for j, block in enumerate(section.blocks)
+            for path, slot, value in block.walk(holds_name)
+            if is_name(value)
+            for role, kind in roles_of(slot)
+        ]
 
     def keywords(self, section: str = "MODEL") -> set[str]:
         """Names of the keywords in the sections of a name."""

@@ -16,8 +16,8 @@ from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Span
 from mudline.formatting.rows import RowKind, Rows, Run, Single, cut
 from mudline.keywords.keeping import KeptLine
-from mudline.keywords.model import Comment, FieldSpec, Part, Record, Row, record_schema
-from mudline.keywords.places import Path, Places
+from mudline.keywords.model import Comment, FieldSpec, Part, Path, Record, Row, record_schema
+from mudline.keywords.places import Places
 from mudline.keywords.reader import ReadBlock, all_keys
 from mudline.keywords.table import Table
 from mudline.keywords.values import Kind as FieldKind

@@ -10,9 +10,9 @@ from mudline.codes.fields import SYN003
 from mudline.codes.lines import SYN001, SYN004, SYN014
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.keywords.grammar import ROW, Content, Node
-from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Record, record_schema
+from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Path, Record, record_schema
 from mudline.keywords.numbers import cut_number
-from mudline.keywords.places import Path, Places
+from mudline.keywords.places import Places
 from mudline.keywords.table import fewest_fields, row_format
 from mudline.keywords.text import (
     TableBuilder,

@@ -10,12 +10,12 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cache
+from itertools import chain
 
 from pydantic import BaseModel, ConfigDict, Field
 
 from mudline.keywords import grammar
-from mudline.keywords.model import Block, FieldSpec, Part, Record, record_schema
-from mudline.keywords.naming import enumerate_items
+from mudline.keywords.model import Block, FieldSpec, Part, Path, Record, fields_of, record_schema
 from mudline.keywords.values import Count, Kind, Text
 from mudline.short_repr import with_fields
 from mudline.syntax.fields import canonical_key
@@ -57,51 +57,43 @@ class OpenBlock(Block):
 
 @cache
 def can_keep(part: type[Part]) -> bool:
-    """Whether a part, or one inside it, can keep lines or hold a value that is not known."""
-    slots = record_schema(part).slots
-    inner = (each for slot in slots for each in (slot.row, *slot.record.values()) if each)
-    return "unread" in part.model_fields or any(map(_is_open, slots)) or any(map(can_keep, inner))
+    """Return True if a part, or one inside it, can keep lines or hold a value that is not known."""
+    return any(map(_is_open, fields_of(part))) or keeps_lines(part)
+
+
+def keeps_lines(part: type[Part]) -> bool:
+    """Return True if a part, or one inside it, can keep lines."""
+    return "unread" in part.model_fields or any(_holds_keepers(slot) for slot in record_schema(part).slots)
 
 
 def _is_open(slot: FieldSpec) -> bool:
     return slot.kind is Kind.OTHER or slot.about.opaque is not None
 
 
+def _holds_keepers(slot: FieldSpec) -> bool:
+    return any(map(keeps_lines, slot.parts))
+
+
 def kept_lines(part: Part) -> Iterator[str]:
-    """The lines that a part and those inside it keep."""
+    """Yield the lines that a part and those inside it keep."""
     return (line for _, line in kept_places(part))
 
 
-def kept_places(part: Part) -> Iterator[tuple[tuple[str | int, ...], str]]:
-    """The lines that a part and those inside it keep, with their paths."""
-    if not can_keep(type(part)):
-        return
-    yield from ((("unread", number, "text"), line.text) for number, line in enumerate(getattr(part, "unread", ())))
-    for slot in record_schema(type(part)).slots:
-        for path, item in enumerate_items(slot, getattr(part, slot.name, None)):
-            if isinstance(item, Part):
-                yield from (((*path, *inner), line) for inner, line in kept_places(item))
+def kept_places(part: Part) -> Iterator[tuple[Path, str]]:
+    """Yield the lines that a part and those inside it keep, with their paths."""
+    inner = ((path, one) for path, _, one in part.walk(_holds_keepers) if isinstance(one, Part))
+    for path, keeper in chain([((), part)], inner):
+        for number, line in enumerate(getattr(keeper, "unread", ())):
+            yield (*path, "unread", number, "text"), line.text
 
 
 def is_read(part: Part) -> bool:
-    """Whether a part keeps no line and holds no value that is not known."""
+    """Return True if a part keeps no line and holds no value that is not known."""
     if not can_keep(type(part)):
         return True
-    slots = record_schema(type(part)).slots
-    values = [(slot, getattr(part, slot.name, None)) for slot in slots if _is_open(slot)]
-    known = all(
-        value is None or (value in slot.choices and value not in (slot.about.opaque or ())) for slot, value in values
-    )
-    return known and not getattr(part, "unread", ()) and all(map(is_read, _inner(part)))
-
-
-def _inner(part: Part) -> Iterator[Part]:
-    for slot in record_schema(type(part)).slots:
-        value = getattr(part, slot.name, None)
-        if isinstance(value, Part):
-            yield value
-        elif slot.record and isinstance(value, list):
-            yield from value
+    values = ((slot, value) for _, slot, value in part.walk(_is_open))
+    known = all(value in slot.choices and value not in (slot.about.opaque or ()) for slot, value in values)
+    return known and next(kept_places(part), None) is None
 
 
 # ----------------------------------------------------------------------- settings behind which lines are kept

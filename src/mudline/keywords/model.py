@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cache, cached_property
-from typing import Any, ClassVar, cast
+from typing import Any, ClassVar, NamedTuple, cast
 
 from pydantic import (
     BaseModel,
@@ -220,6 +221,27 @@ def _no_comments() -> list[Comment]:
     return []
 
 
+Path = tuple[str | int, ...]
+"""Keys and indices as JSON has them, from a part inwards; a table is followed by row and column."""
+
+
+class Value(NamedTuple):
+    """What a field of a part holds: one item of a list, a whole table, or a part with fields of its own."""
+
+    path: Path
+    field: FieldSpec
+    value: Any
+
+
+Wanted = Callable[["FieldSpec"], bool]
+"""Tells of a field whether its values are wanted; one function of a module, as what it tells is remembered."""
+
+
+def every_field(_field: FieldSpec) -> bool:
+    """Return True: all values are wanted."""
+    return True
+
+
 class Part(BaseModel):
     """Anything with declared fields."""
 
@@ -230,6 +252,30 @@ class Part(BaseModel):
         return with_fields(self, ((name, value) for name, value in given if value is not None))
 
     __str__ = __repr__
+
+    def walk(self, wanted: Wanted = every_field) -> Iterator[Value]:
+        """Yield the values of the part, and of the parts inside it, whose field is wanted, in the order of the fields.
+
+        What is left out (None) is none.
+        """
+        return _walk(self, (), wanted)
+
+    def at(self, path: Path) -> tuple[FieldSpec | None, Any]:
+        """Return the field and the value that a path leads to; None for a value that is not there."""
+        field: FieldSpec | None = None
+        value: Any = self
+        for number, step in enumerate(path):
+            if isinstance(value, Table):
+                return _cell(field, value, path[number:])
+            if isinstance(value, Part):
+                slots = record_schema(type(value)).slots
+                field = next((one for at, one in enumerate(slots) if step in (one.json, at)), None)
+                value = None if field is None else getattr(value, field.name, None)
+            elif isinstance(value, list) and isinstance(step, int):
+                value = value[step] if step < len(value) else None
+            else:
+                return field, None
+        return field, value
 
     @model_validator(mode="before")
     @classmethod
@@ -329,7 +375,7 @@ _OF_TEXT = (Kind.NAME, Kind.TITLE, Kind.OTHER)
 
 @dataclass(slots=True)
 class FieldSpec:
-    """One field of a part, as the reader and the writer see it."""
+    """One field of a part, as the reader and the writer see it; `of_list` for one of a `ListRow`."""
 
     name: str
     json: str
@@ -341,11 +387,17 @@ class FieldSpec:
     required: bool
     many: bool
     order: int
+    of_list: bool = False
 
     @property
     def key(self) -> str:
         """The KEY of a setting, or ""."""
         return self.about.key if isinstance(self.about, Setting) else ""
+
+    @property
+    def parts(self) -> list[type[Part]]:
+        """The parts that a value of the field may be, or its table consists of."""
+        return [part for part in (self.row, *self.record.values()) if part]
 
     @property
     def is_text(self) -> bool:
@@ -404,6 +456,7 @@ def record_schema(part: type[Part]) -> RecordSchema:
             required=info.is_required(),
             many=is_list(info.annotation),
             order=order,
+            of_list=issubclass(part, ListRow),
         )
         found.slots.append(slot)
         if isinstance(meta, Rows):
@@ -415,6 +468,57 @@ def record_schema(part: type[Part]) -> RecordSchema:
         else:
             found.columns.append(slot)
     return found
+
+
+@cache
+def is_part(kind: type[BaseModel]) -> bool:
+    """Return True for a class of parts: to ask a model itself takes several times as long."""
+    return issubclass(kind, Part)
+
+
+def _walk(part: Part, prefix: Path, wanted: Wanted) -> Iterator[Value]:
+    for slot, own in _leading(type(part), wanted):
+        value = getattr(part, slot.name, None)
+        if isinstance(value, list):
+            for index, item in enumerate(value):
+                yield from _item((*prefix, slot.json, index), slot, item, wanted, own=own)
+        elif value is not None:
+            yield from _item((*prefix, slot.json), slot, value, wanted, own=own)
+
+
+def _item(path: Path, slot: FieldSpec, item: Any, wanted: Wanted, *, own: bool) -> Iterator[Value]:
+    if own:
+        yield Value(path, slot, item)
+    kind: type[BaseModel] = type(item)
+    if is_part(kind):
+        yield from _walk(item, path, wanted)
+
+
+@cache
+def _leading(part: type[Part], wanted: Wanted) -> tuple[tuple[FieldSpec, bool], ...]:
+    """The fields of a part that are wanted (True), or hold parts with such fields alone (False)."""
+    found = ((slot, wanted(slot)) for slot in record_schema(part).slots)
+    return tuple((slot, own) for slot, own in found if own or any(_leading(one, wanted) for one in slot.parts))
+
+
+def fields_of(part: type[Part]) -> Iterator[FieldSpec]:
+    """Yield the fields that a part declares, and those of the parts inside it; columns of tables among them."""
+    for slot in record_schema(part).slots:
+        yield slot
+        for one in slot.parts:
+            yield from fields_of(one)
+
+
+def _cell(field: FieldSpec | None, table: Table, path: Path) -> tuple[FieldSpec | None, Any]:
+    """The column and the value of a cell; a row that could not be read has none."""
+    columns = record_schema(field.row).columns if field is not None and field.row else []
+    row, column = (int(step) for step in path) if len(path) > 1 else (0, len(columns))
+    if column >= len(columns):
+        return None, None
+    if (row, column) in table.words:
+        return columns[column], table.words[row, column]
+    inside = row < len(table.values) and column < table.values.shape[1]
+    return columns[column], float(table.values[row, column]) if inside else None
 
 
 def _is_empty(value: object) -> bool:

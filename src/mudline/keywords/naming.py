@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cache
-from typing import Any, Literal, TypeGuard
+from typing import Literal, TypeGuard, cast
 
-from pydantic import BaseModel
-
-from mudline.keywords.model import Block, FieldSpec, Part, record_schema
+from mudline.keywords.model import Block, FieldSpec, Part, Path, Wanted, fields_of, record_schema
 from mudline.keywords.unknown import UNKNOWN_NAME
 from mudline.keywords.values import Equation, Label, Names
 
@@ -17,100 +15,55 @@ Role = Literal["names", "defines"]
 
 
 @cache
-def is_part(kind: type[BaseModel]) -> bool:
-    """Whether a class is one of parts: to ask a model itself takes several times as long."""
-    return issubclass(kind, Part)
-
-
-@cache
-def _naming(part: type[Part], what: Names | None, role: Role = "names") -> tuple[FieldSpec, ...]:
-    """The fields that name or define a thing of a kind, None for any, and those with parts that have one."""
+def naming(what: Names | None, role: Role = "names") -> Wanted:
+    """Return what tells of a field whether it names or defines a thing of a kind, None for any."""
 
     def names(slot: FieldSpec) -> bool:
         kind = getattr(slot.about, role)
         return kind is what if what else kind is not None
 
-    return tuple(
-        slot
-        for slot in record_schema(part).slots
-        if names(slot) or any(_naming(each, what, role) for each in _inside(slot))
-    )
-
-
-def _inside(slot: FieldSpec) -> list[type[Part]]:
-    return [part for part in (slot.row, *slot.record.values()) if part]
+    return names
 
 
 @cache
 def kinds_of(part: type[Part], role: Role) -> frozenset[Names]:
-    """The kinds of things that the fields of a part, and of those inside it, name or define."""
-    slots = record_schema(part).slots
-    own = {kind for slot in slots if (kind := getattr(slot.about, role)) is not None}
-    return frozenset(own).union(*(kinds_of(each, role) for slot in slots for each in _inside(slot)))
+    """Return the kinds of things that the fields of a part, and of those inside it, name or define."""
+    return frozenset(kind for slot in fields_of(part) if (kind := getattr(slot.about, role)) is not None)
 
 
 def may_name(part: type[Part], what: Names) -> bool:
-    """Whether a part has fields for names of a kind."""
-    return bool(_naming(part, what))
+    """Return True if a part has fields for names of a kind."""
+    return what in kinds_of(part, "names")
 
 
-Path = tuple[str | int, ...]
+def holds_name(slot: FieldSpec) -> bool:
+    """Return True for a field that names or defines a thing by a text."""
+    return any(True for _ in roles_of(slot))
+
+
+def roles_of(slot: FieldSpec) -> Iterator[tuple[Role, Names]]:
+    """Yield what a field does with names, and with which kind; numbers of nodes and elements are no names."""
+    for role, kind in (("names", slot.about.names), ("defines", slot.about.defines)):
+        if kind is not None and kind not in (Names.NODE, Names.ELEMENT):
+            yield cast("Role", role), kind
 
 
 def names_given(part: Part, what: Names, role: Role = "names") -> Iterator[tuple[Path, str]]:
-    """The names of things of a kind that a part gives, with their paths; what is not a text is not a name."""
-    slots = _naming(type(part), what, role)
-    return ((path, name) for _, path, name in _given(part, slots, role, what)) if slots else iter(())
+    """Yield the names of things of a kind that a part gives, with their paths; what is not a text is not a name."""
+    return ((path, name) for path, _, name in part.walk(naming(what, role)) if is_name(name))
 
 
-def all_names_given(part: Part, role: Role) -> Iterator[tuple[Names, Path, str]]:
-    """The names of things of every kind that a part gives, with their kinds and paths."""
-    return _given(part, _naming(type(part), None, role), role, None)
-
-
-def _given(
-    part: Part, slots: tuple[FieldSpec, ...], role: Role, what: Names | None
-) -> Iterator[tuple[Names, Path, str]]:
-    for slot in slots:
-        value = getattr(part, slot.name, None)
-        if value is None:
-            continue
-        if _is_name(value):
-            if (kind := getattr(slot.about, role)) is not None:
-                yield kind, (slot.json,), value
-            continue
-        for at, item in enumerate_items(slot, value):
-            form: type[Part] = type(item)
-            if is_part(form):
-                inner = _naming(form, what, role)
-                for kind, path, name in _given(item, inner, role, what) if inner else ():
-                    yield kind, (*at, *path), name
-
-
-def _is_name(item: object) -> TypeGuard[str]:
+def is_name(item: object) -> TypeGuard[str]:
+    """Return True for a text that was read and is no equation."""
     return isinstance(item, str) and item is not UNKNOWN_NAME and not isinstance(item, Equation)
 
 
-def idents_given(part: Part, what: Names) -> Iterator[tuple[tuple[str | int, ...], int | Label]]:
-    """The numbers and labels of nodes or elements that a part gives, with their paths; what could not be read is none.
+def idents_given(part: Part, what: Names) -> Iterator[tuple[Path, int | Label]]:
+    """Yield numbers and labels of nodes or elements that a part gives, with their paths; what is unreadable is none.
 
     Those in the rows of a table are left out: a keyword with such a table looks at them itself.
     """
-    for slot in _naming(type(part), what):
-        value = getattr(part, slot.name, None)
-        for path, item in enumerate_items(slot, value):
-            if isinstance(item, Part):
-                yield from (((*path, *inner), ident) for inner, ident in idents_given(item, what))
-            elif isinstance(item, int | Label) and slot.about.names is what:
-                yield path, item
-
-
-def enumerate_items(slot: FieldSpec, value: object) -> Iterator[tuple[tuple[str | int, ...], Any]]:
-    """The value of a field, or those of its list, each with the path to it."""
-    if isinstance(value, list):
-        yield from (((slot.json, index), item) for index, item in enumerate(value))
-    else:
-        yield (slot.json,), value
+    return ((path, item) for path, _, item in part.walk(naming(what)) if isinstance(item, int | Label))
 
 
 @cache

@@ -8,12 +8,10 @@ from dataclasses import dataclass, field
 from operator import itemgetter
 
 from mudline.diagnostics import Span
+from mudline.keywords.model import Path
 from mudline.limits import MOST_COLUMNS
 from mudline.short_repr import short_repr
 from mudline.syntax.rows import row_fields, row_starts
-
-Path = tuple[str | int, ...]
-"""Keys and indices as JSON has them, from the block inwards; a table is followed by row and column."""
 
 
 @dataclass(slots=True)

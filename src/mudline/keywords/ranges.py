@@ -7,15 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cache
-from typing import Any
 
-from pydantic import BaseModel
-
-from mudline.keywords.model import FEWEST_POINTS, FieldSpec, ListRow, Part, Rows, record_schema
-from mudline.keywords.naming import is_part
+from mudline.keywords.model import FEWEST_POINTS, FieldSpec, Part, Path, Rows, fields_of, record_schema
 from mudline.keywords.table import Table
-
-_Path = tuple[str | int, ...]
 
 
 def range_fault(value: float, slot: FieldSpec) -> str:
@@ -36,66 +30,46 @@ def _in_words(slot: FieldSpec) -> str:
 
 def is_refused(part: Part) -> bool:
     """Whether no document can hold a block that was read from text."""
-    return any(True for _ in range_faults(part)) or _has_short_curve(part)
+    return any(True for _ in range_faults(part)) or any(
+        len(curve) < FEWEST_POINTS for _, _, curve in part.walk(_is_curve)
+    )
 
 
-def range_faults(part: Part) -> Iterator[tuple[_Path, str]]:
-    """Path and message of each value that is out of range."""
-    return iter(_faults(part))
+def range_faults(part: Part) -> Iterator[tuple[Path, str]]:
+    """Yield path and message of each value that is out of range."""
+    for path, slot, value in part.walk(_is_ranged):
+        if isinstance(value, Table):
+            yield from (((*path, *cell), fault) for cell, fault in _table_faults(value, slot))
+        elif isinstance(value, float | int) and (fault := range_fault(value, slot)):
+            yield path, fault
 
 
-def _faults(part: Part) -> list[tuple[_Path, str]]:
-    found: list[tuple[_Path, str]] = []
-    for slot in ranged_slots(type(part)):
-        value: Any = getattr(part, slot.name)
-        kind: type[BaseModel] = type(value)
-        if isinstance(value, float | int):
-            if slot.about.fault(value):
-                found.append(((slot.json,), range_fault(value, slot)))
-        elif isinstance(value, Table):
-            found += [((slot.json, *path), fault) for path, fault in _table_faults(value, slot)]
-        elif isinstance(value, list):
-            for index, item in enumerate(value):
-                inner: type[BaseModel] = type(item)
-                if is_part(inner):
-                    found += [((slot.json, index, *path), fault) for path, fault in _faults(item)]
-        elif is_part(kind):
-            found += [((slot.json, *path), fault) for path, fault in _faults(value)]
-    return found
+def _is_ranged(slot: FieldSpec) -> bool:
+    """Return True for a field with a range but those of GEN=, and for a table that has a column with one."""
+    if isinstance(slot.about, Rows):
+        return bool(_ranged_columns(slot.row))
+    return bool(slot.about.limits) and not slot.of_list
 
 
 @cache
 def ranged_slots(part: type[Part]) -> tuple[FieldSpec, ...]:
-    """The fields with a range, and those with parts that have one."""
-    return tuple(slot for slot in record_schema(part).slots if _ranged(slot))
-
-
-def _ranged(slot: FieldSpec) -> bool:
-    if slot.about.limits:
-        return True
-    parts = [slot.row, *slot.record.values()]
-    return any(ranged_slots(part) for part in parts if part and not issubclass(part, ListRow))
+    """Return the fields with a range of a part and of those inside it."""
+    return tuple(slot for slot in fields_of(part) if slot.about.limits and not slot.of_list)
 
 
 @cache
-def _ranged_columns(row: type[Part]) -> tuple[tuple[int, FieldSpec], ...]:
-    return tuple((index, column) for index, column in enumerate(record_schema(row).columns) if _ranged(column))
+def _ranged_columns(row: type[Part] | None) -> tuple[tuple[int, FieldSpec], ...]:
+    columns = record_schema(row).columns if row else ()
+    return tuple((index, column) for index, column in enumerate(columns) if column.about.limits)
 
 
 def _table_faults(table: Table, slot: FieldSpec) -> Iterator[tuple[tuple[int, int], str]]:
     """Row, column and message of each value of a table that is out of range."""
-    for index, column in _ranged_columns(slot.row) if isinstance(slot.about, Rows) and slot.row else ():
+    for index, column in _ranged_columns(slot.row):
         for row, value in enumerate(table.column(index).tolist()):
             if fault := range_fault(value, column):
                 yield (row, index), fault
 
 
-def _has_short_curve(part: Part) -> bool:
-    schema = record_schema(type(part))
-    table = schema.table
-    if table is not None and isinstance(table.about, Rows) and table.about.curve:
-        points = getattr(part, table.name)
-        if isinstance(points, Table) and len(points) < FEWEST_POINTS:
-            return True
-    inner = (getattr(part, slot.name) for slot in schema.slots if slot.record)
-    return any(_has_short_curve(one) for records in inner if isinstance(records, list) for one in records)
+def _is_curve(slot: FieldSpec) -> bool:
+    return isinstance(slot.about, Rows) and bool(slot.about.curve)

@@ -13,9 +13,9 @@ import numpy as np
 from mudline.codes.fields import SYN002, SYN003, SYN015, SYN016
 from mudline.codes.lines import SYN001, SYN004, SYN005
 from mudline.diagnostics import Problem, Repair, Severity, Span
-from mudline.keywords.model import FieldSpec, columns_of, record_schema
+from mudline.keywords.model import FieldSpec, Path, columns_of, record_schema
 from mudline.keywords.numbers import looks_numeric, maybe_number, not_a_number, not_finite
-from mudline.keywords.places import Path, Places
+from mudline.keywords.places import Places
 from mudline.keywords.table import LARGEST_WHOLE, Column, Table, from_rows, not_whole, row_format
 from mudline.keywords.values import Equation, Kind, Label
 from mudline.limits import MOST_REPORTED

@@ -156,14 +156,13 @@ def may_recover(deck: Deck) -> bool:
 
 
 def named_causes(deck: Deck, refused: Sequence[Diagnostic], chosen: Sequence[Rule]) -> list[Diagnostic]:
-    """The reasons for which a deck was refused, with the cause in the place of what follows from it."""
-    context = LintContext(deck)
-    found = joined_problems(context, chosen, suppress=False)
-    meant = _meant(context, chosen, suppress=False)
-    causes = {one.code for one in meant.causes} if meant else set()
+    """Return the reasons for which a deck was refused, with the cause in the place of what follows from it."""
     codes = {one.code for one in refused}
-    reported = [one for one in found if one.blocking is not Blocks.NEVER or one.code in causes]
-    reported = [one for one in reported if one.blocking is not Blocks.WITH_TENSION or one.code.code in codes]
+    reported = [
+        one
+        for one in joined_problems(LintContext(deck), chosen, suppress=False)
+        if one.blocking is Blocks.ALWAYS or (one.blocking is Blocks.WITH_TENSION and one.code.code in codes)
+    ]
     return deck.diagnose(reported) or list(refused)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from functools import cache
 from typing import NamedTuple, cast
 
 from mudline.deck.model import Deck, Opaque
@@ -14,9 +13,8 @@ from mudline.diagnostics import Span, Where
 from mudline.expression.evaluation import CONSTANTS
 from mudline.expression.nodes import ExpressionError
 from mudline.expression.parsing import parse
-from mudline.keywords.model import Block, Part, record_schema
-from mudline.keywords.places import Path
-from mudline.keywords.values import Equation, Names
+from mudline.keywords.model import Block
+from mudline.keywords.values import Names
 from mudline.scene.deck_values import bare
 from mudline.scene.sets import set_key
 from mudline.syntax.fields import first_key, read_line
@@ -77,44 +75,16 @@ def at(found: list[Occurrence], offset: int) -> Occurrence | None:
 # ------------------------------------------------------------------------------------------------- fields that name
 
 
-@cache
-def _leads(part: type[Part]) -> bool:
-    """Whether a part, or one inside it, has a field that names or defines."""
-    return any(
-        slot.about.names in KINDS
-        or slot.about.defines in KINDS
-        or any(_leads(inner) for inner in (slot.row, *slot.record.values()) if inner)
-        for slot in record_schema(part).slots
-    )
-
-
 def _given(deck: Deck, origin: TextOrigin) -> Iterator[Occurrence]:
-    for (i, j), read in origin.read.items():
-        block = deck.sections[i].blocks[j]
-        if type(block) is Opaque or not _leads(type(cast("Block", block))):
+    for kind, role, name, where in deck.names():
+        read = origin.read.get((where.section, where.block))
+        if kind not in KINDS or read is None:
             continue
-        for path, name, kind, defines in _names(cast("Block", block), ()):
-            if kind is Names.PARAMETER and defines:
-                yield from _parameters(origin, Where(i, j, path), cast("Block", block))
-            elif read.places.has(path):
-                span = _inner(origin, read.places.find(path))
-                yield Occurrence(thing(kind, name), name, span, defines=defines)
-
-
-def _names(part: Part, path: Path) -> Iterator[tuple[Path, str, Names, bool]]:
-    """The names that a part gives, with their paths, what they name, and whether it is defined there."""
-    for slot in record_schema(type(part)).slots:
-        value = getattr(part, slot.name, None)
-        kind = slot.about.names or slot.about.defines
-        if isinstance(value, str) and not isinstance(value, Equation):
-            if kind in KINDS:
-                yield (*path, slot.json), value, KINDS[kind], slot.about.defines is not None
-        elif isinstance(value, Part) and _leads(type(value)):
-            yield from _names(value, (*path, slot.json))
-        elif isinstance(value, list) and slot.record:
-            for index, item in enumerate(value):
-                if _leads(cast("type[Part]", type(item))):
-                    yield from _names(item, (*path, slot.json, index))
+        if kind is Names.PARAMETER and role == "defines":
+            yield from _parameters(origin, where, cast("Block", deck.sections[where.section].blocks[where.block]))
+        elif read.places.has(where.path):
+            span = _inner(origin, read.places.find(where.path))
+            yield Occurrence(thing(KINDS[kind], name), name, span, defines=role == "defines")
 
 
 def _inner(origin: TextOrigin, span: Span) -> Span:

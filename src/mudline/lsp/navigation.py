@@ -26,7 +26,6 @@ from mudline.lsp.names import WORDS, Occurrence, Thing, occurrences
 from mudline.lsp.sites import Site, site
 from mudline.lsp.things import is_label
 from mudline.scene.deck_values import find_file
-from mudline.scene.references import given_names
 from mudline.scene.restart import decks_before, find_deck
 from mudline.scene.sets import ALL, LONGEST_NAME
 from mudline.syntax.edits import TextEdit, apply_edits
@@ -149,11 +148,10 @@ class Navigator:
     def _named_file(self, file: Path) -> Iterator[types.Location]:
         """Every place in the decks of the chain that names a file."""
         for document, deck in self._linked():
-            for kind in (Names.DECK, Names.FILE):
-                for _, where, name in given_names(deck, kind):
-                    span = deck.origin.span(where) if isinstance(deck.origin, TextOrigin) else None
-                    if span is not None and self._file(kind, deck, name) == file:
-                        yield _location(document, span)
+            for kind, role, name, where in deck.names():
+                span = deck.origin.span(where) if isinstance(deck.origin, TextOrigin) else None
+                if span is not None and role == "names" and self._file(kind, deck, name) == file:
+                    yield _location(document, span)
 
     def _file(self, kind: Names | None, deck: Deck | None, name: object) -> Path | None:
         """The file that a name of a kind in a deck stands for, if it is there."""

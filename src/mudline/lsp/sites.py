@@ -10,10 +10,8 @@ from mudline.deck.model import Opaque
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Span, Where
 from mudline.keywords import catalogue
-from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Rows, record_schema
-from mudline.keywords.places import Path
+from mudline.keywords.model import Block, FieldSpec, Part
 from mudline.keywords.reader import schemas_of
-from mudline.keywords.table import Table
 from mudline.lsp.decks import Analysis
 from mudline.syntax.fields import canonical_key, read_line
 from mudline.syntax.tree import Kind, Leaf, RawBlock, RawSection, SyntaxTree
@@ -90,7 +88,7 @@ def site(analysis: Analysis, offset: int) -> Site | None:
     place = read.places.at(offset)
     if place is not None:
         path, span = place
-        slot, value = described(block, path)
+        slot, value = block.at(path)
         if slot is not None and not isinstance(value, Part | list):
             return Site(found.where.inside(*path), span, slot, value)
     return _of_key(origin, found, leaf, offset)
@@ -121,37 +119,3 @@ def slot_of_key(declared: type[Block], key: str) -> FieldSpec | None:
     """The field that a KEY= of a keyword gives; of several records that have it, the first one's."""
     name = canonical_key(key)
     return next((found.keys[name] for found in schemas_of(declared) if name in found.keys), None)
-
-
-def described(block: Block, path: Path) -> tuple[FieldSpec | None, object]:
-    """The field and the value at a path of a block, as far as the path leads."""
-    slot: FieldSpec | None = None
-    value: object = block
-    for number, step in enumerate(path):
-        if isinstance(value, Table):
-            return _cell(slot, value, path[number:])
-        if isinstance(value, ListRow) and isinstance(step, int):
-            columns = record_schema(type(value)).columns
-            slot = columns[step] if step < len(columns) else None
-        elif isinstance(value, Part):
-            slot = next((each for each in record_schema(type(value)).slots if each.json == step), None)
-        elif isinstance(value, list) and isinstance(step, int):
-            value = value[step] if step < len(value) else None
-            continue
-        else:
-            return slot, None
-        value = None if slot is None else getattr(value, slot.name, None)
-    return slot, value
-
-
-def _cell(slot: FieldSpec | None, table: Table, path: Path) -> tuple[FieldSpec | None, object]:
-    """The column and the value of a cell; a row that could not be read has none."""
-    row = slot.about.row if slot is not None and isinstance(slot.about, Rows) else None
-    columns = record_schema(row).columns if row else []
-    if len(path) < 2 or int(path[1]) >= len(columns):
-        return None, None
-    row_number, column = int(path[0]), int(path[1])
-    if (row_number, column) in table.words:
-        return columns[column], table.words[row_number, column]
-    inside = row_number < len(table.values) and column < table.values.shape[1]
-    return columns[column], float(table.values[row_number, column]) if inside else None

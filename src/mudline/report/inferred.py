@@ -7,7 +7,8 @@ from typing import Any
 
 from mudline.deck.model import Deck, Opaque
 from mudline.keywords.catalogue import opaque_keyword
-from mudline.keywords.model import Part, Rows, record_schema
+from mudline.keywords.model import Part, record_schema
+from mudline.keywords.table import Table
 
 
 def inferences(deck: Deck) -> list[dict[str, Any]]:
@@ -35,27 +36,9 @@ def _of_block(section: str, block: Part | Opaque) -> Iterator[tuple[str, str]]:
         if kept is not None and kept.inferred:
             yield "", kept.inferred
         return
-    yield from _of_part(block)
-
-
-def _of_part(part: Part) -> Iterator[tuple[str, str]]:
-    for slot in record_schema(type(part)).slots:
-        value = getattr(part, slot.name, None)
-        if value is None or (isinstance(value, list) and not value):
-            continue
+    for _, slot, value in block.walk():
         if slot.about.inferred:
             yield slot.label, slot.about.inferred
-        if isinstance(slot.about, Rows):  # rows of a table are alike: what its columns are is known without them
-            yield from _of_columns(slot.about)
-        elif isinstance(value, Part):
-            yield from _of_part(value)
-        elif isinstance(value, list):
-            for item in value:
-                if isinstance(item, Part):
-                    yield from _of_part(item)
-
-
-def _of_columns(about: Rows) -> Iterator[tuple[str, str]]:
-    for slot in record_schema(about.row).slots if about.row else ():
-        if slot.about.inferred:
-            yield slot.label, slot.about.inferred
+        if isinstance(value, Table):  # rows of a table are alike: what its columns are is known without them
+            columns = record_schema(slot.row).slots if slot.row else ()
+            yield from ((one.label, one.about.inferred) for one in columns if one.about.inferred)

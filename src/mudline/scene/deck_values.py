@@ -14,8 +14,7 @@ from mudline.deck.parameters import Parameters, folded
 from mudline.diagnostics import Span, Where
 from mudline.files import look
 from mudline.keywords import catalogue
-from mudline.keywords.model import Block, Part, Row, record_schema
-from mudline.keywords.naming import may_name, names_given
+from mudline.keywords.model import Block, FieldSpec, Part, Row, record_schema
 from mudline.keywords.text import shown
 from mudline.keywords.values import LINE_SETS, Names
 from mudline.outside import is_made_by_system, is_refused, project_of
@@ -97,13 +96,9 @@ def missing_files(deck: Deck) -> Iterator[tuple[Where, Path, str]]:
     """
     if deck.folder is None:
         return
+    own = len(deck.own_sections)
     files = [
-        (Where(i, j, path), name)
-        for i, section in enumerate(deck.own_sections)
-        for j, block in enumerate(section.blocks)
-        if type(block) is not Opaque and may_name(type(block), Names.FILE)
-        for path, name in names_given(block, Names.FILE)
-        if name
+        (one.where, one.name) for one in deck.names() if one.kind is Names.FILE and one.name and one.where.section < own
     ]
     parameters = Parameters(deck) if files else None
     for where, written in files:
@@ -208,18 +203,16 @@ def _given_in_lines(lines: Iterable[str], keys: Mapping[str, Names]) -> Iterator
                 yield from values if kind is Names.SETS else values[:1]
 
 
+def _makes_sets(slot: FieldSpec) -> bool:
+    return slot.key in LINE_SETS
+
+
 def _given_in_parts(part: Part) -> Iterator[str]:
     """The same settings of a keyword that is read, as far as it could be read."""
-    for slot in record_schema(type(part)).slots:
-        value = getattr(part, slot.name)
-        if slot.record:
-            for child in value:
-                yield from _given_in_parts(child)
-        elif slot.key in LINE_SETS:
-            if isinstance(value, Row):
-                value = getattr(value, record_schema(type(value)).columns[0].name)
-            names = value if isinstance(value, list) else [value]
-            yield from (name for name in names if isinstance(name, str) and name)
+    for _, _, value in part.walk(_makes_sets):
+        name = getattr(value, record_schema(type(value)).columns[0].name) if isinstance(value, Row) else value
+        if isinstance(name, str) and name:
+            yield name
 
 
 def _texts(block: Block | Opaque) -> Iterator[str]:

@@ -7,16 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
-from functools import cache
-from typing import NamedTuple
 
-from mudline.deck.model import Deck, Opaque
+from mudline.deck.model import Deck, NamedPlace, Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.keywords import catalogue
 from mudline.keywords.keeping import is_read, kept_lines
 from mudline.keywords.model import Block
-from mudline.keywords.naming import Role, all_names_given, kinds_of
 from mudline.keywords.text import shown
 from mudline.keywords.values import Names
 from mudline.scene.context import Context
@@ -36,24 +33,14 @@ THINGS = frozenset(
     }
 )
 """Kinds of things that have names and are no curves."""
-_DEFINED = CURVES | THINGS | {Names.CURVE}
-_USED = _DEFINED | {Names.SET}
-"""What is looked up here: names that fields define, and those that they use."""
-
-
-class GivenName(NamedTuple):
-    """A name as the deck gives it, and where."""
-
-    name: str
-    where: Where
 
 
 @dataclass(eq=False)
 class NamesOfKind:
     """The names of a kind: those that fields use, and those that they define, by their folded form."""
 
-    used: list[GivenName] = field(default_factory=list)
-    defined: dict[str, list[GivenName]] = field(default_factory=dict)
+    used: list[NamedPlace] = field(default_factory=list)
+    defined: dict[str, list[NamedPlace]] = field(default_factory=dict)
 
 
 def names_of(context: Context, kinds: Collection[Names]) -> dict[Names, NamesOfKind]:
@@ -61,7 +48,7 @@ def names_of(context: Context, kinds: Collection[Names]) -> dict[Names, NamesOfK
     return {kind: names for kind, names in context.once(_every_name).items() if kind in kinds}
 
 
-def names_used(context: Context, kind: Names) -> list[GivenName]:
+def names_used(context: Context, kind: Names) -> list[NamedPlace]:
     """The names of a kind, among them those of sets and force-embedment curves, that the fields of a deck use."""
     found = context.once(_every_name).get(kind)
     return found.used if found else []
@@ -69,28 +56,13 @@ def names_used(context: Context, kind: Names) -> list[GivenName]:
 
 def _every_name(context: Context) -> dict[Names, NamesOfKind]:
     found: dict[Names, NamesOfKind] = {}
-    for i, section in enumerate(context.deck.sections):
-        for j, block in enumerate(section.blocks):
-            if type(block) is Opaque:
-                continue
-            for role, kinds in _roles(type(block)):
-                for kind, path, name in all_names_given(block, role):
-                    if kind not in kinds:
-                        continue
-                    names = found.setdefault(kind, NamesOfKind())
-                    one = GivenName(name, Where(i, j, path))
-                    if role == "names":
-                        names.used.append(one)
-                    else:
-                        names.defined.setdefault(folded(bare(name)), []).append(one)
+    for one in context.deck.names():
+        names = found.setdefault(one.kind, NamesOfKind())
+        if one.role == "names":
+            names.used.append(one)
+        else:
+            names.defined.setdefault(folded(bare(one.name)), []).append(one)
     return found
-
-
-@cache
-def _roles(block: type[Block]) -> tuple[tuple[Role, frozenset[Names]], ...]:
-    """What the fields of a block do with names, and with which kinds of those that are looked up here."""
-    roles: tuple[tuple[Role, frozenset[Names]], ...] = (("names", _USED), ("defines", _DEFINED))
-    return tuple((role, kinds) for role, kinds in roles if not kinds.isdisjoint(kinds_of(block, role)))
 
 
 def undefined(context: Context, kinds: Collection[Names], code: Code) -> Iterator[Problem]:

@@ -80,13 +80,9 @@ def _sets_defined_by(block: Block | Opaque) -> Iterator[str]:
                 yield name
 
 
-def given_names(deck: Deck, what: Names) -> Iterator[tuple[type[Block], Where, str]]:
-    """The names of a kind that the fields of a deck give: the class of their block, their place and the name."""
-    for i, section in enumerate(deck.sections):
-        for j, block in enumerate(section.blocks):
-            if type(block) is not Opaque and may_name(type(block), what):
-                for path, name in names_given(block, what):
-                    yield cast("type[Block]", type(block)), Where(i, j, path), name
+def used_names(deck: Deck, *kinds: Names) -> Iterator[tuple[Where, str]]:
+    """The names of some kinds that the fields of a deck use, with their places."""
+    return ((one.where, one.name) for one in deck.names() if one.role == "names" and one.kind in kinds)
 
 
 def check_soil(context: Context, nodes: Numbered) -> None:

@@ -8,15 +8,13 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from mudline.deck.model import Deck, Origin
+from mudline.deck.model import Deck, NamedPlace, Origin
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Span
 from mudline.keywords import catalogue
 from mudline.keywords.model import Block
-from mudline.keywords.naming import kinds_of, names_given
 from mudline.keywords.values import Names
 from mudline.scene.names import CURVES
-from mudline.scene.references import given_names
 from mudline.scene.sets import ALL, set_key
 from mudline.syntax.edits import TextEdit
 from mudline.syntax.tree import Kind, Leaf, RawBlock, RawSection
@@ -190,17 +188,21 @@ class Blocks:
         """The name of the section around an offset, "" before the first."""
         return self._sections[max(bisect_right(self._heads, offset) - 1, 0)].name
 
+    @cached_property
+    def _names(self) -> list[NamedPlace]:
+        return self.deck.names()
+
     def missing(self, what: Names) -> list[str]:
         """The names of a kind that are used and nothing defines."""
         if self.keywords.isdisjoint(catalogue.users(what)):
             return []
         if what not in self._missing:
             defined = {ALL} if what is Names.SET else set[str]()
-            for _, block in self.deck.blocks_that(lambda declared: what in kinds_of(declared, "defines")):
-                defined |= {set_key(name) for _, name in names_given(block, what, "defines")}
-            given = (name for _, _, name in given_names(self.deck, what))
-            missing = dict.fromkeys(name for name in given if name and set_key(name) not in defined)
-            self._missing[what] = list(missing)
+            found = [one for one in self._names if one.kind is what]
+            models = (one for one in found if self.deck.sections[one.where.section].name == "MODEL")
+            defined |= {set_key(one.name) for one in models if one.role == "defines"}
+            given = (one.name for one in found if one.role == "names")
+            self._missing[what] = list(dict.fromkeys(name for name in given if name and set_key(name) not in defined))
         return self._missing[what]
 
     @cached_property

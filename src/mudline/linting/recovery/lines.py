@@ -17,8 +17,8 @@ from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Problem, Severity, Span
 from mudline.keywords import catalogue
 from mudline.keywords.keeping import is_choice, opened
-from mudline.keywords.model import Block, record_schema
-from mudline.keywords.naming import kinds_of, repeated_set, set_slots
+from mudline.keywords.model import Block, Setting, record_schema
+from mudline.keywords.naming import kinds_of, repeated_set
 from mudline.keywords.reader import ReadBlock, all_keys, reads, schemas_of
 from mudline.keywords.values import Facts, Names
 from mudline.keywords.values import Kind as Value
@@ -33,7 +33,6 @@ from mudline.linting.recovery.blocks import (
     start_of,
     whole,
 )
-from mudline.linting.recovery.names import key_of_points
 from mudline.linting.rules.seabed_overlaps import SBD008
 from mudline.scene.names import CURVES, THINGS
 from mudline.scene.sets import set_key
@@ -99,18 +98,6 @@ def _known() -> frozenset[str]:
 
 
 # ------------------------------------------------------------------------------------------------ the line of a keyword
-
-
-@recovers_from(SYN011)
-def first_keyword(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """Lines below a `$SECTION` line and above its first keyword: the keyword that they read as."""
-    text = blocks.text
-    stray = {start_of(text, one): one for one in problems}
-    for section in text.tree.sections:
-        lines = data_of(section.leaves)
-        cause = next((stray[at] for at in stray if lines and lines[0].span.start <= at < lines[0].span.end), None)
-        if cause is not None:
-            yield from _keyword_line(blocks, section.name, "", cause, Span(lines[0].span.start, lines[-1].span.end))
 
 
 @recovers_from(*_OF_FOREIGN_LINES, last=True)
@@ -281,10 +268,21 @@ def _is_telling(unified: str, line: Span) -> bool:
 
 
 @cache
+def _key_of_points(declared: type[Block]) -> tuple[str, Names | None]:
+    """The setting above the points of a curve that names it, and what the name is one of; "" for other keywords."""
+    for slot in record_schema(declared).slots:
+        for record in map(record_schema, slot.record.values()):
+            about = record.slots[0].about if record.table and record.slots else None
+            if isinstance(about, Setting) and (kind := about.names or about.defines):
+                return about.key, kind
+    return "", None
+
+
+@cache
 def _name_of_curve() -> re.Pattern[str]:
     """The line above the points of a curve, with its name."""
     definers = {catalogue.declared(keyword) for kind in (Names.CURVE, *CURVES) for keyword in catalogue.definers(kind)}
-    keys = "|".join(sorted({key_of_points(declared)[0] for declared in definers if declared} - {""}))
+    keys = "|".join(sorted({_key_of_points(declared)[0] for declared in definers if declared} - {""}))
     return re.compile(rf"^[ \t]*(?:{keys})[ \t]*=([^,\r\n]*)", re.MULTILINE | re.IGNORECASE)
 
 
@@ -309,21 +307,3 @@ def _foreign_lines(text: TextOrigin, block: RawBlock, read: ReadBlock | None) ->
             begins = above.kind is Kind.SETTING and above is not leaves[0]
             found += [line_at(text, above.span.start).start, line.start] if begins else [line.start]
     return list(dict.fromkeys(found))[:MOST_NAMED]
-
-
-@recovers_from(SYN001, last=True)
-def lost_names(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """A setting that stands twice below the name of a set: that of another one above it, which is not known."""
-    seen: set[int] = set()
-    for problem in problems:
-        declared = blocks.declared_at(problem.span.start) if problem.span else None
-        keys = {named.key for _, named in set_slots(declared)} if declared else set()
-        if problem.span is None or len(keys) != 1 or not problem.message.endswith("= is given twice"):
-            continue
-        block = blocks.block_at(problem.span.start).start
-        line = line_at(blocks.text, problem.span.start)
-        if block not in seen:  # the settings below it are of the same set
-            message = f"{problem.message}: a line {min(keys)}= seems to be missing above this one"
-            edit = TextEdit(Span(line.start, line.start), f" {min(keys)}=\n")
-            yield Correction(problem, (edit,), line, message, certain=True)
-        seen.add(block)

@@ -18,7 +18,7 @@ from mudline.scene.checks.laws import REF002, undefined_curve
 from mudline.scene.checks.names import REF019
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.names import CURVES, THINGS, names_of, undefined
-from mudline.scene.references import given_names
+from mudline.scene.references import used_names
 from mudline.scene.sets import ALL, set_key
 from mudline.spelling import Effort, meant_names
 from mudline.syntax.edits import TextEdit
@@ -31,7 +31,7 @@ def corrections(context: LintContext) -> Iterator[Correction]:
         return
     sets = {key: one.name for key, one in scene.set_table.named.items() if key != ALL}
     curves = {folded(one.name): one.name for one in scene.laws.curves if one.named and not one.embedment}
-    used = {where for _, where, _ in given_names(context.deck, Names.CURVE)}
+    used = {where for where, _ in used_names(context.deck, Names.CURVE)}
     nameless = [one for one in undefined_curve(scene) if one.where in used]
     lacking = [one for one in scene.noticed if one.lacks and one.code in (REF001, REF008)]
     effort = Effort()
@@ -59,9 +59,8 @@ def _names(
     if not alike or text is None:
         return
     places: dict[str, list[Where]] = {}
-    for kind in kinds:
-        for _, where, name in given_names(context.deck, kind):
-            places.setdefault(set_key(name), []).append(where)
+    for where, name in used_names(context.deck, *kinds):
+        places.setdefault(set_key(name), []).append(where)
     for key, found in alike.items():
         near = meant_names(key, known, effort)
         if len(near) != 1:
@@ -137,7 +136,7 @@ def _rows_without_name(context: LintContext, text: TextOrigin, curves: list[str]
 
 def _unused_set(context: LintContext) -> list[str]:
     """The name of the only set that nothing uses."""
-    used = {set_key(name) for kind in (Names.SET, Names.SUBSET) for _, _, name in given_names(context.deck, kind)}
+    used = {set_key(name) for _, name in used_names(context.deck, Names.SET, Names.SUBSET)}
     named = context.scene.set_table.named
     sets = [one.name for key, one in named.items() if key not in used and one.where is not None]
     return sets if len(sets) == 1 else []

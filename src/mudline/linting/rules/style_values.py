@@ -7,8 +7,7 @@ from collections.abc import Iterator
 
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span
-from mudline.keywords.model import Part, record_schema
-from mudline.keywords.places import Path
+from mudline.keywords.model import Path
 from mudline.keywords.reader import ReadBlock
 from mudline.limits import MOST_COLUMNS
 from mudline.linting.rules.style_lines import (
@@ -228,23 +227,5 @@ class _Numbers:
             fields = row_fields(source, line, MOST_COLUMNS)
             return [field.span for field in fields if _NUMBER.fullmatch(field.text)]
         spans = (Span(*match.span()) for match in _NUMBER.finditer(source, *line))
-        return [span for span in spans if span in self.paths and _is_number(read.model, self.paths[span])]
-
-
-def _is_number(part: Part, path: Path) -> bool:
-    """Whether a number was read at a path of a block."""
-    at: object = part
-    for step in path:
-        at = _inner(at, step)
-    return isinstance(at, int | float)
-
-
-def _inner(at: object, step: str | int) -> object:
-    """What is at one step of a path; None where reading found nothing."""
-    if isinstance(at, list) and isinstance(step, int):
-        return at[step] if step < len(at) else None
-    if not isinstance(at, Part):
-        return None
-    found = record_schema(type(at))
-    slots = found.columns[step : step + 1] if isinstance(step, int) else [s for s in found.slots if s.json == step]
-    return getattr(at, slots[0].name, None) if slots else None
+        values = ((span, read.model.at(self.paths[span])[1]) for span in spans if span in self.paths)
+        return [span for span, value in values if isinstance(value, int | float)]
