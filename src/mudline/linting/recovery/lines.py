@@ -298,12 +298,14 @@ def _foreign_lines(text: TextOrigin, block: RawBlock, read: ReadBlock | None) ->
     leaves = data_of(block.leaves) if read.lost else []
     kept = read.places.kept if leaves else frozenset()
     found: list[int] = []
+    declared, behind = type(read.model), False
     for above, leaf in pairwise(leaves[:-1]):
         line = line_at(text, leaf.span.start)
         key, value = first_key(unified, line), unified[slice(*line)].partition("=")[2]
-        declared = type(read.model)
-        unknown = bool(opened(declared, key, value)) and not is_choice(declared, key, value)
-        if leaf.kind is Kind.SETTING and (unknown or line.start in kept):
+        choice = is_choice(declared, key, value)
+        unknown = bool(opened(declared, key, value)) and not choice
+        behind = choice or (behind and line.start in kept)  # lines of an unknown form belong there
+        if leaf.kind is Kind.SETTING and not behind and (unknown or line.start in kept):
             begins = above.kind is Kind.SETTING and above is not leaves[0]
             found += [line_at(text, above.span.start).start, line.start] if begins else [line.start]
     return list(dict.fromkeys(found))[:MOST_NAMED]
