@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from mudline import __version__
 from mudline.outside import refusing_outside
+from mudline.overwriting import Outputs, continue_run, outputs
 
 if TYPE_CHECKING:  # imported by runs that are large enough
     from concurrent.futures import Executor, Future
@@ -237,7 +238,7 @@ def _processes(count: int, module: str) -> Iterator[Executor]:
     context = multiprocessing.get_context(method)
     if method == "forkserver":
         context.set_forkserver_preload([module])
-    found = ProcessPoolExecutor(count, context, _begin)
+    found = ProcessPoolExecutor(count, context, _begin, (outputs(),))
     try:
         yield found
     except BaseException:
@@ -248,8 +249,12 @@ def _processes(count: int, module: str) -> Iterator[Executor]:
         found.shutdown(cancel_futures=True)
 
 
-def _begin() -> None:
-    """What each process does first: ignore Ctrl-C and a closed terminal, which reach all processes, and watch."""
+def _begin(known: Outputs) -> None:
+    """What each process does first: ignore Ctrl-C and a closed terminal, which reach all processes, and watch.
+
+    `known` are the outputs of the run, none of which the process may read.
+    """
+    continue_run(known)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     if hasattr(signal, "SIGHUP"):
