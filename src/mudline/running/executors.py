@@ -52,6 +52,8 @@ _COUNTED = 5.0
 _MOST_ON_WINDOWS = 61
 """Processes that one process can wait for there."""
 
+_SAFE_PATH = "PYTHONSAFEPATH"
+
 _ADDRESS = re.compile(r"(?P<protocol>tcp|tls)://(?P<host>\[[0-9A-Fa-f:.]+\]|[A-Za-z0-9._-]+):(?P<port>[0-9]{1,5})")
 """Strict: what Dask takes apart in another way would not be checked."""
 
@@ -240,13 +242,28 @@ def _processes(count: int, module: str) -> Iterator[Executor]:
         context.set_forkserver_preload([module])
     found = ProcessPoolExecutor(count, context, _begin, (outputs(),))
     try:
-        yield found
+        with _safe_path():
+            yield found
     except BaseException:
         for child in set(multiprocessing.active_children()) - before:
             child.kill()
         raise
     finally:
         found.shutdown(cancel_futures=True)
+
+
+@contextmanager
+def _safe_path() -> Iterator[None]:
+    """Keep Python that is started until the block ends from importing modules of the working folder."""
+    before = os.environ.get(_SAFE_PATH)
+    os.environ[_SAFE_PATH] = "1"
+    try:
+        yield
+    finally:
+        if before is None:
+            os.environ.pop(_SAFE_PATH, None)
+        else:
+            os.environ[_SAFE_PATH] = before
 
 
 def _begin(known: Outputs) -> None:
