@@ -39,7 +39,7 @@ from mudline.overwriting import claim, reading
 from mudline.quantities import CASES, csv_lines
 from mudline.results.cases import CaseSummary, worst_first, write_parquet
 from mudline.running import storage
-from mudline.running.executors import executor, in_order
+from mudline.running.executors import Crash, executor, in_order
 from mudline.running.remembered import Memory, of_working_folder, state
 
 _FORMS = ("csv", "json", "npz", "parquet")
@@ -119,13 +119,23 @@ def command(
     order = Order(cases[0], b"", inputs, folder, units, summary_only, os.getcwd())  # noqa: PTH109 - sent as text
     memory = _memory(folder, repr((inputs, units, form, summary_only)))
     tasks = _tasks(found, cases, order, memory, fresh=no_cache)
+    broken: list[Done] = []
+
+    def crashed(task: _Task, crash: Crash) -> None:
+        file = task.order.case.file
+        progress.hide()
+        found.crashed(file, crash, verbose=view.verbose)
+        broken.append(failed(file.name, f"internal error: {crash.summary}"))
+        progress.advance()
+
     with (
         _saved(memory, cases, folder),
         Progress(len(cases), view, shown=wants_bar(view)) as progress,
         executor(jobs, scheduler) as pool,
-        closing(in_order(pool, evaluate_case, tasks, len(cases))) as results,
+        closing(in_order(pool, evaluate_case, tasks, len(cases), crashed)) as results,
     ):
         done, taken = _taken(results, memory, progress)
+    done += broken
     ranked = worst_first(one.row for one in done)
     summary = _write_summary(ranked, folder)
     if not view.quiet:

@@ -24,7 +24,7 @@ from mudline.linting.configuration import Given as GivenRules
 from mudline.linting.engine import LintSettings
 from mudline.overwriting import reading
 from mudline.report.content import SECTIONS, Given, Look, Stamp, report_on
-from mudline.running.executors import executor, in_order
+from mudline.running.executors import Crash, executor, in_order
 from mudline.short_repr import counted
 
 _LEGAL = "legal"
@@ -97,10 +97,16 @@ def command(
     progress = Progress(len(inputs.files), view, shown=wants_bar(view))
     rows, contents = [], []
     orders = _orders(inputs, settings, wanted, date, look)
+
+    def crashed(file: Input, crash: Crash) -> None:
+        progress.hide()
+        inputs.crashed(file, crash, verbose=view.verbose)
+        progress.advance()
+
     with (
         executor(jobs, scheduler) as pool,
         progress,
-        closing(in_order(pool, make_report, orders, len(inputs.files))) as made_all,
+        closing(in_order(pool, make_report, orders, len(inputs.files), crashed)) as made_all,
     ):
         for file, made in made_all:
             if made is not None and made.fault:

@@ -25,7 +25,7 @@ from mudline.linting.rule import LintContext
 from mudline.linting.verdict import Verdict, judge, refused
 from mudline.outside import refusing_outside
 from mudline.quantities import csv_lines
-from mudline.running.executors import Pool, executor, in_order
+from mudline.running.executors import Crash, Pool, executor, in_order
 from mudline.short_repr import counted
 from mudline.syntax.source import Source
 
@@ -180,8 +180,15 @@ def _judge_order(order: Order) -> tuple[Verdict, list[Diagnostic]]:
 def _judged(pool: Pool, wanted: Wanted, total: Total, view: View, progress: Progress) -> Generator[Judged, None, None]:
     """Each deck that can be read; all are counted. The bar is hidden while a deck with errors is printed."""
     orders = _orders(wanted, total, view, progress)
-    with progress, closing(in_order(pool, judge_order, orders, len(wanted.inputs.files))) as results:
-        for data, made in results:
+
+    def crashed(item: tuple[Input, bytes | None], crash: Crash) -> None:
+        total.unreadable += 1
+        progress.hide()
+        wanted.inputs.crashed(item[0], crash, verbose=view.verbose)
+        progress.advance()
+
+    with progress, closing(in_order(pool, judge_order, orders, len(wanted.inputs.files), crashed)) as results:
+        for (_, data), made in results:
             if made is not None and data is not None:
                 verdict, found = made
                 total.add(verdict)
@@ -193,8 +200,8 @@ def _judged(pool: Pool, wanted: Wanted, total: Total, view: View, progress: Prog
 
 def _orders(
     wanted: Wanted, total: Total, view: View, progress: Progress
-) -> Iterator[tuple[bytes | None, Order | None]]:
-    """The content of each file and what is sent of it; None for one that cannot be read."""
+) -> Iterator[tuple[tuple[Input, bytes | None], Order | None]]:
+    """Each file with its content, and what is sent of it; None for one that cannot be read."""
     here = os.getcwd()  # noqa: PTH109 - sent as text
     for file in wanted.inputs.files:
         try:
@@ -203,9 +210,9 @@ def _orders(
             total.unreadable += 1
             progress.hide()
             wanted.inputs.fail(f"{file.name}: {reason(error)}")
-            yield None, None
+            yield (file, None), None
         else:
-            yield data, Order(data, file, wanted.units, wanted.no_outside, view.verbose, here)
+            yield (file, data), Order(data, file, wanted.units, wanted.no_outside, view.verbose, here)
 
 
 # ---------------------------------------------------------------------------------------------------------- output
