@@ -253,7 +253,7 @@ def _done(
     version: str,
     function: Callable[[_Given], _Made],
     given: list[_Given],
-    guarded: bool,  # noqa: FBT001 - sent by place
+    guarded: bool = False,  # noqa: FBT001, FBT002 - sent by place
 ) -> tuple[float, list[_Made | Crash]]:
     """What a process or a worker does, and the seconds that it took."""
     if version != __version__:
