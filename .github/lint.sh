@@ -2,6 +2,9 @@
 # Runs mudline lint for action.yml. The inputs come as variables, so that nothing in them is run as a command.
 set -euo pipefail
 
+# Python, and those that it starts, import nothing from the checkout, which may be a stranger's.
+export PYTHONSAFEPATH=1
+
 # Words are parted at blanks and lines; no pattern in them is expanded.
 set -f
 # shellcheck disable=SC2206
@@ -10,5 +13,5 @@ paths=(${MUDLINE_PATHS:-.})
 options=(${MUDLINE_ARGS:-})
 set +f
 
-exec "${MUDLINE_PYTHON:-python}" -m mudline lint --output-format "${MUDLINE_FORMAT:-github}" \
+exec "${MUDLINE_PYTHON:-python}" -P -m mudline lint --output-format "${MUDLINE_FORMAT:-github}" \
   ${options[@]+"${options[@]}"} -- "${paths[@]}"

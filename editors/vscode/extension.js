@@ -23,7 +23,8 @@ function makeClient() {
     documentSelector: [{ scheme: "file", language: ID }, { scheme: "untitled", language: ID }],
     synchronize: { fileEvents: watcher },
   };
-  return new LanguageClient(ID, "mudline", { command, args, options: { env: process.env } }, options);
+  const env = { ...process.env, PYTHONSAFEPATH: "1" }; // no module of the workspace is imported
+  return new LanguageClient(ID, "mudline", { command, args, options: { env } }, options);
 }
 
 async function stop() {

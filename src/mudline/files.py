@@ -12,6 +12,8 @@ from contextvars import ContextVar
 from pathlib import Path, PurePath
 from typing import BinaryIO, NamedTuple
 
+from mudline.overwriting import reading
+
 _URL = re.compile(r"[A-Za-z][A-Za-z0-9+.:-]+://")
 
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0) | getattr(os, "O_NOFOLLOW", 0)
@@ -48,6 +50,7 @@ def recording_looks() -> Iterator[dict[str, None]]:
 
 def look(path: Path) -> Path:
     """Return the path, of which is now known that a result depends on what is there, or on nothing being there."""
+    reading(path)
     paths = _LOOKED_AT.get()
     if paths is not None:
         paths[os.path.abspath(path)] = None  # noqa: PTH100 - links stay what they are called

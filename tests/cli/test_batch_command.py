@@ -266,8 +266,8 @@ def test_decks_after_expand_keep_their_folders() -> None:
 def test_results_do_not_replace_what_they_are_made_from(two: str, folder: Path) -> None:
     (folder / "decks" / "a.csv").write_text(STATE, encoding="utf-8")
     arguments = ("batch", two, "-o", "decks", "--form", "csv", "--positions", "{folder}/{name}.csv")
-    found = run(*arguments, "--output-format", "json").json()
-    assert found[0]["reason"] == "its results would replace decks/a.csv: give another folder with -o"
+    outcome = run(*arguments)
+    assert (outcome.code, "decks/a.csv would replace decks/a.csv, which this run reads" in outcome.err) == (2, True)
     assert (folder / "decks" / "a.csv").read_text(encoding="utf-8") == STATE
 
 

@@ -133,7 +133,7 @@ def test_the_deck_itself_is_never_overwritten(place: Place, folder: Path) -> Non
     before = (folder / name).read_bytes()
     outcome = run("expand", name, "-o", ".", "--force")
     assert outcome.code == 2
-    assert "deck.keyxm: is the deck itself, which is not overwritten" in outcome.err
+    assert "deck.keyxm: this run reads the file, which is not overwritten" in outcome.err
     assert (folder / name).read_bytes() == before
 
 

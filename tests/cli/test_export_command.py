@@ -85,7 +85,7 @@ def test_entries_of_another_file_have_its_name(tmp_path: Path) -> None:
     ("arguments", "message"),
     [
         (("--to", "riflex", "-o", "-"), "give the name of a file"),
-        (("--to", "riflex", "-o", "deck.keyxm"), "is the deck itself"),
+        (("--to", "riflex", "-o", "deck.keyxm"), "would replace deck.keyxm"),
         (("--to", "abaqus", "-o", "a"), "'abaqus'"),
         (("--to", "riflex"), "Missing option '-o'"),
         (("--to", "riflex", "-o", "no/such/folder/a.inp"), "cannot be written"),

@@ -17,6 +17,8 @@ from tests.cli.runner import run
 from tests.processes import TIMEOUT
 
 CONCISE = ("--output-format", "concise")
+NAMING = "$LOAD CASE\n*RESTART\n LAST=deck\n$MODEL\n*SEABED PROFILE\n FILE=named.csv\n"
+"""A deck that names two files."""
 
 
 def names(*paths: str, gitignore: bool = True) -> list[str]:
@@ -238,24 +240,70 @@ def test_decks_in_json_are_hidden_too(decks: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("evaluate", "deck.json", "-o", "./deck.json"), "-o deck.json is the deck itself"),
-        (("evaluate", "deck.json", "--positions", "p.csv", "-o", "p.csv"), "-o p.csv is the file of --positions"),
-        (("evaluate", "deck.json", "--positions", "p-nodes.csv", "-o", "p.csv"), "-o p-nodes.csv is the file of"),
-        (("evaluate", "deck.json", "--elements", "p.csv", "-o", "p.csv"), "-o p.csv is the file of --elements itself"),
-        (("evaluate", "deck.json", "--against", "p.csv", "-o", "p.csv"), "-o p.csv is the file of --against itself"),
-        (("study", "deck.json", "-o", "deck.json"), "-o deck.json is the deck itself"),
-        (("report", "deck.keyxm", "-o", "deck.keyxm"), "-o deck.keyxm is a deck itself"),
-        (("export", "deck.keyxm", "--to", "riflex", "-o", "deck.keyxm"), "-o deck.keyxm is the deck itself"),
-        (("lint", ".", "--output-format", "json=deck.keyxm"), "--output-format json: deck.keyxm is a deck itself"),
-        (("lint", ".", "--baseline", "deck.keyxm", "--write-baseline"), "--baseline deck.keyxm is a deck itself"),
+        (
+            ("evaluate", "deck.json", "-o", "./deck.json"),
+            "-o ./deck.json would replace deck.json, which this run reads",
+        ),
+        (("evaluate", "deck.json", "--positions", "p.csv", "-o", "p.csv"), "-o p.csv would replace p.csv"),
+        (
+            ("evaluate", "deck.json", "--positions", "p-nodes.csv", "-o", "p.csv"),
+            "p-nodes.csv would replace p-nodes.csv",
+        ),
+        (("evaluate", "deck.json", "--elements", "p.csv", "-o", "p.csv"), "-o p.csv would replace p.csv"),
+        (("evaluate", "deck.json", "--against", "p.csv", "-o", "p.csv"), "-o p.csv would replace p.csv"),
+        (("study", "deck.json", "-o", "deck.json"), "-o deck.json would replace deck.json"),
+        (("report", "deck.keyxm", "-o", "deck.keyxm"), "-o deck.keyxm would replace deck.keyxm"),
+        (("report", "deck.keyxm", "--template", "p.csv", "-o", "p.csv"), "-o p.csv would replace p.csv"),
+        (("export", "deck.keyxm", "--to", "riflex", "-o", "deck.keyxm"), "-o deck.keyxm would replace deck.keyxm"),
+        (
+            ("lint", ".", "--output-format", "json=deck.keyxm"),
+            "--output-format json: deck.keyxm would replace deck.keyxm",
+        ),
+        (("lint", ".", "--output-format", "json=mudline.toml"), "would replace mudline.toml"),
+        (("lint", ".", "--baseline", "p.json", "--output-format", "json=p.json"), "would replace p.json"),
+        (
+            ("lint", ".", "--baseline", "deck.keyxm", "--write-baseline"),
+            "--baseline deck.keyxm would replace deck.keyxm",
+        ),
+        (("lint", "named.keyxm", "--output-format", "json=named.csv"), "would replace named.csv"),
+        (("lint", ".", "--no-cache", "--jobs", "2", "--output-format", "json=named.csv"), "would replace named.csv"),
+        (("convert", "deck.keyxm", "-o", "deck.keyxm", "--to", "json"), "-o deck.keyxm would replace deck.keyxm"),
+        (("convert", "deck.keyxm", "-o", "sub/../deck.keyxm", "--to", "json"), "would replace deck.keyxm"),
+        (("convert", "deck.keyxm", "-o", "soft.keyxm", "--to", "json"), "-o soft.keyxm would replace deck.keyxm"),
+        (("convert", "deck.keyxm", "-o", "hard.keyxm", "--to", "json"), "-o hard.keyxm would replace deck.keyxm"),
+        (("convert", "soft.keyxm", "-o", "hard.keyxm", "--to", "json"), "-o hard.keyxm would replace soft.keyxm"),
+        (("convert", "named.keyxm", "-o", "named.csv", "--to", "json"), "-o named.csv would replace named.csv"),
+        (("convert", "named.keyxm", "-o", "deck.keyxm"), "-o deck.keyxm would replace deck.keyxm"),
+        (("migrate", "deck.keyxm", "-o", "deck.keyxm"), "-o deck.keyxm would replace deck.keyxm"),
+        (("migrate", "named.keyxm", "-o", "named.csv"), "-o named.csv would replace named.csv"),
+        (
+            ("batch", "deck.keyxm", "-o", ".", "--form", "csv", "--positions", "deck.csv"),
+            "deck.csv would replace deck.csv",
+        ),
+        (
+            ("lint", "--output-format", "json=a.txt", "--output-format", "sarif=./a.txt", "deck.keyxm"),
+            "--output-format sarif: ./a.txt is also the file of --output-format json: a.txt",
+        ),
+        (("lint", "--output-format", "json=a", "--output-format", "json=a", "deck.keyxm"), "is also the file of"),
+        (("study", "deck.keyxm", "-o", "a.json", "--plot", "b.png"), "--plot b.png is also the file of -o a.json"),
     ],
 )
-def test_no_output_replaces_an_input(place: Place, words: tuple[str, ...], said: str) -> None:
+def test_no_output_replaces_an_input_or_an_output(place: Place, words: tuple[str, ...], said: str) -> None:
     place(CLEAN)
     assert run("convert", "deck.keyxm", "-o", "deck.json").code == 0
-    for name in ("p.csv", "p-nodes.csv"):
+    for name in ("p.csv", "p-nodes.csv", "deck.csv"):
         place("node,x,y,z\n1,0,0,0\n", name)
-    held = {path: path.read_bytes() for path in Path().iterdir()}
+    place("0.0, 0.0\n1.0, 5.0\n", "named.csv")
+    place(NAMING, "named.keyxm")
+    place("ignore = []\n", "mudline.toml")
+    assert run("lint", "deck.keyxm", "--baseline", "p.json", "--write-baseline").code == 0
+    Path("sub").mkdir()
+    Path("soft.keyxm").symlink_to("deck.keyxm")
+    Path("hard.keyxm").hardlink_to("deck.keyxm")
+    if "a.json" in words:
+        place("", "a.json")
+        Path("b.png").symlink_to("a.json")
+    held = {path: path.read_bytes() for path in Path().iterdir() if path.is_file()}
     outcome = run(*words)
     assert (outcome.code, said in outcome.err) == (2, True), outcome.err
-    assert {path: path.read_bytes() for path in Path().iterdir()} == held
+    assert {path: path.read_bytes() for path in Path().iterdir() if path.is_file()} == held

@@ -54,6 +54,14 @@ def test_standard_error_that_is_closed(folder: Path) -> None:
     assert (done.returncode, done.stdout) == (141, b"")
 
 
+def test_language_server_without_standard_input() -> None:
+    words = ["sh", "-c", 'exec "$0" -m mudline lsp <&-', sys.executable]
+    done = subprocess.run(words, capture_output=True, timeout=TIMEOUT, check=False)
+    assert (done.returncode, done.stdout) == (2, b"")
+    assert done.stderr.startswith(b"mudline: standard input is closed: ")
+    assert done.stderr.count(b"\n") == 1
+
+
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no device that is always full")
 @pytest.mark.parametrize("arguments", [PIPED["rules"], PIPED["version"]], ids=["rules", "version"])
 def test_output_that_is_full(arguments: list[str]) -> None:

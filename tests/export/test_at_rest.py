@@ -23,10 +23,10 @@ pytestmark = pytest.mark.slow
 def test_reaction_touchdown_and_penetration_agree(name: str, tmp_path: Path) -> None:
     found = at_rest(ROOT / "samples" / name, tmp_path, statics=20.0)
     assert found.change < 0.01
-    assert found.same_law == pytest.approx(found.reaction, rel=0.02)
+    assert found.same_law == pytest.approx(found.reaction, rel=0.03)
     assert found.deck_law == pytest.approx(found.same_law + found.explained, abs=0.002 * found.reaction)
-    assert found.touchdown[1] == pytest.approx(found.touchdown[0], abs=0.5)
-    assert found.penetration[1] == pytest.approx(found.penetration[0], rel=0.06)
+    assert found.touchdown[1] == pytest.approx(found.touchdown[0], abs=0.6)
+    assert found.penetration[1] == pytest.approx(found.penetration[0], rel=0.08)
     assert table([found]).count("\n") == 2
 
 

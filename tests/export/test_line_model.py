@@ -68,6 +68,11 @@ def test_curves_of_stiffness_have_their_slope_at_0() -> None:
     assert {flowline.buoyancy, straked.buoyancy, touchdown.diameter} == {0.27305}
 
 
+def test_the_imperial_sample_has_the_bending_stiffness_of_its_curve() -> None:
+    riser = sample("imperial-riser.keyxi").sections[0]
+    assert riser.bending == pytest.approx(264_482.12)  # 3200 lbf ft at 0.005 1/ft
+
+
 def test_a_curve_is_its_secant_where_it_carries_the_weight() -> None:
     (soil,) = model_of(text(bed=CURVE)).soils
     ratio = 0.1 + (WEIGHT - 200.0) / 2000.0

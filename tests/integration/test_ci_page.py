@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import re
+import shlex
+import sys
 from pathlib import Path
 
 import pytest
@@ -125,6 +127,17 @@ def test_sarif_is_written_besides(folder: Path) -> None:
     (_, (code, printed)) = steps(folder, args=more)
     assert (code, printed.count("::error ")) == (0, 1)
     assert '"version": "2.1.0"' in (folder / "mudline.sarif").read_text(encoding="utf-8")
+
+
+def test_no_module_of_the_checkout_is_imported(folder: Path) -> None:
+    for name in ("click", "pip", "multiprocessing", "pickle"):
+        (folder / f"{name}.py").write_text("from pathlib import Path\nPath('run').touch()\n")
+    given = {"MUDLINE_PYTHON": sys.executable, "PIP_NO_INDEX": "1", "MUDLINE_VERSION": "1.2.0", "MUDLINE_PATHS": "."}
+    install = shell(f"bash {shlex.quote(str(ROOT / '.github' / 'install.sh'))}", folder, **given)
+    assert "No matching distribution found for mudline==1.2.0" in install.stderr
+    lint = shell(f"bash {shlex.quote(str(ROOT / '.github' / 'lint.sh'))}", folder, **given)
+    assert (lint.returncode, lint.stdout.count("::error ")) == (1, 1)
+    assert not (folder / "run").exists()
 
 
 def test_an_input_is_never_run(folder: Path) -> None:

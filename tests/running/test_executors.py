@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from concurrent.futures import CancelledError, Future
 from contextlib import ExitStack
 from importlib.util import find_spec
+from pathlib import Path
 
 import pytest
 
@@ -99,6 +100,21 @@ def test_processes_end_at_once_with_the_block(monkeypatch: pytest.MonkeyPatch) -
             if number == 1:
                 raise KeyboardInterrupt
     assert multiprocessing.active_children() == []
+
+
+@pytest.mark.usefixtures("eager")
+@pytest.mark.parametrize("method", ["fork", "forkserver", "spawn"])
+def test_no_module_of_the_working_folder_is_imported(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, method: str
+) -> None:
+    for name in ("multiprocessing", "pickle", "struct"):
+        (tmp_path / f"{name}.py").write_text("from pathlib import Path\nPath('run').touch()\n", encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(executors, "start_method", lambda: method)
+    with executor(2) as pool:
+        made = [made for _, made in in_order(pool, squared, ((number, number) for number in range(9)), 9)]
+    assert len({process for _, process in filter(None, made)}) > 1
+    assert not (tmp_path / "run").exists()
 
 
 @pytest.mark.parametrize(("threads", "method"), [(["1"], "fork"), (["1", "2"], "forkserver")])

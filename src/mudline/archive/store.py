@@ -21,6 +21,7 @@ import pyarrow.parquet as pq
 
 from mudline.archive.tables import DECK, Table
 from mudline.files import alone_at, write_atomically
+from mudline.overwriting import reading
 from mudline.short_repr import cut
 
 ArrowTable: TypeAlias = Any
@@ -70,6 +71,7 @@ class Archive:
         _check_name(folder)
         marker = folder / MARKER
         try:
+            reading(marker)
             found = json.loads(marker.read_bytes())
         except FileNotFoundError:
             what = "does not exist" if not folder.exists() else f"has no {MARKER}, so it is not an archive"
@@ -120,6 +122,7 @@ class Archive:
         """
         for table, stored in self.files.items():
             path = self.folder / DATA / stored.file
+            reading(path)
             try:
                 size = path.stat().st_size
                 if size == stored.bytes and thorough and _file_name(table, path.read_bytes()) != stored.file:

@@ -84,7 +84,13 @@ class Wanted(NamedTuple):
 @options.option("--legacy", is_flag=True, help="Write *EMBEDMENT in place of *SEABED STIFFNESS.")
 @options.option("--invert", is_flag=True, help="Shift the ratios by -0.5: from the invert of the model to the axis.")
 @options.option("--extend", is_flag=True, help="Go on beyond the ratios for which the model is published.")
-@options.option("--plot", "picture", metavar="FILE.png|svg", help="Draw model and curve (needs mudline[plot]).")
+@options.option(
+    "--plot",
+    "picture",
+    type=options.OUTPUT_FILE,
+    metavar="FILE.png|svg",
+    help="Draw model and curve (needs mudline[plot]).",
+)
 @options.common
 def command(
     *,

@@ -33,12 +33,13 @@ from mudline.cli.inputs import STDIN, Input, Inputs, collect
 from mudline.cli.result_files import has_library, is_installed
 from mudline.cli.streams import counted, emit, emit_json, encoded, notify, reason
 from mudline.cli.view import Progress, View, wants_bar
-from mudline.files import is_url, remove_left, write_atomically
+from mudline.files import is_url, remove_left, suffix_of, write_atomically
 from mudline.limits import SHOWN_ROWS
+from mudline.overwriting import claim, reading
 from mudline.quantities import CASES, csv_lines
 from mudline.results.cases import CaseSummary, worst_first, write_parquet
 from mudline.running import storage
-from mudline.running.executors import executor, in_order
+from mudline.running.executors import Crash, executor, in_order
 from mudline.running.remembered import Memory, of_working_folder, state
 
 _FORMS = ("csv", "json", "npz", "parquet")
@@ -113,16 +114,28 @@ def command(
         return found.code
     common, cases = named_cases(_once(found.files), form)
     folder = _made(output)
+    for path in (_summary_path(folder), *(path for case in cases for path in results_of(case, folder))):
+        claim(path)
     order = Order(cases[0], b"", inputs, folder, units, summary_only, os.getcwd())  # noqa: PTH109 - sent as text
     memory = _memory(folder, repr((inputs, units, form, summary_only)))
     tasks = _tasks(found, cases, order, memory, fresh=no_cache)
+    broken: list[Done] = []
+
+    def crashed(task: _Task, crash: Crash) -> None:
+        file = task.order.case.file
+        progress.hide()
+        found.crashed(file, crash, verbose=view.verbose)
+        broken.append(failed(file.name, f"internal error: {crash.summary}"))
+        progress.advance()
+
     with (
         _saved(memory, cases, folder),
         Progress(len(cases), view, shown=wants_bar(view)) as progress,
         executor(jobs, scheduler) as pool,
-        closing(in_order(pool, evaluate_case, tasks, len(cases))) as results,
+        closing(in_order(pool, evaluate_case, tasks, len(cases), crashed)) as results,
     ):
         done, taken = _taken(results, memory, progress)
+    done += broken
     ranked = worst_first(one.row for one in done)
     summary = _write_summary(ranked, folder)
     if not view.quiet:
@@ -183,7 +196,8 @@ def _tasks(
         try:
             data, positions = case.file.read(), positions_of(case, given.positions)
             files = [path for path in (positions, given.elements) if path]
-            _keep_inputs(case, files, order.output)
+            for path in files:
+                reading(path)
         except OSError as error:
             found.fail(f"{name}: {reason(error)}")
             yield _Task(order, known=failed(name, reason(error))), None
@@ -196,14 +210,6 @@ def _tasks(
         order = order._replace(data=data, inputs=replace(given, positions=positions))
         near = [os.path.abspath(path) for path in files]  # noqa: PTH100 - links stay what they are
         yield _Task(order, key, near, known), None if known else order
-
-
-def _keep_inputs(case: Case, files: Sequence[str], output: str) -> None:
-    """Raise click.ClickException for a deck whose results would replace a file that they are made from."""
-    read = {os.path.abspath(path) for path in (case.file.path or "", *files)}  # noqa: PTH100 - links stay what they are
-    for path in results_of(case, output):
-        if os.path.abspath(path) in read:  # noqa: PTH100 - as above
-            raise click.ClickException(f"its results would replace {slashed(path)}: give another folder with -o")
 
 
 def _taken(
@@ -288,12 +294,11 @@ def _mark(path: str) -> str:
 def _write_summary(rows: Sequence[CaseSummary], folder: str) -> str:
     """Write the rows of all decks: in Parquet where that is installed, else as CSV. Returns the path or the URL."""
     stream = io.BytesIO()
-    form = "parquet" if is_installed("parquet") else "csv"
-    if form == "parquet":
+    path = _summary_path(folder)
+    if suffix_of(path) == "parquet":
         write_parquet(rows, stream)
     else:
         stream.writelines(map(encoded, _csv(rows)))
-    path = storage.join(folder, f"{SUMMARY}.{form}")
     try:
         if is_url(path):
             storage.write(path, stream.getvalue())
@@ -302,6 +307,10 @@ def _write_summary(rows: Sequence[CaseSummary], folder: str) -> str:
     except OSError as error:
         raise click.ClickException(f"{slashed(path)}: cannot be written: {reason(error)}") from error
     return slashed(path)
+
+
+def _summary_path(folder: str) -> str:
+    return storage.join(folder, f"{SUMMARY}.{'parquet' if is_installed('parquet') else 'csv'}")
 
 
 def _csv(rows: Sequence[CaseSummary]) -> Iterator[str]:

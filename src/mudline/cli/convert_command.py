@@ -30,7 +30,13 @@ _OTHER_SHEETS = {".xls", ".xlsb", ".ods"}
 
 
 @options.command("convert")
-@options.option("-o", "--output", metavar="OUT", help="Write to this file; without it, or with -, to standard output.")
+@options.option(
+    "-o",
+    "--output",
+    type=options.OUTPUT_FILE,
+    metavar="OUT",
+    help="Write to this file; without it, or with -, to standard output.",
+)
 @options.option(
     "--from",
     "source",

@@ -45,7 +45,13 @@ _SOFTENS = "unstable: the curve softens there, and a pipe that is pushed deeper 
     metavar="W",
     help="Find the static embedment under this submerged weight per unit length, in the deck's units.",
 )
-@options.option("--plot", "picture", metavar="FILE.png|svg", help="Draw the curves (needs the extra mudline[plot]).")
+@options.option(
+    "--plot",
+    "picture",
+    type=options.OUTPUT_FILE,
+    metavar="FILE.png|svg",
+    help="Draw the curves (needs the extra mudline[plot]).",
+)
 @options.output_format("text", "json", "csv")
 @takes_deck
 def command(

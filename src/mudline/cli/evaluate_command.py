@@ -37,6 +37,7 @@ from mudline.short_repr import listed_numbers
     "-o",
     "--output",
     group=options.OUTPUT,
+    type=options.OUTPUT_FILE,
     metavar=f"OUT.{'|'.join(FORMS)}",
     help="Write the results; CSV and Parquet write OUT-nodes and OUT-summary beside it.",
 )
@@ -91,7 +92,6 @@ def command(
             raise click.UsageError("--summary-only is for time steps: give a series with --positions")
     wanted = Picture.asked_for(picture, plot_elements)
     form = options.form_of_file(output, FORMS) if output else ""
-    _keep_inputs(output, [("the deck", decks[0]), ("the file of --against", against), *inputs.files])
     if (form and not has_library(form)) or not wanted.has_library():
         return FOUND
     deck = GivenDeck(decks[0], stdin_name, units).load()
@@ -114,12 +114,6 @@ def command(
             output_format=output_format,
         )
     return FOUND if warnings and fail_on == "warning" else DONE
-
-
-def _keep_inputs(output: str | None, inputs: Sequence[tuple[str, str | None]]) -> None:
-    """Raise click.UsageError where a file of the results, or one of those beside it, is one that is read."""
-    for path in (Path(output), *beside(Path(output)).values()) if output else ():
-        options.keep_inputs("-o", path.as_posix(), inputs)
 
 
 def _show_plan(prepared: Prepared, form: str, view: View) -> None:

@@ -16,6 +16,7 @@ from mudline.cli.options import INPUT, Command, option
 from mudline.cli.streams import reason
 from mudline.deck.model import Deck
 from mudline.linting.engine import naming_causes
+from mudline.overwriting import reading
 from mudline.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
 from mudline.scene.csv_file import read_external
 from mudline.scene.model import Scene, resolve
@@ -159,6 +160,7 @@ fail_on = click.option(
 
 def read_file(path: str, read: Callable[[Path], _Read]) -> _Read:
     """What is read from a file; ends the command when it cannot be read."""
+    reading(path)
     try:
         return read(Path(path))
     except OSError as error:

@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from mudline.cli import DONE, options
-from mudline.cli.inputs import STDIN, GivenDeck, takes_deck
+from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.streams import emit, notify, reason, write_bytes, write_text
 from mudline.cli.view import View
 from mudline.limits import SHOWN_ROWS
@@ -40,8 +40,7 @@ def command(*, deck: GivenDeck, output: str | None, dry_run: bool, force: bool, 
     for note in planned.notes:
         notify(note)
     _notify_some([] if output is None else [_NOT_COPIED.format(name) for name in lacking(Path(output), planned)])
-    source = None if deck.path == STDIN else Path(deck.path)
-    blocked = [] if output is None else conflicts(Path(output), planned, source, force=force)
+    blocked = [] if output is None else conflicts(Path(output), planned, force=force)
     _notify_some(blocked)
     if output is not None and not dry_run:
         if blocked:

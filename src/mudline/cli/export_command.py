@@ -25,7 +25,14 @@ _TARGETS = ("moordyn", "orcaflex", "riflex")
 
 @options.command("export")
 @options.option("--to", "target", type=click.Choice(_TARGETS), required=True, help="Write the input of this program.")
-@options.option("-o", "--output", required=True, metavar="OUT", help="Write to this file, and others beside it.")
+@options.option(
+    "-o",
+    "--output",
+    required=True,
+    type=options.OUTPUT_FILE,
+    metavar="OUT",
+    help="Write to this file, and others beside it.",
+)
 @options.option("--strict", is_flag=True, help="Exit with 1 if anything was approximated or left out.")
 @options.output_format("text", "json")
 @takes_deck
@@ -34,7 +41,6 @@ def command(*, deck: GivenDeck, target: str, output: str, strict: bool, output_f
     path = Path(output)
     if output == STDIN:
         raise click.UsageError("-o -: a model may need several files; give the name of a file")
-    options.keep_inputs("-o", output, [("the deck", deck.path)])
     read = deck.load()
     with naming_causes(read):
         scene = resolve(read).require_evaluable()

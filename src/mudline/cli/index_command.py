@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING
 import click
 
 from mudline.cli import DONE, WRONG_USAGE, options
-from mudline.cli.inputs import Inputs, collect_any_form
+from mudline.cli.inputs import Input, Inputs, collect_any_form
 from mudline.cli.lint_run import SettingsOf, checked_settings
 from mudline.cli.streams import counted, notify, notify_missing, reason
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.files import is_url
 from mudline.linting.configuration import Given
 from mudline.running import storage
-from mudline.running.executors import executor, in_order
+from mudline.running.executors import Crash, executor, in_order
 
 if TYPE_CHECKING:
     from mudline.archive.updating import Order, Update
@@ -123,8 +123,14 @@ def _index(
 
     with Progress(len(inputs.files), view, shown=wants_bar(view)) as progress, executor(jobs, scheduler) as pool:
         orders = _orders(inputs, settings_of, update, progress)
+
+        def crashed(file: Input, crash: Crash) -> None:
+            progress.hide()
+            inputs.crashed(file, crash, verbose=view.verbose)
+            progress.advance()
+
         try:
-            with closing(in_order(pool, read_deck, orders, len(inputs.files))) as found:
+            with closing(in_order(pool, read_deck, orders, len(inputs.files), crashed)) as found:
                 for _, read in found:
                     if read is not None:
                         update.take(read)
@@ -136,18 +142,18 @@ def _index(
 
 def _orders(
     inputs: Inputs, settings_of: SettingsOf, update: Update, progress: Progress
-) -> Iterator[tuple[None, Order | None]]:
+) -> Iterator[tuple[Input, Order | None]]:
     """The decks, those to be read with an order; one that cannot be opened is reported, and stays as it was."""
     from mudline.archive.updating import looked  # noqa: PLC0415 - an extra
 
     for file in inputs.files:
         try:
             now = looked(*file.size_and_date())
-            yield None, update.order(file.path or file.name, now, file.read, settings_of(file))
+            yield file, update.order(file.path or file.name, now, file.read, settings_of(file))
         except OSError as error:
             progress.hide()
             inputs.fail(f"{file.name}: {reason(error)}")
-            yield None, None
+            yield file, None
 
 
 def _notify_counts(update: Update, folder: Path) -> None:

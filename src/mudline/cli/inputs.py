@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import sys
+from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache, wraps
@@ -20,11 +21,13 @@ from mudline.deck import MARK
 from mudline.deck.forms import SUFFIXES, form_of
 from mudline.diagnostics import DeckError
 from mudline.files import alone_at, is_url, write_atomically
+from mudline.overwriting import outputs, reading, reading_stdin
 from mudline.patterns import Pattern, read_pattern
 from mudline.running import storage
 
 if TYPE_CHECKING:
     from mudline.deck.model import Deck
+    from mudline.running.executors import Crash
 
 STDIN = "-"
 
@@ -66,10 +69,12 @@ class Input(NamedTuple):
         if self.path is not None:
             if is_url(self.path):
                 return storage.read(self.path)
+            reading(self.path)
             with open(self.path, "rb", buffering=0) as stream:  # noqa: PTH123 - as above
                 return stream.readall()
         if sys.stdin is None:
             raise OSError(errno.EBADF, "standard input is closed")
+        reading_stdin()
         return sys.stdin.buffer.read()
 
 
@@ -118,6 +123,12 @@ class Inputs:
             self.fail(f"{file.name}: cannot be written: {reason(error)}")
             return False
         return True
+
+    def crashed(self, file: Input, crash: Crash, *, verbose: bool) -> None:
+        """Report that the program itself failed of a file; the exit code says that the file is not done."""
+        self.fail(f"{file.name}: internal error, please report it: {crash.summary}")
+        if verbose:
+            notify(crash.traceback)
 
     def fail(self, message: str) -> None:
         """Report a path that cannot be read or written."""
@@ -229,6 +240,9 @@ def _collect(
         else:
             found.files.append(_single(given, stdin_name))
     found.files = list(dict.fromkeys(found.files))
+    for file in found.files:
+        if file.path is not None:
+            reading(file.path)
     return found
 
 
@@ -370,7 +384,9 @@ class GivenDeck(NamedTuple):
         data = self._bytes(file)
         from mudline.deck.loading import load_bytes  # noqa: PLC0415 - what only looks for files reads no deck
 
-        return load_bytes(data, file.name, form=form, units=self.units, folder=file.folder)
+        deck = load_bytes(data, file.name, form=form, units=self.units, folder=file.folder)
+        reading_named_files(deck)
+        return deck
 
     def _file(self) -> Input:
         if os.path.isdir(self.path):  # noqa: PTH112 - as above
@@ -382,6 +398,16 @@ class GivenDeck(NamedTuple):
             return file.read()
         except OSError as error:
             raise click.ClickException(f"{self.path}: {reason(error)}") from error
+
+
+def reading_named_files(deck: Deck) -> None:
+    """Note the files that a deck names as read, also where the command does not open them; raises OverwriteError."""
+    if outputs():
+        from mudline.scene.deck_values import missing_files  # noqa: PLC0415 - most commands write no file
+        from mudline.scene.restart import decks_before  # noqa: PLC0415 - as above
+
+        deque(missing_files(deck), 0)  # what is looked for is noted
+        decks_before(deck)
 
 
 def takes_deck(command: options.Command) -> options.Command:

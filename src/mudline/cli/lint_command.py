@@ -16,6 +16,7 @@ from mudline.cli.view import View
 from mudline.diagnostics import Severity
 from mudline.linting.configuration import Given
 from mudline.linting.output import TEXT, form_names
+from mudline.overwriting import claim
 
 _RULES, _FIXES, _KNOWN = "Rules", "Fixes", "Known findings"
 
@@ -128,6 +129,8 @@ def command(
     given = Given(_words(chosen), _words(ignored), _words(also), dialect, units, no_outside)
     fixing = "none" if not (fix or diff) else "unsafe" if unsafe else "safe"
     wanted = outputs(forms)
+    if baseline and recording:
+        claim(baseline, "--baseline")
     Configured(config, isolated)  # wrong usage is reported once, before anything is watched
 
     def once() -> int:
@@ -135,9 +138,6 @@ def command(
         skipped: list[str] | None = [] if view.verbose else None
         searched = {"gitignore": not every_file, "urls": not (fix or diff)}
         inputs = collect(paths, stdin_name, configured.wanted, skipped=skipped, **searched)
-        written = [(f"--output-format {form}:", str(path)) for form, path in wanted.files]
-        for option, path in [*written, *([("--baseline", baseline)] if baseline and recording else [])]:
-            options.keep_inputs(option, path, (("a deck", file.path) for file in inputs.files))
         for line in sorted(skipped or ()):
             notify(line)
         aside = diff or (fix and any(file.path is None for file in inputs.files))

@@ -15,6 +15,7 @@ from mudline.cli.streams import counted, emit, notify, write_text
 from mudline.cli.view import View
 from mudline.diagnostics import Coverage, Diagnostic, Severity
 from mudline.linting.output import TEXT, form, form_names, visible
+from mudline.overwriting import claim
 from mudline.syntax.source import Source
 
 
@@ -45,6 +46,7 @@ def outputs(given: Sequence[str]) -> Outputs:
             what = "text goes to the terminal: write concise=FILE" if path else f"write a file name after {name}="
             raise click.UsageError(f"--output-format {word}: {what}")
         else:
+            claim(path, f"--output-format {name}:")
             files.append((name, Path(path)))
     if len(set(printed)) > 1:
         raise click.UsageError(f"--output-format: standard output takes one form, not {', '.join(printed)}")

@@ -30,7 +30,7 @@ from mudline.linting.registry import UnknownRule, code_fault, plugin_files, rule
 from mudline.linting.rule import Rule
 from mudline.linting.settings import hidden_codes, merged_settings
 from mudline.linting.suppression import Baseline, BaselineError, read_baseline
-from mudline.running.executors import executor, in_order
+from mudline.running.executors import Crash, executor, in_order
 
 
 @dataclass
@@ -123,7 +123,7 @@ def lint_files(
     differs, documents = False, 0
     if fixing:  # a deck that is fixed may be one that others continue
         jobs = 1
-    with closing(_lint_all(inputs, settings.of, known, jobs, scheduler)) as results:
+    with closing(_lint_all(inputs, settings.of, known, jobs, scheduler, report.view)) as results:
         for file, data, result in results:
             own, content = settings.of(file), data if result.changed is None else result.changed
             if fixing:
@@ -193,7 +193,12 @@ class _Read(NamedTuple):
 
 
 def _lint_all(
-    inputs: Inputs, settings_of: SettingsOf, known: KnownFindings | None, jobs: int, scheduler: str | None
+    inputs: Inputs,
+    settings_of: SettingsOf,
+    known: KnownFindings | None,
+    jobs: int,
+    scheduler: str | None,
+    view: View,
 ) -> Generator[tuple[Input, bytes, FileReport], None, None]:
     """Each file that can be read with its content and its report, in the order of the files.
 
@@ -201,7 +206,14 @@ def _lint_all(
     """
     plugins = plugin_files() if known is not None else ()
     orders = _orders(inputs, settings_of, known)
-    with executor(jobs, scheduler) as pool, closing(in_order(pool, lint_order, orders, len(inputs.files))) as reports:
+
+    def crashed(one: _Read, crash: Crash) -> None:
+        inputs.crashed(one.file, crash, verbose=view.verbose)
+
+    with (
+        executor(jobs, scheduler) as pool,
+        closing(in_order(pool, lint_order, orders, len(inputs.files), crashed)) as reports,
+    ):
         for one, made in reports:
             report = made or one.known or FileReport(one.file.name, ())
             if known is not None and one.key and one.known is None:

@@ -19,6 +19,9 @@ def command() -> int:
     if find_spec("pygls") is None:
         notify_missing("lsp", "pygls", "lsp")
         return WRONG_USAGE
+    if sys.stdin is None:
+        notify("standard input is closed: lsp is started by an editor, which talks to it there")
+        return WRONG_USAGE
     if sys.stdin.isatty():
         notify("lsp is started by an editor, which talks to it; Ctrl-C ends it")
     from mudline.lsp.serving import serve  # noqa: PLC0415 - needs the extra `lsp`

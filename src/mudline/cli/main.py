@@ -19,6 +19,7 @@ from mudline.cli import CLOSED_PIPE, DONE, FOUND, WRONG_USAGE, options, streams
 from mudline.cli.streams import notify, reason
 from mudline.diagnostics import PluginError
 from mudline.outside import refusing_outside
+from mudline.overwriting import OverwriteError, refusing_overwriting
 from mudline.spelling import nearest
 
 COMPLETION = "_MUDLINE_COMPLETE"
@@ -119,6 +120,9 @@ def run(arguments: Sequence[str]) -> int:
         code = shell_complete(mudline, {}, "mudline", COMPLETION, completing) if completing else _invoke(arguments)
         sys.stdout.flush()
         sys.stderr.flush()
+    except OverwriteError as error:
+        notify(str(error))
+        return WRONG_USAGE
     except OSError as error:
         return _unwritable(error)
     return code
@@ -127,7 +131,7 @@ def run(arguments: Sequence[str]) -> int:
 def _invoke(arguments: Sequence[str]) -> int:
     """Not through `main` of click, which ends the process with its own exit codes."""
     try:
-        with mudline.make_context("mudline", list(arguments)) as context:
+        with refusing_overwriting(), mudline.make_context("mudline", list(arguments)) as context:
             if not arguments:
                 click.echo(mudline.get_help(context), err=True)
                 return WRONG_USAGE

@@ -8,7 +8,7 @@ import click
 
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
 from mudline.cli.changes import print_changes
-from mudline.cli.inputs import Input, Inputs, collect
+from mudline.cli.inputs import Input, Inputs, collect, reading_named_files
 from mudline.cli.streams import emit_deck, notify, notify_diagnostics, write_bytes
 from mudline.cli.view import View
 from mudline.deck.forms import form_of
@@ -24,7 +24,11 @@ from mudline.short_repr import counted
 @options.command("migrate")
 @options.paths
 @options.option(
-    "-o", "--output", metavar="OUT", help="Write to this file instead of the deck itself; for one deck only."
+    "-o",
+    "--output",
+    type=options.OUTPUT_FILE,
+    metavar="OUT",
+    help="Write to this file instead of the deck itself; for one deck only.",
 )
 @options.option("--diff", is_flag=True, help="Print what would change, and write nothing.")
 @options.option(
@@ -79,6 +83,7 @@ class _Run:
     def migrate(self, units: str | None, continuations: Continuations, *, diff: bool, proved: bool) -> int:
         """Migrate the deck; returns the exit code. Raises DeckError for one that is left unchanged."""
         deck = load_bytes(self.data, self.file.name, units=units, folder=self.file.folder)
+        reading_named_files(deck)
         if not legacy_blocks(deck):
             if problems := list(misspelt(deck)):
                 raise DeckError(deck.diagnose(problems))

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import inspect
-import os
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from functools import partial, wraps
-from pathlib import Path
 from typing import Any
 
 import click
@@ -14,6 +12,7 @@ from click.core import ParameterSource
 
 from mudline.cli.view import View
 from mudline.files import suffix_of
+from mudline.overwriting import claim
 from mudline.running.executors import RunError, check_address
 
 Command = Callable[..., int]
@@ -203,15 +202,14 @@ def form_of_file(path: str, forms: Collection[str]) -> str:
     return form
 
 
-def keep_inputs(option: str, output: str | None, inputs: Iterable[tuple[str, str | Path | None]]) -> None:
-    """Raise click.UsageError where a file to write is one that is read: `inputs` are what each is, and its path."""
-    for what, path in inputs:
-        if output is not None and path is not None and _is_same_file(path, output):
-            raise click.UsageError(f"{option} {output} is {what} itself: give another name")
+class _OutputFile(click.types.StringParamType):
+    """A file that an option has written; - is standard output."""
+
+    def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Claim the file; raises OverwriteError."""
+        if value != "-" and param is not None and not (ctx is not None and ctx.resilient_parsing):
+            claim(value, param.opts[0])
+        return value
 
 
-def _is_same_file(one: str | Path, other: str) -> bool:
-    try:
-        return os.path.samefile(one, other)  # noqa: PTH121 - Path raises for long names
-    except (OSError, ValueError):
-        return False
+OUTPUT_FILE = _OutputFile()

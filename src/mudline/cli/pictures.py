@@ -8,7 +8,7 @@ from pathlib import Path
 
 import click
 
-from mudline.cli.options import OUTPUT, Command, form_of_file, option
+from mudline.cli.options import OUTPUT, OUTPUT_FILE, Command, form_of_file, option
 from mudline.cli.streams import notify, notify_missing, writing
 from mudline.cli.view import View
 from mudline.files import suffix_of
@@ -31,6 +31,7 @@ def options(command: Command) -> Command:
         option(
             "--plot",
             "picture",
+            type=OUTPUT_FILE,
             group=OUTPUT,
             metavar=f"FILE.{'|'.join(PICTURES)}",
             help="Draw the results (needs the extra mudline[plot]).",

@@ -31,7 +31,9 @@ _FORMATS = ("text", "csv", "json", "parquet")
 @options.command("query")
 @click.argument("archive", metavar="ARCHIVE", shell_complete=options.complete_files)
 @click.argument("sql", metavar="SQL")
-@click.option("-o", "--output", metavar="OUT.csv|json|parquet", help="Write the answer to a file.")
+@click.option(
+    "-o", "--output", type=options.OUTPUT_FILE, metavar="OUT.csv|json|parquet", help="Write the answer to a file."
+)
 @options.output_format(*_FORMATS)
 @click.option(
     "--memory-limit", default="2GB", show_default=True, metavar="SIZE", help="Memory that a question may use."

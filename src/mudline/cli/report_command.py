@@ -22,8 +22,9 @@ from mudline.cli.view import Progress, View, wants_bar
 from mudline.files import is_url
 from mudline.linting.configuration import Given as GivenRules
 from mudline.linting.engine import LintSettings
+from mudline.overwriting import reading
 from mudline.report.content import SECTIONS, Given, Look, Stamp, report_on
-from mudline.running.executors import executor, in_order
+from mudline.running.executors import Crash, executor, in_order
 from mudline.short_repr import counted
 
 _LEGAL = "legal"
@@ -35,6 +36,7 @@ _LEGAL = "legal"
     "-o",
     "--output",
     group=options.OUTPUT,
+    type=options.OUTPUT_FILE,
     metavar="OUT.html",
     help="Write the page into this file; of several decks or a folder the index, with the pages in a folder beside it.",
 )
@@ -89,17 +91,22 @@ def command(
         return WRONG_USAGE
     settings = checked_settings(config, GivenRules((), (), (), None, units), "none", isolated=isolated, fail_on=None)
     inputs = collect_any_form(decks, stdin_name, gitignore=not every_file)
-    options.keep_inputs("-o", output, (("a deck", file.path) for file in inputs.files))
-    look = Look(*(None if one is None else Path(one) for one in (template, logo))) if html else None
+    look = _look(template, logo) if html else None
     several = len(inputs.files) > 1 or any(os.path.isdir(each) for each in decks)  # noqa: PTH112 - Path raises for a long name
     target = None if output is None or not html else Target(Path(output), several)
     progress = Progress(len(inputs.files), view, shown=wants_bar(view))
     rows, contents = [], []
     orders = _orders(inputs, settings, wanted, date, look)
+
+    def crashed(file: Input, crash: Crash) -> None:
+        progress.hide()
+        inputs.crashed(file, crash, verbose=view.verbose)
+        progress.advance()
+
     with (
         executor(jobs, scheduler) as pool,
         progress,
-        closing(in_order(pool, make_report, orders, len(inputs.files))) as made_all,
+        closing(in_order(pool, make_report, orders, len(inputs.files), crashed)) as made_all,
     ):
         for file, made in made_all:
             if made is not None and made.fault:
@@ -116,6 +123,12 @@ def command(
     elif target is not None and rows:
         _finish(target, rows, look, view)
     return max(inputs.code, FOUND if _illegal(rows) else DONE)
+
+
+def _look(template: str | None, logo: str | None) -> Look:
+    for path in filter(None, (template, logo)):
+        reading(path)
+    return Look(*(None if one is None else Path(one) for one in (template, logo)))
 
 
 def _sections(text: str) -> tuple[str, ...]:

@@ -16,6 +16,7 @@ import click
 from mudline.diagnostics import Diagnostic
 from mudline.limits import SHOWN_ROWS
 from mudline.linting.output import visible, visible_lines
+from mudline.overwriting import claim
 from mudline.short_repr import counted as counted  # noqa: PLC0414 - commands that print findings take it here
 from mudline.syntax.source import Source
 
@@ -116,10 +117,12 @@ class UnwrittenError(click.ClickException):
 def writing(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
     """A stream whose content becomes the file in one step; ends the command when that is not possible.
 
-    What is not `synced` is not waited for until it is on the disk, as in `replacement`.
+    What is not `synced` is not waited for until it is on the disk, as in `replacement`. Raises OverwriteError for a
+    file that the run reads.
     """
     from mudline.files import replacement  # noqa: PLC0415 - help and faults of usage write no file
 
+    claim(path)
     try:
         with replacement(path, synced=synced) as stream:
             yield stream

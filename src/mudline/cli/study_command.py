@@ -37,10 +37,13 @@ _MOST_NOTES = 3
 @options.option("--only", multiple=True, type=click.Choice(PARTS), help="Study this part alone; repeatable.")
 @options.option(
     "--plot",
+    type=options.OUTPUT_FILE,
     metavar=f"FILE.{'|'.join(_PICTURES)}",
     help="Draw error against run time, with the deck's own step (needs the extra mudline[plot]).",
 )
-@options.option("-o", "--output", metavar="FILE.json", help="Write the study as JSON into this file.")
+@options.option(
+    "-o", "--output", type=options.OUTPUT_FILE, metavar="FILE.json", help="Write the study as JSON into this file."
+)
 @options.output_format("text", "json", "csv")
 @options.stdin_name
 @options.units
@@ -67,7 +70,6 @@ def command(
         if path is not None and suffix_of(path) not in forms:
             names = " or ".join(f".{form}" for form in forms)
             raise click.UsageError(f"{option} {path}: unknown file format: give a name ending in {names}")
-    options.keep_inputs("-o", output, [("the deck", deck)])
     if plot and find_spec("matplotlib") is None:
         notify_missing("--plot", "matplotlib", "plot")
         return WRONG_USAGE

@@ -25,7 +25,7 @@ from mudline.linting.rule import LintContext
 from mudline.linting.verdict import Verdict, judge, refused
 from mudline.outside import refusing_outside
 from mudline.quantities import csv_lines
-from mudline.running.executors import Pool, executor, in_order
+from mudline.running.executors import Crash, Pool, executor, in_order
 from mudline.short_repr import counted
 from mudline.syntax.source import Source
 
@@ -78,7 +78,7 @@ def command(
     total, wanted = Total(), Wanted(inputs, units, no_outside, listed)
     shown = wants_bar(view) and (output_format == "text" or not sys.stdout.isatty())
     progress = Progress(len(inputs.files), view, shown=shown)
-    with executor(jobs, scheduler) as pool, closing(_judged(pool, wanted, total, progress)) as judged:
+    with executor(jobs, scheduler) as pool, closing(_judged(pool, wanted, total, view, progress)) as judged:
         if output_format == "json":
             _print_json(judged, total)
         elif output_format == "csv":
@@ -186,11 +186,18 @@ def _judge_order(order: Order) -> tuple[Verdict, list[Diagnostic]]:
 # ------------------------------------------------------------------------------------------------------- all files
 
 
-def _judged(pool: Pool, wanted: Wanted, total: Total, progress: Progress) -> Generator[Judged, None, None]:
+def _judged(pool: Pool, wanted: Wanted, total: Total, view: View, progress: Progress) -> Generator[Judged, None, None]:
     """Each deck that can be read; all are counted. The bar is hidden while a deck with errors is printed."""
     orders = _orders(wanted, total, progress)
-    with progress, closing(in_order(pool, judge_order, orders, len(wanted.inputs.files))) as results:
-        for data, made in results:
+
+    def crashed(item: tuple[Input, bytes | None], crash: Crash) -> None:
+        total.unreadable += 1
+        progress.hide()
+        wanted.inputs.crashed(item[0], crash, verbose=view.verbose)
+        progress.advance()
+
+    with progress, closing(in_order(pool, judge_order, orders, len(wanted.inputs.files), crashed)) as results:
+        for (_, data), made in results:
             if made is not None and data is not None:
                 verdict, found = made
                 total.add(verdict)
@@ -200,8 +207,10 @@ def _judged(pool: Pool, wanted: Wanted, total: Total, progress: Progress) -> Gen
             progress.advance()
 
 
-def _orders(wanted: Wanted, total: Total, progress: Progress) -> Iterator[tuple[bytes | None, Order | None]]:
-    """The content of each file and what is sent of it; None for one that cannot be read."""
+def _orders(
+    wanted: Wanted, total: Total, progress: Progress
+) -> Iterator[tuple[tuple[Input, bytes | None], Order | None]]:
+    """Each file with its content, and what is sent of it; None for one that cannot be read."""
     here = os.getcwd()  # noqa: PTH109 - sent as text
     for file in wanted.inputs.files:
         try:
@@ -210,9 +219,9 @@ def _orders(wanted: Wanted, total: Total, progress: Progress) -> Iterator[tuple[
             total.unreadable += 1
             progress.hide()
             wanted.inputs.fail(f"{file.name}: {reason(error)}")
-            yield None, None
+            yield (file, None), None
         else:
-            yield data, Order(data, file, wanted.units, wanted.no_outside, wanted.warnings, here)
+            yield (file, data), Order(data, file, wanted.units, wanted.no_outside, wanted.warnings, here)
 
 
 # ---------------------------------------------------------------------------------------------------------- output

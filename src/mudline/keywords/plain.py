@@ -331,9 +331,7 @@ def _from_numbers(numbers: list[float], width: int, widths: _Widths) -> Table | 
         for number in numbers[index::width] if index < width else ():
             if not number.is_integer() or not 0.0 < abs(number) <= LARGEST_WHOLE:
                 return None
-    values = np.array(numbers)
-    values.shape = (-1, width)
-    return Table(values)
+    return Table(np.array(numbers).reshape(-1, width))
 
 
 def _table(json: str, columns: list[Column], widths: _Widths, found: Values, run: str, _: object) -> None:

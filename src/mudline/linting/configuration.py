@@ -10,6 +10,7 @@ from functools import lru_cache, reduce
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from mudline.overwriting import reading
 from mudline.spelling import nearest
 
 Values = dict[str, Any]
@@ -141,6 +142,7 @@ def _base_of(path: Path, given: str) -> Path:
 
 def _read_one(path: Path, *, demanded: bool, code_fault: CodeFault | None) -> Configuration | None:
     """As `read_configuration`, of the file alone."""
+    reading(path)
     content = path.read_bytes()
     import tomllib  # noqa: PLC0415 - most commands find no file
 

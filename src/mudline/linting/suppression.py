@@ -24,6 +24,7 @@ from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Code, DeckError, Diagnostic, Problem, Repair, Severity, Span, Where
 from mudline.linting.registry import find, rules
 from mudline.linting.rule import LintContext, Rule, first_reported
+from mudline.overwriting import reading
 from mudline.spelling import nearest
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, Leaf
@@ -342,6 +343,7 @@ class Baseline:
 
 def read_baseline(path: Path) -> Baseline:
     """The baseline in a file; raises OSError, or BaselineError for a file that is not a baseline."""
+    reading(path)
     try:
         document = json.loads(path.read_bytes())
     except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:

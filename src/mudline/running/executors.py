@@ -11,17 +11,21 @@ import signal
 import sys
 import threading
 import time
+import traceback
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, field
 from importlib.util import find_spec
 from ipaddress import ip_address
 from itertools import islice
-from typing import TYPE_CHECKING, TypeVar
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from mudline import __version__
+from mudline.diagnostics import PluginError
 from mudline.outside import refusing_outside
+from mudline.overwriting import Outputs, OverwriteError, continue_run, outputs
 
 if TYPE_CHECKING:  # imported by runs that are large enough
     from concurrent.futures import Executor, Future
@@ -50,6 +54,8 @@ _COUNTED = 5.0
 """Seconds after which the workers of a scheduler are counted again: they come and go."""
 _MOST_ON_WINDOWS = 61
 """Processes that one process can wait for there."""
+
+_SAFE_PATH = "PYTHONSAFEPATH"
 
 _ADDRESS = r"(?P<protocol>tcp|tls)://(?P<host>\[[0-9A-Fa-f:.]+\]|[A-Za-z0-9._-]+):(?P<port>[0-9]{1,5})"
 """Strict: what Dask takes apart in another way would not be checked."""
@@ -94,7 +100,9 @@ class Pool:
         """Whether so many seconds of work are worth starting processes."""
         return self.size > 1 and estimate >= PAYS[start_method()]
 
-    def submit(self, function: Callable[[_Given], _Made], given: list[_Given]) -> Future[tuple[float, list[_Made]]]:
+    def submit(
+        self, function: Callable[[_Given], _Made], given: list[_Given], *, guarded: bool = False
+    ) -> Future[tuple[float, list[_Made | Crash]]]:
         """Have a function called with each of the given; what comes back are seconds and results. Raises RunError."""
         if self._executor is None:
             if self.scheduler is None:
@@ -107,7 +115,7 @@ class Pool:
 
         try:
             with interrupt_deferred():
-                return self._executor.submit(_done, __version__, function, given)
+                return self._executor.submit(_done, __version__, function, given, guarded)
         except (BrokenProcessPool, EOFError, ConnectionError) as error:  # also of what starts the processes
             raise RunError(_ENDED) from error
 
@@ -145,14 +153,66 @@ def executor(jobs: int = 0, scheduler: str | None = None) -> Iterator[Pool]:
 
 
 def in_order(
-    pool: Pool, function: Callable[[_Given], _Made], items: Iterable[tuple[_Item, _Given | None]], count: int
+    pool: Pool,
+    function: Callable[[_Given], _Made],
+    items: Iterable[tuple[_Item, _Given | None]],
+    count: int,
+    crashed: Callable[[_Item, Crash], None] | None = None,
 ) -> Generator[tuple[_Item, _Made | None], None, None]:
     """Each of about `count` items with what the function makes of it, in order; only so many are taken ahead as needed.
 
     An item comes with what the function is given, which is pickled; with None there is nothing to do and its result is
-    None. The function is one of a module, by whose name others find it. Raises RunError, and whatever the function
-    raises.
+    None. The function is one of a module, by whose name others find it. An item for which it fails is left out, and
+    `crashed` is called with it; without `crashed`, what the function raises is raised. Raises RunError.
     """
+    with closing(_in_order(pool, function, items, count, guarded=crashed is not None)) as results:
+        for item, made in results:
+            if not isinstance(made, Crash):
+                yield item, made
+            elif crashed is not None:
+                crashed(item, made)
+
+
+class Crash(NamedTuple):
+    """A fault of the program itself: what was raised and where, on one line, and its traceback."""
+
+    summary: str
+    traceback: str
+
+    @classmethod
+    def of(cls, error: Exception) -> Crash:
+        """Return what is known of an exception."""
+        *_, last = traceback.extract_tb(error.__traceback__)
+        text = "".join(traceback.format_exception(error))
+        what = " ".join("".join(traceback.format_exception_only(error)).split())
+        return cls(f"{what} ({Path(last.filename).name}, line {last.lineno})", text)
+
+
+NO_CRASH = (RunError, OverwriteError, PluginError, MemoryError, ImportError)
+"""Exceptions that end a run, whatever the item."""
+
+
+def _called(function: Callable[[_Given], _Made], given: _Given, *, guarded: bool) -> _Made | Crash:
+    """Call a function; if `guarded`, return a Crash instead of raising what is no reason to end the run."""
+    try:
+        return function(given)
+    except NO_CRASH:
+        raise
+    except Exception as error:
+        if not guarded:
+            raise
+        return Crash.of(error)
+
+
+def _in_order(
+    pool: Pool,
+    function: Callable[[_Given], _Made],
+    items: Iterable[tuple[_Item, _Given | None]],
+    count: int,
+    *,
+    guarded: bool,
+) -> Generator[tuple[_Item, _Made | Crash | None], None, None]:
+    """Yield each item with its result, or, if `guarded`, with what the function has failed of."""
     rest = iter(items)
     spent, done, number = 0.0, 0, 0
     while pool.scheduler is None and not (spent >= TRIED and done and pool.pays(spent / done * (count - number))):
@@ -162,11 +222,11 @@ def in_order(
         item, given = taken
         number += 1
         start = time.perf_counter()
-        made = None if given is None else function(given)
+        made = None if given is None else _called(function, given, guarded=guarded)
         if given is not None:
             spent, done = spent + time.perf_counter() - start, done + 1
         yield item, made
-    waiting: deque[tuple[list[tuple[_Item, _Given | None]], Future[tuple[float, list[_Made]]] | None]] = deque()
+    waiting: deque[tuple[list[tuple[_Item, _Given | None]], Future[tuple[float, list[_Made | Crash]]] | None]] = deque()
     under_way = 0
     while True:
         wanted = _SECONDS[pool.scheduler is not None] * done / spent if spent else _FIRST
@@ -175,7 +235,7 @@ def in_order(
         number += len(part)
         orders = [given for _, given in part if given is not None]
         if part:
-            waiting.append((part, pool.submit(function, orders) if orders else None))
+            waiting.append((part, pool.submit(function, orders, guarded=guarded) if orders else None))
             under_way += bool(orders)
         while waiting and (not part or waiting[0][1] is None or under_way > _AHEAD * pool.size):
             sent, future = waiting.popleft()
@@ -189,7 +249,12 @@ def in_order(
             return
 
 
-def _done(version: str, function: Callable[[_Given], _Made], given: list[_Given]) -> tuple[float, list[_Made]]:
+def _done(
+    version: str,
+    function: Callable[[_Given], _Made],
+    given: list[_Given],
+    guarded: bool = False,  # noqa: FBT001, FBT002 - sent by place
+) -> tuple[float, list[_Made | Crash]]:
     """What a process or a worker does, and the seconds that it took."""
     if version != __version__:
         raise RunError(f"a worker has mudline {__version__}, the command {version}: install the same version")
@@ -197,7 +262,7 @@ def _done(version: str, function: Callable[[_Given], _Made], given: list[_Given]
 
     start = time.perf_counter()
     with refusing_outside(refuses_outside):
-        made = [function(one) for one in given]
+        made = [_called(function, one, guarded=guarded) for one in given]
     return time.perf_counter() - start, made
 
 
@@ -237,9 +302,10 @@ def _processes(count: int, module: str) -> Iterator[Executor]:
     context = multiprocessing.get_context(method)
     if method == "forkserver":
         context.set_forkserver_preload([module])
-    found = ProcessPoolExecutor(count, context, _begin)
+    found = ProcessPoolExecutor(count, context, _begin, (outputs(),))
     try:
-        yield found
+        with _safe_path():
+            yield found
     except BaseException:
         for child in set(multiprocessing.active_children()) - before:
             child.kill()
@@ -248,8 +314,26 @@ def _processes(count: int, module: str) -> Iterator[Executor]:
         found.shutdown(cancel_futures=True)
 
 
-def _begin() -> None:
-    """What each process does first: ignore Ctrl-C and a closed terminal, which reach all processes, and watch."""
+@contextmanager
+def _safe_path() -> Iterator[None]:
+    """Keep Python that is started until the block ends from importing modules of the working folder."""
+    before = os.environ.get(_SAFE_PATH)
+    os.environ[_SAFE_PATH] = "1"
+    try:
+        yield
+    finally:
+        if before is None:
+            os.environ.pop(_SAFE_PATH, None)
+        else:
+            os.environ[_SAFE_PATH] = before
+
+
+def _begin(known: Outputs) -> None:
+    """What each process does first: ignore Ctrl-C and a closed terminal, which reach all processes, and watch.
+
+    `known` are the outputs of the run, none of which the process may read.
+    """
+    continue_run(known)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     if hasattr(signal, "SIGHUP"):

@@ -23,6 +23,7 @@ from mudline.cache_folder import cache_folder
 from mudline.files import write_atomically
 from mudline.installed import metadata_folders
 from mudline.limits import LARGEST_MEMORY, LARGEST_NEIGHBOUR, LONGEST_REMEMBERED, MOST_MEMORIES, MOST_REMEMBERED
+from mudline.overwriting import reading
 from mudline.resources import grammar_file
 
 _KEY = 40
@@ -65,6 +66,8 @@ class Memory:
             return held if held is None else []
         try:
             result, states = json.loads(held)
+            for path in states:
+                reading(path)
             holds = all(self._state(path) == before for path, before in states.items())
         except (ValueError, AttributeError, TypeError, RecursionError):
             del self._entries[key]

@@ -389,7 +389,7 @@ def resistance_diagram(entry: TrenchSet) -> Floats:
     """The corners (k, 2) of the resistance over the distance from the centreline."""
     from mudline.contact.laws.trench import diagram  # noqa: PLC0415 - only now is it needed
 
-    if entry.table is not None:
+    if entry.peak == "TABLE" and entry.table is not None:
         return entry.table.values
     inner, outer = (0.5 * number(entry.geometry, name) for name in ("bottom_width", "upper_width"))
     held, given = entry.residual, entry.residual is not None

@@ -23,6 +23,7 @@ from mudline.keywords.naming import names_given
 from mudline.keywords.reader import all_keys
 from mudline.keywords.text import shown
 from mudline.keywords.values import Names
+from mudline.overwriting import is_read
 from mudline.scene.deck_values import file_name, find_file
 from mudline.short_repr import short_repr
 from mudline.syntax.edits import TextEdit, edited_bytes
@@ -312,13 +313,13 @@ def manifest_text(source: str, decks: Iterable[PlannedDeck]) -> str:
     return json.dumps(manifest, indent=1, ensure_ascii=False) + "\n"
 
 
-def conflicts(folder: Path, planned: ExpansionPlan, source: Path | None, *, force: bool) -> list[str]:
+def conflicts(folder: Path, planned: ExpansionPlan, *, force: bool) -> list[str]:
     """Why files of a plan may not be written into a folder, as messages; `force` lets files be overwritten.
 
-    Links are not followed out of the folder, and the source itself is never overwritten.
+    Links are not followed out of the folder, and files that the run reads are never overwritten.
     """
     try:
-        return list(_conflicts(folder, planned, source, force=force))
+        return list(_conflicts(folder, planned, force=force))
     except (OSError, ValueError) as error:
         return [f"{folder.as_posix()}: cannot be inspected: {str(error).lower()}"]
 
@@ -333,7 +334,7 @@ def lacking(folder: Path, planned: ExpansionPlan) -> list[str]:
     ]
 
 
-def _conflicts(folder: Path, planned: ExpansionPlan, source: Path | None, *, force: bool) -> Iterator[str]:
+def _conflicts(folder: Path, planned: ExpansionPlan, *, force: bool) -> Iterator[str]:
     if folder.exists() and not folder.is_dir():
         yield f"{folder.as_posix()}: is a file: expected a folder for the decks"
         return
@@ -346,17 +347,17 @@ def _conflicts(folder: Path, planned: ExpansionPlan, source: Path | None, *, for
         if not inside[path.parent]:
             yield f"{path.as_posix()}: a link in its path leads out of the folder"
         elif os.path.lexists(path):
-            yield from _there(path, source, force=force)
+            yield from _there(path, force=force)
         elif (file := _file_above(folder, path)) is not None:
             yield f"{path.as_posix()}: {file.as_posix()} is a file, not a folder"
 
 
-def _there(path: Path, source: Path | None, *, force: bool) -> Iterator[str]:
+def _there(path: Path, *, force: bool) -> Iterator[str]:
     """What is wrong with a path that exists."""
     if path.is_symlink() or not path.is_file():
         yield f"{path.as_posix()}: exists already and is not a regular file: it is not overwritten"
-    elif source is not None and source.exists() and path.samefile(source):
-        yield f"{path.as_posix()}: is the deck itself, which is not overwritten"
+    elif is_read(path):
+        yield f"{path.as_posix()}: this run reads the file, which is not overwritten"
     elif not force:
         yield f"{path.as_posix()}: exists already: --force overwrites it"
 

@@ -204,7 +204,7 @@ def trench_tables(tables: Tables) -> tuple[Any, ...]:
     starts = np.append(0, np.cumsum([table.shape[1] for table in rows]))
     index = np.full((len(trench.nodes), TRENCH_INDICES), NOTHING, np.uint32)
     index[:, TRENCH_KIND] = trench.kind
-    index[:, CENTRELINE] = np.where(trench.line < 0, NOTHING, trench.line)
+    index[:, CENTRELINE] = np.where(trench.line < 0, np.uint32(NOTHING), trench.line)
     tabled = trench.table >= 0
     index[tabled, TABLE_START] = starts[trench.table[tabled]]
     index[tabled, TABLE_END] = starts[trench.table[tabled] + 1]

@@ -46,7 +46,11 @@ def depths(context: LintContext) -> Floats:
 def _lowering(scene: Scene) -> Floats | None:
     """By how much (n,) trenches lower the seabed at nodes; None where none does."""
     trenches = scene.extensions.get("SEABED TRENCH")
-    if trenches is None or all(getattr(entry, "level", None) != "LOWERED" for entry in trenches.entries):
+    if (
+        not len(scene.node_ids)
+        or trenches is None
+        or all(getattr(entry, "level", None) != "LOWERED" for entry in trenches.entries)
+    ):
         return None
     lowers = np.array([*(getattr(entry, "level", None) == "LOWERED" for entry in trenches.entries), False])
     elements = np.flatnonzero(lowers[trenches.of_element])
