@@ -34,8 +34,9 @@ def test_a_row_of_one_value_in_any_block(module: str) -> None:
             linted(deck + block)
 
 
-def test_a_short_row_of_a_trench_is_found_where_it_stands() -> None:
-    found = linted(f"$MODEL\n{TRENCH} PEAK=2000.0\n 100\n").found
+@pytest.mark.parametrize("rows", ["PEAK=2000.0\n 100\n", "PEAK=TABLE\n 100\n 200\n"])
+def test_a_short_row_of_a_trench_is_found_where_it_stands(rows: str) -> None:
+    found = linted(f"$MODEL\n{TRENCH} {rows}").found
     assert ("SYN003", 6) in {(one.code, one.line) for one in found}
 
 

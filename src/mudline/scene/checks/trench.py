@@ -25,6 +25,8 @@ EXT003 = Code("EXT003", "bad-trench", Severity.ERROR)
 _KEYWORD = "SEABED TRENCH"
 _SIZES = ("depth", "bottom_width", "upper_width")
 _LEAST_ROWS = 2
+_FIELDS = 2
+"""Of a row of a table; one with fewer cannot be read."""
 _LOCKED = "mu2 tan(theta) must be below 1, else the wall of the trench locks itself"
 _HIDDEN = "; sets or lines that this deck does not show may give them another friction"
 
@@ -89,7 +91,8 @@ def _of_block(entry: TrenchSet, where: Where) -> Iterator[Problem]:
         message = "PEAK= has no effect under MODEL=WALL: remove it, or write MODEL=PEAK"
         yield Problem(EXT003, message, None, Severity.WARNING, where.inside("peak"))
     found = [*_resistance_faults(entry)] if entry.model != "WALL" else []
-    for path, message in found or (() if is_partly_unknown(entry) else _excess_faults(entry)):
+    unread = is_partly_unknown(entry) or (entry.table is not None and entry.table.values.shape[1] < _FIELDS)
+    for path, message in found or (() if unread else _excess_faults(entry)):
         yield Problem(EXT003, message, where=where.inside(*path))
     depth, bottom, upper = (number(entry.geometry, name) for name in _SIZES)
     if depth <= 0.0 or bottom <= 0.0 or upper <= 0.0 or upper <= bottom:
