@@ -19,14 +19,20 @@ from tests.export.decks import ELASTIC, WEIGHT, model_of, text
 pytestmark = pytest.mark.slow
 
 
+CLOSE = {"reaction": 0.02, "touchdown": 0.5, "penetration": 0.06}
+COARSE = {"reaction": 0.03, "touchdown": 0.6, "penetration": 0.08}
+"""Of a riser whose elements of 10 ft are longer than its bending length at touchdown, sqrt(EI/T), of some 7 ft."""
+
+
 @pytest.mark.parametrize("name", DECKS)
 def test_reaction_touchdown_and_penetration_agree(name: str, tmp_path: Path) -> None:
+    bounds = COARSE if name == "imperial-riser.keyxi" else CLOSE
     found = at_rest(ROOT / "samples" / name, tmp_path, statics=20.0)
     assert found.change < 0.01
-    assert found.same_law == pytest.approx(found.reaction, rel=0.03)
+    assert found.same_law == pytest.approx(found.reaction, rel=bounds["reaction"])
     assert found.deck_law == pytest.approx(found.same_law + found.explained, abs=0.002 * found.reaction)
-    assert found.touchdown[1] == pytest.approx(found.touchdown[0], abs=0.6)
-    assert found.penetration[1] == pytest.approx(found.penetration[0], rel=0.08)
+    assert found.touchdown[1] == pytest.approx(found.touchdown[0], abs=bounds["touchdown"])
+    assert found.penetration[1] == pytest.approx(found.penetration[0], rel=bounds["penetration"])
     assert table([found]).count("\n") == 2
 
 
