@@ -13,9 +13,10 @@ from hypothesis import strategies as st
 
 from mudline.codes.lines import SYN014
 from mudline.deck.loading import dump, load_bytes
+from mudline.deck.meaning import same_meaning
 from mudline.deck.model import Opaque
 from mudline.diagnostics import DeckError, Severity
-from mudline.formatting.document import FormatError, formatted, same_meaning
+from mudline.formatting.document import FormatError, formatted
 from mudline.formatting.rows import Columns, PlainRows, RowKind, WordRows, word_rows
 from mudline.keywords import catalogue
 from mudline.keywords.library.element import ElementRow

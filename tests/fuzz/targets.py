@@ -16,8 +16,9 @@ from zlib import crc32
 from mudline.deck.forms.json import to_json
 from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.loading import load_bytes
+from mudline.deck.meaning import same_meaning
 from mudline.diagnostics import DeckError, Severity
-from mudline.formatting.document import FormatError, formatted, same_meaning
+from mudline.formatting.document import FormatError, formatted
 from mudline.keywords.values import Contents
 from mudline.linting.configuration import Configuration, ConfigurationError, Given, read_configuration
 from mudline.linting.engine import Fixing, LintSettings, lint_bytes

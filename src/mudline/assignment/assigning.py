@@ -10,10 +10,10 @@ from typing import NamedTuple, cast
 
 from mudline.assignment.fields import Target, Value, blocks_of, cell, values_of
 from mudline.assignment.paths import Assignment, Operand
+from mudline.deck.meaning import same_meaning
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Diagnostic, Problem, Severity, Span
-from mudline.formatting.document import same_meaning
 from mudline.keywords.ranges import range_fault
 from mudline.keywords.table import Table
 from mudline.keywords.values import Equation, Kind

@@ -11,12 +11,12 @@ from mudline.codes.fields import SYN015
 from mudline.codes.lines import SYN014
 from mudline.deck.forms import form_of
 from mudline.deck.loading import dump, load_bytes
-from mudline.deck.model import Deck, Opaque, Section
+from mudline.deck.meaning import same_meaning
+from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Span
 from mudline.formatting.rows import RowKind, Rows, Run, Single, cut
-from mudline.keywords.keeping import KeptLine
-from mudline.keywords.model import Comment, FieldSpec, Part, Path, Record, Row, record_schema
+from mudline.keywords.model import FieldSpec, Path, Record, Row, record_schema
 from mudline.keywords.places import Places
 from mudline.keywords.reader import ReadBlock, all_keys
 from mudline.keywords.table import Table
@@ -74,53 +74,6 @@ def _checked(deck: Deck, after: bytes, again: Deck) -> bytes:
     if findings[0] != findings[1] or not same_meaning(deck, again):
         raise FormatError(_ALTERED)
     return after
-
-
-def same_meaning(one: Deck, other: Deck) -> bool:
-    """Whether sections, blocks, values, comments and lines that are not read are equal.
-
-    Blanks at the end of a comment and blank lines before the first section are ignored.
-    """
-    return (
-        one.units == other.units
-        and _preamble(one) == _preamble(other)
-        and _same(one.comments, other.comments)
-        and _same(one.sections, other.sections)
-    )
-
-
-def _preamble(deck: Deck) -> list[str]:
-    lines = (line.rstrip(" \t") for line in deck.preamble)
-    return [line for line in lines if line]
-
-
-def _same(one: object, other: object) -> bool:
-    if type(one) is not type(other):
-        return False
-    if isinstance(one, Comment | KeptLine) and isinstance(other, Comment | KeptLine):
-        return one.before == other.before and one.text.rstrip(" \t") == other.text.rstrip(" \t")
-    if isinstance(one, Section) and isinstance(other, Section):
-        same = one.name == other.name and one.lines == other.lines
-        return same and _same(one.comments, other.comments) and _same(one.blocks, other.blocks)
-    if isinstance(one, Part) and isinstance(other, Part):
-        return _same_part(one, other)
-    if isinstance(one, list) and isinstance(other, list):
-        return len(one) == len(other) and all(map(_same, one, other))
-    return bool(one == other)
-
-
-def _same_part(one: Part, other: Part) -> bool:
-    if isinstance(one, Opaque) and isinstance(other, Opaque):
-        return one.keyword == other.keyword and _without_blanks(one.lines) == _without_blanks(other.lines)
-    return all(_same(getattr(one, name), getattr(other, name)) for name in type(one).model_fields)
-
-
-def _without_blanks(lines: list[str]) -> list[str]:
-    """Lines without the blank ones at their end: behind the last one an end-of-file mark gets a line of its own."""
-    end = len(lines)
-    while end and not lines[end - 1].strip():
-        end -= 1
-    return [*lines[: end - 1], *(line.rstrip() for line in lines[max(end - 1, 0) : end])]
 
 
 # -------------------------------------------------------------------------------------------------- the lines of a file

@@ -10,6 +10,7 @@ import numpy as np
 
 from mudline.codes import DOC002
 from mudline.deck.faults import DocumentPath, document_path, path_text, shown
+from mudline.deck.meaning import first_difference, meaning, numbered
 from mudline.deck.model import Deck, Opaque, Section
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import DeckError, Problem, Where
@@ -36,7 +37,7 @@ def _require_survival(deck: Deck) -> None:
     light = sampled(deck)
     text = _text(light)
     again = read_source(Source.from_bytes(text.encode(errors="replace"), deck.source), units=deck.units)
-    if change := first_difference(light, again):
+    if change := _first_difference(light, again):
         where, reason = change
         message = f"{path_text(document_path(where))} cannot be written as keyword text: {reason}"
         raise DeckError(deck.diagnose([Problem(DOC002, message, where=where)]))
@@ -85,8 +86,6 @@ _P = TypeVar("_P", bound=Part)
 _FEW = 20
 """Rows of a table that are tried, beside one for every length and every word in it: numbers are safe."""
 
-_NOTHING = object()
-
 
 def sampled(deck: Deck) -> Deck:
     """The deck with few rows in its tables, enough to see whether they survive."""
@@ -94,27 +93,27 @@ def sampled(deck: Deck) -> Deck:
     return replace(deck, sections=sections)
 
 
-def first_difference(deck: Deck, again: Deck) -> tuple[Where, str] | None:
+def _first_difference(deck: Deck, again: Deck) -> tuple[Where, str] | None:
     """The first value of a deck that is another one in what was read from its text, and what it was read as."""
-    if again.preamble != deck.preamble:
-        return _described(Where(), ("preamble",), deck.preamble, again.preamble)
+    if change := first_difference(numbered("preamble", deck.preamble), numbered("preamble", again.preamble)):
+        return _described(Where(), *change)
     for index, section in enumerate(deck.sections):
         if index == len(again.sections) or again.sections[index].name != section.name:
             return Where(index, -1, ("name",)), f"{shown(section.name)} would not be read as this section"
-        if change := _section_difference(section, again.sections[index], index):
-            return change
+        if found := _section_difference(section, again.sections[index], index):
+            return found
     if len(again.sections) > len(deck.sections):
         return Where(len(deck.sections) - 1), f"a line would be read as ${again.sections[-1].name}"
     return None
 
 
 def _section_difference(section: Section, again: Section, index: int) -> tuple[Where, str] | None:
-    if section.lines != again.lines:
-        return _described(Where(index), ("lines",), section.lines, again.lines)
+    if change := first_difference(numbered("lines", section.lines), numbered("lines", again.lines)):
+        return _described(Where(index), *change)
     for number, block in enumerate(section.blocks):
         found = again.blocks[number] if number < len(again.blocks) else None
-        if found is None or (block != found and _bare(block) != _bare(found)):
-            return _described(Where(index, number), (), _values(block), _values(found))
+        if block != found and (change := first_difference(meaning(block), meaning(found) if found else {})):
+            return _described(Where(index, number), *change)
     if len(again.blocks) > len(section.blocks):
         return Where(index), f"a line of this section would be read as *{again.blocks[-1].keyword}"
     return None
@@ -140,38 +139,7 @@ def _some_rows(table: Table) -> Table:
     return Table(table.values[rows], table.lengths[rows], words)
 
 
-def _bare(part: _P) -> _P:
-    """A part without its comments, which may find another place."""
-    changes: dict[str, Any] = {"comments": []} if getattr(part, "comments", None) else {}
-    for slot in record_schema(type(part)).slots:
-        value = getattr(part, slot.name, None)
-        if slot.record and value:
-            changes[slot.name] = [_bare(record) for record in value]
-    return part.model_copy(update=changes) if changes else part
-
-
-def _values(block: Block | Opaque | None) -> object:
-    return _NOTHING if block is None else _bare(block).model_dump(warnings=False)
-
-
 def _described(where: Where, path: DocumentPath, wanted: object, found: object) -> tuple[Where, str]:
-    """The first difference between two values, in words."""
-    inner, one, other = _difference(wanted, found)
-    read = "nothing" if other is _NOTHING or other is None else shown(other)
-    given = "nothing" if one is _NOTHING or one is None else shown(one)
-    return where._replace(path=(*path, *inner)), f"{given} would be read as {read}"
-
-
-def _difference(one: object, other: object) -> tuple[DocumentPath, object, object]:
-    pairs: dict[str | int, tuple[object, object]] = {}
-    if isinstance(one, dict) and isinstance(other, dict):
-        pairs = {key: (one.get(key, _NOTHING), other.get(key, _NOTHING)) for key in one | other}
-    elif isinstance(one, list) and isinstance(other, list):
-        size = max(len(one), len(other))
-        padded = ([*given, *[_NOTHING] * (size - len(given))] for given in (one, other))
-        pairs = dict(enumerate(zip(*padded, strict=True)))
-    for key, (left, right) in pairs.items():
-        if left != right:
-            path, *values = _difference(left, right)
-            return (key, *path), values[0], values[1]
-    return (), one, other
+    """A place, and what would be read there, in words."""
+    given, read = ("nothing" if one is None else shown(one) for one in (wanted, found))
+    return where._replace(path=path), f"{given} would be read as {read}"

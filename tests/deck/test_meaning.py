@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from mudline.deck.loading import load_bytes
+from mudline.deck.meaning import same_meaning
 from mudline.deck.model import Deck
-from mudline.formatting.document import same_meaning
 
 DECK = """\
 C title
