@@ -38,6 +38,27 @@ def every(condition: Value) -> bool:
     return bool(np.all(condition))
 
 
+class Reached(NamedTuple):
+    """What the rows (k,) of a law beside the normal ones come to, for its largest stiffness.
+
+    Attributes:
+        virgin: of elements: the steepest stiffness of their normal laws.
+        speed: of elements: pull-out velocities (..., k) >= 0; None for any.
+        normal_force: of nodes: the largest normal force, NaN where unknown.
+        lateral: of nodes: the coefficient of their lateral friction.
+        walls: whether trenches add to the limits of friction.
+    """
+
+    virgin: FloatArray
+    speed: FloatArray | None
+    normal_force: FloatArray
+    lateral: FloatArray
+    walls: bool
+
+
+Largest = Callable[[Reached, dict[str, FloatArray]], tuple[FloatArray, FloatArray | None]]
+
+
 class Parameter(NamedTuple):
     """A parameter of a law: one number per element or node.
 
@@ -96,6 +117,8 @@ class Law:
         history: whether a step's result depends on the steps before it.
         tables: whether it takes tables besides numbers; `parameters` then has the index of one.
         check: what the parameters, by name, must be to each other: where it does not hold, and what it is.
+        largest: (`Reached`, parameters by name) to the largest stiffness and the largest damping of each row, for laws
+            beside the normal ones; None stands for no damping.
         equation: in one line.
         source: where the equation is published.
     """
@@ -110,6 +133,7 @@ class Law:
     history: bool = False
     tables: bool = False
     check: Callable[[dict[str, FloatArray]], tuple[BoolArray, str]] | None = None
+    largest: Largest | None = None
     equation: str = ""
     source: str = ""
 

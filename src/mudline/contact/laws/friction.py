@@ -26,7 +26,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, StateArray
-from mudline.contact.laws import Law, Parameter, Value, where
+from mudline.contact.laws import Law, Parameter, Reached, Value, where
 from mudline.short_repr import short_repr
 
 _TINY = float(np.nextafter(0.0, 1.0))
@@ -292,6 +292,18 @@ def _ellipse(step: _Trial, rising: FloatArray, by_offset: FloatArray, by_normal:
         return by_position, 0.0 - force * growth_by_offset, rising / scale - force * growth_by_normal
 
 
+def _largest(reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, None]:
+    """The spring of a node that sticks, the stiffer of both directions."""
+    springs = []
+    for side in ("axial", "lateral"):
+        coefficient, constant = given[f"{side}_coefficient"], given[f"{side}_stiffness"]
+        rising = coefficient / given[f"{side}_mobilisation"]
+        spring = np.where(np.isnan(constant), np.where(rising > 0.0, rising * reached.normal_force, 0.0), constant)
+        # a direction without a coefficient has no limit to stick below; trench walls add one
+        springs.append(spring if reached.walls else np.where(coefficient > 0.0, spring, 0.0))
+    return np.maximum(*springs), None
+
+
 FRICTION = Law(
     name="friction",
     summary="Coulomb friction in two directions",
@@ -310,6 +322,7 @@ FRICTION = Law(
         ),
     ),
     history=True,
+    largest=_largest,
     equation="f_i = -K_i e_i, |f_i| <= mu_i N",
     source="return mapping after Simo and Hughes (1998), Computational Inelasticity, chapter 1",
 )

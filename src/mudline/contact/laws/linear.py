@@ -31,7 +31,7 @@ from __future__ import annotations
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.laws import Law, NormalLaw, Parameter, Value, where
+from mudline.contact.laws import Law, NormalLaw, Parameter, Reached, Value, where
 
 _WIDEST = 0.25 * float(np.finfo(np.float64).max)
 """Half widths above this are halved in the sums, which would overflow."""
@@ -136,6 +136,10 @@ NODAL = NormalLaw(
 )
 
 
+def _own_stiffness(_reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, None]:
+    return given["stiffness"], None
+
+
 def spring_suction(uplift: Value, stiffness: Value, extent: Value) -> tuple[Value, Value]:
     """Return the force per unit length at a height `uplift` above the seabed, and its stiffness -d force / d x."""
     held = (uplift > 0.0) & (uplift <= extent)
@@ -151,6 +155,7 @@ SUCTION_SPRING = Law(
         Parameter("stiffness", "F/L2", "force per unit length and length of uplift"),
         Parameter("extent", "L", "height above the seabed up to which it acts"),
     ),
+    largest=_own_stiffness,
     equation="f = -k x for 0 < x <= extent",
     source="SUCTION= of *SEABED PROPERTIES (INFERRED)",
 )
@@ -168,6 +173,7 @@ LATERAL = Law(
     acts_on="elements",
     parameters=(Parameter("stiffness", "F/L2", "force per unit length and length of lateral displacement"),),
     history=True,
+    largest=_own_stiffness,
     equation="f = -k y, y the displacement along n x t from the touchdown point",
     source="LATERAL= of *SEABED PROPERTIES (INFERRED)",
 )
