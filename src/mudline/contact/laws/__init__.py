@@ -117,6 +117,8 @@ class Law:
         history: whether a step's result depends on the steps before it.
         tables: whether it takes tables besides numbers; `parameters` then has the index of one.
         check: what the parameters, by name, must be to each other: where it does not hold, and what it is.
+        plan: what the plan says behind the number of rows, or a function of the parameters by name to all that it
+            says; "with" and the summary where it is empty, nothing for None.
         largest: (`Reached`, parameters by name) to the largest stiffness and the largest damping of each row, for laws
             beside the normal ones; None stands for no damping.
         equation: in one line.
@@ -133,6 +135,7 @@ class Law:
     history: bool = False
     tables: bool = False
     check: Callable[[dict[str, FloatArray]], tuple[BoolArray, str]] | None = None
+    plan: str | Callable[[dict[str, FloatArray]], str] | None = ""
     largest: Largest | None = None
     equation: str = ""
     source: str = ""
@@ -159,6 +162,7 @@ class NormalLaw(Law):
 
     reaction: Reaction | None = None
     steepest: Callable[..., Value] | None = None
+    plan: str | Callable[[dict[str, FloatArray]], str] | None = None
     onset: Callable[..., Value] = field(default=_never)
 
     __repr__ = short_repr
@@ -220,8 +224,8 @@ _LAWS: dict[str, str | Law] = {
     "curve": "curve:CURVE",
     "rigid": "linear:RIGID",
     "unloading": "unloading:UNLOADING",
-    "suction spring": "linear:SUCTION_SPRING",
     "suction": "suction:SUCTION_LAW",
+    "suction spring": "linear:SUCTION_SPRING",
     "friction": "friction:FRICTION",
     "lateral": "linear:LATERAL",
     "trench peak": "trench:TRENCH_PEAK",

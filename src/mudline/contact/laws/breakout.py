@@ -67,6 +67,7 @@ BREAKOUT = Law(
     ),
     history=True,
     check=_out_of_order,
+    plan="with a lateral breakout that is had once, and a residual, where mu2 and Kt2 have no effect",
     largest=_largest,
     equation="limit = mu2 N up to s = d, falling to r mu2 N; s the largest displacement so far",
     source="DNV-RP-F114, residual factor and best estimates of displacements, read at second hand",

@@ -27,7 +27,7 @@ import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, StateArray
 from mudline.contact.laws import Law, Parameter, Reached, Value, where
-from mudline.short_repr import short_repr
+from mudline.short_repr import counted, short_repr
 
 _TINY = float(np.nextafter(0.0, 1.0))
 _FAR, _DROP = 2.0**-1000, 2.0**-550
@@ -292,6 +292,18 @@ def _ellipse(step: _Trial, rising: FloatArray, by_offset: FloatArray, by_normal:
         return by_position, 0.0 - force * growth_by_offset, rising / scale - force * growth_by_normal
 
 
+def _plan(given: dict[str, FloatArray]) -> str:
+    constant = ~(np.isnan(given["axial_stiffness"]) & np.isnan(given["lateral_stiffness"]))
+    parts = []
+    if constant.any():
+        ellipses = int((constant & (given["elliptic"] > 0.0)).sum())
+        criterion = f", {ellipses} of them with an ellipse" if ellipses else ""
+        parts.append(f"{counted(int(constant.sum()), 'node')} with a constant spring{criterion}")
+    if lengths := int((~constant).sum()):
+        parts.append(f"{counted(lengths, 'node')} with a mobilisation length, Kt = mu N / length (inferred)")
+    return "; ".join(parts)
+
+
 def _largest(reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, None]:
     """The spring of a node that sticks, the stiffer of both directions."""
     springs = []
@@ -322,6 +334,7 @@ FRICTION = Law(
         ),
     ),
     history=True,
+    plan=_plan,
     largest=_largest,
     equation="f_i = -K_i e_i, |f_i| <= mu_i N",
     source="return mapping after Simo and Hughes (1998), Computational Inelasticity, chapter 1",

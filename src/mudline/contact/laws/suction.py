@@ -26,7 +26,7 @@ import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, StateArray
 from mudline.contact.laws import Law, Parameter, Reached, Value, where
-from mudline.short_repr import short_repr
+from mudline.short_repr import counted, short_repr
 
 FORCE_EXPONENT = 0.18
 DEPTH_EXPONENT = 0.26
@@ -351,6 +351,14 @@ def release_stiffness(law: SuctionLaw, velocity: FloatArray) -> FloatArray:
     return slope
 
 
+def _plan(given: dict[str, FloatArray]) -> str:
+    slow = sorted(set(given["regularisation"].tolist()))
+    span = f"{slow[0]:g}" if len(slow) == 1 else f"{slow[0]:g} to {slow[-1]:g}"
+    capped = f", less force than alpha v^n below v = {span}" if slow[-1] > 0.0 else ""
+    elements = counted(len(given["regularisation"]), "element")
+    return f"{elements} after Bridge et al., with a state each{capped}"
+
+
 def _largest(reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, FloatArray]:
     """The rise and the damping at the velocity that makes them largest; infinite where none does."""
     law = SuctionLaw(**given)
@@ -394,6 +402,7 @@ SUCTION_LAW = Law(
     velocities=True,
     history=True,
     check=_crossed,
+    plan=_plan,
     largest=_largest,
     equation="F = -cyclic alpha_f v^n_f trapezoid(x / (alpha_D v_max^n_D))",
     source="Bridge, Laver, Clukey and Evans (2004), OTC 16628",
