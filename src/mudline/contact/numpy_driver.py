@@ -165,7 +165,7 @@ class Nodes:
         if (breakout := tables.breakout) is not None:
             cut = rows_within(breakout.rows, begin, end)
             columns = tuple(column[cut] for column in breakout.columns)
-            self._breakout = _Breakout(cut, as_range(breakout.rows[cut] - begin), columns[:-1], columns[-1])
+            self._breakout = _Breakout(cut, as_range(breakout.rows[cut] - begin), columns, tables.shares[cut])
         if tables.trench is not None:
             from mudline.contact.trenches import ranks  # noqa: PLC0415 - most friction has no trench
 

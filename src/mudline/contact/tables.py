@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.contact.input import AssignedLaw, ContactInput
@@ -16,15 +17,17 @@ from mudline.contact.seabed import heading
 from mudline.short_repr import outline
 
 if TYPE_CHECKING:
-    from _typeshed import DataclassInstance
-
     from mudline.contact.laws.friction import FrictionHistory, FrictionLaw
     from mudline.contact.laws.suction import SuctionHistory
     from mudline.contact.laws.unloading import UnloadingHistory
     from mudline.contact.trenches import LaidCentreline
 
 
-Part = TypeVar("Part", bound="DataclassInstance")
+_Part = Any
+"""What a law remembers: None, an array, or a dataclass of arrays."""
+_REMEMBERED = ("unloading", "suction", "friction", "touchdown", "breakout", "paths")
+_IN_PLACE = ("breakout", "paths")
+"""What a step moves on from what it is."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,60 +56,42 @@ class ContactState:
 
     def __repr__(self) -> str:
         when = "before the first step" if self.positions is None else f"after a step of {len(self.positions)} nodes"
-        names = ("unloading", "suction", "friction", "touchdown", "breakout", "paths")
-        held = ", ".join(name for name in names if getattr(self, name) is not None)
+        held = ", ".join(name for name in _REMEMBERED if getattr(self, name) is not None)
         return outline(f"ContactState {when}", held or "nothing to remember")
 
     @property
     def shapes(self) -> tuple[object, ...]:
         """The shapes of all that is remembered beside positions, by which states of different models differ."""
-        parts = (self.unloading, self.suction, self.friction)
-        found = [part and tuple(getattr(part, name).shape for name in part.__dataclass_fields__) for part in parts]
-        return *found, *(
-            None if array is None else array.shape for array in (self.touchdown, self.breakout, self.paths)
-        )
+        return tuple(tuple(array.shape for array in _arrays(getattr(self, name))) for name in _REMEMBERED)
 
     def copied(self) -> ContactState:
         """Return a state whose arrays may be written; positions stay as they are."""
-        return ContactState(
-            self.positions,
-            self.laid,
-            self.unloading and _copied(self.unloading),
-            self.suction and _copied(self.suction),
-            self.friction and _copied(self.friction),
-            None if self.touchdown is None else self.touchdown.copy(order="K"),
-            None if self.breakout is None else self.breakout.copy(),
-            None if self.paths is None else self.paths.copy(),
-        )
+        return replace(self, **{name: _like(getattr(self, name), copies=True) for name in _REMEMBERED})
 
     def blank(self, spare: ContactState | None) -> ContactState:
         """Return a state to be written, with what every step writes for each element and node not filled in.
 
         Arrays of `spare` are taken, if there is one.
         """
-        spare = spare or ContactState()
-        touchdown = spare.touchdown
-        if touchdown is None and self.touchdown is not None:
-            touchdown = np.empty(self.touchdown.shape, order="F")
-        return ContactState(
-            self.positions,
-            self.laid,
-            spare.unloading or (self.unloading and _blank(self.unloading, "C")),
-            spare.suction or (self.suction and _blank(self.suction, "C")),
-            spare.friction or (self.friction and _blank(self.friction, "F")),
-            touchdown,
-            None if self.breakout is None else self.breakout.copy(),
-            None if self.paths is None else self.paths.copy(),
-        )
+        found = {}
+        for name in _REMEMBERED:
+            held = None if spare is None or name in _IN_PLACE else getattr(spare, name)
+            found[name] = _like(getattr(self, name), copies=name in _IN_PLACE) if held is None else held
+        return replace(self, **found)
 
 
-def _copied(part: Part) -> Part:
-    return type(part)(*(getattr(part, name).copy(order="K") for name in part.__dataclass_fields__))
+def _arrays(part: _Part) -> list[NDArray[Any]]:
+    if part is None or isinstance(part, np.ndarray):
+        return [] if part is None else [part]
+    return [getattr(part, field.name) for field in fields(part)]
 
 
-def _blank(part: Part, order: Literal["C", "F"]) -> Part:
-    given = (getattr(part, name) for name in part.__dataclass_fields__)
-    return type(part)(*(np.empty(each.shape, each.dtype, order) for each in given))
+def _like(part: _Part, *, copies: bool) -> _Part:
+    """The same with arrays of its own, in the same order in memory."""
+    if part is None:
+        return None
+    made = [array.copy(order="K") if copies else np.empty_like(array) for array in _arrays(part)]
+    return made[0] if isinstance(part, np.ndarray) else type(part)(*made)
 
 
 class Batch(NamedTuple):
@@ -151,13 +136,6 @@ class NormalRows(NamedTuple):
         return self.law.steepest
 
 
-class ElementRows(NamedTuple):
-    """Elements, or nodes, (k,) with a law beside the normal one, and the parameters that the drivers need."""
-
-    rows: IndexArray
-    columns: tuple[FloatArray, ...]
-
-
 class FrictionRows(NamedTuple):
     """Friction of all nodes (n,): springs under a normal force N are constant + rising N.
 
@@ -188,7 +166,7 @@ class Tables:
         normal: normal laws of elements. nodal: those of nodes.
         unloading: stiffness. springs: stiffness and extent of suction springs. lateral: stiffness times half length.
         friction: its springs and limits as the drivers want them. friction_law: the same by node, for tangents.
-        breakout: nodes with it, its parameters and 1 over their numbers of elements. embeds: whether it asks for z/D.
+        breakout: nodes with it. shares: 1 over their numbers of elements (k,). embeds: whether it asks for z/D.
         damping, nodal_damping: coefficients of elements (m,), of nodes (n,), 0 where there is none; None without any.
         suction: parameters of `suction.SuctionLaw`, in its order.
         level: trenches in which the seabed is lowered.
@@ -208,9 +186,7 @@ class Tables:
         self.onset: FloatArray | None = onset if onset.any() else None
         self.normal, self._paths = _with_paths([rows for law in given.normal_laws for rows in _normal_rows(law)])
         self.nodal = [rows for law in given.nodal_laws for rows in _normal_rows(law)]
-        self.unloading = _element_rows(given, "unloading")
-        self.springs = _element_rows(given, "suction spring")
-        self.suction = _element_rows(given, "suction")
+        self.unloading, self.springs, self.suction = map(given.assigned.get, ("unloading", "suction spring", "suction"))
         self.damping = _coefficients(given, "damping", len(self.half))
         self.nodal_damping = _coefficients(given, "nodal damping", len(given.node_ids))
         self.lateral = _lateral(given)
@@ -225,6 +201,8 @@ class Tables:
 
             self.trench = trench_rows(given, self.friction.coefficients[1])
         self.breakout = _breakout(given, self)
+        broken = np.empty(0, np.intp) if self.breakout is None else self.breakout.rows
+        self.shares: FloatArray = 1.0 / np.diff(self.line.start)[broken]
         self.embeds = self.breakout is not None and any(self.breakout.columns[at].any() for at in (1, 3))
         self.level = None
         if given.has("trench level"):
@@ -318,26 +296,21 @@ def _with_paths(normal: list[NormalRows]) -> tuple[list[NormalRows], FloatArray 
     return placed, found
 
 
-def _element_rows(given: ContactInput, name: str) -> ElementRows | None:
-    found = given.assigned.get(name)
-    return None if found is None else ElementRows(found.rows, found.columns)
-
-
 def _coefficients(given: ContactInput, name: str, count: int) -> FloatArray | None:
     """The damping of all of `count` elements or nodes."""
     found = given.assigned.get(name)
     return None if found is None else found.spread("damping", count, 0.0)
 
 
-def _lateral(given: ContactInput) -> ElementRows | None:
+def _lateral(given: ContactInput) -> AssignedLaw | None:
     found = given.assigned.get("lateral")
     if found is None:
         return None
     with np.errstate(over="ignore"):  # a step refuses the reaction
-        return ElementRows(found.rows, (found["stiffness"] * (0.5 * given.length[found.rows]),))
+        return replace(found, parameters={"stiffness": found["stiffness"] * (0.5 * given.length[found.rows])})
 
 
-def _breakout(given: ContactInput, tables: Tables) -> ElementRows | None:
+def _breakout(given: ContactInput, tables: Tables) -> AssignedLaw | None:
     """The breakout of nodes that have it; ValueError for a node without friction in a box."""
     found = given.assigned.get("breakout")
     if found is None:
@@ -348,7 +321,7 @@ def _breakout(given: ContactInput, tables: Tables) -> ElementRows | None:
     if not able[found.rows].all():
         node = given.node_ids[found.rows[~able[found.rows]][0]]
         raise ValueError(f"node {node} has a breakout law, which needs friction in a box")
-    return ElementRows(found.rows, (*found.columns, 1.0 / np.diff(tables.line.start)[found.rows]))
+    return found
 
 
 def _friction_law(given: AssignedLaw, nodes: int) -> FrictionLaw:

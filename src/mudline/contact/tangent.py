@@ -15,7 +15,7 @@ import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.contact.directions import Directions, directions_of, level, projected
-from mudline.contact.laws import PathLaw
+from mudline.contact.laws import Moving, PathLaw
 from mudline.contact.result import ContactResult
 from mudline.contact.tables import ContactState, Tables
 from mudline.short_repr import short_repr
@@ -123,7 +123,7 @@ def assemble(
     _add_normal(step, (stiffness, own), step.slope, by_position)
     damping, own_damping = np.zeros(len(stiffness)), np.zeros(nodes)
     if speed is not None:
-        damping, own_damping = _suction_damping(step, speed) + _damping(step, speed), _nodal_damping(step, speed)
+        damping, own_damping = _damping(step, speed)
         _add_normal(step, (damping, own_damping), normal, by_velocity)
     if tables.lateral is not None:
         _add_lateral(step, by_position)
@@ -169,37 +169,22 @@ def _nodal_stiffness(step: _Step) -> FloatArray:
     return found
 
 
-def _damping(step: _Step, speed: FloatArray) -> FloatArray:
-    """Damping (m,) of the inward motion of elements."""
-    given, v = step.tables.damping, 0.5 * speed[step.ends].sum(axis=1)
-    return np.zeros(len(v)) if given is None else np.where((step.result.depth > 0.0) & (v < 0.0), given, 0.0)
-
-
-def _nodal_damping(step: _Step, speed: FloatArray) -> FloatArray:
-    """Damping (n,) of the inward motion of nodes."""
-    given = step.tables.nodal_damping
-    return np.zeros(len(speed)) if given is None else np.where((step.result.gap < 0.0) & (speed < 0.0), given, 0.0)
-
-
-def _suction_damping(step: _Step, speed: FloatArray) -> FloatArray:
-    """Minus d force / d pull-out velocity (m,) of suction."""
-    from mudline.contact.laws.suction import SUCTION, SuctionLaw, suction_damping  # noqa: PLC0415 - only now needed
-
-    tables, history = step.tables, step.before.suction
-    found = np.zeros(len(step.half))
-    if tables.suction is None or history is None or step.after.suction is None:
-        return found
-    elements = tables.suction.rows
-    uplift = (0.0 if tables.onset is None else tables.onset[elements]) - step.result.depth[elements]
+def _damping(step: _Step, speed: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Minus d force / d pull-out velocity of elements (m,) and of nodes (n,)."""
+    tables, depth = step.tables, step.result.depth
+    uplift = (0.0 if tables.onset is None else tables.onset) - depth
     if tables.unloading is not None and step.after.unloading is not None:
-        bottom = np.full(len(step.half), np.nan)
-        bottom[tables.unloading.rows] = step.after.unloading.bottom
-        unloads = ~np.isnan(bottom[elements])
-        uplift = np.where(unloads, bottom[elements] - step.result.depth[elements], uplift)
-    v = 0.5 * speed[step.ends[elements, 0]] + 0.5 * speed[step.ends[elements, 1]]
-    damping = suction_damping(uplift, v, history.v_max, SuctionLaw(*tables.suction.columns), history.factor)
-    found[elements] = np.where(step.after.suction.state == SUCTION, 0.0 - damping, 0.0)
-    return found
+        uplift[tables.unloading.rows] = step.after.unloading.bottom - depth[tables.unloading.rows]
+    ends, states = step.ends, (step.before.suction, step.after.suction)
+    of_elements = depth, 0.5 * speed[ends[:, 0]] + 0.5 * speed[ends[:, 1]], uplift
+    of_nodes = 0.0 - step.result.gap, speed, step.result.gap
+    damping, own = np.zeros(len(depth)), np.zeros(len(speed))
+    for given in tables.given.assigned.values():
+        if given.law.damping is not None:
+            found, values = (own, of_nodes) if given.law.acts_on == "nodes" else (damping, of_elements)
+            z, v, height = (value[given.rows] for value in values)
+            found[given.rows] += given.law.damping(Moving(z, v, height, *states), given.parameters)
+    return damping, own
 
 
 def _add_normal(step: _Step, by_height: tuple[FloatArray, FloatArray], slope: FloatArray, blocks: _Blocks) -> None:
@@ -303,7 +288,7 @@ def _breaking_out(  # noqa: PLR0913, PLR0917 - as above
     rows = step.tables.breakout
     if rows is None or step.before.breakout is None or step.after.breakout is None:
         raise TypeError("the state has no breakout: it belongs to another model")
-    count, nodes, numbers = len(places), rows.rows, rows.columns[:-1]
+    count, nodes, numbers = len(places), rows.rows, rows.columns
     extra = extra or ExtraLimit(*(np.zeros(count) for _ in range(4)))
     added = added or AddedLimit(np.zeros(count), np.zeros(count), np.zeros((count, 3)), np.zeros(count))
     far, deep = step.after.breakout[3:]

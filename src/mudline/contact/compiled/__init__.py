@@ -189,7 +189,8 @@ def node_tables(tables: Tables) -> tuple[Any, Any]:
 
 def breakout_table(tables: Tables) -> Any:
     """Breakout laws (k, 6): the parameters, and 1 over the elements at the node."""
-    return read_only(np.empty((0, 6)) if tables.breakout is None else np.column_stack(tables.breakout.columns))
+    rows = tables.breakout
+    return read_only(np.empty((0, 6)) if rows is None else np.column_stack((*rows.columns, tables.shares)))
 
 
 def trench_tables(tables: Tables) -> tuple[Any, ...]:

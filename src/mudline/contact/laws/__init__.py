@@ -56,6 +56,23 @@ class Reached(NamedTuple):
     walls: bool
 
 
+class Moving(NamedTuple):
+    """How the rows (k,) of a law beside the normal ones move in a step, for its damping there.
+
+    Attributes:
+        z: penetration.
+        v: pull-out velocity.
+        uplift: height above where the reaction of the seabed vanishes.
+        before, after: what suction remembers.
+    """
+
+    z: FloatArray
+    v: FloatArray
+    uplift: FloatArray
+    before: Any
+    after: Any
+
+
 Largest = Callable[[Reached, dict[str, FloatArray]], tuple[FloatArray, FloatArray | None]]
 
 
@@ -117,6 +134,7 @@ class Law:
         history: whether a step's result depends on the steps before it.
         tables: whether it takes tables besides numbers; `parameters` then has the index of one.
         check: what the parameters, by name, must be to each other: where it does not hold, and what it is.
+        damping: (`Moving`, parameters by name) to minus d force / d pull-out velocity of each row, for tangents.
         plan: what the plan says behind the number of rows, or a function of the parameters by name to all that it
             says; "with" and the summary where it is empty, nothing for None.
         largest: (`Reached`, parameters by name) to the largest stiffness and the largest damping of each row, for laws
@@ -137,6 +155,7 @@ class Law:
     check: Callable[[dict[str, FloatArray]], tuple[BoolArray, str]] | None = None
     plan: str | Callable[[dict[str, FloatArray]], str] | None = ""
     largest: Largest | None = None
+    damping: Callable[[Moving, dict[str, FloatArray]], FloatArray] | None = None
     equation: str = ""
     source: str = ""
 

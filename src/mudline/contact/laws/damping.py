@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.laws import Law, Parameter, Reached, Value, where
+from mudline.contact.laws import Law, Moving, Parameter, Reached, Value, where
 
 
 def damping_force(z: Value, v: Value, damping: Value) -> Value:
@@ -23,6 +23,10 @@ def _largest(_reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArra
     return 0.0 * damping, damping
 
 
+def _at(step: Moving, given: dict[str, FloatArray]) -> FloatArray:
+    return np.where((step.z > 0.0) & (step.v < 0.0), given["damping"], 0.0)
+
+
 def _damping(name: str, summary: str, acts_on: str, parameter: Parameter) -> Law:
     return Law(
         name=name,
@@ -31,6 +35,7 @@ def _damping(name: str, summary: str, acts_on: str, parameter: Parameter) -> Law
         parameters=(parameter,),
         velocities=True,
         largest=_largest,
+        damping=_at,
         equation="f = c v_n, inward and in contact only",
         source="definition of DAMPING=",
     )

@@ -25,7 +25,7 @@ from typing import NamedTuple, Self
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, StateArray
-from mudline.contact.laws import Law, Parameter, Reached, Value, where
+from mudline.contact.laws import Law, Moving, Parameter, Reached, Value, where
 from mudline.short_repr import counted, short_repr
 
 FORCE_EXPONENT = 0.18
@@ -351,6 +351,11 @@ def release_stiffness(law: SuctionLaw, velocity: FloatArray) -> FloatArray:
     return slope
 
 
+def _damping(step: Moving, given: dict[str, FloatArray]) -> FloatArray:
+    found = suction_damping(step.uplift, step.v, step.before.v_max, SuctionLaw(**given), step.before.factor)
+    return np.where(step.after.state == SUCTION, 0.0 - found, 0.0)
+
+
 def _plan(given: dict[str, FloatArray]) -> str:
     slow = sorted(set(given["regularisation"].tolist()))
     span = f"{slow[0]:g}" if len(slow) == 1 else f"{slow[0]:g} to {slow[-1]:g}"
@@ -404,6 +409,7 @@ SUCTION_LAW = Law(
     check=_crossed,
     plan=_plan,
     largest=_largest,
+    damping=_damping,
     equation="F = -cyclic alpha_f v^n_f trapezoid(x / (alpha_D v_max^n_D))",
     source="Bridge, Laver, Clukey and Evans (2004), OTC 16628",
 )
