@@ -21,7 +21,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 
@@ -147,18 +147,28 @@ class FrictionHistory:
 
 
 class ExtraLimit(NamedTuple):
-    """What trenches add to the lateral limit of nodes (n,), against outward motion.
+    """What trenches add to the lateral limit of nodes (n,), against outward motion, and a breakout takes away.
 
-    force: added force, >= 0.
-    by_offset: its derivative by the offset along u2.
+    force: added force.
+    by_offset: its derivative by an offset.
     by_normal_force: its derivative by N.
     outward: +1 where motion along +u2 leads out of the trench, -1 where that along -u2 does, 0 for neither.
+    gradient: (n, 3) of the offset by the node's position with u2 held, for tangents.
+    by_angle: derivative of the offset by a turn of u1 and u2 about the normal, for tangents.
     """
 
     force: FloatArray
     by_offset: FloatArray
     by_normal_force: FloatArray
     outward: FloatArray
+    gradient: FloatArray = np.zeros((0, 3))
+    by_angle: FloatArray = np.zeros(0)
+
+    @classmethod
+    def none(cls, nodes: int) -> Self:
+        """Return that of nodes without any."""
+        force, offset, normal, outward, angle = np.zeros((5, nodes))
+        return cls(force, offset, normal, outward, np.zeros((nodes, 3)), angle)
 
 
 class FrictionForce(NamedTuple):
