@@ -147,7 +147,7 @@ def _reached(tables: Tables, result: ContactResult | None, speed: FloatArray | N
     for rows in tables.normal:
         virgin[rows.rows] = steepest_anywhere(tables, rows)
     pull_out = None if speed is None else np.maximum(0.5 * speed[..., ends[:, 0]] + 0.5 * speed[..., ends[:, 1]], 0.0)
-    lateral = np.zeros(len(tables.given.node_ids)) if tables.friction is None else tables.friction.coefficients[1]
+    lateral = np.zeros(len(tables.given.node_ids)) if tables.friction is None else tables.friction.coefficients[:, 1]
     return Reached(virgin, pull_out, _pressing(tables, result), lateral, walls=tables.trench is not None)
 
 

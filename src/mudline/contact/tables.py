@@ -136,26 +136,6 @@ class NormalRows(NamedTuple):
         return self.law.steepest
 
 
-class FrictionRows(NamedTuple):
-    """Friction of all nodes (n,): springs under a normal force N are constant + rising N.
-
-    Attributes:
-        active: nodes that have it.
-        coefficients, constant, rising: (2, n) by direction; 0 without friction.
-        elliptic: nodes with one criterion for both directions.
-        turned: nodes whose u1 is at an angle to +Y, with `cosine` and `sine` of it.
-    """
-
-    active: BoolArray
-    coefficients: FloatArray
-    constant: FloatArray
-    rising: FloatArray
-    elliptic: BoolArray
-    turned: IndexArray
-    cosine: FloatArray
-    sine: FloatArray
-
-
 class Tables:
     """The laws of an input. Attributes of laws that nothing has are None.
 
@@ -165,7 +145,7 @@ class Tables:
         onset: (m,) penetration at which contact begins; None where that is the mudline everywhere.
         normal: normal laws of elements. nodal: those of nodes.
         unloading: stiffness. springs: stiffness and extent of suction springs. lateral: stiffness times half length.
-        friction: its springs and limits as the drivers want them. friction_law: the same by node, for tangents.
+        friction: that of all nodes, whose arrays (n, 2) have each direction in one piece.
         breakout: nodes with it. shares: 1 over their numbers of elements (k,). embeds: whether it asks for z/D.
         damping, nodal_damping: coefficients of elements (m,), of nodes (n,), 0 where there is none; None without any.
         suction: parameters of `suction.SuctionLaw`, in its order.
@@ -190,16 +170,14 @@ class Tables:
         self.damping = _coefficients(given, "damping", len(self.half))
         self.nodal_damping = _coefficients(given, "nodal damping", len(given.node_ids))
         self.lateral = _lateral(given)
-        self.friction_law: FrictionLaw | None = None
-        self.friction: FrictionRows | None = None
+        self.friction: FrictionLaw | None = None
         if (found := given.assigned.get("friction")) is not None:
-            self.friction_law = _friction_law(found, len(given.node_ids))
-            self.friction = _friction_rows(self.friction_law, found.spread("angle", len(given.node_ids)))
+            self.friction = _friction_law(found, len(given.node_ids))
         self.trench = None
         if self.friction is not None and given.has("trench peak", "trench wall", "trench table"):
             from mudline.contact.trenches import trench_rows  # noqa: PLC0415 - most friction has no trench
 
-            self.trench = trench_rows(given, self.friction.coefficients[1])
+            self.trench = trench_rows(given, self.friction.coefficients[:, 1])
         self.breakout = _breakout(given, self)
         broken = np.empty(0, np.intp) if self.breakout is None else self.breakout.rows
         self.shares: FloatArray = 1.0 / np.diff(self.line.start)[broken]
@@ -317,7 +295,7 @@ def _breakout(given: ContactInput, tables: Tables) -> AssignedLaw | None:
         return None
     able = np.zeros(len(given.node_ids), np.bool_)
     if tables.friction is not None:
-        able = tables.friction.active & ~tables.friction.elliptic
+        able = tables.friction.active & ~tables.friction.ellipse
     if not able[found.rows].all():
         node = given.node_ids[found.rows[~able[found.rows]][0]]
         raise ValueError(f"node {node} has a breakout law, which needs friction in a box")
@@ -331,19 +309,15 @@ def _friction_law(given: AssignedLaw, nodes: int) -> FrictionLaw:
     active = np.zeros(nodes, np.bool_)
     active[given.rows] = True
     coefficients, stiffness, mobilisation = (
-        np.column_stack([given.spread(f"{side}_{name}", nodes, otherwise) for side in ("axial", "lateral")])
+        np.stack([given.spread(f"{side}_{name}", nodes, otherwise) for side in ("axial", "lateral")]).T
         for name, otherwise in (("coefficient", 0.0), ("stiffness", np.nan), ("mobilisation", np.nan))
     )
     mobilisation[np.isnan(mobilisation) & (coefficients == 0.0)] = 1.0
-    return FrictionLaw(coefficients, stiffness, mobilisation, given.spread("elliptic", nodes, 0.0) > 0.0, active)
-
-
-def _friction_rows(law: FrictionLaw, angle: FloatArray) -> FrictionRows:
+    angle = given.spread("angle", nodes)
     turned = np.flatnonzero(~np.isnan(angle))
     turn = np.array([heading(degrees) for degrees in angle[turned].tolist()]).reshape(-1, 2).T
-    springs = law.coefficients, np.where(law.constant, law.stiffness, 0.0), law.rising
-    coefficients, constant, rising = (np.ascontiguousarray(values.T) for values in springs)
-    return FrictionRows(law.active, coefficients, constant, rising, law.ellipse, turned, turn[0], turn[1])
+    ellipse = given.spread("elliptic", nodes, 0.0) > 0.0
+    return FrictionLaw(coefficients, stiffness, mobilisation, ellipse, active, turned, turn[0], turn[1])
 
 
 def _pulling(given: ContactInput) -> IndexArray | None:

@@ -247,7 +247,7 @@ class _Sliding(NamedTuple):
 def _friction_of(step: _Step) -> _Sliding:
     from mudline.contact.laws.friction import slide  # noqa: PLC0415 - only now is it needed
 
-    tables, law, history = step.tables, step.tables.friction_law, step.before.friction
+    tables, law, history = step.tables, step.tables.friction, step.before.friction
     absent = np.isnan(step.result.gap)
     places = np.where(absent[:, None], 0.0, step.points)
     compression = np.where(absent, 0.0, step.result.normal_force)

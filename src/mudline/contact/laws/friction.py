@@ -19,13 +19,13 @@ are. Where they turn with the line and K_1 differs from K_2, turning them at an 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import NamedTuple, Self
 
 import numpy as np
 
-from mudline.contact.arrays import BoolArray, FloatArray, StateArray
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, StateArray
 from mudline.contact.laws import Law, Parameter, Reached, Value, where
 from mudline.short_repr import counted, short_repr
 
@@ -99,6 +99,7 @@ class FrictionLaw:
         mobilisation: (n, 2) mobilisation lengths, > 0: the spring is mu N / length; not looked at beside a stiffness.
         ellipse: (n,) whether one elliptic criterion holds for both directions instead of one for each.
         active: (n,) nodes that have a law.
+        turned: nodes (k,) whose u1 is at an angle to +Y, with `cosine` and `sine` of it.
     """
 
     coefficients: FloatArray
@@ -106,11 +107,20 @@ class FrictionLaw:
     mobilisation: FloatArray
     ellipse: BoolArray
     active: BoolArray
+    turned: IndexArray = field(default_factory=lambda: np.empty(0, np.intp))
+    cosine: FloatArray = field(default_factory=lambda: np.empty(0))
+    sine: FloatArray = field(default_factory=lambda: np.empty(0))
 
     @property
     def constant(self) -> BoolArray:
         """Where (n, 2) the spring is constant."""
         return ~np.isnan(self.stiffness)
+
+    @property
+    def fixed(self) -> FloatArray:
+        """Stiffness (n, 2) of the springs that are constant, else 0."""
+        found: FloatArray = np.where(self.constant, self.stiffness, 0.0)
+        return found
 
     @property
     def rising(self) -> FloatArray:
@@ -121,7 +131,7 @@ class FrictionLaw:
 
     def springs(self, normal_force: FloatArray) -> FloatArray:
         """Return the stiffness (n, 2) of the springs under normal forces (n,) >= 0."""
-        found: FloatArray = np.where(self.constant, self.stiffness, 0.0) + self.rising * normal_force[:, None]
+        found: FloatArray = self.fixed + self.rising * normal_force[:, None]
         return found
 
 
