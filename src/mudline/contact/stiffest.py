@@ -24,8 +24,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import FloatArray, IndexArray
-from mudline.contact.input import AssignedLaw
-from mudline.contact.laws import Largest, Reached, known_laws
+from mudline.contact.laws import Law, Reached, known_laws
 from mudline.contact.result import ContactResult
 from mudline.contact.tables import NormalRows, Tables, steepest_anywhere
 from mudline.short_repr import UnknownNameError, outline, short_repr
@@ -76,36 +75,37 @@ def stiffest(tables: Tables, result: ContactResult | None, speed: FloatArray | N
     `result` has the forces at some positions, and `speed` (..., n) the velocities along the normals there; None for the
     largest values that the laws can reach.
     """
+    found = []
     with np.errstate(all="ignore"):
-        found = [_normal(tables, rows, result) for rows in tables.normal if rows.curve < 0]
-        curves = [rows for rows in tables.normal if rows.curve >= 0]
-        if curves:
-            parts = [_normal(tables, rows, result).stiffness for rows in curves]
-            found.append(_law("curve", np.fmax.reduce(parts)))
-        found += [_nodal(tables, rows, result) for rows in tables.nodal]
+        for name in dict.fromkeys(rows.law.name for rows in sorted(_normal_laws(tables), key=lambda rows: rows.curve)):
+            same = [rows for rows in _normal_laws(tables) if rows.law.name == name]
+            slopes = np.concatenate([_slope(tables, rows, result) for rows in same])
+            found.append(_of_law(tables, same[0].law, np.concatenate([rows.rows for rows in same]), slopes))
         reached = _reached(tables, result, speed)
         for name in known_laws():
             given = tables.given.assigned.get(name)
             if given is not None and given.law.largest is not None:
-                found.append(_beside(tables, given, given.law.largest, reached))
+                own = reached.of_rows(given.rows, given.law.acts_on)
+                found.append(_of_law(tables, given.law, given.rows, *given.law.largest(own, given.parameters)))
     return Stiffest(tuple(found))
 
 
-def _law(name: str, stiffness: FloatArray) -> LawStiffness:
-    return LawStiffness(name, stiffness, np.where(np.isnan(stiffness), np.nan, 0.0), "length")
+def _normal_laws(tables: Tables) -> list[NormalRows]:
+    return [*tables.normal, *tables.nodal]
 
 
-def _law_of_nodes(name: str, tables: Tables, at_nodes: FloatArray) -> LawStiffness:
-    """A law of nodes: an element has the stiffness of the stiffer of its two."""
-    ends = tables.given.element_nodes
-    stiffness = np.fmax(at_nodes[ends[:, 0]], at_nodes[ends[:, 1]])
-    return _law(name, stiffness)._replace(per="node", at_nodes=at_nodes)
-
-
-def _spread(tables: Tables, rows: IndexArray, values: FloatArray) -> FloatArray:
-    found = np.full(len(tables.half), np.nan)
-    found[rows] = values
-    return found
+def _of_law(
+    tables: Tables, law: Law, rows: IndexArray, stiffness: FloatArray, damping: FloatArray | None = None
+) -> LawStiffness:
+    """A law of some rows; where these are nodes, an element has what the node with more of it has."""
+    ends, of_nodes = tables.given.element_nodes, law.acts_on == "nodes"
+    found = np.full((2, len(tables.given.node_ids) if of_nodes else len(ends)), np.nan)
+    found[0, rows] = stiffness
+    found[1, rows] = np.where(np.isnan(stiffness), np.nan, 0.0) if damping is None else damping
+    if not of_nodes:
+        return LawStiffness(law.name, found[0], found[1], "length")
+    of_elements = np.fmax(found[:, ends[:, 0]], found[:, ends[:, 1]])
+    return LawStiffness(law.name, of_elements[0], of_elements[1], "node", found[0])
 
 
 def _largest(values: FloatArray) -> FloatArray:
@@ -113,32 +113,23 @@ def _largest(values: FloatArray) -> FloatArray:
     return values if values.ndim == 1 else np.fmax.reduce(values, axis=0)
 
 
-def _normal(tables: Tables, rows: NormalRows, result: ContactResult | None) -> LawStiffness:
-    """A normal law; at positions the slope of its own path, whatever else acts on the element."""
+def _slope(tables: Tables, rows: NormalRows, result: ContactResult | None) -> FloatArray:
+    """The largest stiffness (k,) of a normal law; at positions that of its own path, whatever else acts there."""
     if result is None:
-        return _law(rows.law.name, _spread(tables, rows.rows, steepest_anywhere(tables, rows)))
-    depth, diameter = result.depth[..., rows.rows], tables.diameter[rows.rows]
-    if rows.curve >= 0:
-        curve = tables.given.curves[rows.curve]
-        slope = curve.evaluate(np.nan_to_num(depth / diameter))[1] / diameter
-    elif rows.path >= 0:  # that of turning round there, whatever came before
-        slope = np.broadcast_to(rows.steepest(depth, diameter, *rows.columns), depth.shape)
-    else:
-        slope = np.broadcast_to(rows.reaction(depth, diameter, *rows.columns)[1], depth.shape)
-    return _law(
-        rows.law.name, _spread(tables, rows.rows, _largest(np.where(result.contact[..., rows.rows], slope, 0.0)))
-    )
-
-
-def _nodal(tables: Tables, rows: NormalRows, result: ContactResult | None) -> LawStiffness:
-    """A normal law of nodes: of each element that of its stiffer node."""
-    own = np.full(len(tables.given.node_ids), np.nan)
-    own[rows.rows] = steepest_anywhere(tables, rows)
-    if result is not None:
+        return steepest_anywhere(tables, rows)
+    at: FloatArray | float = 0.0
+    if rows.law.acts_on == "nodes":
         z = 0.0 - result.gap[..., rows.rows]
-        slope = np.broadcast_to(rows.reaction(z, 0.0, *rows.columns)[1], z.shape)
-        own[rows.rows] = _largest(np.where(z > rows.law.onset(*rows.columns), slope, 0.0))
-    return _law_of_nodes(rows.law.name, tables, own)
+        touches = z > rows.law.onset(*rows.columns)
+    else:
+        z, at, touches = result.depth[..., rows.rows], tables.diameter[rows.rows], result.contact[..., rows.rows]
+    if rows.curve >= 0:
+        slope = tables.given.curves[rows.curve].evaluate(np.nan_to_num(z / at))[1] / at
+    elif rows.path >= 0:  # that of turning round there, whatever came before
+        slope = rows.steepest(z, at, *rows.columns)
+    else:
+        slope = rows.reaction(z, at, *rows.columns)[1]
+    return _largest(np.where(touches, slope, 0.0))
 
 
 def _reached(tables: Tables, result: ContactResult | None, speed: FloatArray | None) -> Reached:
@@ -149,25 +140,6 @@ def _reached(tables: Tables, result: ContactResult | None, speed: FloatArray | N
     pull_out = None if speed is None else np.maximum(0.5 * speed[..., ends[:, 0]] + 0.5 * speed[..., ends[:, 1]], 0.0)
     lateral = np.zeros(len(tables.given.node_ids)) if tables.friction is None else tables.friction.coefficients[:, 1]
     return Reached(virgin, pull_out, _pressing(tables, result), lateral, walls=tables.trench is not None)
-
-
-def _beside(tables: Tables, given: AssignedLaw, largest: Largest, reached: Reached) -> LawStiffness:
-    """A law beside the normal ones: of a law of nodes an element has what the node with more of it has."""
-    ends, rows = tables.given.element_nodes, given.rows
-    of_nodes = given.law.acts_on == "nodes"
-    if of_nodes:
-        reached = reached._replace(normal_force=reached.normal_force[rows], lateral=reached.lateral[rows])
-    else:
-        speed = None if reached.speed is None else reached.speed[..., rows]
-        reached = reached._replace(virgin=reached.virgin[rows], speed=speed)
-    stiffness, damping = largest(reached, given.parameters)
-    found = np.full((2, len(tables.given.node_ids) if of_nodes else len(ends)), np.nan)
-    found[0, rows] = stiffness
-    found[1, rows] = np.where(np.isnan(stiffness), np.nan, 0.0) if damping is None else damping
-    if not of_nodes:
-        return LawStiffness(given.law.name, found[0], found[1], "length")
-    of_elements = np.fmax(found[:, ends[:, 0]], found[:, ends[:, 1]])
-    return LawStiffness(given.law.name, of_elements[0], of_elements[1], "node", found[0])
 
 
 def _pressing(tables: Tables, result: ContactResult | None) -> FloatArray:

@@ -196,10 +196,10 @@ class Tables:
             self.rigid = np.zeros(len(given.node_ids), np.bool_)
             self.rigid[given.element_nodes[given.assigned["rigid"].rows]] = True
             self.rigid.flags.writeable = False  # results have it too
-        parts = (self.unloading, self.suction, self.lateral, self.friction, self.level)
         self.velocities = bool(given.needs_velocities)
         # velocities are differences to the step before where none are given
-        self.history = self._paths is not None or self.velocities or any(part is not None for part in parts)
+        laws = [found.law for found in given.assigned.values()]
+        self.history = self.velocities or self.level is not None or any(law.history for law in laws)
 
     def laid_line(self, laid: FloatArray) -> LaidCentreline:
         """Return the line as it was `laid`, prepared once: the states of a run share that array."""
@@ -213,32 +213,16 @@ class Tables:
 
     def initial_state(self) -> ContactState:
         """Return the state before the first step: nothing has touched the seabed."""
-        unloading = suction = friction = None
-        if self.unloading is not None:
-            from mudline.contact.laws.unloading import UnloadingHistory  # noqa: PLC0415 - only now is it needed
-
-            unloading = UnloadingHistory.initial(self.unloading.columns[0])
-        if self.suction is not None:
-            from mudline.contact.laws.suction import SuctionHistory, SuctionLaw  # noqa: PLC0415 - only now is it needed
-
-            suction = SuctionHistory.initial(SuctionLaw(*self.suction.columns))
+        found = {
+            given.law.state: given.law.initial(len(given.rows), given.parameters)
+            for given in self.given.assigned.values()
+            if given.law.initial is not None
+        }
         if self.friction is not None:
             from mudline.contact.laws.friction import FrictionHistory  # noqa: PLC0415 - only now is it needed
 
-            friction = FrictionHistory.initial(self.friction.active)
-        return ContactState(
-            unloading=unloading,
-            suction=suction,
-            friction=friction,
-            touchdown=None if self.lateral is None else np.full((len(self.lateral.rows), 3), np.nan, order="F"),
-            breakout=None if self.breakout is None else _unmoved(len(self.breakout.rows)),
-            paths=None if self._paths is None else self._paths.copy(),
-        )
-
-
-def _unmoved(count: int) -> FloatArray:
-    """What nodes with a breakout remember before first contact."""
-    return np.repeat([[np.nan], [np.nan], [np.nan], [0.0], [0.0]], count, axis=1)
+            found["friction"] = FrictionHistory.initial(self.friction.active)
+        return ContactState(paths=None if self._paths is None else self._paths.copy(), **found)
 
 
 def rows_within(rows: IndexArray, begin: int, end: int) -> slice:

@@ -20,7 +20,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from mudline.contact.arrays import BoolArray, FloatArray
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.short_repr import short_repr
 
 Value = Any
@@ -39,7 +39,7 @@ def every(condition: Value) -> bool:
 
 
 class Reached(NamedTuple):
-    """What the rows (k,) of a law beside the normal ones come to, for its largest stiffness.
+    """What the rows (k,) of a law beside the normal ones come to, for its largest stiffness and damping.
 
     Attributes:
         virgin: of elements: the steepest stiffness of their normal laws.
@@ -54,6 +54,12 @@ class Reached(NamedTuple):
     normal_force: FloatArray
     lateral: FloatArray
     walls: bool
+
+    def of_rows(self, rows: IndexArray, acts_on: str) -> Reached:
+        """Return some rows of all elements, or of all nodes."""
+        if acts_on == "nodes":
+            return self._replace(normal_force=self.normal_force[rows], lateral=self.lateral[rows])
+        return self._replace(virgin=self.virgin[rows], speed=None if self.speed is None else self.speed[..., rows])
 
 
 class Moving(NamedTuple):
@@ -71,9 +77,6 @@ class Moving(NamedTuple):
     uplift: FloatArray
     before: Any
     after: Any
-
-
-Largest = Callable[[Reached, dict[str, FloatArray]], tuple[FloatArray, FloatArray | None]]
 
 
 class Parameter(NamedTuple):
@@ -134,6 +137,8 @@ class Law:
         history: whether a step's result depends on the steps before it.
         tables: whether it takes tables besides numbers; `parameters` then has the index of one.
         check: what the parameters, by name, must be to each other: where it does not hold, and what it is.
+        state: field of `ContactState` that has what its rows remember, where it remembers something.
+        initial: (number of rows, parameters by name) to that before the first step.
         damping: (`Moving`, parameters by name) to minus d force / d pull-out velocity of each row, for tangents.
         plan: what the plan says behind the number of rows, or a function of the parameters by name to all that it
             says; "with" and the summary where it is empty, nothing for None.
@@ -154,7 +159,9 @@ class Law:
     tables: bool = False
     check: Callable[[dict[str, FloatArray]], tuple[BoolArray, str]] | None = None
     plan: str | Callable[[dict[str, FloatArray]], str] | None = ""
-    largest: Largest | None = None
+    largest: Callable[[Reached, dict[str, FloatArray]], tuple[FloatArray, FloatArray | None]] | None = None
+    state: str = ""
+    initial: Callable[[int, dict[str, FloatArray]], Any] | None = None
     damping: Callable[[Moving, dict[str, FloatArray]], FloatArray] | None = None
     equation: str = ""
     source: str = ""

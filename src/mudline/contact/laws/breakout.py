@@ -66,6 +66,8 @@ BREAKOUT = Law(
         Parameter("residual_displacement", "L", "at which the residual is reached", above=True),
     ),
     history=True,
+    state="breakout",
+    initial=lambda count, _: np.repeat([[np.nan], [np.nan], [np.nan], [0.0], [0.0]], count, axis=1),
     check=_out_of_order,
     plan="with a lateral breakout that is had once, and a residual, where mu2 and Kt2 have no effect",
     largest=_largest,

@@ -181,6 +181,8 @@ LATERAL = Law(
     acts_on="elements",
     parameters=(Parameter("stiffness", "F/L2", "force per unit length and length of lateral displacement"),),
     history=True,
+    state="touchdown",
+    initial=lambda count, _: np.full((count, 3), np.nan, order="F"),
     plan=_planned("to where it touched down (inferred), in place of friction"),
     largest=_own_stiffness,
     equation="f = -k y, y the displacement along n x t from the touchdown point",

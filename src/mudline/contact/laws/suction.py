@@ -406,6 +406,8 @@ SUCTION_LAW = Law(
     ),
     velocities=True,
     history=True,
+    state="suction",
+    initial=lambda _, given: SuctionHistory.initial(SuctionLaw(**given)),
     check=_crossed,
     plan=_plan,
     largest=_largest,

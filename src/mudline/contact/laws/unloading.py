@@ -105,6 +105,8 @@ UNLOADING = Law(
     acts_on="elements",
     parameters=(Parameter("stiffness", "F/L2", "unloading stiffness ku", above=True),),
     history=True,
+    state="unloading",
+    initial=lambda _, given: UnloadingHistory.initial(given["stiffness"]),
     plan="on unloading lines, from the deepest point so far",
     largest=_largest,
     equation="F = max(0, F_max - ku' (z_max - z)) below z_max",
