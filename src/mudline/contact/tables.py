@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 _Part = Any
-"""What a law remembers: None, an array, or a dataclass of arrays."""
+"""What a law remembers: an array, or a dataclass of arrays."""
 _REMEMBERED = ("unloading", "suction", "friction", "touchdown", "breakout", "paths")
 _IN_PLACE = ("breakout", "paths")
 """What a step moves on from what it is."""
@@ -56,17 +56,23 @@ class ContactState:
 
     def __repr__(self) -> str:
         when = "before the first step" if self.positions is None else f"after a step of {len(self.positions)} nodes"
-        held = ", ".join(name for name in _REMEMBERED if getattr(self, name) is not None)
+        held = ", ".join(name for name, _ in self._parts())
         return outline(f"ContactState {when}", held or "nothing to remember")
 
     @property
     def shapes(self) -> tuple[object, ...]:
         """The shapes of all that is remembered beside positions, by which states of different models differ."""
-        return tuple(tuple(array.shape for array in _arrays(getattr(self, name))) for name in _REMEMBERED)
+        return tuple((name, *(array.shape for array in _arrays(part))) for name, part in self._parts())
+
+    def _parts(self) -> list[tuple[str, _Part]]:
+        """What the laws that are there remember, by the names of the fields."""
+        return [(name, part) for name in _REMEMBERED if (part := getattr(self, name)) is not None]
 
     def copied(self) -> ContactState:
         """Return a state whose arrays may be written; positions stay as they are."""
-        return replace(self, **{name: _like(getattr(self, name), copies=True) for name in _REMEMBERED})
+        return ContactState(
+            self.positions, self.laid, **{name: _like(part, copies=True) for name, part in self._parts()}
+        )
 
     def blank(self, spare: ContactState | None) -> ContactState:
         """Return a state to be written, with what every step writes for each element and node not filled in.
@@ -74,22 +80,18 @@ class ContactState:
         Arrays of `spare` are taken, if there is one.
         """
         found = {}
-        for name in _REMEMBERED:
+        for name, part in self._parts():
             held = None if spare is None or name in _IN_PLACE else getattr(spare, name)
-            found[name] = _like(getattr(self, name), copies=name in _IN_PLACE) if held is None else held
-        return replace(self, **found)
+            found[name] = _like(part, copies=name in _IN_PLACE) if held is None else held
+        return ContactState(self.positions, self.laid, **found)
 
 
 def _arrays(part: _Part) -> list[NDArray[Any]]:
-    if part is None or isinstance(part, np.ndarray):
-        return [] if part is None else [part]
-    return [getattr(part, field.name) for field in fields(part)]
+    return [part] if isinstance(part, np.ndarray) else [getattr(part, field.name) for field in fields(part)]
 
 
 def _like(part: _Part, *, copies: bool) -> _Part:
     """The same with arrays of its own, in the same order in memory."""
-    if part is None:
-        return None
     made = [array.copy(order="K") if copies else np.empty_like(array) for array in _arrays(part)]
     return made[0] if isinstance(part, np.ndarray) else type(part)(*made)
 
