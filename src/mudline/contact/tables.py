@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 _Part = Any
-"""What a law remembers: an array, or a dataclass of arrays."""
+"""What a law remembers: an array, or a dataclass of arrays, with slots."""
 _REMEMBERED = ("unloading", "suction", "friction", "touchdown", "breakout", "paths")
 _IN_PLACE = ("breakout", "paths")
 """What a step moves on from what it is."""
@@ -87,7 +87,7 @@ class ContactState:
 
 
 def _arrays(part: _Part) -> list[NDArray[Any]]:
-    return [part] if isinstance(part, np.ndarray) else [getattr(part, field.name) for field in fields(part)]
+    return [part] if isinstance(part, np.ndarray) else [getattr(part, name) for name in part.__slots__]
 
 
 def _like(part: _Part, *, copies: bool) -> _Part:

@@ -24,7 +24,7 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, StateArray
+from mudline.contact.arrays import BoolArray, FloatArray, StateArray
 from mudline.contact.laws import Law, Moving, Parameter, Reached, Value, where
 from mudline.short_repr import counted, short_repr
 
@@ -169,10 +169,6 @@ class SuctionLaw(NamedTuple):
     cyclic: FloatArray
     regularisation: FloatArray
     cyclic_floor: FloatArray
-
-    def rows(self, rows: slice | IndexArray) -> SuctionLaw:
-        """Return the laws of some elements, as views of a slice."""
-        return SuctionLaw(*(values[rows] for values in self))
 
     @property
     def counts_cycles(self) -> BoolArray:
