@@ -309,7 +309,7 @@ def test_arrays_that_do_not_fit(changes: dict[str, Any], message: str) -> None:
 
 def test_an_unknown_law_is_refused_with_those_that_are_known() -> None:
     known = ", ".join(known_laws())
-    assert known.startswith("linear, smoothed, nodal, curve, rigid, unloading, suction spring, suction, friction, lat")
+    assert known.startswith("linear, smoothed, nodal, curve, rigid, unloading, suction, suction spring, friction, lat")
     with pytest.raises(ValueError, match=f"unknown contact law 'springs'; known are {known}"):
         chain([NONE], on("springs", 1, stiffness=1.0))
 

@@ -165,12 +165,6 @@ def test_an_element_that_is_pressed_has_the_uplift_at_breakout_of_rest() -> None
     assert after.v_max.tolist() == [0.0, 0.0]
 
 
-def test_laws_of_some_elements() -> None:
-    law = suction.SuctionLaw(*(np.arange(3.0) + 10.0 * number for number in range(9)))
-    assert law.rows(slice(1, 3)).depth_factor.tolist() == [21.0, 22.0]
-    assert [values.tolist() for values in law.rows(np.array([2]))] == [[10.0 * number + 2.0] for number in range(9)]
-
-
 def test_a_cycle_lowers_the_factor_to_its_floor() -> None:
     assert suction.after_cycle(0.8, 0.5, 0.3) == 0.4
     assert suction.after_cycle(0.4, 0.5, 0.3) == 0.3

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from mudline.contact import ContactInput, ContactModel
 from mudline.contact.arrays import FloatArray
+from mudline.contact.laws.suction import release_stiffness
 from mudline.contact.stiffest import (
     critical_step,
-    release_stiffness,
     rounded_down,
 )
 from mudline.curves import ForceCurve

@@ -39,14 +39,14 @@ def test_the_law_to_the_last_bit(curve: ForceCurve, more: list[float]) -> None:
     with np.errstate(all="ignore"):
         force, slope = plain_values(curve, query)
     good = np.isfinite(force)
-    # Long enough to be worth a table.
-    query, force, slope = (np.resize(values[good], 2000) for values in (query, force, slope))
+    # Long enough for a search of either kind.
+    query, force, slope = (np.resize(values[good], 3000) for values in (query, force, slope))
     found = curve.evaluate(query)
     assert found[0].tobytes() == force.tobytes()
     assert found[1].tobytes() == slope.tobytes()
 
 
-@pytest.mark.parametrize("count", [2, 9, 10, 21, 22, 33, 34, 10_000, 70_000])
+@pytest.mark.parametrize("count", [2, 9, 10, 61, 62, 70_000])
 @pytest.mark.parametrize("spacing", ["even", "random", "geometric", "crowded"])
 def test_random_ratios_in_several_blocks(count: int, spacing: str) -> None:
     rng = np.random.default_rng(count)

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from mudline.arguments import expect, expect_word, read_only
 from mudline.contact.arrays import BoolArray, FloatArray, IdArray, IndexArray
 from mudline.contact.laws import BUILT_IN, Law, NormalLaw, PathLaw, law_named
-from mudline.short_repr import short_repr
+from mudline.short_repr import counted, short_repr
 
 if TYPE_CHECKING:  # a scene without curves does not load them, nor does a flat seabed load other shapes
     from mudline.contact.lines import Lines
@@ -110,6 +110,16 @@ class AssignedLaw:
     def columns(self) -> tuple[FloatArray, ...]:
         """The parameters in the order in which the law declares them."""
         return tuple(self.parameters[parameter.name] for parameter in self.law.parameters)
+
+    @property
+    def planned(self) -> str:
+        """What the plan says of it."""
+        plan = self.law.plan or f"with {self.law.summary}"
+        return (
+            f"{counted(len(self.rows), self.law.acts_on[:-1])} {plan}"
+            if isinstance(plan, str)
+            else plan(self.parameters)
+        )
 
     def spread(self, name: str, count: int, otherwise: float = np.nan) -> FloatArray:
         """Return a parameter for all of `count` elements or nodes, `otherwise` where there is no such law."""

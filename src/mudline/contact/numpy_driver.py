@@ -153,10 +153,10 @@ class Nodes:
         self._damping = None if tables.nodal_damping is None else tables.nodal_damping[None, here]
         friction = tables.friction
         if friction is not None:
-            self._active, self._elliptic = friction.active[here], friction.elliptic[here]
+            self._active, self._elliptic = friction.active[here], friction.ellipse[here]
             self._curved = bool(self._elliptic.any())
-            self._coefficients = friction.coefficients[:, None, here]
-            self._constant, self._rising = friction.constant[:, None, here], friction.rising[:, None, here]
+            self._coefficients = friction.coefficients.T[:, None, here]
+            self._fixed, self._rising = friction.fixed.T[:, None, here], friction.rising.T[:, None, here]
             self._idle = self._active.astype(np.int8) - np.int8(1)
             turned = rows_within(friction.turned, begin, end)
             self._turned = friction.turned[turned] - begin
@@ -165,7 +165,7 @@ class Nodes:
         if (breakout := tables.breakout) is not None:
             cut = rows_within(breakout.rows, begin, end)
             columns = tuple(column[cut] for column in breakout.columns)
-            self._breakout = _Breakout(cut, as_range(breakout.rows[cut] - begin), columns[:-1], columns[-1])
+            self._breakout = _Breakout(cut, as_range(breakout.rows[cut] - begin), columns, tables.shares[cut])
         if tables.trench is not None:
             from mudline.contact.trenches import ranks  # noqa: PLC0415 - most friction has no trench
 
@@ -260,7 +260,7 @@ class Nodes:
         places = work.planes[..., here]
         pressing = np.where(self._active, np.fmax(part.normal_force[:, here], 0.0), 0.0)
         closed = pressing > 0.0
-        springs, limits = self._constant + self._rising * pressing, self._coefficients * pressing
+        springs, limits = self._fixed + self._rising * pressing, self._coefficients * pressing
         walls = None if laid is None or not self._ranks else self._walls(places, across, pressing, laid)
         stick = history.stick_points[here].T
         held = history.states[here, 0] > 0

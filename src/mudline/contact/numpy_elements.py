@@ -23,9 +23,10 @@ from mudline.contact.arrays import (
     zero_outside,
 )
 from mudline.contact.directions import mean_normal
+from mudline.contact.input import AssignedLaw
 from mudline.contact.laws import PathLaw, law_module
 from mudline.contact.result import ContactResult
-from mudline.contact.tables import ContactState, ElementRows, NormalRows, Tables, rows_within
+from mudline.contact.tables import ContactState, NormalRows, Tables, rows_within
 from mudline.contact.vectors import in_plane, units
 
 if TYPE_CHECKING:
@@ -130,7 +131,7 @@ class Elements:
         held = slice(rows.path + cut.start, rows.path + cut.stop)
         return _Group(rows, at - self.begin, columns, self._tables.diameter[None, at], held) if len(at) else None
 
-    def _subset(self, given: ElementRows | None) -> _Subset | None:
+    def _subset(self, given: AssignedLaw | None) -> _Subset | None:
         if given is None:
             return None
         rows = rows_within(given.rows, self.begin, self.end)

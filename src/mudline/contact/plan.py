@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib import import_module
 from importlib.util import find_spec
 from types import NoneType
 from typing import Literal
 
-import numpy as np
-
 from mudline.arguments import expect, expect_word
 from mudline.contact.arrays import FloatArray
 from mudline.contact.input import ContactInput, LawKind
-from mudline.contact.laws import NormalLaw
+from mudline.contact.laws import known_laws
 from mudline.contact.tables import Tables
 from mudline.short_repr import UnknownNameError, counted, outline
 
@@ -72,17 +70,16 @@ class Plan:
 
 def make_plan(given: ContactInput, tables: Tables, choice: BackendChoice) -> Plan:
     """Return the stages that an input needs and those it does not."""
-    uplift = given.has("suction", "suction spring")
-    forces = bool(tables.normal or tables.nodal) or uplift
+    forces = bool(tables.normal or tables.nodal or _beside(given, "suction"))
     stages = (
         Stage("floor", active=True, why=_seabed(given)),
         Stage("normal law", bool(tables.normal or tables.nodal), _normal_law(given, tables, choice)),
         Stage("smoothing", *_smoothing(tables)),
-        Stage("unloading", *_unloading(given)),
-        Stage("suction", uplift, _suction(given)),
-        Stage("friction", given.has("friction"), _friction(given)),
-        Stage("lateral", *_lateral(given)),
-        Stage("trench", *_trench(given, tables)),
+        _stage(given, "unloading", "no element has an unloading stiffness"),
+        _stage(given, "suction", "no element has a suction law"),
+        _stage(given, "friction", "no node has a friction law"),
+        _stage(given, "lateral", "no element has a lateral spring"),
+        _trench(given, tables),
         Stage("assembly", forces, _ASSEMBLED if forces else "there are no forces to assemble"),
     )
     return Plan(tuple(_with_reason(stage, given.left_out.get(stage.stage)) for stage in stages), tables.history)
@@ -123,11 +120,7 @@ def _normal_law(given: ContactInput, tables: Tables, choice: BackendChoice) -> s
         own = "its" if len(rows.rows) == 1 else "their"
         what = f"a stiffness of {own} own" if rows.law.name == "nodal" else f"the law {rows.law.name!r}"
         parts.append(f"{counted(len(rows.rows), 'node')} with {what}")
-    parts += [
-        f"{counted(len(law.rows), law.law.acts_on[:-1])} with {law.law.summary}"
-        for law in given.assigned.values()
-        if law.law.stage == "normal law" and not isinstance(law.law, NormalLaw) and law.law.name != "rigid"
-    ]
+    parts += _beside(given, "normal law")
     if not parts:
         parts.append("no element has a curve or a linear stiffness")
     if "rigid" in given.assigned:
@@ -150,68 +143,26 @@ def _smoothing(tables: Tables) -> tuple[bool, str]:
     return False, "no linear law has a quadratic zone"
 
 
-def _unloading(given: ContactInput) -> tuple[bool, str]:
-    if "unloading" not in given.assigned:
-        return False, "no element has an unloading stiffness"
-    count = len(given.assigned["unloading"].rows)
-    return True, f"{counted(count, 'element')} on unloading lines, from the deepest point so far"
+def _beside(given: ContactInput, stage: str) -> list[str]:
+    """What the plan says of each law of a stage beside the normal ones, those without a force left out."""
+    found = (given.assigned[name] for name in known_laws() if name in given.assigned)
+    return [law.planned for law in found if law.law.stage == stage and law.law.plan is not None]
 
 
-def _suction(given: ContactInput) -> str:
-    parts = []
-    if "suction" in given.assigned:
-        law = given.assigned["suction"]
-        slow = sorted(set(law["regularisation"].tolist()))
-        span = f"{slow[0]:g}" if len(slow) == 1 else f"{slow[0]:g} to {slow[-1]:g}"
-        capped = f", less force than alpha v^n below v = {span}" if slow[-1] > 0.0 else ""
-        parts.append(f"{counted(len(law.rows), 'element')} after Bridge et al., with a state each{capped}")
-    if "suction spring" in given.assigned:
-        count = int((given.assigned["suction spring"]["stiffness"] > 0.0).sum())
-        parts.append(f"{counted(count, 'element')} with a spring up to an extent, without history (inferred)")
-    return "; ".join(parts) or "no element has a suction law"
+def _stage(given: ContactInput, stage: str, otherwise: str) -> Stage:
+    parts = _beside(given, stage)
+    return Stage(stage, bool(parts), "; ".join(parts) or otherwise)
 
 
-def _friction(given: ContactInput) -> str:
-    law = given.assigned.get("friction")
-    if law is None:
-        return "no node has a friction law"
-    constant = ~(np.isnan(law["axial_stiffness"]) & np.isnan(law["lateral_stiffness"]))
-    parts = []
-    if constant.any():
-        ellipses = int((constant & (law["elliptic"] > 0.0)).sum())
-        criterion = f", {ellipses} of them with an ellipse" if ellipses else ""
-        parts.append(f"{counted(int(constant.sum()), 'node')} with a constant spring{criterion}")
-    if lengths := int((~constant).sum()):
-        parts.append(f"{counted(lengths, 'node')} with a mobilisation length, Kt = mu N / length (inferred)")
-    if (breaks := given.assigned.get("breakout")) is not None:
-        count = counted(len(breaks.rows), "node")
-        parts.append(f"{count} with {breaks.law.summary}, where mu2 and Kt2 have no effect")
-    return "; ".join(parts)
-
-
-def _lateral(given: ContactInput) -> tuple[bool, str]:
-    if "lateral" not in given.assigned:
-        return False, "no element has a lateral spring"
-    count = int((given.assigned["lateral"]["stiffness"] > 0.0).sum())
-    return True, f"{counted(count, 'element')} with a spring to where it touched down (inferred), in place of friction"
-
-
-_TRENCHES = {
-    "trench peak": "with a peak resistance of the walls (inferred), where the depth has no effect (MODEL=WALL uses it)",
-    "trench table": "with a tabulated resistance of the walls (inferred), where depth and widths have no effect",
-    "trench wall": "with sloped walls (inferred)",
-    "trench level": "where the seabed is lowered by depth and widths after all, along the normal of the seabed",
-}
-
-
-def _trench(given: ContactInput, tables: Tables) -> tuple[bool, str]:
-    found = {name: given.assigned[name] for name in _TRENCHES if name in given.assigned}
-    if not found:
-        return False, "no node lies in a trench"
+def _trench(given: ContactInput, tables: Tables) -> Stage:
+    stage = _stage(given, "trench", "no node lies in a trench")
+    if not stage.active:
+        return stage
     if tables.trench is None and tables.level is None:
-        return False, "a trench adds to the limits of friction, and no node has a friction law"
-    parts = [f"{counted(len(law.rows), 'element')} {_TRENCHES[name]}" for name, law in found.items()]
-    return True, "; ".join([*parts, *([] if tables.level else ["the seabed is not lowered"])])
+        return replace(
+            stage, active=False, why="a trench adds to the limits of friction, and no node has a friction law"
+        )
+    return stage if tables.level else replace(stage, why=f"{stage.why}; the seabed is not lowered")
 
 
 Backend = Literal["auto", "numpy", "fast"]

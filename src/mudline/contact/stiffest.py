@@ -24,9 +24,9 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import FloatArray, IndexArray
-from mudline.contact.laws.suction import SuctionLaw, breakout_uplift, maximum_force
+from mudline.contact.laws import Law, Reached, known_laws
 from mudline.contact.result import ContactResult
-from mudline.contact.tables import ElementRows, FrictionRows, NormalRows, Tables, steepest_anywhere
+from mudline.contact.tables import NormalRows, Tables, steepest_anywhere
 from mudline.short_repr import UnknownNameError, outline, short_repr
 
 
@@ -75,58 +75,37 @@ def stiffest(tables: Tables, result: ContactResult | None, speed: FloatArray | N
     `result` has the forces at some positions, and `speed` (..., n) the velocities along the normals there; None for the
     largest values that the laws can reach.
     """
+    found = []
     with np.errstate(all="ignore"):
-        found = [_normal(tables, rows, result) for rows in tables.normal if rows.curve < 0]
-        curves = [rows for rows in tables.normal if rows.curve >= 0]
-        if curves:
-            parts = [_normal(tables, rows, result).stiffness for rows in curves]
-            found.append(_law("curve", np.fmax.reduce(parts)))
-        found += [_nodal(tables, rows, result) for rows in tables.nodal]
-        found += _damping(tables)
-        if tables.unloading is not None:
-            found.append(_unloading(tables, tables.unloading))
-        if tables.springs is not None:
-            found.append(_law("suction spring", _spread(tables, tables.springs.rows, tables.springs.columns[0])))
-        if tables.suction is not None:
-            found.append(_suction(tables, speed))
-        if tables.friction is not None:
-            found.append(_friction(tables, tables.friction, result))
-            found += _breakout(tables, tables.friction, result)
-        if tables.lateral is not None:
-            given = tables.given.assigned["lateral"]
-            found.append(_law("lateral", _spread(tables, given.rows, given["stiffness"])))
+        for name in dict.fromkeys(rows.law.name for rows in sorted(_normal_laws(tables), key=lambda rows: rows.curve)):
+            same = [rows for rows in _normal_laws(tables) if rows.law.name == name]
+            slopes = np.concatenate([_slope(tables, rows, result) for rows in same])
+            found.append(_of_law(tables, same[0].law, np.concatenate([rows.rows for rows in same]), slopes))
+        reached = _reached(tables, result, speed)
+        for name in known_laws():
+            given = tables.given.assigned.get(name)
+            if given is not None and given.law.largest is not None:
+                own = reached.of_rows(given.rows, given.law.acts_on)
+                found.append(_of_law(tables, given.law, given.rows, *given.law.largest(own, given.parameters)))
     return Stiffest(tuple(found))
 
 
-def _damping(tables: Tables) -> list[LawStiffness]:
-    """Damping of inward motion, of elements and of the nodes of elements, without a stiffness."""
-    found = []
-    if (own := tables.damping) is not None:
-        damping = np.where(own > 0.0, own, np.nan)
-        found.append(LawStiffness("damping", 0.0 * damping, damping, "length"))
-    if (at_nodes := tables.nodal_damping) is not None:
-        ends = tables.given.element_nodes
-        damping = np.maximum(at_nodes[ends[:, 0]], at_nodes[ends[:, 1]])
-        damping = np.where(damping > 0.0, damping, np.nan)
-        found.append(LawStiffness("nodal damping", 0.0 * damping, damping, "node"))
-    return found
+def _normal_laws(tables: Tables) -> list[NormalRows]:
+    return [*tables.normal, *tables.nodal]
 
 
-def _law(name: str, stiffness: FloatArray) -> LawStiffness:
-    return LawStiffness(name, stiffness, np.where(np.isnan(stiffness), np.nan, 0.0), "length")
-
-
-def _law_of_nodes(name: str, tables: Tables, at_nodes: FloatArray) -> LawStiffness:
-    """A law of nodes: an element has the stiffness of the stiffer of its two."""
-    ends = tables.given.element_nodes
-    stiffness = np.fmax(at_nodes[ends[:, 0]], at_nodes[ends[:, 1]])
-    return _law(name, stiffness)._replace(per="node", at_nodes=at_nodes)
-
-
-def _spread(tables: Tables, rows: IndexArray, values: FloatArray) -> FloatArray:
-    found = np.full(len(tables.half), np.nan)
-    found[rows] = values
-    return found
+def _of_law(
+    tables: Tables, law: Law, rows: IndexArray, stiffness: FloatArray, damping: FloatArray | None = None
+) -> LawStiffness:
+    """A law of some rows; where these are nodes, an element has what the node with more of it has."""
+    ends, of_nodes = tables.given.element_nodes, law.acts_on == "nodes"
+    found = np.full((2, len(tables.given.node_ids) if of_nodes else len(ends)), np.nan)
+    found[0, rows] = stiffness
+    found[1, rows] = np.where(np.isnan(stiffness), np.nan, 0.0) if damping is None else damping
+    if not of_nodes:
+        return LawStiffness(law.name, found[0], found[1], "length")
+    of_elements = np.fmax(found[:, ends[:, 0]], found[:, ends[:, 1]])
+    return LawStiffness(law.name, of_elements[0], of_elements[1], "node", found[0])
 
 
 def _largest(values: FloatArray) -> FloatArray:
@@ -134,96 +113,38 @@ def _largest(values: FloatArray) -> FloatArray:
     return values if values.ndim == 1 else np.fmax.reduce(values, axis=0)
 
 
-def _normal(tables: Tables, rows: NormalRows, result: ContactResult | None) -> LawStiffness:
-    """A normal law; at positions the slope of its own path, whatever else acts on the element."""
+def _slope(tables: Tables, rows: NormalRows, result: ContactResult | None) -> FloatArray:
+    """The largest stiffness (k,) of a normal law; at positions that of its own path, whatever else acts there."""
     if result is None:
-        return _law(rows.law.name, _spread(tables, rows.rows, steepest_anywhere(tables, rows)))
-    depth, diameter = result.depth[..., rows.rows], tables.diameter[rows.rows]
-    if rows.curve >= 0:
-        curve = tables.given.curves[rows.curve]
-        slope = curve.evaluate(np.nan_to_num(depth / diameter))[1] / diameter
-    elif rows.path >= 0:  # that of turning round there, whatever came before
-        slope = np.broadcast_to(rows.steepest(depth, diameter, *rows.columns), depth.shape)
-    else:
-        slope = np.broadcast_to(rows.reaction(depth, diameter, *rows.columns)[1], depth.shape)
-    return _law(
-        rows.law.name, _spread(tables, rows.rows, _largest(np.where(result.contact[..., rows.rows], slope, 0.0)))
-    )
-
-
-def _nodal(tables: Tables, rows: NormalRows, result: ContactResult | None) -> LawStiffness:
-    """A normal law of nodes: of each element that of its stiffer node."""
-    own = np.full(len(tables.given.node_ids), np.nan)
-    own[rows.rows] = steepest_anywhere(tables, rows)
-    if result is not None:
+        return steepest_anywhere(tables, rows)
+    at: FloatArray | float = 0.0
+    if rows.law.acts_on == "nodes":
         z = 0.0 - result.gap[..., rows.rows]
-        slope = np.broadcast_to(rows.reaction(z, 0.0, *rows.columns)[1], z.shape)
-        own[rows.rows] = _largest(np.where(z > rows.law.onset(*rows.columns), slope, 0.0))
-    return _law_of_nodes(rows.law.name, tables, own)
+        touches = z > rows.law.onset(*rows.columns)
+    else:
+        z, at, touches = result.depth[..., rows.rows], tables.diameter[rows.rows], result.contact[..., rows.rows]
+    if rows.curve >= 0:
+        slope = tables.given.curves[rows.curve].evaluate(np.nan_to_num(z / at))[1] / at
+    elif rows.path >= 0:  # that of turning round there, whatever came before
+        slope = rows.steepest(z, at, *rows.columns)
+    else:
+        slope = rows.reaction(z, at, *rows.columns)[1]
+    return _largest(np.where(touches, slope, 0.0))
 
 
-def _unloading(tables: Tables, unloading: ElementRows) -> LawStiffness:
-    """Unloading lines: ku, or the steepest slope of the virgin path where that is steeper."""
-    virgin = np.zeros(len(tables.half))
+def _reached(tables: Tables, result: ContactResult | None, speed: FloatArray | None) -> Reached:
+    """What all elements and nodes come to."""
+    virgin, ends = np.zeros(len(tables.half)), tables.given.element_nodes
     for rows in tables.normal:
         virgin[rows.rows] = steepest_anywhere(tables, rows)
-    steepest = np.maximum(unloading.columns[0], virgin[unloading.rows])
-    return _law("unloading", _spread(tables, unloading.rows, steepest))
-
-
-def _suction(tables: Tables, speed: FloatArray | None) -> LawStiffness:
-    rows = tables.given.assigned["suction"].rows
-    law = SuctionLaw(*tables.given.assigned["suction"].columns)
-    factor = law.force_factor * law.largest_factor
-    n, slow = law.force_exponent, law.regularisation
-    if speed is None:
-        rise = suction_rates(law, slow)[0]
-        rise = np.where((n > law.depth_exponent) & (factor > 0.0), np.inf, np.where(slow > 0.0, rise, np.inf))
-        at_rest, at_slow = maximum_force(0.0 * slow, factor, n, slow)[1], maximum_force(slow, factor, n, slow)[1]
-        damping = np.where((n > 1.0) & (factor > 0.0), np.inf, np.maximum(at_rest, at_slow))
-        damping = np.where((slow > 0.0) | (n >= 1.0), damping, np.inf)
-        rise, damping = np.where(factor > 0.0, rise, 0.0), np.where(factor > 0.0, damping, 0.0)
-    else:
-        ends = tables.given.element_nodes[rows]
-        v = np.maximum(0.5 * speed[..., ends[:, 0]] + 0.5 * speed[..., ends[:, 1]], 0.0)
-        rise, damping = map(_largest, suction_rates(law, v))
-    return LawStiffness("suction", _spread(tables, rows, rise), _spread(tables, rows, damping), "length")
-
-
-def suction_rates(law: SuctionLaw, v: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return F_max / (xc1 Delta_B) and dF_max / dv per unit length, at the end of the rise, at velocities v."""
-    factor = law.force_factor * law.largest_factor
-    with np.errstate(all="ignore"):
-        force, by_velocity = maximum_force(v, factor, law.force_exponent, law.regularisation)
-        uplift = breakout_uplift(v, law.depth_factor, law.depth_exponent, law.regularisation)
-        rise: FloatArray = force / (law.first_corner * uplift)
-    return rise, by_velocity
-
-
-def _friction(tables: Tables, friction: FrictionRows, result: ContactResult | None) -> LawStiffness:
-    """Springs of nodes that stick, the stiffer of both directions and of the two nodes of an element."""
-    normal_force = _pressing(tables, result)
-    springs = np.where(friction.rising > 0.0, friction.rising * normal_force, 0.0) + friction.constant
-    if tables.trench is None:  # a direction without a coefficient has no limit to stick below; trench walls add one
-        springs = np.where(friction.coefficients > 0.0, springs, 0.0)
-    own = np.where(friction.active, springs.max(axis=0), np.nan)
-    return _law_of_nodes("friction", tables, own)
+    pull_out = None if speed is None else np.maximum(0.5 * speed[..., ends[:, 0]] + 0.5 * speed[..., ends[:, 1]], 0.0)
+    lateral = np.zeros(len(tables.given.node_ids)) if tables.friction is None else tables.friction.coefficients[:, 1]
+    return Reached(virgin, pull_out, _pressing(tables, result), lateral, walls=tables.trench is not None)
 
 
 def _pressing(tables: Tables, result: ContactResult | None) -> FloatArray:
     """The largest normal force (n,) of each node, the static one where no positions are given."""
     return static_normal_force(tables) if result is None else np.fmax(_largest(result.normal_force), 0.0)
-
-
-def _breakout(tables: Tables, friction: FrictionRows, result: ContactResult | None) -> list[LawStiffness]:
-    """The fall of the lateral resistance behind its peak; that of a large embedment is less steep."""
-    if tables.breakout is None:
-        return []
-    nodes, (peak, _, residual, _, last, _) = tables.breakout.rows, tables.breakout.columns
-    own = np.full(len(friction.active), np.nan)
-    limit = friction.coefficients[1, nodes] * _pressing(tables, result)[nodes]
-    own[nodes] = limit * np.maximum(1.0 - residual, 0.0) / (last - peak)
-    return [_law_of_nodes("breakout", tables, own)]
 
 
 def static_normal_force(tables: Tables) -> FloatArray:
@@ -300,17 +221,3 @@ def _radius(order: int, cosine: float) -> float:
 def rounded_down(step: float) -> float:
     """Return a step > 0 with three digits that are not above it: who gives them keeps to the step."""
     return float(_THREE_DIGITS.create_decimal_from_float(step))
-
-
-def release_stiffness(law: SuctionLaw, velocity: FloatArray) -> FloatArray:
-    """Return |d force / d uplift| on the release of suction, per unit length, at steady pull-out velocities > 0 (m,).
-
-    F_max / ((1 - xc2) Delta_B): only a structure that is stiffer, per unit length, has one equilibrium there.
-    """
-    with np.errstate(all="ignore"):
-        force, _ = maximum_force(
-            velocity, law.force_factor * law.largest_factor, law.force_exponent, law.regularisation
-        )
-        uplift = breakout_uplift(velocity, law.depth_factor, law.depth_exponent, law.regularisation)
-        slope: FloatArray = force / ((1.0 - law.second_corner) * uplift)
-    return slope

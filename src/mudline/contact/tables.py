@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, NamedTuple, TypeVar
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.contact.input import AssignedLaw, ContactInput
@@ -16,15 +17,17 @@ from mudline.contact.seabed import heading
 from mudline.short_repr import outline
 
 if TYPE_CHECKING:
-    from _typeshed import DataclassInstance
-
     from mudline.contact.laws.friction import FrictionHistory, FrictionLaw
     from mudline.contact.laws.suction import SuctionHistory
     from mudline.contact.laws.unloading import UnloadingHistory
     from mudline.contact.trenches import LaidCentreline
 
 
-Part = TypeVar("Part", bound="DataclassInstance")
+_Part = Any
+"""What a law remembers: an array, or a dataclass of arrays, with slots."""
+_REMEMBERED = ("unloading", "suction", "friction", "touchdown", "breakout", "paths")
+_IN_PLACE = ("breakout", "paths")
+"""What a step moves on from what it is."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -53,30 +56,22 @@ class ContactState:
 
     def __repr__(self) -> str:
         when = "before the first step" if self.positions is None else f"after a step of {len(self.positions)} nodes"
-        names = ("unloading", "suction", "friction", "touchdown", "breakout", "paths")
-        held = ", ".join(name for name in names if getattr(self, name) is not None)
+        held = ", ".join(name for name, _ in self._parts())
         return outline(f"ContactState {when}", held or "nothing to remember")
 
     @property
     def shapes(self) -> tuple[object, ...]:
         """The shapes of all that is remembered beside positions, by which states of different models differ."""
-        parts = (self.unloading, self.suction, self.friction)
-        found = [part and tuple(getattr(part, name).shape for name in part.__dataclass_fields__) for part in parts]
-        return *found, *(
-            None if array is None else array.shape for array in (self.touchdown, self.breakout, self.paths)
-        )
+        return tuple((name, *(array.shape for array in _arrays(part))) for name, part in self._parts())
+
+    def _parts(self) -> list[tuple[str, _Part]]:
+        """What the laws that are there remember, by the names of the fields."""
+        return [(name, part) for name in _REMEMBERED if (part := getattr(self, name)) is not None]
 
     def copied(self) -> ContactState:
         """Return a state whose arrays may be written; positions stay as they are."""
         return ContactState(
-            self.positions,
-            self.laid,
-            self.unloading and _copied(self.unloading),
-            self.suction and _copied(self.suction),
-            self.friction and _copied(self.friction),
-            None if self.touchdown is None else self.touchdown.copy(order="K"),
-            None if self.breakout is None else self.breakout.copy(),
-            None if self.paths is None else self.paths.copy(),
+            self.positions, self.laid, **{name: _like(part, copies=True) for name, part in self._parts()}
         )
 
     def blank(self, spare: ContactState | None) -> ContactState:
@@ -84,29 +79,21 @@ class ContactState:
 
         Arrays of `spare` are taken, if there is one.
         """
-        spare = spare or ContactState()
-        touchdown = spare.touchdown
-        if touchdown is None and self.touchdown is not None:
-            touchdown = np.empty(self.touchdown.shape, order="F")
-        return ContactState(
-            self.positions,
-            self.laid,
-            spare.unloading or (self.unloading and _blank(self.unloading, "C")),
-            spare.suction or (self.suction and _blank(self.suction, "C")),
-            spare.friction or (self.friction and _blank(self.friction, "F")),
-            touchdown,
-            None if self.breakout is None else self.breakout.copy(),
-            None if self.paths is None else self.paths.copy(),
-        )
+        found = {}
+        for name, part in self._parts():
+            held = None if spare is None or name in _IN_PLACE else getattr(spare, name)
+            found[name] = _like(part, copies=name in _IN_PLACE) if held is None else held
+        return ContactState(self.positions, self.laid, **found)
 
 
-def _copied(part: Part) -> Part:
-    return type(part)(*(getattr(part, name).copy(order="K") for name in part.__dataclass_fields__))
+def _arrays(part: _Part) -> list[NDArray[Any]]:
+    return [part] if isinstance(part, np.ndarray) else [getattr(part, name) for name in part.__slots__]
 
 
-def _blank(part: Part, order: Literal["C", "F"]) -> Part:
-    given = (getattr(part, name) for name in part.__dataclass_fields__)
-    return type(part)(*(np.empty(each.shape, each.dtype, order) for each in given))
+def _like(part: _Part, *, copies: bool) -> _Part:
+    """The same with arrays of its own, in the same order in memory."""
+    made = [array.copy(order="K") if copies else np.empty_like(array) for array in _arrays(part)]
+    return made[0] if isinstance(part, np.ndarray) else type(part)(*made)
 
 
 class Batch(NamedTuple):
@@ -151,33 +138,6 @@ class NormalRows(NamedTuple):
         return self.law.steepest
 
 
-class ElementRows(NamedTuple):
-    """Elements, or nodes, (k,) with a law beside the normal one, and the parameters that the drivers need."""
-
-    rows: IndexArray
-    columns: tuple[FloatArray, ...]
-
-
-class FrictionRows(NamedTuple):
-    """Friction of all nodes (n,): springs under a normal force N are constant + rising N.
-
-    Attributes:
-        active: nodes that have it.
-        coefficients, constant, rising: (2, n) by direction; 0 without friction.
-        elliptic: nodes with one criterion for both directions.
-        turned: nodes whose u1 is at an angle to +Y, with `cosine` and `sine` of it.
-    """
-
-    active: BoolArray
-    coefficients: FloatArray
-    constant: FloatArray
-    rising: FloatArray
-    elliptic: BoolArray
-    turned: IndexArray
-    cosine: FloatArray
-    sine: FloatArray
-
-
 class Tables:
     """The laws of an input. Attributes of laws that nothing has are None.
 
@@ -187,8 +147,8 @@ class Tables:
         onset: (m,) penetration at which contact begins; None where that is the mudline everywhere.
         normal: normal laws of elements. nodal: those of nodes.
         unloading: stiffness. springs: stiffness and extent of suction springs. lateral: stiffness times half length.
-        friction: its springs and limits as the drivers want them. friction_law: the same by node, for tangents.
-        breakout: nodes with it, its parameters and 1 over their numbers of elements. embeds: whether it asks for z/D.
+        friction: that of all nodes, whose arrays (n, 2) have each direction in one piece.
+        breakout: nodes with it. shares: 1 over their numbers of elements (k,). embeds: whether it asks for z/D.
         damping, nodal_damping: coefficients of elements (m,), of nodes (n,), 0 where there is none; None without any.
         suction: parameters of `suction.SuctionLaw`, in its order.
         level: trenches in which the seabed is lowered.
@@ -208,23 +168,21 @@ class Tables:
         self.onset: FloatArray | None = onset if onset.any() else None
         self.normal, self._paths = _with_paths([rows for law in given.normal_laws for rows in _normal_rows(law)])
         self.nodal = [rows for law in given.nodal_laws for rows in _normal_rows(law)]
-        self.unloading = _element_rows(given, "unloading")
-        self.springs = _element_rows(given, "suction spring")
-        self.suction = _element_rows(given, "suction")
+        self.unloading, self.springs, self.suction = map(given.assigned.get, ("unloading", "suction spring", "suction"))
         self.damping = _coefficients(given, "damping", len(self.half))
         self.nodal_damping = _coefficients(given, "nodal damping", len(given.node_ids))
         self.lateral = _lateral(given)
-        self.friction_law: FrictionLaw | None = None
-        self.friction: FrictionRows | None = None
+        self.friction: FrictionLaw | None = None
         if (found := given.assigned.get("friction")) is not None:
-            self.friction_law = _friction_law(found, len(given.node_ids))
-            self.friction = _friction_rows(self.friction_law, found.spread("angle", len(given.node_ids)))
+            self.friction = _friction_law(found, len(given.node_ids))
         self.trench = None
         if self.friction is not None and given.has("trench peak", "trench wall", "trench table"):
             from mudline.contact.trenches import trench_rows  # noqa: PLC0415 - most friction has no trench
 
-            self.trench = trench_rows(given, self.friction.coefficients[1])
+            self.trench = trench_rows(given, self.friction.coefficients[:, 1])
         self.breakout = _breakout(given, self)
+        broken = np.empty(0, np.intp) if self.breakout is None else self.breakout.rows
+        self.shares: FloatArray = 1.0 / np.diff(self.line.start)[broken]
         self.embeds = self.breakout is not None and any(self.breakout.columns[at].any() for at in (1, 3))
         self.level = None
         if given.has("trench level"):
@@ -240,10 +198,10 @@ class Tables:
             self.rigid = np.zeros(len(given.node_ids), np.bool_)
             self.rigid[given.element_nodes[given.assigned["rigid"].rows]] = True
             self.rigid.flags.writeable = False  # results have it too
-        parts = (self.unloading, self.suction, self.lateral, self.friction, self.level)
         self.velocities = bool(given.needs_velocities)
         # velocities are differences to the step before where none are given
-        self.history = self._paths is not None or self.velocities or any(part is not None for part in parts)
+        laws = [found.law for found in given.assigned.values()]
+        self.history = self.velocities or self.level is not None or any(law.history for law in laws)
 
     def laid_line(self, laid: FloatArray) -> LaidCentreline:
         """Return the line as it was `laid`, prepared once: the states of a run share that array."""
@@ -257,32 +215,16 @@ class Tables:
 
     def initial_state(self) -> ContactState:
         """Return the state before the first step: nothing has touched the seabed."""
-        unloading = suction = friction = None
-        if self.unloading is not None:
-            from mudline.contact.laws.unloading import UnloadingHistory  # noqa: PLC0415 - only now is it needed
-
-            unloading = UnloadingHistory.initial(self.unloading.columns[0])
-        if self.suction is not None:
-            from mudline.contact.laws.suction import SuctionHistory, SuctionLaw  # noqa: PLC0415 - only now is it needed
-
-            suction = SuctionHistory.initial(SuctionLaw(*self.suction.columns))
+        found = {
+            given.law.state: given.law.initial(len(given.rows), given.parameters)
+            for given in self.given.assigned.values()
+            if given.law.initial is not None
+        }
         if self.friction is not None:
             from mudline.contact.laws.friction import FrictionHistory  # noqa: PLC0415 - only now is it needed
 
-            friction = FrictionHistory.initial(self.friction.active)
-        return ContactState(
-            unloading=unloading,
-            suction=suction,
-            friction=friction,
-            touchdown=None if self.lateral is None else np.full((len(self.lateral.rows), 3), np.nan, order="F"),
-            breakout=None if self.breakout is None else _unmoved(len(self.breakout.rows)),
-            paths=None if self._paths is None else self._paths.copy(),
-        )
-
-
-def _unmoved(count: int) -> FloatArray:
-    """What nodes with a breakout remember before first contact."""
-    return np.repeat([[np.nan], [np.nan], [np.nan], [0.0], [0.0]], count, axis=1)
+            found["friction"] = FrictionHistory.initial(self.friction.active)
+        return ContactState(paths=None if self._paths is None else self._paths.copy(), **found)
 
 
 def rows_within(rows: IndexArray, begin: int, end: int) -> slice:
@@ -318,37 +260,32 @@ def _with_paths(normal: list[NormalRows]) -> tuple[list[NormalRows], FloatArray 
     return placed, found
 
 
-def _element_rows(given: ContactInput, name: str) -> ElementRows | None:
-    found = given.assigned.get(name)
-    return None if found is None else ElementRows(found.rows, found.columns)
-
-
 def _coefficients(given: ContactInput, name: str, count: int) -> FloatArray | None:
     """The damping of all of `count` elements or nodes."""
     found = given.assigned.get(name)
     return None if found is None else found.spread("damping", count, 0.0)
 
 
-def _lateral(given: ContactInput) -> ElementRows | None:
+def _lateral(given: ContactInput) -> AssignedLaw | None:
     found = given.assigned.get("lateral")
     if found is None:
         return None
     with np.errstate(over="ignore"):  # a step refuses the reaction
-        return ElementRows(found.rows, (found["stiffness"] * (0.5 * given.length[found.rows]),))
+        return replace(found, parameters={"stiffness": found["stiffness"] * (0.5 * given.length[found.rows])})
 
 
-def _breakout(given: ContactInput, tables: Tables) -> ElementRows | None:
+def _breakout(given: ContactInput, tables: Tables) -> AssignedLaw | None:
     """The breakout of nodes that have it; ValueError for a node without friction in a box."""
     found = given.assigned.get("breakout")
     if found is None:
         return None
     able = np.zeros(len(given.node_ids), np.bool_)
     if tables.friction is not None:
-        able = tables.friction.active & ~tables.friction.elliptic
+        able = tables.friction.active & ~tables.friction.ellipse
     if not able[found.rows].all():
         node = given.node_ids[found.rows[~able[found.rows]][0]]
         raise ValueError(f"node {node} has a breakout law, which needs friction in a box")
-    return ElementRows(found.rows, (*found.columns, 1.0 / np.diff(tables.line.start)[found.rows]))
+    return found
 
 
 def _friction_law(given: AssignedLaw, nodes: int) -> FrictionLaw:
@@ -358,19 +295,15 @@ def _friction_law(given: AssignedLaw, nodes: int) -> FrictionLaw:
     active = np.zeros(nodes, np.bool_)
     active[given.rows] = True
     coefficients, stiffness, mobilisation = (
-        np.column_stack([given.spread(f"{side}_{name}", nodes, otherwise) for side in ("axial", "lateral")])
+        np.stack([given.spread(f"{side}_{name}", nodes, otherwise) for side in ("axial", "lateral")]).T
         for name, otherwise in (("coefficient", 0.0), ("stiffness", np.nan), ("mobilisation", np.nan))
     )
     mobilisation[np.isnan(mobilisation) & (coefficients == 0.0)] = 1.0
-    return FrictionLaw(coefficients, stiffness, mobilisation, given.spread("elliptic", nodes, 0.0) > 0.0, active)
-
-
-def _friction_rows(law: FrictionLaw, angle: FloatArray) -> FrictionRows:
+    angle = given.spread("angle", nodes)
     turned = np.flatnonzero(~np.isnan(angle))
     turn = np.array([heading(degrees) for degrees in angle[turned].tolist()]).reshape(-1, 2).T
-    springs = law.coefficients, np.where(law.constant, law.stiffness, 0.0), law.rising
-    coefficients, constant, rising = (np.ascontiguousarray(values.T) for values in springs)
-    return FrictionRows(law.active, coefficients, constant, rising, law.ellipse, turned, turn[0], turn[1])
+    ellipse = given.spread("elliptic", nodes, 0.0) > 0.0
+    return FrictionLaw(coefficients, stiffness, mobilisation, ellipse, active, turned, turn[0], turn[1])
 
 
 def _pulling(given: ContactInput) -> IndexArray | None:

@@ -15,14 +15,13 @@ import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.contact.directions import Directions, directions_of, level, projected
-from mudline.contact.laws import PathLaw
+from mudline.contact.laws import Moving, PathLaw
 from mudline.contact.result import ContactResult
 from mudline.contact.tables import ContactState, Tables
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
-    from mudline.contact.laws.friction import ExtraLimit, FrictionForce, FrictionHistory, FrictionLaw
-    from mudline.contact.trenches import AddedLimit
+    from mudline.contact.laws.friction import ExtraLimit, FrictionForce, FrictionLaw
 
 
 class Triples(NamedTuple):
@@ -123,7 +122,7 @@ def assemble(
     _add_normal(step, (stiffness, own), step.slope, by_position)
     damping, own_damping = np.zeros(len(stiffness)), np.zeros(nodes)
     if speed is not None:
-        damping, own_damping = _suction_damping(step, speed) + _damping(step, speed), _nodal_damping(step, speed)
+        damping, own_damping = _damping(step, speed)
         _add_normal(step, (damping, own_damping), normal, by_velocity)
     if tables.lateral is not None:
         _add_lateral(step, by_position)
@@ -169,37 +168,22 @@ def _nodal_stiffness(step: _Step) -> FloatArray:
     return found
 
 
-def _damping(step: _Step, speed: FloatArray) -> FloatArray:
-    """Damping (m,) of the inward motion of elements."""
-    given, v = step.tables.damping, 0.5 * speed[step.ends].sum(axis=1)
-    return np.zeros(len(v)) if given is None else np.where((step.result.depth > 0.0) & (v < 0.0), given, 0.0)
-
-
-def _nodal_damping(step: _Step, speed: FloatArray) -> FloatArray:
-    """Damping (n,) of the inward motion of nodes."""
-    given = step.tables.nodal_damping
-    return np.zeros(len(speed)) if given is None else np.where((step.result.gap < 0.0) & (speed < 0.0), given, 0.0)
-
-
-def _suction_damping(step: _Step, speed: FloatArray) -> FloatArray:
-    """Minus d force / d pull-out velocity (m,) of suction."""
-    from mudline.contact.laws.suction import SUCTION, SuctionLaw, suction_damping  # noqa: PLC0415 - only now needed
-
-    tables, history = step.tables, step.before.suction
-    found = np.zeros(len(step.half))
-    if tables.suction is None or history is None or step.after.suction is None:
-        return found
-    elements = tables.suction.rows
-    uplift = (0.0 if tables.onset is None else tables.onset[elements]) - step.result.depth[elements]
+def _damping(step: _Step, speed: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Minus d force / d pull-out velocity of elements (m,) and of nodes (n,)."""
+    tables, depth = step.tables, step.result.depth
+    uplift = (0.0 if tables.onset is None else tables.onset) - depth
     if tables.unloading is not None and step.after.unloading is not None:
-        bottom = np.full(len(step.half), np.nan)
-        bottom[tables.unloading.rows] = step.after.unloading.bottom
-        unloads = ~np.isnan(bottom[elements])
-        uplift = np.where(unloads, bottom[elements] - step.result.depth[elements], uplift)
-    v = 0.5 * speed[step.ends[elements, 0]] + 0.5 * speed[step.ends[elements, 1]]
-    damping = suction_damping(uplift, v, history.v_max, SuctionLaw(*tables.suction.columns), history.factor)
-    found[elements] = np.where(step.after.suction.state == SUCTION, 0.0 - damping, 0.0)
-    return found
+        uplift[tables.unloading.rows] = step.after.unloading.bottom - depth[tables.unloading.rows]
+    ends, states = step.ends, (step.before.suction, step.after.suction)
+    of_elements = depth, 0.5 * speed[ends[:, 0]] + 0.5 * speed[ends[:, 1]], uplift
+    of_nodes = 0.0 - step.result.gap, speed, step.result.gap
+    damping, own = np.zeros(len(depth)), np.zeros(len(speed))
+    for given in tables.given.assigned.values():
+        if given.law.damping is not None:
+            found, values = (own, of_nodes) if given.law.acts_on == "nodes" else (damping, of_elements)
+            z, v, height = (value[given.rows] for value in values)
+            found[given.rows] += given.law.damping(Moving(z, v, height, *states), given.parameters)
+    return damping, own
 
 
 def _add_normal(step: _Step, by_height: tuple[FloatArray, FloatArray], slope: FloatArray, blocks: _Blocks) -> None:
@@ -251,24 +235,24 @@ def _turning(span: FloatArray, normal: FloatArray) -> FloatArray:
 class _Sliding(NamedTuple):
     """Friction of one step at nodes (n,).
 
-    directions: u1, u2 and how they turn. friction: its force along u1 and u2 with derivatives. added: what trenches add
-    to the lateral limit; None without trenches.
+    directions: u1, u2 and how they turn. friction: its force along u1 and u2 with derivatives. extra: what trenches and
+    breakouts change of the lateral limit; None without them.
     """
 
     directions: Directions
     friction: FrictionForce
-    added: AddedLimit | None
+    extra: ExtraLimit | None
 
 
 def _friction_of(step: _Step) -> _Sliding:
-    from mudline.contact.laws.friction import ExtraLimit, slide  # noqa: PLC0415 - only now is it needed
+    from mudline.contact.laws.friction import slide  # noqa: PLC0415 - only now is it needed
 
-    tables, law, history = step.tables, step.tables.friction_law, step.before.friction
+    tables, law, history = step.tables, step.tables.friction, step.before.friction
     absent = np.isnan(step.result.gap)
     places = np.where(absent[:, None], 0.0, step.points)
     compression = np.where(absent, 0.0, step.result.normal_force)
     directions = directions_of(tables, step.points, step.normal)
-    extra, added = None, None
+    extra = None
     if law is None or history is None:
         raise TypeError("the state has no friction: it belongs to another model")
     if tables.trench is not None:
@@ -276,60 +260,53 @@ def _friction_of(step: _Step) -> _Sliding:
 
         laid = step.points if step.before.laid is None else step.before.laid
         trial = slide(law, history, places, directions.axes, compression).trial[:, 1]
-        line = tables.laid_line(laid)
-        pressed, forward = np.maximum(compression, 0.0), trial > 0.0
-        added = added_limit(tables.trench, line, places, directions.axes, pressed, forward)
-        extra = ExtraLimit(added.force, np.ones(len(places)), added.by_normal_force, np.where(trial > 0.0, 1.0, -1.0))
+        pressed = np.maximum(compression, 0.0)
+        extra = added_limit(tables.trench, tables.laid_line(laid), places, directions.axes, pressed, trial > 0.0)
     if tables.breakout is not None:
-        law, extra, added = _breaking_out(step, law, history, directions, places, compression, extra, added)
-    return _Sliding(directions, slide(law, history, places, directions.axes, compression, extra), added)
+        law, extra = _breaking_out(step, law, directions, places, compression, extra)
+        trial = slide(law, history, places, directions.axes, compression).trial[:, 1]
+        extra.outward[tables.breakout.rows] = np.sign(trial[tables.breakout.rows])
+    return _Sliding(directions, slide(law, history, places, directions.axes, compression, extra), extra)
 
 
-def _breaking_out(  # noqa: PLR0913, PLR0917 - as above
+def _breaking_out(
     step: _Step,
     law: FrictionLaw,
-    history: FrictionHistory,
     directions: Directions,
     places: FloatArray,
     compression: FloatArray,
     extra: ExtraLimit | None,
-    added: AddedLimit | None,
-) -> tuple[FrictionLaw, ExtraLimit, AddedLimit]:
+) -> tuple[FrictionLaw, ExtraLimit]:
     """What a breakout leaves of springs and limits, as less of a limit; embedments are held."""
     from mudline.contact.laws.breakout import shares  # noqa: PLC0415 - most friction has no breakout
-    from mudline.contact.laws.friction import ExtraLimit, slide  # noqa: PLC0415 - only now is it needed
-    from mudline.contact.trenches import AddedLimit  # noqa: PLC0415 - as above
+    from mudline.contact.laws.friction import ExtraLimit  # noqa: PLC0415 - only now is it needed
 
     rows = step.tables.breakout
     if rows is None or step.before.breakout is None or step.after.breakout is None:
         raise TypeError("the state has no breakout: it belongs to another model")
-    count, nodes, numbers = len(places), rows.rows, rows.columns[:-1]
-    extra = extra or ExtraLimit(*(np.zeros(count) for _ in range(4)))
-    added = added or AddedLimit(np.zeros(count), np.zeros(count), np.zeros((count, 3)), np.zeros(count))
+    nodes, (first, second) = rows.rows, (axis[rows.rows] for axis in directions.axes)
+    extra = extra or ExtraLimit.none(len(places))
     far, deep = step.after.breakout[3:]
-    share, fall, softer = shares(far, deep, numbers)
+    share, fall, softer = shares(far, deep, rows.columns)
     away = places[nodes] - step.after.breakout[:3].T
-    distance = (away * directions.axes[1][nodes]).sum(axis=1)
+    distance = (away * second).sum(axis=1)
     grows = np.isfinite(distance) & (far > step.before.breakout[3])
     coefficient = law.coefficients[nodes, 1]
     pressed = coefficient * np.maximum(compression[nodes], 0.0)
     extra.force[nodes], extra.by_normal_force[nodes] = pressed * (share - 1.0), coefficient * (share - 1.0)
     extra.by_offset[nodes] = np.where(grows, 0.0 - pressed * fall * np.sign(distance), 0.0)
+    extra.gradient[nodes] = second
+    extra.by_angle[nodes] = np.where(grows, -(away * first).sum(axis=1), 0.0)
     mobilisation = law.mobilisation.copy()
     mobilisation[nodes, 1] /= softer
-    law = replace(law, mobilisation=mobilisation)
-    trial = slide(law, history, places, directions.axes, compression).trial
-    extra.outward[nodes] = np.sign(trial[nodes, 1])
-    added.gradient[nodes] = directions.axes[1][nodes]
-    added.by_angle[nodes] = np.where(grows, -(away * directions.axes[0][nodes]).sum(axis=1), 0.0)
-    return law, extra, added
+    return replace(law, mobilisation=mobilisation), extra
 
 
 def _add_springs(axes: FloatArray, sliding: _Sliding, closed: IndexArray, blocks: _Blocks) -> None:
     """Springs, and limits that follow the offset in a trench, along u1 and u2."""
     along = np.einsum("nij,njk->nik", sliding.friction.by_position, axes)
-    if sliding.added is not None:
-        along += sliding.friction.by_offset[:, :, None] * sliding.added.gradient[:, None, :]
+    if sliding.extra is not None:
+        along += sliding.friction.by_offset[:, :, None] * sliding.extra.gradient[:, None, :]
     own = np.einsum("nij,nik->njk", axes, along)
     blocks.add(closed, closed, own[closed])
 
@@ -361,8 +338,8 @@ def _add_turning(step: _Step, sliding: _Sliding, closed: IndexArray, blocks: _Bl
     first, second = sliding.directions.axes
     by_angle = np.stack([sliding.friction.elongation[:, 1], 0.0 - sliding.friction.elongation[:, 0]], axis=1)
     change = np.einsum("nij,nj->ni", sliding.friction.by_position, by_angle)
-    if sliding.added is not None:
-        change += sliding.friction.by_offset * sliding.added.by_angle[:, None]
+    if sliding.extra is not None:
+        change += sliding.friction.by_offset * sliding.extra.by_angle[:, None]
     turned = change[:, 0, None] * first + change[:, 1, None] * second
     turned += sliding.friction.force[:, 0, None] * second - sliding.friction.force[:, 1, None] * first
     held = _marked(closed, len(step.points)) & sliding.directions.follows

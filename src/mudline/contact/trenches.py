@@ -8,6 +8,7 @@ import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, SmallIndexArray, StateArray, put_at
 from mudline.contact.input import AssignedLaw, ContactInput, ElementError
+from mudline.contact.laws.friction import ExtraLimit
 from mudline.contact.laws.trench import (
     LEVEL,
     PEAK,
@@ -381,19 +382,6 @@ def ranks(nodes: IndexArray) -> list[IndexArray]:
     return [np.flatnonzero(rank == place) for place in range(int(rank.max(initial=-1)) + 1)]
 
 
-class AddedLimit(NamedTuple):
-    """What trenches add to the lateral limits of nodes (n,) on the side to which each is pulled, with derivatives.
-
-    force: added. by_normal_force: its derivative by N. gradient: (n, 3) by the node's position with u2 held.
-    by_angle: by a turn of u1 and u2 about the normal.
-    """
-
-    force: FloatArray
-    by_normal_force: FloatArray
-    gradient: FloatArray
-    by_angle: FloatArray
-
-
 def added_limit(
     whole: TrenchRows,
     line: LaidCentreline,
@@ -401,10 +389,13 @@ def added_limit(
     axes: tuple[FloatArray, FloatArray],
     normal_force: FloatArray,
     forward: BoolArray,
-) -> AddedLimit:
-    """Return what trenches add at `points` (n, 3); `forward` (n,) marks nodes pulled along +u2."""
+) -> ExtraLimit:
+    """Return what trenches add at `points` (n, 3) on the side to which each node is pulled; `forward` (n,): along +u2.
+
+    `gradient` and `by_angle` are those of the force, whose derivative `by_offset` is 1.
+    """
     count = len(points)
-    found = AddedLimit(np.zeros(count), np.zeros(count), np.zeros((count, 3)), np.zeros(count))
+    found = ExtraLimit.none(count)._replace(by_offset=np.ones(count), outward=np.where(forward, 1.0, -1.0))
     for place in ranks(whole.nodes):
         rows = whole.some(place)
         at, beside = rows.nodes, line.pieces_beside(rows)

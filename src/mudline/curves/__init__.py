@@ -31,7 +31,7 @@ from mudline.curves.points import (
     read_only,
     real_numbers,
 )
-from mudline.curves.search import BLOCK, Knots, Search, Workspace, blocks, search_for, workspace
+from mudline.curves.search import BLOCK, blocks, passed
 from mudline.limits import SHOWN_ROWS
 from mudline.short_repr import counted, cut
 
@@ -48,13 +48,14 @@ class ForceCurve:
         slopes: (n - 1,) d force / d ratio of each segment, read-only.
     """
 
-    __slots__ = ("_knots", "forces", "name", "ratios", "slopes")
+    __slots__ = ("_tails", "forces", "name", "ratios", "slopes")
 
     name: str | None
     ratios: FloatArray
     forces: FloatArray
     slopes: FloatArray
-    _knots: Knots
+    _tails: FloatArray
+    """(n,) slopes to the right of the points."""
 
     def __init__(self, points: ArrayLike, name: str | None = None) -> None:
         """Sort and check `points`: pairs (ratio, force) in any order; a repeated pair counts once.
@@ -70,7 +71,7 @@ class ForceCurve:
             "ratios": ratios,
             "forces": forces,
             "slopes": slopes,
-            "_knots": Knots(ratios, forces, slopes),
+            "_tails": read_only(np.concatenate((slopes, slopes[-1:]))),
         }
         for field, value in fields.items():
             object.__setattr__(self, field, value)
@@ -92,15 +93,11 @@ class ForceCurve:
         # Where results overwrite the ratios, these are still needed to report what is wrong.
         replaced = out is not None and any(np.may_share_memory(query, array) for array in out)
         done = 0
-        with workspace() as work, np.errstate(all="ignore"), blocks(query, force, slope) as pieces:
-            search = search_for(self._knots, query.size, work)
+        with np.errstate(all="ignore"), blocks(query, force, slope) as pieces:
             for block, block_force, block_slope in pieces:
-                ratio = block
-                if replaced:
-                    ratio = work.kept[: len(block)]
-                    ratio[...] = block
-                if not _fill(self._knots, search, work, ratio, block_force, block_slope):
-                    bad = _recompute_overflowed(self._knots, ratio, block_force)
+                ratio = block.copy() if replaced else block
+                if not self._fill(ratio, block_force, block_slope):
+                    bad = self._recompute_overflowed(ratio, block_force)
                     if bad.size:
                         _refuse(ratio, int(bad[0]), done)
                 done += len(ratio)
@@ -112,12 +109,34 @@ class ForceCurve:
         Where a ratio is not finite or the force overflows, the force is not finite. All three arrays are float64 and
         each in one piece of memory.
         """
-        with workspace() as work:
-            search = search_for(self._knots, len(ratios), work)
-            for start in range(0, len(ratios), BLOCK):
-                piece = slice(start, start + BLOCK)
-                if not _fill(self._knots, search, work, ratios[piece], force[piece], slope[piece]):
-                    _recompute_overflowed(self._knots, ratios[piece], force[piece])
+        for start in range(0, len(ratios), BLOCK):
+            piece = slice(start, start + BLOCK)
+            if not self._fill(ratios[piece], force[piece], slope[piece]):
+                self._recompute_overflowed(ratios[piece], force[piece])
+
+    def _fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
+        """Write force and slope at each ratio of a block; return whether every force is finite."""
+        # below the first point the first segment goes on: what is passed is the point from which the force is computed
+        point = passed(self.ratios[1:], ratio)
+        offset = self.ratios.take(point)
+        np.subtract(ratio, offset, out=offset)
+        np.take(self._tails, point, out=slope, mode="clip")
+        np.multiply(offset, slope, out=offset)
+        np.take(self.forces, point, out=force, mode="clip")
+        np.add(force, offset, out=force)
+        return bool(np.isfinite(force).all())
+
+    def _recompute_overflowed(self, ratio: FloatArray, force: FloatArray) -> IndexArray:
+        """Compute again the forces that are not finite; return where they still are not.
+
+        Only an intermediate value may have overflowed: added in two halves the force may well be finite.
+        """
+        where = np.flatnonzero(~np.isfinite(force))
+        at = passed(self.ratios[1:], ratio[where])
+        half = self._tails[at] * (0.5 * ratio[where] - 0.5 * self.ratios[at])
+        force[where] = self.forces[at] + half + half
+        found: IndexArray = where[~np.isfinite(force[where])]
+        return found
 
     def segment(self, ratios: ArrayLike) -> IndexArray:
         """Return which segment applies at `ratios`, from 0: the first also below, the last also beyond the points.
@@ -128,11 +147,10 @@ class ForceCurve:
         query = real_numbers(ratios, "ratios")
         found = np.empty(query.shape, np.intp)
         done = 0
-        with workspace() as work, np.errstate(all="ignore"), blocks(query, found) as pieces:
-            search = search_for(self._knots, query.size, work)
+        with np.errstate(all="ignore"), blocks(query, found) as pieces:
             for ratio, block_found in pieces:
                 _refuse_infinite(ratio, done)
-                np.minimum(search.passed(ratio), len(self.slopes) - 1, out=block_found)
+                np.minimum(passed(self.ratios[1:], ratio), len(self.slopes) - 1, out=block_found)
                 done += len(ratio)
         return found
 
@@ -240,33 +258,6 @@ def _checked_out(out: tuple[FloatArray, FloatArray], shape: tuple[int, ...]) -> 
         if array.shape != shape or array.dtype != np.float64:
             raise ValueError(f"out must be float64 of shape {shape}, not {array.dtype} of shape {array.shape}")
     return out
-
-
-def _fill(
-    knots: Knots, search: Search, work: Workspace, ratio: FloatArray, force: FloatArray, slope: FloatArray
-) -> bool:
-    """Write force and slope at each ratio of a block; return whether every force is finite."""
-    point, offset = search.passed(ratio), work.real[: len(ratio)]
-    np.take(knots.ratios, point, out=offset, mode="clip")
-    np.subtract(ratio, offset, out=offset)
-    np.take(knots.tails, point, out=slope, mode="clip")
-    np.multiply(offset, slope, out=offset)
-    np.take(knots.forces, point, out=force, mode="clip")
-    np.add(force, offset, out=force)
-    return bool(np.isfinite(force, out=work.flag[: len(ratio)]).all())
-
-
-def _recompute_overflowed(knots: Knots, ratio: FloatArray, force: FloatArray) -> IndexArray:
-    """Compute again the forces that are not finite; return where they still are not.
-
-    Only an intermediate value may have overflowed: added in two halves the force may well be finite.
-    """
-    where = np.flatnonzero(~np.isfinite(force))
-    at = np.minimum(np.searchsorted(knots.inner, ratio[where], side="right"), len(knots.inner))
-    half = knots.tails[at] * (0.5 * ratio[where] - 0.5 * knots.ratios[at])
-    force[where] = knots.forces[at] + half + half
-    found: IndexArray = where[~np.isfinite(force[where])]
-    return found
 
 
 def _refuse_infinite(ratio: FloatArray, start: int) -> None:

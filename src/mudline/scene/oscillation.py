@@ -315,8 +315,7 @@ def _of_springs(
 
 def _of_suction(scene: ResolvedDeck, given: ContactInput, carried: _Carried) -> Iterator[Oscillation | tuple[str, str]]:
     """Suction that is mobilised, and its damping at rest, by the place that gives it."""
-    from mudline.contact.laws.suction import SuctionLaw  # noqa: PLC0415 - only now is it needed
-    from mudline.contact.stiffest import suction_rates  # noqa: PLC0415 - only now is it needed
+    from mudline.contact.laws.suction import SuctionLaw, suction_rates  # noqa: PLC0415 - only now is it needed
 
     own = scene.extensions["SEABED SUCTION"]
     assigned = given.assigned["suction"]

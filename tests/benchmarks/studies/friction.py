@@ -32,8 +32,14 @@ import numpy as np
 
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.friction import FrictionHistory, FrictionLaw, slide
-from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, breakout_uplift, from_cohesion, step
-from mudline.contact.stiffest import release_stiffness
+from mudline.contact.laws.suction import (
+    SuctionHistory,
+    SuctionLaw,
+    breakout_uplift,
+    from_cohesion,
+    release_stiffness,
+    step,
+)
 from tests.benchmarks.studies.laws import DIAMETER
 from tests.benchmarks.studies.newton import Newton
 from tests.benchmarks.tables import digits, load, save, table

@@ -89,7 +89,7 @@ def features_of(tables: Tables, *, flat: bool) -> Features:
         lateral=tables.lateral is not None,
         nodal=bool(tables.nodal),
         friction=friction is not None,
-        elliptic=friction is not None and bool(friction.elliptic.any()),
+        elliptic=friction is not None and bool(friction.ellipse.any()),
         turned=friction is not None and bool(friction.turned.size),
         trench=trench is not None,
         tables=trench is not None and bool((trench.table >= 0).any()),
@@ -177,10 +177,10 @@ def node_tables(tables: Tables) -> tuple[Any, Any]:
             numbers[rows.rows, column] = values
     friction = tables.friction
     if friction is not None:
-        index[:, ACTIVE], index[:, ELLIPTIC] = friction.active, friction.elliptic
-        pairs = ((MU_1, friction.coefficients), (CONSTANT_1, friction.constant), (RISING_1, friction.rising))
+        index[:, ACTIVE], index[:, ELLIPTIC] = friction.active, friction.ellipse
+        pairs = ((MU_1, friction.coefficients), (CONSTANT_1, friction.fixed), (RISING_1, friction.rising))
         for column, values in pairs:
-            numbers[:, column], numbers[:, column + 1] = values
+            numbers[:, column : column + 2] = values
         numbers[friction.turned, COSINE], numbers[friction.turned, SINE] = friction.cosine, friction.sine
     if tables.breakout is not None:
         index[tables.breakout.rows, BREAKS_OUT] = np.arange(len(tables.breakout.rows))
@@ -189,7 +189,8 @@ def node_tables(tables: Tables) -> tuple[Any, Any]:
 
 def breakout_table(tables: Tables) -> Any:
     """Breakout laws (k, 6): the parameters, and 1 over the elements at the node."""
-    return read_only(np.empty((0, 6)) if tables.breakout is None else np.column_stack(tables.breakout.columns))
+    rows = tables.breakout
+    return read_only(np.empty((0, 6)) if rows is None else np.column_stack((*rows.columns, tables.shares)))
 
 
 def trench_tables(tables: Tables) -> tuple[Any, ...]:

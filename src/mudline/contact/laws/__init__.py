@@ -20,7 +20,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from mudline.contact.arrays import BoolArray, FloatArray
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.short_repr import short_repr
 
 Value = Any
@@ -36,6 +36,47 @@ def where(condition: Value, one: Value, other: Value) -> Value:
 def every(condition: Value) -> bool:
     """Return whether a condition holds, for all of an array."""
     return bool(np.all(condition))
+
+
+class Reached(NamedTuple):
+    """What the rows (k,) of a law beside the normal ones come to, for its largest stiffness and damping.
+
+    Attributes:
+        virgin: of elements: the steepest stiffness of their normal laws.
+        speed: of elements: pull-out velocities (..., k) >= 0; None for any.
+        normal_force: of nodes: the largest normal force, NaN where unknown.
+        lateral: of nodes: the coefficient of their lateral friction.
+        walls: whether trenches add to the limits of friction.
+    """
+
+    virgin: FloatArray
+    speed: FloatArray | None
+    normal_force: FloatArray
+    lateral: FloatArray
+    walls: bool
+
+    def of_rows(self, rows: IndexArray, acts_on: str) -> Reached:
+        """Return some rows of all elements, or of all nodes."""
+        if acts_on == "nodes":
+            return self._replace(normal_force=self.normal_force[rows], lateral=self.lateral[rows])
+        return self._replace(virgin=self.virgin[rows], speed=None if self.speed is None else self.speed[..., rows])
+
+
+class Moving(NamedTuple):
+    """How the rows (k,) of a law beside the normal ones move in a step, for its damping there.
+
+    Attributes:
+        z: penetration.
+        v: pull-out velocity.
+        uplift: height above where the reaction of the seabed vanishes.
+        before, after: what suction remembers.
+    """
+
+    z: FloatArray
+    v: FloatArray
+    uplift: FloatArray
+    before: Any
+    after: Any
 
 
 class Parameter(NamedTuple):
@@ -96,6 +137,13 @@ class Law:
         history: whether a step's result depends on the steps before it.
         tables: whether it takes tables besides numbers; `parameters` then has the index of one.
         check: what the parameters, by name, must be to each other: where it does not hold, and what it is.
+        state: field of `ContactState` that has what its rows remember, where it remembers something.
+        initial: (number of rows, parameters by name) to that before the first step.
+        damping: (`Moving`, parameters by name) to minus d force / d pull-out velocity of each row, for tangents.
+        plan: what the plan says behind the number of rows, or a function of the parameters by name to all that it
+            says; "with" and the summary where it is empty, nothing for None.
+        largest: (`Reached`, parameters by name) to the largest stiffness and the largest damping of each row, for laws
+            beside the normal ones; None stands for no damping.
         equation: in one line.
         source: where the equation is published.
     """
@@ -110,6 +158,11 @@ class Law:
     history: bool = False
     tables: bool = False
     check: Callable[[dict[str, FloatArray]], tuple[BoolArray, str]] | None = None
+    plan: str | Callable[[dict[str, FloatArray]], str] | None = ""
+    largest: Callable[[Reached, dict[str, FloatArray]], tuple[FloatArray, FloatArray | None]] | None = None
+    state: str = ""
+    initial: Callable[[int, dict[str, FloatArray]], Any] | None = None
+    damping: Callable[[Moving, dict[str, FloatArray]], FloatArray] | None = None
     equation: str = ""
     source: str = ""
 
@@ -135,6 +188,7 @@ class NormalLaw(Law):
 
     reaction: Reaction | None = None
     steepest: Callable[..., Value] | None = None
+    plan: str | Callable[[dict[str, FloatArray]], str] | None = None
     onset: Callable[..., Value] = field(default=_never)
 
     __repr__ = short_repr
@@ -196,8 +250,8 @@ _LAWS: dict[str, str | Law] = {
     "curve": "curve:CURVE",
     "rigid": "linear:RIGID",
     "unloading": "unloading:UNLOADING",
-    "suction spring": "linear:SUCTION_SPRING",
     "suction": "suction:SUCTION_LAW",
+    "suction spring": "linear:SUCTION_SPRING",
     "friction": "friction:FRICTION",
     "lateral": "linear:LATERAL",
     "trench peak": "trench:TRENCH_PEAK",

@@ -16,7 +16,7 @@ from __future__ import annotations
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray
-from mudline.contact.laws import Law, Parameter, Value, where
+from mudline.contact.laws import Law, Parameter, Reached, Value, where
 
 Numbers = tuple[Value, ...]
 
@@ -47,6 +47,12 @@ def _out_of_order(given: dict[str, FloatArray]) -> tuple[BoolArray, str]:
     return given["residual_displacement"] <= peak, "its residual is reached no later than its peak"
 
 
+def _largest(reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, None]:
+    """The fall of the lateral resistance behind its peak, as an amount; that of a large embedment is less steep."""
+    fall = reached.lateral * reached.normal_force * np.maximum(1.0 - given["residual"], 0.0)
+    return fall / (given["residual_displacement"] - given["peak_displacement"]), None
+
+
 BREAKOUT = Law(
     name="breakout",
     summary="a lateral breakout that is had once, and a residual",
@@ -60,7 +66,11 @@ BREAKOUT = Law(
         Parameter("residual_displacement", "L", "at which the residual is reached", above=True),
     ),
     history=True,
+    state="breakout",
+    initial=lambda count, _: np.repeat([[np.nan], [np.nan], [np.nan], [0.0], [0.0]], count, axis=1),
     check=_out_of_order,
+    plan="with a lateral breakout that is had once, and a residual, where mu2 and Kt2 have no effect",
+    largest=_largest,
     equation="limit = mu2 N up to s = d, falling to r mu2 N; s the largest displacement so far",
     source="DNV-RP-F114, residual factor and best estimates of displacements, read at second hand",
 )

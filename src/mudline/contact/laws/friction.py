@@ -19,15 +19,15 @@ are. Where they turn with the line and K_1 differs from K_2, turning them at an 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 
-from mudline.contact.arrays import BoolArray, FloatArray, StateArray
-from mudline.contact.laws import Law, Parameter, Value, where
-from mudline.short_repr import short_repr
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, StateArray
+from mudline.contact.laws import Law, Parameter, Reached, Value, where
+from mudline.short_repr import counted, short_repr
 
 _TINY = float(np.nextafter(0.0, 1.0))
 _FAR, _DROP = 2.0**-1000, 2.0**-550
@@ -99,6 +99,7 @@ class FrictionLaw:
         mobilisation: (n, 2) mobilisation lengths, > 0: the spring is mu N / length; not looked at beside a stiffness.
         ellipse: (n,) whether one elliptic criterion holds for both directions instead of one for each.
         active: (n,) nodes that have a law.
+        turned: nodes (k,) whose u1 is at an angle to +Y, with `cosine` and `sine` of it.
     """
 
     coefficients: FloatArray
@@ -106,11 +107,20 @@ class FrictionLaw:
     mobilisation: FloatArray
     ellipse: BoolArray
     active: BoolArray
+    turned: IndexArray = field(default_factory=lambda: np.empty(0, np.intp))
+    cosine: FloatArray = field(default_factory=lambda: np.empty(0))
+    sine: FloatArray = field(default_factory=lambda: np.empty(0))
 
     @property
     def constant(self) -> BoolArray:
         """Where (n, 2) the spring is constant."""
         return ~np.isnan(self.stiffness)
+
+    @property
+    def fixed(self) -> FloatArray:
+        """Stiffness (n, 2) of the springs that are constant, else 0."""
+        found: FloatArray = np.where(self.constant, self.stiffness, 0.0)
+        return found
 
     @property
     def rising(self) -> FloatArray:
@@ -121,7 +131,7 @@ class FrictionLaw:
 
     def springs(self, normal_force: FloatArray) -> FloatArray:
         """Return the stiffness (n, 2) of the springs under normal forces (n,) >= 0."""
-        found: FloatArray = np.where(self.constant, self.stiffness, 0.0) + self.rising * normal_force[:, None]
+        found: FloatArray = self.fixed + self.rising * normal_force[:, None]
         return found
 
 
@@ -147,18 +157,28 @@ class FrictionHistory:
 
 
 class ExtraLimit(NamedTuple):
-    """What trenches add to the lateral limit of nodes (n,), against outward motion.
+    """What trenches add to the lateral limit of nodes (n,), against outward motion, and a breakout takes away.
 
-    force: added force, >= 0.
-    by_offset: its derivative by the offset along u2.
+    force: added force.
+    by_offset: its derivative by an offset.
     by_normal_force: its derivative by N.
     outward: +1 where motion along +u2 leads out of the trench, -1 where that along -u2 does, 0 for neither.
+    gradient: (n, 3) of the offset by the node's position with u2 held, for tangents.
+    by_angle: derivative of the offset by a turn of u1 and u2 about the normal, for tangents.
     """
 
     force: FloatArray
     by_offset: FloatArray
     by_normal_force: FloatArray
     outward: FloatArray
+    gradient: FloatArray = np.zeros((0, 3))
+    by_angle: FloatArray = np.zeros(0)
+
+    @classmethod
+    def none(cls, nodes: int) -> Self:
+        """Return that of nodes without any."""
+        force, offset, normal, outward, angle = np.zeros((5, nodes))
+        return cls(force, offset, normal, outward, np.zeros((nodes, 3)), angle)
 
 
 class FrictionForce(NamedTuple):
@@ -292,6 +312,30 @@ def _ellipse(step: _Trial, rising: FloatArray, by_offset: FloatArray, by_normal:
         return by_position, 0.0 - force * growth_by_offset, rising / scale - force * growth_by_normal
 
 
+def _plan(given: dict[str, FloatArray]) -> str:
+    constant = ~(np.isnan(given["axial_stiffness"]) & np.isnan(given["lateral_stiffness"]))
+    parts = []
+    if constant.any():
+        ellipses = int((constant & (given["elliptic"] > 0.0)).sum())
+        criterion = f", {ellipses} of them with an ellipse" if ellipses else ""
+        parts.append(f"{counted(int(constant.sum()), 'node')} with a constant spring{criterion}")
+    if lengths := int((~constant).sum()):
+        parts.append(f"{counted(lengths, 'node')} with a mobilisation length, Kt = mu N / length (inferred)")
+    return "; ".join(parts)
+
+
+def _largest(reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, None]:
+    """The spring of a node that sticks, the stiffer of both directions."""
+    springs = []
+    for side in ("axial", "lateral"):
+        coefficient, constant = given[f"{side}_coefficient"], given[f"{side}_stiffness"]
+        rising = coefficient / given[f"{side}_mobilisation"]
+        spring = np.where(np.isnan(constant), np.where(rising > 0.0, rising * reached.normal_force, 0.0), constant)
+        # a direction without a coefficient has no limit to stick below; trench walls add one
+        springs.append(spring if reached.walls else np.where(coefficient > 0.0, spring, 0.0))
+    return np.maximum(*springs), None
+
+
 FRICTION = Law(
     name="friction",
     summary="Coulomb friction in two directions",
@@ -310,6 +354,8 @@ FRICTION = Law(
         ),
     ),
     history=True,
+    plan=_plan,
+    largest=_largest,
     equation="f_i = -K_i e_i, |f_i| <= mu_i N",
     source="return mapping after Simo and Hughes (1998), Computational Inelasticity, chapter 1",
 )

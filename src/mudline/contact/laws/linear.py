@@ -28,10 +28,13 @@ each node:
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.laws import Law, NormalLaw, Parameter, Value, where
+from mudline.contact.laws import Law, NormalLaw, Parameter, Reached, Value, where
+from mudline.short_repr import counted
 
 _WIDEST = 0.25 * float(np.finfo(np.float64).max)
 """Half widths above this are halved in the sums, which would overflow."""
@@ -136,6 +139,14 @@ NODAL = NormalLaw(
 )
 
 
+def _own_stiffness(_reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, None]:
+    return given["stiffness"], None
+
+
+def _planned(what: str) -> Callable[[dict[str, FloatArray]], str]:
+    return lambda given: f"{counted(int((given['stiffness'] > 0.0).sum()), 'element')} with a spring {what}"
+
+
 def spring_suction(uplift: Value, stiffness: Value, extent: Value) -> tuple[Value, Value]:
     """Return the force per unit length at a height `uplift` above the seabed, and its stiffness -d force / d x."""
     held = (uplift > 0.0) & (uplift <= extent)
@@ -151,6 +162,8 @@ SUCTION_SPRING = Law(
         Parameter("stiffness", "F/L2", "force per unit length and length of uplift"),
         Parameter("extent", "L", "height above the seabed up to which it acts"),
     ),
+    plan=_planned("up to an extent, without history (inferred)"),
+    largest=_own_stiffness,
     equation="f = -k x for 0 < x <= extent",
     source="SUCTION= of *SEABED PROPERTIES (INFERRED)",
 )
@@ -168,6 +181,10 @@ LATERAL = Law(
     acts_on="elements",
     parameters=(Parameter("stiffness", "F/L2", "force per unit length and length of lateral displacement"),),
     history=True,
+    state="touchdown",
+    initial=lambda count, _: np.full((count, 3), np.nan, order="F"),
+    plan=_planned("to where it touched down (inferred), in place of friction"),
+    largest=_own_stiffness,
     equation="f = -k y, y the displacement along n x t from the touchdown point",
     source="LATERAL= of *SEABED PROPERTIES (INFERRED)",
 )
@@ -178,6 +195,7 @@ RIGID = Law(
     summary="rigid seabed, a constraint",
     acts_on="elements",
     parameters=(),
+    plan=None,
     equation="gap >= 0",
     source="definition of TYPE=RIGID",
 )

@@ -24,9 +24,9 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, StateArray
-from mudline.contact.laws import Law, Parameter, Value, where
-from mudline.short_repr import short_repr
+from mudline.contact.arrays import BoolArray, FloatArray, StateArray
+from mudline.contact.laws import Law, Moving, Parameter, Reached, Value, where
+from mudline.short_repr import counted, short_repr
 
 FORCE_EXPONENT = 0.18
 DEPTH_EXPONENT = 0.26
@@ -169,10 +169,6 @@ class SuctionLaw(NamedTuple):
     cyclic: FloatArray
     regularisation: FloatArray
     cyclic_floor: FloatArray
-
-    def rows(self, rows: slice | IndexArray) -> SuctionLaw:
-        """Return the laws of some elements, as views of a slice."""
-        return SuctionLaw(*(values[rows] for values in self))
 
     @property
     def counts_cycles(self) -> BoolArray:
@@ -327,6 +323,61 @@ def _crossed(given: dict[str, FloatArray]) -> tuple[BoolArray, str]:
     return given["first_corner"] > given["second_corner"], "its first corner is above its second"
 
 
+def suction_rates(law: SuctionLaw, v: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return F_max / (xc1 Delta_B) and dF_max / dv per unit length, at the end of the rise, at velocities v."""
+    factor = law.force_factor * law.largest_factor
+    with np.errstate(all="ignore"):
+        force, by_velocity = maximum_force(v, factor, law.force_exponent, law.regularisation)
+        uplift = breakout_uplift(v, law.depth_factor, law.depth_exponent, law.regularisation)
+        rise: FloatArray = force / (law.first_corner * uplift)
+    return rise, by_velocity
+
+
+def release_stiffness(law: SuctionLaw, velocity: FloatArray) -> FloatArray:
+    """Return |d force / d uplift| on the release of suction, per unit length, at steady pull-out velocities > 0 (m,).
+
+    F_max / ((1 - xc2) Delta_B): only a structure that is stiffer, per unit length, has one equilibrium there.
+    """
+    with np.errstate(all="ignore"):
+        force, _ = maximum_force(
+            velocity, law.force_factor * law.largest_factor, law.force_exponent, law.regularisation
+        )
+        uplift = breakout_uplift(velocity, law.depth_factor, law.depth_exponent, law.regularisation)
+        slope: FloatArray = force / ((1.0 - law.second_corner) * uplift)
+    return slope
+
+
+def _damping(step: Moving, given: dict[str, FloatArray]) -> FloatArray:
+    found = suction_damping(step.uplift, step.v, step.before.v_max, SuctionLaw(**given), step.before.factor)
+    return np.where(step.after.state == SUCTION, 0.0 - found, 0.0)
+
+
+def _plan(given: dict[str, FloatArray]) -> str:
+    slow = sorted(set(given["regularisation"].tolist()))
+    span = f"{slow[0]:g}" if len(slow) == 1 else f"{slow[0]:g} to {slow[-1]:g}"
+    capped = f", less force than alpha v^n below v = {span}" if slow[-1] > 0.0 else ""
+    elements = counted(len(given["regularisation"]), "element")
+    return f"{elements} after Bridge et al., with a state each{capped}"
+
+
+def _largest(reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, FloatArray]:
+    """The rise and the damping at the velocity that makes them largest; infinite where none does."""
+    law = SuctionLaw(**given)
+    if reached.speed is not None:
+        rise, damping = (
+            rates if rates.ndim == 1 else np.fmax.reduce(rates, axis=0) for rates in suction_rates(law, reached.speed)
+        )
+        return rise, damping
+    factor = law.force_factor * law.largest_factor
+    n, slow = law.force_exponent, law.regularisation
+    rise = suction_rates(law, slow)[0]
+    rise = np.where((n > law.depth_exponent) & (factor > 0.0), np.inf, np.where(slow > 0.0, rise, np.inf))
+    at_rest, at_slow = maximum_force(0.0 * slow, factor, n, slow)[1], maximum_force(slow, factor, n, slow)[1]
+    damping = np.where((n > 1.0) & (factor > 0.0), np.inf, np.maximum(at_rest, at_slow))
+    damping = np.where((slow > 0.0) | (n >= 1.0), damping, np.inf)
+    return np.where(factor > 0.0, rise, 0.0), np.where(factor > 0.0, damping, 0.0)
+
+
 SUCTION_LAW = Law(
     name="suction",
     summary="suction after Bridge et al., with a state",
@@ -351,7 +402,12 @@ SUCTION_LAW = Law(
     ),
     velocities=True,
     history=True,
+    state="suction",
+    initial=lambda _, given: SuctionHistory.initial(SuctionLaw(**given)),
     check=_crossed,
+    plan=_plan,
+    largest=_largest,
+    damping=_damping,
     equation="F = -cyclic alpha_f v^n_f trapezoid(x / (alpha_D v_max^n_D))",
     source="Bridge, Laver, Clukey and Evans (2004), OTC 16628",
 )

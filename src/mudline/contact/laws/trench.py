@@ -144,7 +144,7 @@ def _widths(given: dict[str, FloatArray]) -> tuple[BoolArray, str]:
     return ~(given["upper"] > given["bottom"]), "the upper width of its trench is not above the bottom width"
 
 
-def _trench(name: str, summary: str, own: Parameter, equation: str, *, tables: bool = False) -> Law:
+def _trench(name: str, summary: str, own: Parameter, plan: str, equation: str, *, tables: bool = False) -> Law:
     """A law of a trench with a parameter of its own."""
     return Law(
         name=name,
@@ -154,6 +154,7 @@ def _trench(name: str, summary: str, own: Parameter, equation: str, *, tables: b
         parameters=(*_WIDTHS, own, *_CENTRELINE),
         tables=tables,
         check=_widths,
+        plan=plan,
         equation=equation,
         source="trench of DeepLines as publicly described, read as a lateral limit (INFERRED)",
     )
@@ -163,12 +164,14 @@ TRENCH_PEAK = _trench(
     "trench peak",
     "trench with a peak lateral resistance",
     Parameter("peak", "F/L", "peak lateral resistance per unit length"),
+    "with a peak resistance of the walls (inferred), where the depth has no effect (MODEL=WALL uses it)",
     "limit = mu2 N + PEAK s(|y|) L / 2 against outward motion",
 )
 TRENCH_TABLE = _trench(
     "trench table",
     "trench with a tabulated lateral resistance",
     Parameter("table", "1", "index of the table"),
+    "with a tabulated resistance of the walls (inferred), where depth and widths have no effect",
     "limit = mu2 N + p(|y|) L / 2 against outward motion",
     tables=True,
 )
@@ -176,11 +179,13 @@ TRENCH_LEVEL = _trench(
     "trench level",
     "seabed that is lowered in a trench",
     Parameter("depth", "L", "depth of the trench", above=True),
+    "where the seabed is lowered by depth and widths after all, along the normal of the seabed",
     "gap + depth w(|y|)",
 )
 TRENCH_WALL = _trench(
     "trench wall",
     "trench with sloped walls",
     Parameter("depth", "L", "depth of the trench", above=True),
+    "with sloped walls (inferred)",
     "limit = N (tan theta + mu2) / (1 - mu2 tan theta) on the wall, against outward motion",
 )

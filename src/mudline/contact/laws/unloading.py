@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.laws import Law, Parameter, Value, where
+from mudline.contact.laws import Law, Parameter, Reached, Value, where
 from mudline.short_repr import short_repr
 
 
@@ -93,6 +93,11 @@ def on_line(z: Value, z_max: Value, force_max: Value, line: Value, bottom: Value
     return where(below, np.maximum(force_max - line * (z_max - z), 0.0), 0.0), where(below, line, 0.0)
 
 
+def _largest(reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, None]:
+    """ku, or the steepest slope of the virgin path where that is steeper."""
+    return np.maximum(given["stiffness"], reached.virgin), None
+
+
 UNLOADING = Law(
     name="unloading",
     summary="unloading line from the deepest point so far",
@@ -100,6 +105,10 @@ UNLOADING = Law(
     acts_on="elements",
     parameters=(Parameter("stiffness", "F/L2", "unloading stiffness ku", above=True),),
     history=True,
+    state="unloading",
+    initial=lambda _, given: UnloadingHistory.initial(given["stiffness"]),
+    plan="on unloading lines, from the deepest point so far",
+    largest=_largest,
     equation="F = max(0, F_max - ku' (z_max - z)) below z_max",
     source="linear unloading and reloading as in the full cycle of pipe-soil interaction models",
 )

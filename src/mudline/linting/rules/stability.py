@@ -97,7 +97,7 @@ def suction_snap(context: LintContext) -> Iterator[Problem]:
 
 def _release(law: SuctionLaw) -> Floats:
     """|slope| of the release branch, per unit length, of some elements; NaN where it is not known."""
-    from mudline.contact.stiffest import release_stiffness  # noqa: PLC0415 - most decks do without
+    from mudline.contact.laws.suction import release_stiffness  # noqa: PLC0415 - most decks do without
 
     with np.errstate(all="ignore"):
         usable = (law.second_corner >= _SMALLEST_PART) & (law.second_corner <= _LARGEST_PART)
