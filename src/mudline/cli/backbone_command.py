@@ -193,17 +193,7 @@ def _head(backbone: Backbone, wanted: Wanted, points: FloatArray) -> list[str]:
 
 
 def _rows(backbone: Backbone, wanted: Wanted, points: FloatArray) -> list[dict[str, Any]]:
-    """The model and its curve, as `curve_rows` has curves."""
+    """The model and its curve, as they are drawn."""
     smooth = np.linspace(0.0, 1.0, _DRAWN) ** 2 * wanted.depth
-    drawn = {"model": np.column_stack((smooth, backbone.force(smooth))), wanted.name: points}
-    curves = [ForceCurve(given - [wanted.shift, 0.0], name) for name, given in drawn.items()]
-    return [
-        {
-            "name": curve.name,
-            "kind": OF_SEABED,
-            "axes": ["ratio", "force"],
-            "points": np.column_stack((curve.ratios, curve.forces)).tolist(),
-            "segments": [{"slope": slope} for slope in curve.slopes.tolist()],
-        }
-        for curve in curves
-    ]
+    drawn = (("model", np.column_stack((smooth, backbone.force(smooth)))), (wanted.name, points))
+    return [{"name": name, "kind": OF_SEABED, "points": given - [wanted.shift, 0.0]} for name, given in drawn]

@@ -42,7 +42,7 @@ def curves_figure(
     """Return a figure of curves by kind, dashed beyond their points, with the values asked for.
 
     Args:
-        rows: `curve_rows` of a deck, or as they are.
+        rows: as of `curve_rows`: name, kind, points, values asked for, and axes, but of curves of the seabed.
         units: system of units.
         units_of: `curve_units` of the deck, where there are other curves than those of the seabed.
     """
@@ -59,9 +59,10 @@ def curves_figure(
         _explain(axes, own)
         zero_line(axes)
         axes.axvline(0.0, color="0.4", linewidth=0.8, zorder=1)
-        names, dimensions = own[0]["axes"], (units_of or {}).get(kind, ("", ""))
         if kind == OF_SEABED:
             names, dimensions = (ELEMENTS["ratio"].label, ELEMENTS["force"].label), ("-", "F/L")
+        else:
+            names, dimensions = own[0]["axes"], (units_of or {})[kind]
         axes.set_xlabel(_label(names[0], dimensions[0], units))
         axes.set_ylabel(_label(names[1], dimensions[1], units))
         finish(axes)
@@ -82,20 +83,18 @@ def _curve(axes: Axes, row: dict[str, Any], style: Style) -> None:
     marker = style.marker if len(ratios) <= MOST_MARKED else ""
     name = legend_name(row["name"])
     axes.plot(ratios, forces, color=style.color, linewidth=1.3, marker=marker, markersize=3.5, label=name)
-    marks = {key: [(one["ratio"], one["force"]) for one in row.get(key, ())] for key, _, _ in _MARKS.values()}
-    marked = [ratio for points in marks.values() for ratio, _ in points]
-    ends = (
-        (ratios[0], forces[0], row["segments"][0]["slope"], min([0.0, *marked])),
-        (ratios[-1], forces[-1], row["segments"][-1]["slope"], max([ratios[-1] * (1.0 + _MARGIN), *marked])),
-    )
-    for (ratio, force, slope, to), outward in zip(ends, (-1.0, 1.0), strict=True):
-        with np.errstate(over="ignore"):
-            end = force + slope * (to - ratio)
-        if outward * (to - ratio) > 0.0 and np.isfinite(end):
-            axes.plot([ratio, to], [force, end], color=style.color, linestyle="--", linewidth=1.0)
+    marked = []
     for key, shape, size in _MARKS.values():
-        for x, y in marks[key]:
-            axes.plot(x, y, shape, **_mark(style.color, size))
+        for one in row.get(key, ()):
+            axes.plot(one["ratio"], one["force"], shape, **_mark(style.color, size))
+            marked.append(one["ratio"])
+    far = ratios[-1] * (1.0 + _MARGIN)
+    for end, inner, to in ((0, 1, min([0.0, *marked])), (-1, -2, max([far, *marked]))):
+        with np.errstate(all="ignore"):
+            part = (to - ratios[end]) / (ratios[end] - ratios[inner])
+            force = forces[end] + part * (forces[end] - forces[inner])
+        if part > 0.0 and np.isfinite(force):
+            axes.plot([ratios[end], to], [forces[end], force], color=style.color, linestyle="--", linewidth=1.0)
 
 
 def _mark(color: str, size: float) -> dict[str, Any]:
