@@ -150,7 +150,7 @@ def touchdown(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     for line in stretch.lines:
         first, last = data.touchdown[line.number]
         two = not np.array_equal(first.most, last.most, equal_nan=True)
-        name = stretch.name(line) if several else "first touchdown point" if two else "touchdown point"
+        name = f"line {line.number + 1}" if several else "first touchdown point" if two else "touchdown point"
         _band(axes, data, first, line.style, name)
         if two:
             other = Style(line.style.color if several else COLORS[1], ":" if several else "--", line.style.marker)
