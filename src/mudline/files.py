@@ -14,6 +14,9 @@ from typing import BinaryIO, NamedTuple
 
 from mudline.overwriting import reading
 
+PLOT_FORMS = ("png", "svg", "pdf")
+"""Suffixes of the file of a plot."""
+
 _URL = re.compile(r"[A-Za-z][A-Za-z0-9+.:-]+://")
 
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0) | getattr(os, "O_NOFOLLOW", 0)

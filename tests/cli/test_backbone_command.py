@@ -115,4 +115,3 @@ def test_picture(folder: Path) -> None:
     assert outcome.code == 0
     drawn = (folder / "f114.svg").read_text(encoding="utf-8")
     assert "model" in drawn
-    assert run("backbone", "f114", *CLAY, "--plot", "f114.txt").code == 2

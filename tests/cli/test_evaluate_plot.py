@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from unittest.mock import patch
 
 import pytest
 
@@ -112,11 +111,3 @@ def test_a_plot_that_cannot_be_written(place: Place) -> None:
     outcome = run("evaluate", place(), "--plot", "nowhere/p.svg", "-q")
     assert outcome.code == 2
     assert outcome.err == "mudline: nowhere/p.svg: cannot be written: no such file or directory\n"
-
-
-def test_without_matplotlib(place: Place, folder: Path) -> None:
-    with patch.dict("sys.modules", {"mudline.results.plots": None}):
-        outcome = run("evaluate", place(), "--plot", "p.png")
-    assert (outcome.code, outcome.out) == (1, "")
-    assert outcome.err == "mudline: .png needs matplotlib: pip install 'mudline[plot]'\n"
-    assert not (folder / "p.png").exists()

@@ -19,8 +19,8 @@ import mudline
 from mudline.contact import ContactInput, ContactModel, ContactResult, LawAssignment
 from mudline.contact.touchdown import line_summaries
 from mudline.results.plot_data import PlotData
-from mudline.results.plots.figure import figure_of, panels_of, reaction
-from mudline.results.plots.style import Stretch
+from mudline.results.plots.along_line import Stretch
+from mudline.results.plots.figure import evaluation_figure, panels_of, reaction
 from mudline.scene.model import resolve
 from mudline.scene.positions import read_positions
 from tests.samples import SAMPLES
@@ -60,12 +60,12 @@ def labels(figure: Figure) -> list[str]:
 def panel(data: PlotData, name: str) -> Axes:
     """One of the panels of some results, by itself."""
     axes = Figure().add_subplot()
-    next(one for one in panels_of(data, str) if one.name == name).draw(axes)
+    next(one for one in panels_of(data) if one.name == name).draw(axes)
     return axes
 
 
 def names(data: PlotData) -> list[str]:
-    return [one.name for one in panels_of(data, str)]
+    return [one.name for one in panels_of(data)]
 
 
 @pytest.mark.parametrize(
@@ -86,7 +86,7 @@ def test_a_picture_has_the_panels_that_there_is_something_to_show_in(data: Calla
 
 
 def test_every_panel_has_a_label_with_a_unit() -> None:
-    figure = figure_of(PlotData.of_result(cycle()), str, "a doubt " * 20)
+    figure = evaluation_figure(PlotData.of_result(cycle()), "a doubt " * 20)
     assert labels(figure) == [
         "height X [m]",
         "seabed reaction per unit length [N/m]",
@@ -99,7 +99,7 @@ def test_every_panel_has_a_label_with_a_unit() -> None:
     assert title[1].endswith("when the total reaction is largest")
     assert title[2].startswith("a doubt a doubt")
     assert max(map(len, title)) <= 100
-    loops = figure_of(PlotData.of_result(cycle(), [2, 1]), str)
+    loops = evaluation_figure(PlotData.of_result(cycle(), [2, 1]))
     shown = [axes.get_xlabel() for axes in loops.axes if "penetration" in axes.get_xlabel()]
     assert shown == ["penetration of element 2 [m]", "penetration of element 1 [m]"]
 

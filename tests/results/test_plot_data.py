@@ -42,10 +42,8 @@ def test_parts_give_what_the_whole_gives(cycle: ContactResult) -> None:
     data = PlotData(cycle.known, cycle.evaluated, len(cycle.depth), cycle.times, elements=[1, 3])
     for part in in_parts(cycle, 13):
         data.take(part)
-    for one, other in ((data.chosen, whole.chosen), (data.pulled, whole.pulled)):
-        assert one is not None
-        assert other is not None
-        assert one.step == other.step
+    assert set(whole.largest) == {"reaction", "pull"}
+    assert [data.largest[name].step for name in whole.largest] == [one.step for one in whole.largest.values()]
     assert np.array_equal(data.reaction.most, whole.reaction.most, equal_nan=True)
     assert np.array_equal(data.loop(1).force, whole.loop(1).force)
 
@@ -60,7 +58,7 @@ def test_a_long_series_keeps_its_extremes_in_bins(cycle: ContactResult) -> None:
     assert len(data.bin_times) == 2000
     assert np.nanmax(data.reaction.most) == reaction.max()
     assert np.nanmin(data.reaction.least) == reaction.min()
-    assert sum(len(points.ratio) for points in data.points) <= 4100
+    assert len(data.points().ratio) <= 4100
 
 
 @pytest.mark.parametrize(

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 import numpy as np
 
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.streams import emit, notify, notify_missing, writing
+from mudline.cli.plots import Plot, plot_option
+from mudline.cli.streams import emit, notify
 from mudline.curves import CurveError, ForceCurve
 from mudline.curves.backbones import MODELS, Backbone, Model, Soil
 from mudline.deck.loading import load_bytes
@@ -84,13 +84,7 @@ class Wanted(NamedTuple):
 @options.option("--legacy", is_flag=True, help="Write *EMBEDMENT in place of *SEABED STIFFNESS.")
 @options.option("--invert", is_flag=True, help="Shift the ratios by -0.5: from the invert of the model to the axis.")
 @options.option("--extend", is_flag=True, help="Go on beyond the ratios for which the model is published.")
-@options.option(
-    "--plot",
-    "picture",
-    type=options.OUTPUT_FILE,
-    metavar="FILE.png|svg",
-    help="Draw model and curve (needs mudline[plot]).",
-)
+@plot_option("model and curve")
 @options.common
 def command(
     *,
@@ -100,7 +94,7 @@ def command(
     weight: float,
     depth: float | None,
     name: str | None,
-    picture: str | None,
+    plot: Plot,
     invert: bool,
     extend: bool,
     tolerance: float,
@@ -112,7 +106,6 @@ def command(
     system of units, as N and m; the points are as few as the tolerance needs.
     """
     chosen = MODELS[model]
-    form = options.form_of_file(picture, ("png", "svg")) if picture else ""
     soil = _soil(chosen, diameter, strength, weight)
     wanted = Wanted(
         name if name is not None else model,
@@ -133,8 +126,7 @@ def command(
             raise click.UsageError("the force is too large or too small for a float64: check the units of the numbers")
         points = backbone.points(wanted.depth, wanted.tolerance)
     text = _text(backbone, wanted, points)
-    if picture and not _plot(backbone, wanted, points, Path(picture), form):
-        return FOUND
+    plot.write(lambda plots: plots.curves_figure(_rows(backbone, wanted, points), "user"))
     emit([text])
     return DONE
 
@@ -200,21 +192,8 @@ def _head(backbone: Backbone, wanted: Wanted, points: FloatArray) -> list[str]:
 # ---------------------------------------------------------------------------------------------------------- picture
 
 
-def _plot(backbone: Backbone, wanted: Wanted, points: FloatArray, path: Path, form: str) -> bool:
-    try:
-        from mudline.results.plots import draw_curves  # noqa: PLC0415 - needs the extra `plot`
-    except ImportError:
-        notify_missing("--plot", "matplotlib", "plot")
-        return False
+def _rows(backbone: Backbone, wanted: Wanted, points: FloatArray) -> list[dict[str, Any]]:
+    """The model and its curve, as they are drawn."""
     smooth = np.linspace(0.0, 1.0, _DRAWN) ** 2 * wanted.depth
-    drawn = {"model": np.column_stack((smooth, backbone.force(smooth))), wanted.name: points}
-    with writing(path) as stream:
-        draw_curves([_row(name, given - [wanted.shift, 0.0]) for name, given in drawn.items()], "user", form, stream)
-    return True
-
-
-def _row(name: str, points: FloatArray) -> dict[str, Any]:
-    curve = ForceCurve(points, name)
-    slopes = curve.slopes.tolist()
-    drawn = {"points": points.tolist(), "segments": [{"slope": slope} for slope in slopes], "at": []}
-    return {"name": name, "kind": OF_SEABED, "axes": ["ratio", "force"], **drawn}
+    drawn = (("model", np.column_stack((smooth, backbone.force(smooth)))), (wanted.name, points))
+    return [{"name": name, "kind": OF_SEABED, "points": given - [wanted.shift, 0.0]} for name, given in drawn]

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from mudline.cli import DONE, FOUND, options
+from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
-from mudline.cli.streams import emit, emit_json, notify, notify_missing, writing
+from mudline.cli.plots import Plot, plot_option
+from mudline.cli.streams import emit, emit_json, notify
 from mudline.cli.view import View
 from mudline.linting.engine import naming_causes
-from mudline.linting.output import visible
 from mudline.quantities import UnitNames, csv_lines, headed, shown, unit_names
-from mudline.results.curve_rows import curve_rows, diameters_on, used_curves
+from mudline.results.curve_rows import curve_rows, curve_units, diameters_on, used_curves
 from mudline.results.summary import followers
 from mudline.scene.deck_curves import OF_SEABED
 from mudline.scene.model import Scene, resolve
@@ -45,13 +44,7 @@ _SOFTENS = "unstable: the curve softens there, and a pipe that is pushed deeper 
     metavar="W",
     help="Find the static embedment under this submerged weight per unit length, in the deck's units.",
 )
-@options.option(
-    "--plot",
-    "picture",
-    type=options.OUTPUT_FILE,
-    metavar="FILE.png|svg",
-    help="Draw the curves (needs the extra mudline[plot]).",
-)
+@plot_option("the curves")
 @options.output_format("text", "json", "csv")
 @takes_deck
 def command(
@@ -59,7 +52,7 @@ def command(
     deck: GivenDeck,
     ratios: tuple[float, ...],
     weight: float | None,
-    picture: str | None,
+    plot: Plot,
     output_format: str,
     view: View,
 ) -> int:
@@ -72,7 +65,6 @@ def command(
         raise click.UsageError(f"--weight {weight:g}: a line that lies on the seabed has a submerged weight above 0")
     if output_format == "csv" and ratios and weight is not None:
         raise click.UsageError("CSV holds one table: give --at or --weight, not both")
-    form = options.form_of_file(picture, ("png", "svg")) if picture else ""
     given = deck.load()
     with naming_causes(given):
         scene = resolve(given).require()
@@ -80,8 +72,7 @@ def command(
         rows = curve_rows(scene, ratios, weight)
     except ValueError as error:
         raise click.UsageError(str(error)) from error
-    if picture and not _plot(scene, rows, Path(picture), form):
-        return FOUND
+    plot.write(lambda plots: plots.curves_figure(rows, scene.units, curve_units(scene)))
     if output_format == "json":
         emit_json(rows)
     elif output_format == "csv":
@@ -118,18 +109,6 @@ def _csv_rows(
 
 
 # ---------------------------------------------------------------------------------------------------------- output
-
-
-def _plot(scene: Scene, rows: list[dict[str, Any]], path: Path, form: str) -> bool:
-    try:
-        from mudline.results.plots import draw_curves  # noqa: PLC0415 - needs the extra `plot`
-    except ImportError:
-        notify_missing("--plot", "matplotlib", "plot")
-        return False
-    named = [{**row, "name": visible(row["name"])} for row in rows]
-    with writing(path) as stream:
-        draw_curves(named, scene.units, form, stream)
-    return True
 
 
 def _print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:

@@ -1,4 +1,4 @@
-"""`mudline evaluate`: results on the terminal or in a file, the picture, notes about what is doubtful or left out."""
+"""`mudline evaluate`: results on the terminal or in a file, the plot, notes about what is doubtful or left out."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from pathlib import Path
 
 import click
 
-from mudline.cli import DONE, FOUND, evaluate_inputs, options, pictures
+from mudline.cli import DONE, FOUND, evaluate_inputs, options
 from mudline.cli.evaluate_inputs import EvaluateInputs, read_file, takes_inputs
 from mudline.cli.evaluate_text import print_comparison, print_evaluation, print_plan, print_series
 from mudline.cli.inputs import GivenDeck, refuses_bad_decks
-from mudline.cli.pictures import Picture
+from mudline.cli.plots import Plot, numbers_of_elements, plot_option
 from mudline.cli.result_files import behind, beside, has_library, line_watch, result_files, write_tables
 from mudline.cli.streams import counted, emit, emit_json, notify
 from mudline.cli.view import Progress, View, wants_bar
@@ -24,6 +24,7 @@ from mudline.results.against import Comparison, read_reference
 from mudline.results.evaluation import Evaluation, Prepared
 from mudline.results.forms import FORMS, ResultConsumer, Sink, contents_of, plan_rows, tables_of
 from mudline.results.forms.text import text_writer, write_text
+from mudline.results.plot_data import PlotData
 from mudline.results.series import SeriesSummary, series_tables
 from mudline.results.totals import SlowSuction, StepSummary
 from mudline.results.warnings import ContactWarning, ContactWatch, caption
@@ -41,7 +42,14 @@ from mudline.short_repr import listed_numbers
     metavar=f"OUT.{'|'.join(FORMS)}",
     help="Write the results; CSV and Parquet write OUT-nodes and OUT-summary beside it.",
 )
-@pictures.options
+@options.option(
+    "--plot-elements",
+    group=options.OUTPUT,
+    metavar="N,M",
+    callback=numbers_of_elements,
+    help="Draw the force over penetration of these elements of a series, by number.",
+)
+@plot_option("the results", group=options.OUTPUT)
 @click.option("--plan", "plan_only", is_flag=True, help="Print what the deck needs and what is left out, and why.")
 @options.option(
     "--table",
@@ -67,8 +75,8 @@ def command(
     units: str | None,
     against: str | None,
     output: str | None,
-    picture: str | None,
-    plot_elements: str | None,
+    plot: Plot,
+    plot_elements: tuple[int, ...],
     plan_only: bool,
     table: str,
     summary_only: bool,
@@ -85,14 +93,11 @@ def command(
     if len(decks) > 1 or is_url(decks[0]) or os.path.isdir(decks[0]):  # noqa: PTH112 - Path raises for a name that is too long
         raise click.UsageError("evaluate takes one deck: several decks, folders and URLs are for mudline batch")
     if summary_only:
-        for option, given in (("--against", against), ("--plot", picture), ("--plan", plan_only)):
-            if given:
-                raise click.UsageError(f"{option} is not for --summary-only: leave one of them out")
-        if inputs.positions is None:
-            raise click.UsageError("--summary-only is for time steps: give a series with --positions")
-    wanted = Picture.asked_for(picture, plot_elements)
+        _check_summary_only(inputs, {"--against": against, "--plot": plot.path, "--plan": plan_only})
+    if plot_elements and plot.path is None:
+        raise click.UsageError("--plot-elements is for a plot: give --plot")
     form = options.form_of_file(output, FORMS) if output else ""
-    if (form and not has_library(form)) or not wanted.has_library():
+    if form and not has_library(form):
         return FOUND
     deck = GivenDeck(decks[0], stdin_name, units).load()
     if plan_only:
@@ -108,12 +113,22 @@ def command(
             evaluation,
             view,
             output=output,
-            picture=wanted,
+            plot=plot,
+            plot_elements=plot_elements,
             against=against,
             table=table,
             output_format=output_format,
         )
     return FOUND if warnings and fail_on == "warning" else DONE
+
+
+def _check_summary_only(inputs: EvaluateInputs, others: Mapping[str, object]) -> None:
+    """Raise click.UsageError for other options that are given, and without time steps."""
+    for option, given in others.items():
+        if given:
+            raise click.UsageError(f"{option} is not for --summary-only: leave one of them out")
+    if inputs.positions is None:
+        raise click.UsageError("--summary-only is for time steps: give a series with --positions")
 
 
 def _show_plan(prepared: Prepared, form: str, view: View) -> None:
@@ -132,7 +147,8 @@ def _evaluate_one(
     view: View,
     *,
     output: str | None,
-    picture: Picture,
+    plot: Plot,
+    plot_elements: tuple[int, ...],
     against: str | None,
     table: str,
     output_format: str,
@@ -140,7 +156,7 @@ def _evaluate_one(
     """Evaluate a deck, print or write the results; returns what is doubtful. Raises DeckError, click.ClickException."""
     reference = read_file(against, lambda file: read_reference(file, evaluation)) if against else None
     comparison = None if reference is None else Comparison(evaluation, reference)
-    drawing = picture.data(evaluation)
+    drawing = _plot_data(evaluation, plot_elements) if plot.path is not None else None
     if not view.quiet:
         _notify_before(evaluation, comparison)
     shown = "" if output else output_format
@@ -155,7 +171,8 @@ def _evaluate_one(
         warnings = watch.warnings()
         sink.finish(behind(evaluation, warnings, comparison, lines))
     if drawing is not None:
-        picture.draw(drawing, caption(warnings), view)
+        doubt = caption(warnings)
+        plot.write(lambda plots: plots.evaluation_figure(drawing, doubt), view)
     if not view.quiet:
         _notify_warnings(warnings)
         if note := watch.note():
@@ -168,6 +185,14 @@ def _evaluate_one(
     if comparison is not None and output_format == "text":
         print_comparison(comparison, view)
     return warnings
+
+
+def _plot_data(evaluation: Evaluation, elements: tuple[int, ...]) -> PlotData:
+    """Return what collects the data of a plot; raises click.UsageError for elements that are not there."""
+    try:
+        return PlotData.of_evaluation(evaluation, elements)
+    except ValueError as error:
+        raise click.UsageError(f"--plot-elements: {error}") from error
 
 
 def _evaluate_series(

@@ -5,20 +5,19 @@ from __future__ import annotations
 import json
 import textwrap
 from collections.abc import Iterator
-from importlib.util import find_spec
 from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from mudline.cli import DONE, WRONG_USAGE, options
+from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, refuses_bad_decks
-from mudline.cli.streams import emit, emit_json, notify, notify_missing, write_text, writing
+from mudline.cli.plots import Plot, plot_option
+from mudline.cli.streams import emit, emit_json, notify, write_text
 from mudline.cli.view import View, tracked
 from mudline.files import suffix_of
 from mudline.linting.engine import naming_causes
-from mudline.linting.output import visible
 from mudline.quantities import csv_lines
 from mudline.scene.model import resolve
 from mudline.study import PARTS, Study, jump_note, study
@@ -27,7 +26,6 @@ from mudline.study.screen import ScreenTable, extremes_sentences, precision_tabl
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
 
-_PICTURES = ("png", "svg")
 _WIDTH = 100
 _MOST_NOTES = 3
 
@@ -35,12 +33,7 @@ _MOST_NOTES = 3
 @options.command("study")
 @options.deck
 @options.option("--only", multiple=True, type=click.Choice(PARTS), help="Study this part alone; repeatable.")
-@options.option(
-    "--plot",
-    type=options.OUTPUT_FILE,
-    metavar=f"FILE.{'|'.join(_PICTURES)}",
-    help="Draw error against run time, with the deck's own step (needs the extra mudline[plot]).",
-)
+@plot_option("error against run time, with the deck's own step")
 @options.option(
     "-o", "--output", type=options.OUTPUT_FILE, metavar="FILE.json", help="Write the study as JSON into this file."
 )
@@ -53,7 +46,7 @@ def command(
     *,
     deck: str,
     only: tuple[str, ...],
-    plot: str | None,
+    plot: Plot,
     output: str | None,
     output_format: str,
     stdin_name: str,
@@ -66,19 +59,14 @@ def command(
     largest steps at which landings keep their speed, and extreme values. pruning: what the stages of the evaluation
     take, and what those would add that the deck does not have.
     """
-    for path, option, forms in ((plot, "--plot", _PICTURES), (output, "-o", ("json",))):
-        if path is not None and suffix_of(path) not in forms:
-            names = " or ".join(f".{form}" for form in forms)
-            raise click.UsageError(f"{option} {path}: unknown file format: give a name ending in {names}")
-    if plot and find_spec("matplotlib") is None:
-        notify_missing("--plot", "matplotlib", "plot")
-        return WRONG_USAGE
+    if output is not None and suffix_of(output) != "json":
+        raise click.UsageError(f"-o {output}: unknown file format: give a name ending in .json")
     given = GivenDeck(deck, stdin_name, units).load()
     with naming_causes(given):
         scene = resolve(given).require()
-    found = study(scene, only or PARTS, draw=plot is not None, tracked=lambda parts: tracked(parts, view))
-    if plot:
-        _plot(found, Path(plot), view)
+    found = study(scene, only or PARTS, draw=plot.path is not None, tracked=lambda parts: tracked(parts, view))
+    if plot.path is not None:
+        _plot(found, plot, view)
     if output:
         write_text(Path(output), [json.dumps(found.json(), indent=1, ensure_ascii=False, allow_nan=False), "\n"])
         if not view.quiet:
@@ -92,16 +80,13 @@ def command(
     return DONE
 
 
-def _plot(found: Study, path: Path, view: View) -> None:
+def _plot(found: Study, plot: Plot, view: View) -> None:
     if found.drawn is None or not found.drawn.curves:
         notify("--plot: there is nothing to draw, as no contact of this deck has a motion")
         return
-    from mudline.study.picture import draw  # noqa: PLC0415 - needs the extra `plot`
+    from mudline.study.picture import study_figure  # noqa: PLC0415 - needs the extra `plot`
 
-    with writing(path) as stream:
-        draw(found, suffix_of(path), stream, visible)
-    if not view.quiet:
-        notify(f"plot -> {path.as_posix()}")
+    plot.write(lambda _: study_figure(found), view)
 
 
 def _csv(whole: dict[str, Any]) -> Iterator[str]:

@@ -34,6 +34,11 @@ def curve_rows(scene: Scene, ratios: tuple[float, ...], weight: float | None) ->
     return seabed + others
 
 
+def curve_units(scene: Scene) -> dict[str, tuple[str, str]]:
+    """Return the dimensions of abscissa and ordinate, as `L` and `FL`, by kind of curve, but those of the seabed."""
+    return {one.kind: one.units for one in other_curves(scene.deck)}
+
+
 def _keyword(scene: Scene, entry: SceneCurve) -> str:
     return scene.deck.sections[entry.where.section].blocks[entry.where.block].keyword
 

@@ -5,23 +5,21 @@ One step whole, the extents of all steps, and bins of what changes over time; no
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mudline.contact import ContactInput, ContactResult
+from mudline.contact.lines import TouchdownPoint
 from mudline.contact.result import Part
 from mudline.contact.touchdown import Touchdown
-from mudline.curves import ForceCurve
 from mudline.results.evaluation import Evaluation
 from mudline.results.totals import traces
 from mudline.scene.numbering import Floats, Indices, Mask
 from mudline.short_repr import listed_numbers
 
-PICTURES = ("png", "svg", "pdf")
-"""Forms of a picture."""
 _BINS = 2000
 """Pieces of time of which the least and the largest value are drawn."""
 _POINTS = 4000
@@ -32,8 +30,6 @@ _FOLLOWED_LINES = 64
 """Lines whose touchdown is followed over time."""
 MOST_LOOPS = 6
 """Elements whose force-penetration loop can be asked for."""
-TOUCHDOWN = ("first", "last")
-"""Figures of a line (`LineSeries`) that are drawn over time."""
 
 
 class Points(NamedTuple):
@@ -50,6 +46,11 @@ class Chosen(NamedTuple):
 
     step: int
     result: ContactResult
+
+    @property
+    def part(self) -> Part:
+        """The step as a series of one."""
+        return Part(self.step, self.result.as_series())
 
     @property
     def heights(self) -> Floats:
@@ -93,7 +94,7 @@ class Cycle(NamedTuple):
 
 
 class PlotData:
-    """What is drawn of results: the step with the largest total reaction, envelopes, points on curves, times, loops.
+    """What is drawn of results: steps with the largest figures, envelopes, points on curves, times, loops.
 
     Parts are given to `take` in the order of the steps.
 
@@ -102,9 +103,13 @@ class PlotData:
         steps, times: number of steps, and their times (steps,); None for a single state without a time.
         elements: indices of those that are evaluated.
         looped: indices of the elements whose force-penetration loop is kept.
-        chosen: the step with the largest total reaction; pulled: that with the largest pull of an element, None
-            without one; slid: that with the largest friction on a node, None without friction.
+        largest: the step with the largest total `reaction`; with the largest `pull` of an element and the largest
+            `friction` on a node, if there is any.
         touched: (m,) elements that are in contact at some step.
+        force, depth: extents of the elements over the steps.
+        lines, more_lines: numbers of the evaluated lines, from 0, and how many are not followed.
+        reaction, touchdown: extents of the total reaction, and of the arc length of the first and the last touchdown
+            point of a line, in bins of steps; `touchdown` is empty for a single state.
     """
 
     def __init__(
@@ -121,31 +126,25 @@ class PlotData:
         `elements` are the numbers of those whose loop is wanted. Raises ValueError for numbers that no evaluated
         element has, for too many of them, and for a single state, which has no loop.
         """
-        self.given = given
-        self.steps = steps
-        self.times = times
+        self.given, self.steps, self.times = given, steps, times
         self.elements: Indices = np.flatnonzero(evaluated)
         self.looped = self._looped(elements)
-        self.chosen: Chosen | None = None
-        self.pulled: Chosen | None = None
-        self.slid: Chosen | None = None
+        self.largest: dict[str, Chosen] = {}
         self.touched: Mask = np.zeros(len(evaluated), np.bool_)
         self.force, self.depth = Extents(len(evaluated)), Extents(len(evaluated))
-        self.curves: Sequence[ForceCurve] = given.curves
-        self._curve_of = given.curve_index
-        self.on_curve: Indices = self.elements[self._curve_of[self.elements] >= 0]
-        self.points: list[Points] = []
-        self._every = max(1, steps * len(self.on_curve) // _POINTS)
-        self._seen = 0
-        bins = min(_BINS, steps)
-        self.reaction = Extents(bins)
-        self.lines: list[int] = np.unique(given.lines.of_element[self.elements]).tolist()[:_FOLLOWED_LINES]
-        self.more_lines = len(np.unique(given.lines.of_element[self.elements])) - len(self.lines)
-        self.touchdown = {(line, name): Extents(bins) for line in self.lines for name in TOUCHDOWN} if steps > 1 else {}
+        self.on_curve: Indices = self.elements[given.curve_index[self.elements] >= 0]
+        self._bins = min(_BINS, steps)
+        self.reaction = Extents(self._bins)
+        lines = np.unique(given.lines.of_element[self.elements]).tolist()
+        self.lines: list[int] = lines[:_FOLLOWED_LINES]
+        self.more_lines = len(lines) - len(self.lines)
+        followed = self.lines if steps > 1 else []
+        self.touchdown = {line: (Extents(self._bins), Extents(self._bins)) for line in followed}
         self._finder = Touchdown(given)
-        self._every_loop = max(1, -(-steps // _LOOP_STEPS))
+        self._sizes: dict[str, float] = {}
+        self._points: list[Points] = []
+        self._seen, self._every = 0, max(1, steps * len(self.on_curve) // _POINTS)
         self._loops: list[Cycle] = []
-        self._largest, self._pull, self._friction = -np.inf, 0.0, 0.0
 
     @classmethod
     def of_evaluation(cls, evaluation: Evaluation, elements: Sequence[int] = ()) -> PlotData:
@@ -165,15 +164,11 @@ class PlotData:
         return data
 
     def _looped(self, elements: Sequence[int]) -> Indices:
-        if not elements:
-            return np.zeros(0, np.intp)
-        places = {number: index for index, number in enumerate(self.given.element_ids.tolist())}
-        known = set(self.elements.tolist())
-        wanted = list(dict.fromkeys(elements))
-        if self.steps == 1:
+        if elements and self.steps == 1:
             raise ValueError("force over penetration needs time steps, and this is one state")
-        unknown = [number for number in wanted if places.get(number) not in known]
-        if unknown:
+        places = {int(self.given.element_ids[index]): index for index in self.elements.tolist()}
+        wanted = list(dict.fromkeys(elements))
+        if unknown := [number for number in wanted if number not in places]:
             numbers = listed_numbers(unknown)
             raise ValueError(f"no evaluated element has the number {numbers}: give numbers of elements in the results")
         if len(wanted) > MOST_LOOPS:
@@ -184,93 +179,87 @@ class PlotData:
 
     def take(self, part: Part) -> None:
         """Look at some steps."""
-        of_part = traces(part)
-        bins = np.arange(part.start, part.start + part.count) * min(_BINS, self.steps) // self.steps
+        result, of_part = part.result, traces(part)
+        bins = np.arange(part.start, part.start + part.count) * self._bins // self.steps
         self.reaction.take_bins(bins, of_part["reaction"].values)
-        self._choose(part, of_part["reaction"].values, of_part["pull"].values)
-        self.touched |= part.result.contact.any(axis=0) & part.result.evaluated
-        self.force.take(part.result.force)
-        self.depth.take(part.result.depth)
-        if self.touchdown:
-            for line in self._finder.series(part):
-                for name in TOUCHDOWN if line.number in self.lines else ():
-                    self.touchdown[line.number, name].take_bins(bins, getattr(line, name))
-        self._sample(part)
-        self._take_loop(part)
-
-    def _choose(self, part: Part, reaction: Floats, pull: Floats) -> None:
-        step = int(np.argmax(np.nan_to_num(reaction, posinf=np.inf)))
-        if self.chosen is None or reaction[step] > self._largest:
-            self._largest = float(reaction[step])
-            self.chosen = Chosen(part.start + step, part.result.step(step))
-        step = int(np.argmax(np.nan_to_num(pull)))
-        if pull[step] > self._pull:
-            self._pull = float(pull[step])
-            self.pulled = Chosen(part.start + step, part.result.step(step))
-        if part.result.friction is not None:
-            friction = np.nan_to_num(np.abs(part.result.friction)).max(axis=(1, 2), initial=0.0)
-            step = int(np.argmax(friction))
-            if friction[step] > self._friction:
-                self._friction = float(friction[step])
-                self.slid = Chosen(part.start + step, part.result.step(step))
-
-    def _sample(self, part: Part) -> None:
-        """Evaluated points at even distances; those of the chosen step are drawn anyway."""
+        self._choose("reaction", part, of_part["reaction"].values)
+        self._choose("pull", part, of_part["pull"].values)
+        if result.friction is not None:
+            self._choose("friction", part, np.nan_to_num(np.abs(result.friction)).max(axis=(1, 2), initial=0.0))
+        self.touched |= result.contact.any(axis=0) & result.evaluated
+        self.force.take(result.force)
+        self.depth.take(result.depth)
+        for line in self._finder.series(part) if self.touchdown else ():
+            if line.number in self.touchdown:
+                for extents, values in zip(self.touchdown[line.number], (line.first, line.last), strict=True):
+                    extents.take_bins(bins, values)
+        if self.looped.size:
+            every = -(-self.steps // _LOOP_STEPS)
+            at = np.ix_(np.arange(-part.start % every, part.count, every), self.looped)
+            states = None if result.state is None else result.state[at]
+            self._loops.append(Cycle(result.depth[at], result.force[at], states))
         size = part.count * len(self.on_curve)
         taken = np.arange(-self._seen % self._every, size, self._every)
         self._seen += size
         if taken.size:
             step, row = np.divmod(taken, len(self.on_curve))
-            element = self.on_curve[row]
-            result = part.result
-            found = result.ratio[step, element], result.force[step, element]
-            self.points.append(Points(self._curve_of[element], *found, part.start + step))
+            self._points.append(self._points_of(part, step, self.on_curve[row]))
+
+    def _choose(self, name: str, part: Part, values: Floats) -> None:
+        """Keep the step with the largest of these values (steps,), if no earlier step has a larger one.
+
+        Only the total reaction may be 0 or less, or unknown at all steps.
+        """
+        step = int(np.argmax(np.nan_to_num(values, posinf=np.inf)))
+        first = name == "reaction" and name not in self.largest
+        if first or values[step] > self._sizes.get(name, 0.0):
+            self._sizes[name] = float(values[step])
+            self.largest[name] = Chosen(part.start + step, part.result.step(step))
+
+    def _points_of(self, part: Part, step: Indices, element: Indices) -> Points:
+        found = part.result.ratio[step, element], part.result.force[step, element]
+        return Points(self.given.curve_index[element], *found, part.start + step)
+
+    # ------------------------------------------------------------------------------------------------ what there is
+
+    @property
+    def drawn(self) -> Chosen:
+        """The step with the largest total reaction."""
+        return self.largest["reaction"]
 
     @property
     def known(self) -> bool:
         """Whether the total reaction is known at some step."""
         return not np.isnan(self.reaction.most).all()
 
-    def points_of(self, chosen: Chosen) -> Points:
-        """The points of a step on the curves: of all elements, or of some at even distances."""
-        element = self.on_curve[thinned_evenly(len(self.on_curve), _POINTS)]
-        step = np.full(len(element), chosen.step, np.intp)
-        return Points(self._curve_of[element], chosen.result.ratio[element], chosen.result.force[element], step)
-
-    def _take_loop(self, part: Part) -> None:
-        if not self.looped.size:
-            return
-        steps = np.arange(-part.start % self._every_loop, part.count, self._every_loop)
-        at = np.ix_(steps, self.looped)
-        states = part.result.state
-        self._loops.append(Cycle(part.result.depth[at], part.result.force[at], None if states is None else states[at]))
-
-    def loop(self, place: int) -> Cycle:
-        """The path of one of the chosen elements."""
-        depth, force = (
-            np.concatenate([getattr(one, name)[:, place] for one in self._loops]) for name in Cycle._fields[:2]
-        )
-        states = [one.state[:, place] for one in self._loops if one.state is not None]
-        state = np.concatenate(states) if states else None
-        return Cycle(depth, force, None if state is None or (state < 0).all() else state)
-
-    # ------------------------------------------------------------------------------------------------ what there is
-
-    @property
-    def drawn(self) -> Chosen:
-        """The chosen step; ValueError before there are results."""
-        if self.chosen is None:
-            raise ValueError("there are no results to draw yet")
-        return self.chosen
-
     @property
     def bin_times(self) -> Floats:
         """The time of the first step of each bin; the number of the step where there are no times."""
-        bins = min(_BINS, self.steps)
-        first = -(-np.arange(bins) * self.steps // bins)
+        first = -(-np.arange(self._bins) * self.steps // self._bins)
         return first.astype(np.float64) if self.times is None else self.times[first]
 
+    def points(self) -> Points:
+        """Return evaluated points on curves, at even distances: of the drawn step, and of all steps.
 
-def thinned_evenly(count: int, most: int) -> Indices:
-    """Rows of so many, at even distances, at most `most`."""
-    return np.arange(0, count, max(1, -(-count // most)))
+        Those in contact, if there are any.
+        """
+        element = self.on_curve[:: max(1, -(-len(self.on_curve) // _POINTS))]
+        of_drawn = self._points_of(self.drawn.part, np.zeros(len(element), np.intp), element)
+        every = Points(*(np.concatenate(columns) for columns in zip(*self._points, of_drawn, strict=True)))
+        known = ~np.isnan(every.ratio)
+        touching = known & ((every.ratio > 0.0) | (every.force != 0.0))
+        shown = touching if touching.any() else known
+        return Points(every.curve[shown], every.ratio[shown], every.force[shown], every.step[shown])
+
+    def loop(self, place: int) -> Cycle:
+        """Return the path of one of the chosen elements."""
+        depth = np.concatenate([cycle.penetration[:, place] for cycle in self._loops])
+        force = np.concatenate([cycle.force[:, place] for cycle in self._loops])
+        states = [cycle.state[:, place] for cycle in self._loops if cycle.state is not None]
+        state = np.concatenate(states) if states else None
+        return Cycle(depth, force, None if state is None or (state < 0).all() else state)
+
+    def touchdown_points(self, lines: Collection[int]) -> list[TouchdownPoint]:
+        """Return where these lines come down on the seabed or leave it, at the drawn step."""
+        wanted = [one for one in self._finder.series(self.drawn.part) if one.number in lines]
+        return [point for row in self._finder.summaries(self.drawn.part, wanted) for point in row.touchdown]

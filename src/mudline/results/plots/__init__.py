@@ -1,8 +1,10 @@
-"""The pictures: force-embedment curves, and results in panels. Needs matplotlib (extra `plot`)."""
+"""The plots, in one style: curves, models, and results in panels. Needs matplotlib (extra `plot`)."""
 
 from __future__ import annotations
 
-from mudline.results.plots.curves import draw_curves
-from mudline.results.plots.figure import draw_evaluation, figure_of, plot_result
+from mudline.results.plots.curves import curves_figure
+from mudline.results.plots.figure import evaluation_figure, plot_result
+from mudline.results.plots.model import can_draw, model_figure
+from mudline.results.plots.style import save
 
-__all__ = ["draw_curves", "draw_evaluation", "figure_of", "plot_result"]
+__all__ = ["can_draw", "curves_figure", "evaluation_figure", "model_figure", "plot_result", "save"]

@@ -2,34 +2,104 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from mudline.contact.result import Part
-from mudline.contact.touchdown import Touchdown
-from mudline.quantities import ELEMENTS, NODES, SLIDING, labelled, unit_names
+from mudline.quantities import ELEMENTS, NODES, SLIDING, STATES, labelled, time_unit, unit_names
 from mudline.results.plot_data import Chosen, Extents, PlotData
 from mudline.results.plots.style import (
+    COLORS,
     LIGHT,
-    MOST_POINTS,
     SEABED,
     STATE_STYLES,
-    Stretch,
     Style,
-    above,
+    draw_line,
+    gapped,
     is_number,
-    marker_of,
+    legend,
     style_of,
     thinned,
-    when,
     widen,
+    zero_line,
 )
 from mudline.scene.numbering import Floats, Indices
 
+MOST_LINES = 6
+"""Lines that are drawn."""
+_BESIDE = 0.15
+"""Part of the stretch in contact that is drawn on both sides of it."""
 _MARKED = 80
 """Slipping nodes of a line that are marked."""
+
+
+class DrawnLine(NamedTuple):
+    """A line within the stretch and one element beside it: its number, from 0, its style, elements and nodes.
+
+    `elements` are the evaluated ones, `element_arcs` the arc lengths of their middles, `node_arcs` those of the nodes.
+    """
+
+    number: int
+    style: Style
+    elements: Indices
+    element_arcs: Floats
+    nodes: Indices
+    node_arcs: Floats
+
+
+class Stretch:
+    """The lines that are drawn, and the stretch of arc length that all panels along them show.
+
+    Attributes:
+        limits: the least and the largest arc length that is drawn.
+        lines: the drawn lines: those that touch the seabed first.
+        left_out: the number of lines that are not drawn.
+    """
+
+    def __init__(self, data: PlotData) -> None:
+        self.data, lines = data, data.given.lines
+        of_touched = set(lines.of_element[data.touched].tolist())
+        drawn = sorted(sorted(data.lines, key=lambda line: (line not in of_touched, line))[:MOST_LINES])
+        self.left_out = data.more_lines + len(data.lines) - len(drawn)
+        evaluated = np.zeros(len(data.given.element_ids), np.bool_)
+        evaluated[data.elements] = True
+        shown = np.isin(lines.of_element, drawn) & evaluated
+        half = 0.5 * data.given.length
+        begin, end = lines.element_arc - half, lines.element_arc + half
+        self.limits = (float(begin[shown].min()), float(end[shown].max())) if drawn else (0.0, 1.0)
+        if (touching := shown & data.touched).any():
+            low, high = float(begin[touching].min()), float(end[touching].max())
+            beside = max(_BESIDE * (high - low), 2.0 * float(data.given.length[touching].max()))
+            self.limits = max(self.limits[0], low - beside), min(self.limits[1], high + beside)
+        self.lines = []
+        for place, line in enumerate(drawn):
+            elements = lines.elements[line][evaluated[lines.elements[line]]]
+            arcs, node_arcs = lines.element_arc[elements], lines.node_arcs(line, data.given.length)
+            here, near = self._within(arcs), self._within(node_arcs)
+            style = style_of(place) if len(drawn) > 1 else Style(COLORS[0], "-", "o")
+            self.lines.append(
+                DrawnLine(line, style, elements[here], arcs[here], lines.nodes[line][near], node_arcs[near])
+            )
+
+    def name(self, line: DrawnLine) -> str:
+        """Return what a line is called in a legend."""
+        ids = self.data.given.element_ids[self.data.given.lines.elements[line.number]]
+        return f"line {line.number + 1}: elements {ids[0]} to {ids[-1]}"
+
+    def _within(self, arcs: Floats) -> slice:
+        inside = np.flatnonzero((arcs >= self.limits[0]) & (arcs <= self.limits[1]))
+        return slice(max(0, int(inside[0]) - 1), int(inside[-1]) + 2) if inside.size else slice(0, 0)
+
+    def show(self, axes: Axes) -> None:
+        """Set the horizontal axis."""
+        low, high = self.limits
+        beside = 0.01 * (high - low) or 0.5
+        if is_number(low, high):
+            axes.set_xlim(low - beside, high + beside)
+        axes.set_xlabel(labelled("arc length along the line", unit_names(self.data.given.units).length))
 
 
 def force(axes: Axes, data: PlotData, stretch: Stretch) -> None:
@@ -37,13 +107,13 @@ def force(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     result, units = data.drawn.result, data.given.units
     _extents(axes, data, data.force, stretch)
     if not np.nan_to_num(result.force).any() and np.nan_to_num(result.normal_force).any():
-        for place, number in enumerate(stretch.lines):
-            _plot(axes, stretch.nodes(number), result.normal_force, stretch.style(place))
+        for line in stretch.lines:
+            draw_line(axes, line.node_arcs, result.normal_force[line.nodes], line.style)
         axes.set_ylabel(labelled("seabed reaction\non a node", unit_names(units).force))
     else:
         _of_elements(axes, result.force, stretch)
         axes.set_ylabel(ELEMENTS["force"].axis(units))
-    _zero(axes)
+    zero_line(axes)
 
 
 def embedment(axes: Axes, data: PlotData, stretch: Stretch) -> None:
@@ -55,7 +125,7 @@ def embedment(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     top, bottom = axes.get_ylim()
     if deepest > 0.0:
         top, bottom = min(max(top, -0.6 * deepest), -0.06 * deepest), 1.08 * deepest
-    if is_number(top) and is_number(bottom):
+    if is_number(top, bottom):
         axes.set_ylim(bottom, top)
     axes.set_ylabel(ELEMENTS["depth"].axis(data.given.units))
 
@@ -68,88 +138,70 @@ def stiffness(axes: Axes, data: PlotData, stretch: Stretch) -> None:
 
 def suction(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     """Draw what holds the line down per unit length, with the states of suction, when the pull is largest."""
-    chosen = data.pulled or data.drawn
-    pull = np.maximum(0.0 - chosen.result.force, 0.0)
+    chosen = data.largest["pull"]
+    pull, states = np.maximum(0.0 - chosen.result.force, 0.0), chosen.result.state
     _of_elements(axes, pull, stretch, mark=False)
-    states = chosen.result.state
     if states is not None:
-        drawn = np.concatenate([stretch.elements(number)[0] for number in stretch.lines])
-        for index, (name, style) in enumerate(STATE_STYLES.items()):
-            mine = drawn[states[drawn] == index]
+        drawn = np.concatenate([line.elements for line in stretch.lines])
+        for name, style in STATE_STYLES.items():
+            mine = drawn[states[drawn] == STATES.index(name)]
             if mine.size:
                 shown = mine[thinned(pull[mine], 400)]
                 points = data.given.lines.element_arc[shown], pull[shown]
                 axes.plot(*points, style.marker, markersize=4, color=style.color, label=name, zorder=4)
-    above(axes, note=_step_note(data, chosen))
+    legend(axes, note=_step_note(data, chosen))
     axes.set_ylabel(labelled("suction\nper unit length", unit_names(data.given.units).line_force))
 
 
 def friction(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     """Draw the axial and the lateral force on the nodes, crossed where they slip, when the largest of them acts."""
-    chosen = data.slid or data.drawn
-    result = chosen.result
-    if result.friction is None:
+    chosen = data.largest["friction"]
+    forces, slips = chosen.result.friction, False
+    if forces is None:
         return
-    slips = False
     for side, name in enumerate(("axial", "lateral")):
-        style, values = style_of(side)._replace(marker=""), result.friction[:, side]
-        for place, number in enumerate(stretch.lines):
-            nodes, arcs = stretch.nodes(number)
-            _plot(axes, (nodes, arcs), values, style, None if place else name)
-            at = np.flatnonzero(result.friction_state_of(side)[nodes] == SLIDING.index("slip"))
+        style = style_of(side)._replace(marker="")
+        for line in stretch.lines:
+            values = forces[line.nodes, side]
+            draw_line(axes, line.node_arcs, values, style, name if line is stretch.lines[0] else None)
+            at = np.flatnonzero(chosen.result.friction_state_of(side)[line.nodes] == SLIDING.index("slip"))
             at = at[:: max(1, len(at) // _MARKED)]
             slips = slips or bool(at.size)
-            axes.plot(arcs[at], values[nodes[at]], "x", markersize=4, color=style.color)
+            axes.plot(line.node_arcs[at], values[at], "x", markersize=4, color=style.color)
     if slips:
         axes.plot([], [], "x", markersize=4, color="0.2", label="slips")
-    _zero(axes)
+    zero_line(axes)
     axes.set_ylabel(labelled("friction on a node", unit_names(data.given.units).force))
-    above(axes, note=_step_note(data, chosen))
+    legend(axes, note=_step_note(data, chosen))
 
 
 def _of_elements(axes: Axes, values: Floats, stretch: Stretch, *, mark: bool = True) -> None:
     """Draw values (m,) of the elements over the arc length of their middles."""
-    seen = [np.zeros(0)]
-    for place, number in enumerate(stretch.lines):
-        rows, arcs = stretch.elements(number)
-        style = stretch.style(place)
-        _plot(axes, (rows, arcs), values, style if mark else style._replace(marker=""))
-        seen.append(values[rows])
-    widen(axes, np.concatenate(seen))
-
-
-def _plot(axes: Axes, along: tuple[Indices, Floats], values: Floats, style: Style, label: str | None = None) -> None:
-    """Draw values of some rows of elements or nodes, given with their arc lengths."""
-    rows, arcs = along
-    kept = thinned(values[rows])
-    points = marker_of(style, len(kept))
-    axes.plot(
-        arcs[kept],
-        values[rows[kept]],
-        color=style.color,
-        linestyle=style.linestyle,
-        linewidth=1.3,
-        marker=points,
-        markersize=3,
-        label=label,
-    )
+    for line in stretch.lines:
+        style = line.style if mark else line.style._replace(marker="")
+        draw_line(axes, line.element_arcs, values[line.elements], style)
+    widen(axes, np.concatenate([np.zeros(0), *(values[line.elements] for line in stretch.lines)]))
 
 
 def _extents(axes: Axes, data: PlotData, found: Extents, stretch: Stretch) -> None:
     """Shade what lies between the least and the largest values of the elements over the steps of a series."""
     if data.steps == 1:
         return
-    for place, number in enumerate(stretch.lines):
-        rows, arcs = stretch.elements(number)
-        kept = thinned(found.most[rows])
-        edges, color = (found.least[rows[kept]], found.most[rows[kept]]), stretch.style(place).color
-        label = None if place else "least to largest of all steps"
-        axes.fill_between(arcs[kept], *edges, color=color, alpha=0.2, linewidth=0.0, label=label)
-    above(axes)
+    for line in stretch.lines:
+        kept = thinned(found.most[line.elements])
+        least, most = found.least[line.elements[kept]], found.most[line.elements[kept]]
+        label = "least to largest of all steps" if line is stretch.lines[0] else None
+        axes.fill_between(
+            line.element_arcs[kept], least, most, color=line.style.color, alpha=0.2, linewidth=0.0, label=label
+        )
+    legend(axes)
 
 
-def _zero(axes: Axes) -> None:
-    axes.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
+def when(data: PlotData, step: int) -> str:
+    """Return the time of a step, in words; "" for a state without one."""
+    if data.times is None:
+        return "" if data.steps == 1 else f"step {step}"
+    return f"time {float(data.times[step]):.6g} {time_unit(data.given.units)}".rstrip()
 
 
 def _step_note(data: PlotData, chosen: Chosen) -> str:
@@ -167,77 +219,63 @@ _LABELLED_POINTS = 3
 
 def line(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     """Draw the lines on the seabed, thick where they touch it, with their touchdown points."""
-    chosen = data.drawn
-    heights, seabed, touching = chosen.heights, chosen.seabed, False
-    for place, number in enumerate(stretch.lines):
-        nodes, arcs = stretch.nodes(number)
-        drawn, style = thinned(chosen.result.gap[nodes]), stretch.style(place)
-        axes.plot(arcs[drawn], seabed[nodes[drawn]], color=SEABED, linewidth=1.2, zorder=1)
-        look = {"color": style.color, "linestyle": style.linestyle}
-        axes.plot(arcs[drawn], heights[nodes[drawn]], linewidth=1.1, zorder=3, **look)  # type: ignore[arg-type]
-        touching |= _thick(axes, data, heights, number, style)
-    _crop(axes, data, chosen, stretch)
-    _touchdown_points(axes, data, chosen, stretch)
+    heights, seabed, touching = data.drawn.heights, data.drawn.seabed, False
+    for one in stretch.lines:
+        drawn = thinned(data.drawn.result.gap[one.nodes])
+        arcs, nodes = one.node_arcs[drawn], one.nodes[drawn]
+        axes.plot(arcs, seabed[nodes], color=SEABED, linewidth=1.2, zorder=1)
+        axes.plot(arcs, heights[nodes], linewidth=1.1, zorder=3, **one.style.line)
+        touching |= _thick(axes, data, one)
+    _crop(axes, data, stretch)
+    _touchdown_points(axes, data, stretch)
     if len(stretch.lines) == 1:
-        _soil(axes, chosen, stretch)
+        _soil(axes, data.drawn, stretch.lines[0])
     axes.set_ylabel(NODES["x"].axis(data.given.units))
-    thick = Line2D([], [], color=stretch.style(0).color, linewidth=3.5, label="in contact")
     handles: list[Artist] = [
-        *_line_handles(stretch),
-        *([thick] if touching else []),
-        Line2D([], [], color=SEABED, linewidth=1.2, label="seabed"),
-        *axes.get_legend_handles_labels()[0],
+        Line2D([], [], **one.style.line, marker=one.style.marker, label=stretch.name(one))
+        for one in (stretch.lines if len(stretch.lines) > 1 else ())
     ]
-    above(axes, handles)
+    if stretch.left_out:
+        handles.append(Line2D([], [], linestyle="none", label=f"and {stretch.left_out} more lines"))
+    if touching:
+        handles.append(Line2D([], [], color=stretch.lines[0].style.color, linewidth=3.5, label="in contact"))
+    handles.append(Line2D([], [], color=SEABED, linewidth=1.2, label="seabed"))
+    legend(axes, [*handles, *axes.get_legend_handles_labels()[0]])
 
 
-def _crop(axes: Axes, data: PlotData, chosen: Chosen, stretch: Stretch) -> None:
+def _crop(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     """Leave out what hangs so high that nothing would be seen of how the line lies on the seabed."""
     sizes = (np.nan_to_num(data.depth.most), np.nan_to_num(data.given.diameter))
     most = max(times * float(values.max(initial=0.0)) for times, values in zip(_HIGHEST, sizes, strict=True))
-    nodes = np.concatenate([stretch.nodes(number)[0] for number in stretch.lines])
-    near = nodes[chosen.result.gap[nodes] <= most]
-    if not near.size:
+    nodes = np.concatenate([line.nodes for line in stretch.lines])
+    near = nodes[data.drawn.result.gap[nodes] <= most]
+    if not 0 < len(near) < len(nodes):
         return
-    drawn = np.concatenate([chosen.heights[near], chosen.seabed[near]])
+    drawn = np.concatenate([data.drawn.heights[near], data.drawn.seabed[near]])
     low, high = float(np.nanmin(drawn)), float(np.nanmax(drawn))
-    if len(near) < len(nodes) and is_number(low) and is_number(high) and high > low:
+    if is_number(low, high) and high > low:
         axes.set_ylim(low - 0.05 * (high - low), high)
 
 
-def _thick(axes: Axes, data: PlotData, heights: Floats, number: int, style: Style) -> bool:
+def _thick(axes: Axes, data: PlotData, one: DrawnLine) -> bool:
     """Draw the elements of a line that touch the seabed over it; return whether there are any."""
-    lines = data.given.lines
-    here = np.flatnonzero(data.drawn.result.contact[lines.elements[number]])
-    if not here.size:
-        return False
-    arcs, along = lines.node_arcs(number, data.given.length), heights[lines.nodes[number]]
-    here = here[thinned(np.nan_to_num(along[here]), MOST_POINTS)]
-    none = np.full(len(here), np.nan)
-    x, y = (np.column_stack([values[here], values[here + 1], none]).ravel() for values in (arcs, along))
-    axes.plot(x, y, color=style.color, linewidth=3.5, solid_capstyle="butt", zorder=2)
-    return True
+    lines, heights = data.given.lines, data.drawn.heights
+    here = np.flatnonzero(data.drawn.result.contact[lines.elements[one.number]])
+    arcs, along = lines.node_arcs(one.number, data.given.length), heights[lines.nodes[one.number]]
+    here = here[thinned(np.nan_to_num(along[here]))] if here.size else here
+    x, y = (gapped(values[here], values[here + 1]) for values in (arcs, along))
+    axes.plot(x, y, color=one.style.color, linewidth=3.5, solid_capstyle="butt", zorder=2)
+    return bool(here.size)
 
 
-def _touchdown_points(axes: Axes, data: PlotData, chosen: Chosen, stretch: Stretch) -> None:
+def _touchdown_points(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     """Mark where the lines come down on the seabed or leave it."""
-    finder, part = Touchdown(data.given), Part(chosen.step, chosen.result.as_series())
-    wanted = [one for one in finder.series(part) if one.number in stretch.lines]
     low, high = stretch.limits
-    points = [
-        point
-        for summary in finder.summaries(part, wanted)
-        for point in summary.touchdown
-        if low <= point.arc_length <= high
-    ]
-    if not points:
-        return
-    places = [point.arc_length for point in points], [point.x for point in points]
-    size, look = (8.0 if len(points) <= 12 else 5.0), {"color": "black", "markerfacecolor": "white", "zorder": 5}
-    axes.plot(*places, "v", markersize=size, label="touchdown point", **look)  # type: ignore[arg-type]
+    found = data.touchdown_points([line.number for line in stretch.lines])
+    points = sorted((one for one in found if low <= one.arc_length <= high), key=lambda one: one.arc_length)
+    mark_touchdown(axes, [one.arc_length for one in points], [one.x for one in points])
     unit = unit_names(data.given.units).length
-    labelled = points if len(points) <= _LABELLED_POINTS else []
-    for number, point in enumerate(sorted(labelled, key=lambda one: one.arc_length)):
+    for number, point in enumerate(points if len(points) <= _LABELLED_POINTS else ()):
         right, above = point.arc_length < 0.5 * (low + high), number % 2 == 0
         axes.annotate(
             f"TDP {point.arc_length:.5g} {unit}".rstrip(),
@@ -252,41 +290,23 @@ def _touchdown_points(axes: Axes, data: PlotData, chosen: Chosen, stretch: Stret
         )
 
 
-def _soil(axes: Axes, chosen: Chosen, stretch: Stretch) -> None:
+def mark_touchdown(axes: Axes, x: list[float], y: list[float]) -> None:
+    """Mark touchdown points, if there are any."""
+    if x:
+        size = 8.0 if len(x) <= 12 else 5.0
+        axes.plot(x, y, "v", color="black", markerfacecolor="white", markersize=size, label="touchdown point", zorder=5)
+
+
+def _soil(axes: Axes, chosen: Chosen, one: DrawnLine) -> None:
     """Fill what lies below the seabed."""
-    nodes, arcs = stretch.nodes(stretch.lines[0])
-    drawn = thinned(chosen.result.gap[nodes])
-    level = chosen.seabed[nodes[drawn]]
+    drawn = thinned(chosen.result.gap[one.nodes])
+    level = chosen.seabed[one.nodes[drawn]]
     if not np.isfinite(level).any():
         return
     lowest, highest = axes.get_ylim()
     least = float(np.nanmin(level))
     bottom = min(lowest, least - 0.12 * (highest - least))
-    if not (is_number(bottom) and is_number(highest)):
-        return
-    axes.fill_between(arcs[drawn], level, bottom, color=LIGHT, linewidth=0.0, zorder=0)
-    room = 0.1 if len(axes.texts) > 1 else 0.04  # of the labels of touchdown points at the top
-    axes.set_ylim(bottom, highest + room * (highest - bottom))
-
-
-def _line_handles(stretch: Stretch) -> list[Line2D]:
-    """What a legend has of the lines: nothing for a single one."""
-    styles = [(number, stretch.style(place)) for place, number in enumerate(stretch.lines)]
-    handles = [
-        Line2D([], [], color=style.color, linestyle=style.linestyle, marker=style.marker, label=stretch.name(number))
-        for number, style in (styles if len(styles) > 1 else ())
-    ]
-    if stretch.left_out:
-        handles.append(Line2D([], [], linestyle="none", label=f"and {stretch.left_out} more lines"))
-    return handles
-
-
-PANELS = {
-    "line": line,
-    "force": force,
-    "suction": suction,
-    "friction": friction,
-    "embedment": embedment,
-    "stiffness": stiffness,
-}
-"""By name."""
+    if is_number(bottom, highest):
+        axes.fill_between(one.node_arcs[drawn], level, bottom, color=LIGHT, linewidth=0.0, zorder=0)
+        room = 0.1 if len(axes.texts) > 1 else 0.04  # of the labels of touchdown points at the top
+        axes.set_ylim(bottom, highest + room * (highest - bottom))

@@ -2,25 +2,33 @@
 
 from __future__ import annotations
 
-from typing import BinaryIO, NamedTuple
+from typing import NamedTuple
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from mudline.contact.result import Part
-from mudline.contact.touchdown import Touchdown
 from mudline.quantities import labelled, unit_names
 from mudline.results.plot_data import PlotData
-from mudline.results.plots.style import MOST_POINTS, SEABED, SETTINGS, Spelled, above, finish, thinned, write
+from mudline.results.plots.along_line import mark_touchdown
+from mudline.results.plots.style import (
+    MOST_POINTS,
+    SEABED,
+    drawing,
+    finish,
+    gapped,
+    legend,
+    legend_name,
+    new_figure,
+    style_of,
+    thinned,
+)
 from mudline.scene.model import Scene
-from mudline.scene.numbering import Floats, Indices
+from mudline.scene.numbering import Indices
 
 _MOST_SETS = 7
-_GREYS = (0.0, 0.85)
-"""Ends of the colour map: its lightness rises evenly, so that the colours differ when they are printed in grey."""
 _WIDTHS = (3.2, 2.2, 1.2)
+"""Of the lines of the sets, in turn: they differ without colours."""
 _AXES = "XYZ"
 
 
@@ -32,32 +40,30 @@ class _Side(NamedTuple):
     title: str
 
 
-def draw_model(scene: Scene, data: PlotData | None, form: str, stream: BinaryIO, spelled: Spelled) -> None:
-    """Write elevation and plan as "png" or "svg"; `data` has the seabed and the touchdown points, if they are known."""
-    with mpl.rc_context(SETTINGS):
-        write(lambda: _figure(scene, data, spelled), form, stream)
-
-
 def can_draw(scene: Scene) -> bool:
     """Whether some element has two nodes with coordinates."""
     return bool(_drawn(scene).size)
 
 
-def _figure(scene: Scene, data: PlotData | None, spelled: Spelled) -> Figure:
-    figure = Figure(figsize=(8.0, 5.6), layout="constrained", dpi=150)
+@drawing()
+def model_figure(scene: Scene, data: PlotData | None) -> Figure:
+    """Return elevation and plan; `data` has the seabed and the touchdown points, if they are known."""
+    figure = new_figure(5.6)
     upper, lower = figure.subplots(2, 1, height_ratios=(3, 2))
     span = np.ptp(scene.coordinates[_nodes(scene)], axis=0)
     along, across = (1, 2) if span[1] >= span[2] else (2, 1)
     groups = _by_set(scene)
     for axes, side in ((upper, _Side(along, 0, "Elevation")), (lower, _Side(along, across, "Plan"))):
         for number, (name, elements) in enumerate(groups):
-            shade = _GREYS[0] + (_GREYS[1] - _GREYS[0]) * number / max(len(groups) - 1, 1)
-            look = {"color": mpl.colormaps["cividis"](shade), "linewidth": _WIDTHS[number % len(_WIDTHS)]}
-            axes.plot(*_segments(scene, side, elements), label=spelled(name), solid_capstyle="butt", zorder=3, **look)
+            kept = elements[:: max(1, -(-len(elements) // MOST_POINTS))]
+            ends = scene.coordinates[scene.element_nodes[kept]]
+            x, y = (gapped(*ends[:, :, axis].T) for axis in (side.along, side.up))
+            color, width = style_of(number).color, _WIDTHS[number % len(_WIDTHS)]
+            axes.plot(x, y, color=color, linewidth=width, label=legend_name(name), solid_capstyle="butt", zorder=3)
         if data is not None:
             _draw_ground(axes, data, side)
         unit = unit_names(scene.units).length
-        axes.set_title(side.title, loc="right")
+        axes.set_title(side.title, loc="right", fontsize="medium")
         axes.set_xlabel(labelled(_AXES[side.along], unit))
         axes.set_ylabel(labelled(_AXES[side.up], unit))
         finish(axes)
@@ -65,7 +71,7 @@ def _figure(scene: Scene, data: PlotData | None, spelled: Spelled) -> Figure:
         lower.set_ylim(
             *(scene.coordinates[_nodes(scene)[0], across] + np.array([-0.5, 0.5]) * max(span[along] / 20, 1))
         )
-    above(upper)
+    legend(upper)
     return figure
 
 
@@ -90,18 +96,6 @@ def _by_set(scene: Scene) -> list[tuple[str, Indices]]:
     return [*groups, (f"{len(order) - _MOST_SETS} more sets", others)] if others.size else groups
 
 
-def _segments(scene: Scene, side: _Side, elements: Indices) -> tuple[Floats, Floats]:
-    """The elements of a set as one broken line in a view; those of a large set thinned, as far as nobody can see it."""
-    kept = elements[:: max(1, -(-len(elements) // MOST_POINTS))]
-    ends = scene.coordinates[scene.element_nodes[kept]]
-    return _gapped(ends[:, :, side.along]), _gapped(ends[:, :, side.up])
-
-
-def _gapped(ends: Floats) -> Floats:
-    """Ends of segments (k, 2) as one broken line."""
-    return np.column_stack([ends, np.full(len(ends), np.nan)]).ravel()
-
-
 def _draw_ground(axes: Axes, data: PlotData, side: _Side) -> None:
     """The seabed below the line, in elevation, and the touchdown points."""
     positions = data.drawn.result.positions
@@ -115,10 +109,6 @@ def _draw_ground(axes: Axes, data: PlotData, side: _Side) -> None:
             place = np.asarray(positions)[nodes[kept], side.along]
             axes.plot(place, level[kept], color=SEABED, linewidth=1.2, linestyle="--", zorder=1)
         axes.plot([], [], color=SEABED, linestyle="--", label="seabed")
-    part = Part(data.drawn.step, data.drawn.result.as_series())
-    finder = Touchdown(data.given)
-    points = [point for row in finder.summaries(part, finder.series(part)) for point in row.touchdown]
-    if not points:
-        return
-    places = [[(one.x, one.y, one.z)[axis] for one in points] for axis in (side.along, side.up)]
-    axes.plot(*places, "v", color="black", markerfacecolor="white", markersize=8, label="touchdown point", zorder=5)
+    points = data.touchdown_points(data.lines)
+    x, y = ([(one.x, one.y, one.z)[axis] for one in points] for axis in (side.along, side.up))
+    mark_touchdown(axes, x, y)

@@ -1,0 +1,71 @@
+"""`--plot`: the option of every command that draws, and the file it writes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mudline.cli import FOUND
+from mudline.cli.options import OUTPUT_FILE, OWN, Command, form_of_file, option
+from mudline.cli.streams import notify, notify_missing, writing
+from mudline.cli.view import View
+from mudline.files import PLOT_FORMS, suffix_of
+
+
+def plot_option(what: str, group: str = OWN) -> Callable[[Command], Command]:
+    """`--plot`, which reaches the command as `plot`; `what` is drawn."""
+    metavar = f"FILE.{'|'.join(PLOT_FORMS)}"
+    return option(
+        "--plot",
+        group=group,
+        type=OUTPUT_FILE,
+        metavar=metavar,
+        callback=_plot,
+        help=f"Draw {what} (needs the extra mudline[plot]).",
+    )
+
+
+@dataclass(frozen=True)
+class Plot:
+    """The file of a plot, None where none is asked for."""
+
+    path: Path | None
+
+    def write(self, draw: Callable[[Any], Any], view: View | None = None) -> None:
+        """Write the figure that `draw` makes with the module of plots, if a plot is asked for; report it to a view."""
+        if self.path is not None:
+            plots = import_module("mudline.results.plots")
+            figure = draw(plots)
+            with writing(self.path) as stream:
+                plots.save(figure, suffix_of(self.path), stream)
+            if view is not None and not view.quiet:
+                notify(f"plot -> {self.path.as_posix()}")
+
+
+def _plot(_context: click.Context, _option: click.Parameter, path: str | None) -> Plot:
+    """Return the file; raises click.UsageError for another form, ends the command without matplotlib."""
+    if path is None:
+        return Plot(None)
+    form_of_file(path, PLOT_FORMS)
+    if find_spec("matplotlib") is None:
+        notify_missing("--plot", "matplotlib", "plot")
+        raise click.exceptions.Exit(FOUND)
+    return Plot(Path(path))
+
+
+def numbers_of_elements(_context: click.Context, _option: click.Parameter, text: str | None) -> tuple[int, ...]:
+    """Return the numbers of elements of `--plot-elements`, separated by commas; raises click.UsageError."""
+    found = []
+    for part in () if text is None else text.split(","):
+        try:
+            found.append(int(part))
+        except ValueError as error:
+            message = f"--plot-elements: {part.strip()!r} is not a number of an element; give numbers as 12,13"
+            raise click.UsageError(message) from error
+    return tuple(found)
