@@ -47,7 +47,7 @@ JSON = {
     "export": (
         "export -q samples/legacy-flowline.keyxm --to moordyn -o model.txt",
         "export -q samples/imperial-riser.keyxi --to orcaflex -o model.yml",
-        "export -q samples/scr-vessel.keyxm --to riflex -o model.inp",
+        "export -q samples/scr-vessel.keyxm --to orcaflex -o model.yml",
     ),
     "report": ("report samples/scr-vessel.keyxm samples/broken.keyxm",),
     "expand": ("expand samples/variations.keyxm --dry-run", "expand -q samples/parametric.keyxm -o study"),

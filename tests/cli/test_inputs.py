@@ -245,7 +245,7 @@ def test_decks_in_json_are_hidden_too(decks: Path) -> None:
         (("evaluate", "deck.json", "--against", "p.csv", "-o", "p.csv"), "-o p.csv is the file of --against itself"),
         (("study", "deck.json", "-o", "deck.json"), "-o deck.json is the deck itself"),
         (("report", "deck.keyxm", "-o", "deck.keyxm"), "-o deck.keyxm is a deck itself"),
-        (("export", "deck.keyxm", "--to", "riflex", "-o", "deck.keyxm"), "-o deck.keyxm is the deck itself"),
+        (("export", "deck.keyxm", "--to", "orcaflex", "-o", "deck.keyxm"), "-o deck.keyxm is the deck itself"),
         (("lint", ".", "--output-format", "json=deck.keyxm"), "--output-format json: deck.keyxm is a deck itself"),
         (("lint", ".", "--baseline", "deck.keyxm", "--write-baseline"), "--baseline deck.keyxm is a deck itself"),
     ],

@@ -236,7 +236,7 @@ def _export(data: bytes) -> None:
     _command("export", "{path}", "--to", target, "-o", "{folder}/out", "--output-format", "json")(data)
 
 
-_EXPORTS = ("moordyn", "orcaflex", "riflex")
+_EXPORTS = ("moordyn", "orcaflex")
 
 
 def _server(data: bytes) -> None:
