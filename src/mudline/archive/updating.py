@@ -106,9 +106,9 @@ class Archive:
                 new = [(place, *row) for place, rows in self._rows.items() for row in rows.get(name, ())]
                 with replacement(self.folder / _WRITING / f"{name}.parquet") as stream:
                     pq.write_table(pa.concat_tables([kept, _table(name, new)]), stream, write_page_checksum=True)
+            self.memory.save()
             (self.folder / _WRITING).rename(self.folder / _WRITTEN)
             _put_in_place(self.folder)
-            self.memory.save()
         _write_views(self.folder)
 
 

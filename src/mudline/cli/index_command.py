@@ -68,8 +68,8 @@ def command(
     from mudline.archive.updating import LOCK, Archive, ArchiveError, check_folder  # noqa: PLC0415 - an extra
 
     try:
-        folder = Path(storage.as_path(output))
-        if is_url(str(folder)) or any(_is_inside(path, folder) for path in paths):
+        folder = Path(output := storage.as_path(output))
+        if is_url(output) or any(_is_inside(path, folder) for path in paths):
             raise click.UsageError(f"-o {output}: an archive is a folder outside of the decks, and not a URL")
         check_folder(folder)
         folder.mkdir(parents=True, exist_ok=True)
