@@ -8,8 +8,7 @@ from typing import Any
 
 import pytest
 
-from mudline.archive.store import Archive
-from tests.archive.trial import deck, index, write
+from tests.archive.trial import ask, deck, index, write
 from tests.builders.decks import CLEAN
 from tests.cli.runner import run
 
@@ -49,10 +48,7 @@ def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def rows(archive: Path, name: str) -> list[dict[str, Any]]:
-    outcome = run("query", archive, QUESTIONS[name], "--output-format", "json")
-    assert outcome.code == 0, outcome.err
-    found: list[dict[str, Any]] = outcome.json()
-    return found
+    return ask(archive, QUESTIONS[name])
 
 
 def test_stiffest_curves(archive: Path) -> None:
@@ -107,5 +103,8 @@ def test_near_duplicates(archive: Path) -> None:
 
 @pytest.mark.parametrize("name", QUESTIONS)
 def test_a_question_about_an_empty_archive(name: str, tmp_path: Path) -> None:
-    Archive.made(tmp_path / "empty")
+    decks = write(tmp_path / "decks", a=deck())
+    index(decks, archive=tmp_path / "empty")
+    (decks / "a.keyxm").unlink()
+    assert index(decks, "--prune", archive=tmp_path / "empty").code == 2  # there is no deck
     assert rows(tmp_path / "empty", name) == []

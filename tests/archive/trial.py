@@ -65,22 +65,16 @@ def summary(outcome: Outcome) -> str:
     return outcome.err.splitlines()[-1].removeprefix("mudline: ").partition(" -> ")[0]
 
 
-def ask(archive: Path, sql: str, *more: str) -> list[dict[str, Any]]:
-    """The rows of an answer."""
-    outcome = run("query", archive, sql, "--output-format", "json", *more)
-    assert outcome.code == 0, outcome.err
-    rows: list[dict[str, Any]] = outcome.json()
-    return rows
+def ask(archive: Path, sql: str) -> list[dict[str, Any]]:
+    """The rows of an answer, as the shell of DuckDB gives it anywhere."""
+    import duckdb  # noqa: PLC0415 - an extra
+
+    with duckdb.connect(archive / "archive.duckdb", read_only=True) as connection:
+        answer = connection.execute(sql)
+        names = [column[0] for column in answer.description or ()]
+        return [dict(zip(names, row, strict=True)) for row in answer.fetchall()]
 
 
 def contents(archive: Path) -> dict[str, list[str]]:
     """Every row of every table."""
-    from mudline.archive.database import opened  # noqa: PLC0415 - an extra
-    from mudline.archive.store import Archive  # noqa: PLC0415 - an extra
-
-    found = {}
-    with opened(Archive.opened(archive), "1GB", 1) as database:
-        for table in TABLES:
-            answer = database.connection.execute(f"SELECT * FROM {table.name}")  # noqa: S608 - ours
-            found[table.name] = sorted(map(str, answer.fetchall()))
-    return found
+    return {table: sorted(str(list(row.values())) for row in ask(archive, f"FROM {table}")) for table in TABLES}

@@ -53,17 +53,22 @@ def test_the_head_says_source_soil_error_and_range() -> None:
         "C D 0.3, s_u 5000 + 1500 z, submerged weight of soil w 6000",
         "C Error of interpolation: 2 % of the largest force 8226.72, bound 2 %",
         "C Published for z/D from 0 to 0.5: beyond half the diameter its users warn of the result",
-        "C Ratios are z/D: penetration of the invert, not shifted by -0.5",
+        "C Ratios are z/D: penetration of the invert",
         " CURVE=f114",
     ]
 
 
-def test_invert_shifts_the_ratios() -> None:
-    plain = run("backbone", "merifield", *CLAY).out.splitlines()
-    shifted = run("backbone", "merifield", *CLAY, "--invert").out.splitlines()
-    assert shifted[6] == "C Ratios are z/D - 0.5: depth of the axis"
-    pairs = [[[float(field) for field in line.split(",")] for line in lines[8:]] for lines in (plain, shifted)]
-    assert np.array(pairs[1]) == pytest.approx(np.array(pairs[0]) - [0.5, 0.0], abs=1e-15)
+@pytest.mark.parametrize(("axis", "seabed"), [(-0.03, ""), (0.12, "*SEABED PROFILE\n TYPE=2D\n FILE=bed.txt\n")])
+def test_the_datum_takes_the_shift_from_axis_to_invert(folder: Path, axis: float, seabed: str) -> None:
+    """The invert of a pipe of 0.3 m is 0.03 m deep: nodes D/2 lower, or the seabed D/2 higher, as the page has it."""
+    (folder / "bed.txt").write_text("0, 0.15\n100, 0.15\n", encoding="ascii")
+    block = run("backbone", "f114", *CLAY, "--name", "Clay").out
+    deck = folder / "deck.keyxm"
+    deck.write_text(DECK.format(bed=NEW + block + seabed).replace("-0.03", str(axis)), encoding="ascii")
+    result = mudline.read(deck).scene().contact().evaluate()
+    expected = Backbone(MODELS["f114"], Soil(0.3, 5000.0, 1500.0)).force(np.array([0.1]))
+    assert result.force == pytest.approx(expected, rel=0.01)
+    assert run("lint", deck, "--isolated", "--select", "CRV006").code == 0
 
 
 def test_beyond_the_published_range() -> None:
@@ -101,11 +106,13 @@ def test_wrong_usage(given: tuple[str, ...], says: str) -> None:
     assert says in outcome.err
 
 
-def test_models_that_cannot_have_it() -> None:
+def test_models_that_cannot_have_it(monkeypatch: pytest.MonkeyPatch) -> None:
     weighed = run("backbone", "aubeny", *CLAY, "--weight", "6000")
     assert weighed.code == 2
     assert "this model has no term of the soil's weight" in weighed.err
-    fine = run("backbone", "aubeny", *CLAY, "--tolerance", "1e-5", "--invert")
+    twice = np.array([[0.0, 0.0], [0.1, 1.0], [0.1, 2.0]])
+    monkeypatch.setattr(Backbone, "points", lambda *_: twice)  # two ratios that rounding makes equal
+    fine = run("backbone", "aubeny", *CLAY, "--tolerance", "1e-5")
     assert fine.code == 2
     assert "--tolerance 1e-05 is too fine for this model" in fine.err
 

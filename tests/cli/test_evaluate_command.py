@@ -277,7 +277,7 @@ def test_deck_without_elements(place: Place) -> None:
     assert "no elements to evaluate: *LINES may make them, and is not read; give them to `" in outcome.err
     deck = "$MODEL\n*LINE LOCATIONS\n LINE=Riser\n Arch, 20\n*LINES\n LINE=Riser\n SECTION=Riser, 100\n"
     assert "no elements to evaluate: *LINES may make them" in run("evaluate", place(deck)).err
-    assert "to export: those of *LINES are" in run("export", place(deck), "--to", "riflex", "-o", "out").err
+    assert "to export: those of *LINES are" in run("export", place(deck), "--to", "orcaflex", "-o", "out").err
     outcome = run("evaluate", place("$MODEL\n*NODE,,,\n1,0,0,\n*ELEMENT,,,\n1,1,2,\n"))
     assert "no elements to evaluate: 2 keywords of it not known, `mudline lint` names them" in outcome.err
 

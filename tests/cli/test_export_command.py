@@ -12,7 +12,7 @@ from tests.export.decks import ELASTIC, text
 PLAIN = text(bed=ELASTIC.replace(" FRICTION=0.3, 0.5, 0.01, 0.02\n", ""))
 
 
-@pytest.mark.parametrize("target", ["moordyn", "orcaflex", "riflex"])
+@pytest.mark.parametrize("target", ["moordyn", "orcaflex"])
 def test_a_sample_is_written_with_its_list(target: str, tmp_path: Path) -> None:
     out = tmp_path / "model.txt"
     outcome = run("export", str(SAMPLES / "scr-touchdown.keyxm"), "--to", target, "-o", str(out))
@@ -41,11 +41,11 @@ def test_json_has_what_is_carried_too(tmp_path: Path) -> None:
 
 def test_strict_is_1_where_something_is_lost_and_writes_all_the_same(tmp_path: Path) -> None:
     out = tmp_path / "model.inp"
-    assert run("export", str(SAMPLES / "scr-touchdown.keyxm"), "--to", "riflex", "-o", str(out), "--strict").code == 1
+    assert run("export", str(SAMPLES / "scr-touchdown.keyxm"), "--to", "orcaflex", "-o", str(out), "--strict").code == 1
     assert out.exists()
     deck = tmp_path / "deck.keyxm"
     deck.write_text(PLAIN)
-    outcome = run("export", str(deck), "--to", "riflex", "-o", str(out), "--strict")
+    outcome = run("export", str(deck), "--to", "orcaflex", "-o", str(out), "--strict")
     assert outcome.code == 0
     assert outcome.out.startswith("All carries over: ")
 
@@ -60,7 +60,7 @@ def test_a_seabed_of_its_own_is_a_second_file(tmp_path: Path) -> None:
 
 
 def test_a_deck_that_goes_on_from_another_needs_ends_of_its_own(tmp_path: Path) -> None:
-    outcome = run("export", str(SAMPLES / "scr-dynamic.keyxm"), "--to", "riflex", "-o", str(tmp_path / "a.inp"))
+    outcome = run("export", str(SAMPLES / "scr-dynamic.keyxm"), "--to", "orcaflex", "-o", str(tmp_path / "a.inp"))
     assert outcome.code == 1
     assert "scr-touchdown.keyxm:237:" in outcome.err
     assert "node 201 ends a line" in outcome.err
@@ -84,11 +84,11 @@ def test_entries_of_another_file_have_its_name(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("--to", "riflex", "-o", "-"), "give the name of a file"),
-        (("--to", "riflex", "-o", "deck.keyxm"), "would replace deck.keyxm"),
+        (("--to", "orcaflex", "-o", "-"), "give the name of a file"),
+        (("--to", "orcaflex", "-o", "deck.keyxm"), "would replace deck.keyxm"),
         (("--to", "abaqus", "-o", "a"), "'abaqus'"),
-        (("--to", "riflex"), "Missing option '-o'"),
-        (("--to", "riflex", "-o", "no/such/folder/a.inp"), "cannot be written"),
+        (("--to", "orcaflex"), "Missing option '-o'"),
+        (("--to", "orcaflex", "-o", "no/such/folder/a.inp"), "cannot be written"),
     ],
 )
 def test_wrong_usage(arguments: tuple[str, ...], message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -254,7 +254,7 @@ def test_decks_in_json_are_hidden_too(decks: Path) -> None:
         (("study", "deck.json", "-o", "deck.json"), "-o deck.json would replace deck.json"),
         (("report", "deck.keyxm", "-o", "deck.keyxm"), "-o deck.keyxm would replace deck.keyxm"),
         (("report", "deck.keyxm", "--template", "p.csv", "-o", "p.csv"), "-o p.csv would replace p.csv"),
-        (("export", "deck.keyxm", "--to", "riflex", "-o", "deck.keyxm"), "-o deck.keyxm would replace deck.keyxm"),
+        (("export", "deck.keyxm", "--to", "orcaflex", "-o", "deck.keyxm"), "-o deck.keyxm would replace deck.keyxm"),
         (
             ("lint", ".", "--output-format", "json=deck.keyxm"),
             "--output-format json: deck.keyxm would replace deck.keyxm",

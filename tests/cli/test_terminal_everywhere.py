@@ -105,25 +105,3 @@ def test_a_file_name_does_not_act_on_the_terminal_either(place: Place, folder: P
         assert_harmless(run(*line.split(), path, terminal=True))
     (folder / "gone").mkdir()
     assert_harmless(run("lint", f"gone/{HOSTILE}", f"--{HOSTILE}", terminal=True))
-
-
-QUESTIONS = [
-    "SELECT * FROM {table}",
-    "SELECT '\x1b[31m' AS \"a\x1b[31mb\"",
-    "PIVOT curves ON name USING count(*)",
-    "SELECT nothing\x1b[31m FROM decks",
-    "SELECT CAST(name AS INTEGER) FROM curves",
-    "SELECT error(name) FROM curves",
-]
-
-
-@pytest.mark.covered
-def test_an_answer_does_not_act_on_the_terminal(place: Place) -> None:
-    pytest.importorskip("duckdb")
-    names = [place(text, f"{name}.keyxm") for name, text in DECKS.items()]
-    assert run("index", *names, "-o", "archive", "--jobs", "1").code in {0, 1}
-    tables = ("files", "decks", "keywords", "sets", "curves", "laws", "parameters", "findings")
-    for sql in [QUESTIONS[0].format(table=table) for table in tables] + QUESTIONS[1:]:
-        for form in ("text", "csv", "json"):
-            assert_harmless(run("query", "archive", sql, "--output-format", form, terminal=True))
-        assert_harmless(run("query", "archive", sql))

@@ -32,7 +32,6 @@ PRINTING = {
     "evaluate": "evaluate {deck} -v",
     "batch": "batch {deck} {other} -o {folder}/out",
     "index": "index {deck} -o {folder}/archive",
-    "query": "query {folder}/archive",
     "study": "study {deck} --only stability",
     "report": "report {deck} -o {folder}/report.html",
     "export": "export {deck} --to orcaflex -o {folder}/x.yml",
@@ -57,9 +56,6 @@ def test_what_is_printed_of_a_deck_is_harmless(
         other.write_text(whole.replace("1000.0", "2000.0").replace("Sand", "Silt") + f"C {text}\n", encoding="utf-8")
         given = {"deck": deck, "other": other, "folder": folder}
         words = [word.format(**given) for word in PRINTING[command].split(" ")]
-        if command == "query":
-            run("index", deck, "-o", folder / "archive", "-q")
-            words.append("SELECT * FROM curves, findings")
         outcomes.append(run(*words, "--color", "never", terminal=True))
     for outcome in outcomes:
         assert outcome.code in {0, 1, 2}

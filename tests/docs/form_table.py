@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
-from mudline.archive.tables import TABLES, Table
+from mudline.archive.tables import TABLES, columns_of
 from mudline.linting.output import TEXT, TEXT_SUMMARY, form_module, form_names
 from mudline.quantities import CASES, ELEMENTS, LINES, NODES, Quantity
 from mudline.results.forms import FORMS
@@ -50,12 +50,12 @@ def archive_tables() -> dict[str, str]:
     return {_head(table): _head(table) + "".join(_column_rows(table)) for table in TABLES}
 
 
-def _head(table: Table) -> str:
-    return f"| column of {table.name} | holds |\n| --- | --- |\n"
+def _head(table: str) -> str:
+    return f"| column of {table} | holds |\n| --- | --- |\n"
 
 
-def _column_rows(table: Table) -> Iterable[str]:
-    return (f"| `{column.name}` | {marked(column.meaning)} |\n" for column in table.columns)
+def _column_rows(table: str) -> Iterable[str]:
+    return (f"| `{name}` | {marked(meaning)} |\n" for name, _, meaning in columns_of(table) if name != "file")
 
 
 def pages_with_tables() -> dict[str, str]:

@@ -10,7 +10,7 @@ import pytest
 
 from mudline.deck.loading import load_bytes, load_path
 from mudline.diagnostics import DeckError
-from mudline.export import moordyn, orcaflex, riflex
+from mudline.export import moordyn, orcaflex
 from mudline.export.line_model import build
 from mudline.scene.model import resolve
 from tests.export.test_orcaflex import checked
@@ -34,7 +34,7 @@ def held(path: Path) -> bytes:
 def test_decks_are_written_whole_or_refused() -> None:
     written = 0
     for path in DECKS:
-        for target in (moordyn, orcaflex, riflex):
+        for target in (moordyn, orcaflex):
             try:
                 deck = load_bytes(held(path), path.name, units="metric", folder=path.parent).require()
                 model = build(resolve(deck).require_evaluable())

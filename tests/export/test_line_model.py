@@ -10,11 +10,11 @@ import pytest
 
 from mudline.contact.input import LawKind
 from mudline.diagnostics import DeckError, Where
-from mudline.export import moordyn, orcaflex, riflex
+from mudline.export import moordyn, orcaflex
 from mudline.export.report import Status
 from tests.export.decks import BOTH, ELASTIC, EXPORTABLE, PIPE, WEIGHT, model_of, sample, text
 
-TARGETS = (moordyn, orcaflex, riflex)
+TARGETS = (moordyn, orcaflex)
 CURVE = (
     "*SEABED STIFFNESS\n CURVE=Soft\n 0.0, 0.0\n 0.1, 200.0\n 0.3, 600.0\n 0.5, 700.0\n"
     "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Soft\n"
@@ -170,7 +170,6 @@ def test_lines_that_join_share_an_end() -> None:
     assert (len(model.lines), len(model.ends), int(model.scene.node_ids[joined.node])) == (3, 4, 6)
     rows = moordyn.write(model, "a.txt")["a.txt"].splitlines()
     assert sum(" Free 25.0 0.0 -100.0" in row for row in rows) == 1
-    assert riflex.write(model_of(deck), "a.inp")["a.inp"].count("LINE3 LTYPE3 SN") == 1
     with pytest.raises(DeckError, match="lines join at this node"):
         orcaflex.write(model_of(deck), "a.yml")
 
@@ -210,7 +209,7 @@ def test_settings_beside_stiffness_and_friction_are_listed() -> None:
 
 
 def test_all_targets_are_modules_of_the_package() -> None:
-    assert {import_module(f"mudline.export.{name}") for name in ("moordyn", "orcaflex", "riflex")} == set(TARGETS)
+    assert {import_module(f"mudline.export.{name}") for name in ("moordyn", "orcaflex")} == set(TARGETS)
 
 
 def test_numbers_beyond_a_double_in_si_units_are_refused() -> None:
@@ -233,7 +232,7 @@ def test_a_deck_without_a_seabed_law_is_written(target: ModuleType) -> None:
 def test_laws_and_curves_that_no_element_follows_are_listed() -> None:
     bed = CURVE.replace("*SEABED PROPERTIES", " CURVE=Spare\n 0.0, 0.0\n 0.1, 90.0\n*SEABED PROPERTIES")
     model = model_of(text(bed=bed.replace(" SET=ALL\n", " SET=ALL\n STIFFNESS=9000.0\n SET=ALL\n")))
-    riflex.write(model, "a.inp")
+    orcaflex.write(model, "a.yml")
     unused = [
         (entry.keyword, entry.line) for entry in model.report.lost if entry.effect.startswith("no element follows")
     ]

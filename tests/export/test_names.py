@@ -10,11 +10,10 @@ import yaml
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
-from mudline.export import moordyn, orcaflex, riflex
+from mudline.export import moordyn, orcaflex
 from mudline.export.report import Names, Report, Status, one_line
 from tests.export.decks import model_of, text
 from tests.export.test_moordyn import tables
-from tests.export.test_riflex import groups
 
 HOSTILE = (
     "a#b",
@@ -31,7 +30,7 @@ HOSTILE = (
     "\u2028",
     "~",
 )
-TARGETS = {moordyn: ("A-Za-z0-9_", 32), orcaflex: (r"A-Za-z0-9_. ()", 50), riflex: ("A-Za-z0-9_", 8)}
+TARGETS = {moordyn: ("A-Za-z0-9_", 32), orcaflex: (r"A-Za-z0-9_. ()", 50)}
 MODEL = model_of(text())
 
 
@@ -78,7 +77,6 @@ def test_a_deck_with_such_a_name_is_written_whole(name: str) -> None:
     assert list(found) == ["LINE TYPES", "POINTS", "LINES", "OPTIONS", "end"]
     assert found["LINES"][0][1] == found["LINE TYPES"][0][0]
     assert len(yaml.safe_load(orcaflex.write(model_of(deck), "a.yml")["a.yml"])["LineTypes"]) == 1
-    assert len(groups(riflex.write(model_of(deck), "a.inp")["a.inp"])["NEW COMPONENT CRS1"]) == 8
     (entry,) = (entry for entry in model.report.entries if entry.status is Status.RENAMED)
     assert entry.target == found["LINE TYPES"][0][0]
     assert entry.keyword.startswith("*GEOMETRIC SETS name ")

@@ -7,7 +7,6 @@ import struct
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
-from functools import cache
 from io import BytesIO
 from pathlib import Path
 from typing import NamedTuple
@@ -237,7 +236,7 @@ def _export(data: bytes) -> None:
     _command("export", "{path}", "--to", target, "-o", "{folder}/out", "--output-format", "json")(data)
 
 
-_EXPORTS = ("moordyn", "orcaflex", "riflex")
+_EXPORTS = ("moordyn", "orcaflex")
 
 
 def _server(data: bytes) -> None:
@@ -260,48 +259,6 @@ def _positions(data: bytes) -> None:
     option = "--elements" if data.startswith(b"element") else "--positions"
     with _file(data, name) as path:
         _judged(run("evaluate", str(SAMPLES / "legacy-flowline.keyxm"), option, str(path), "-q"), ())
-
-
-@cache
-def _archive() -> tuple[tempfile.TemporaryDirectory[str], Path]:
-    """An archive beside a file that no question may show; it is there until the process ends."""
-    folder = tempfile.TemporaryDirectory()
-    place = Path(folder.name)
-    (place / "secret.txt").write_text(_NEIGHBOUR, encoding="utf-8")
-    run("index", str(SAMPLES / "lines-deck.keyxm"), "-o", str(place / "archive"), "-q")
-    return folder, place
-
-
-_NEIGHBOUR = "text-of-a-neighbour"
-
-
-def _query(data: bytes) -> None:
-    _, place = _archive()
-    before = sorted(place.rglob("*"))
-    sql = data.decode(errors="replace").replace("{place}", str(place))
-    outcome = run("query", str(place / "archive"), "--memory-limit", "200MB", "--jobs", "1", "--", sql)
-    _judged(outcome, ())
-    if _NEIGHBOUR in outcome.out + outcome.err or sorted(place.rglob("*")) != before:
-        raise BrokenPromiseError("a question reads or writes a file")
-
-
-def _questions() -> list[bytes]:
-    return [
-        b"SELECT file, depth\nFROM decks\nWHERE depth > 1.0\nORDER BY file\n",
-        b"SELECT c.name, count(*), max(c.points)\nFROM curves AS c JOIN decks USING (deck)\nGROUP BY ALL\nLIMIT 3\n",
-        b"WITH a AS (SELECT code, line FROM findings)\nSELECT code, list(line), {'a': 1}\nFROM a\nGROUP BY code\n",
-        b"SELECT * FROM read_text('{place}/secret.txt')\n",
-        b"SELECT * FROM read_csv('{place}/*')\n",
-        b"SELECT content\nFROM read_blob('../secret.txt')\n",
-        b"COPY decks\nTO '{place}/out.csv'\n",
-        b"ATTACH '{place}/x.db'\nAS x\n",
-        b"EXPLAIN SELECT name FROM sets\n",
-        b"INSTALL httpfs;\nLOAD httpfs\n",
-        b"SET enable_external_access = true\n",
-        b"PRAGMA database_list\n",
-        b"DESCRIBE stored.decks\n",
-        b"SELECT 'infinity'::DATE, INTERVAL '1 month', 1.5::DECIMAL(4, 2), 'x'::BLOB, TRUE, NULL\n",
-    ]
 
 
 def _archives() -> list[bytes]:
@@ -337,7 +294,6 @@ TARGETS = {
     "export": Target(_export, decks),
     "restart": Target(_restart, decks),
     "server": Target(_server, decks),
-    "query": Target(_query, _questions),
     "index": Target(_command("index", "{path}", "-o", "{folder}/archive", "-q"), decks),
     "csv": Target(_command("convert", "{path}", "-o", "{folder}/o.keyxm", name="t.csv"), _tables),
     "xlsx": Target(_command("convert", "{path}", "-o", "{folder}/o.keyxm", name="t.xlsx"), _workbooks),

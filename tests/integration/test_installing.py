@@ -107,7 +107,7 @@ def test_a_release_needs_its_version_in_the_changelog(tmp_path: Path) -> None:
     steps = yaml.safe_load(text)["jobs"]["build"]["steps"]
     (check,) = [step["run"] for step in steps if step.get("name") == "The changelog has the version"]
     for version, code in (("v0.1.0", 0), ("v0.2.0", 1), ("v0x1.0", 1)):
-        (tmp_path / "CHANGELOG.md").write_text("## [Unreleased]\n\n## [0.1.0]\n", encoding="utf-8")
+        (tmp_path / "CHANGELOG.md").write_text("# Changelog\n\n## 0.1.0, first release\n", encoding="utf-8")
         environment = {**os.environ, "GITHUB_REF_NAME": version}
         found = subprocess.run(
             [BASH, "-c", check], cwd=tmp_path, env=environment, capture_output=True, timeout=TIMEOUT, check=False

@@ -1,167 +1,135 @@
-"""The tables of an archive: their columns, what these mean, and what they hold."""
+"""The tables of an archive, each a list of columns: what a row is, what its columns hold and what they mean.
+
+In front of these columns each table has `file`, by which tables are joined. Numbers are in the units of their deck.
+"""
 
 from __future__ import annotations
 
-from typing import Literal, NamedTuple
-
-Kind = Literal["text", "whole", "number", "numbers", "flag"]
-"""What a column holds: text, whole numbers, one or a list of numbers in the deck's own units, true or false."""
+from collections.abc import Iterator
+from typing import Annotated, Any, NamedTuple, get_args, get_type_hints
 
 
-class Column(NamedTuple):
-    """A column: its name, what it holds, and what that means."""
+class DeckRow(NamedTuple):
+    """A deck."""
 
-    name: str
-    kind: Kind
-    meaning: str
+    units: Annotated[str, "unit system of all its numbers: metric, imperial or user"]
+    verdict: Annotated[str, "legal, legal as far as read, illegal, or empty for a file without any section"]
+    errors: Annotated[int, "findings of severity error"] = 0
+    warnings: Annotated[int, "findings of severity warning"] = 0
+    infos: Annotated[int, "findings of severity info"] = 0
+    sections: Annotated[int, "sections"] = 0
+    keywords: Annotated[int, "keyword blocks"] = 0
+    read: Annotated[int, "keyword blocks of which all was read"] = 0
+    partly: Annotated[int, "keyword blocks of which a line or part was passed over"] = 0
+    unread: Annotated[int, "keyword blocks whose lines were passed over"] = 0
+    nodes: Annotated[int, "nodes"] = 0
+    elements: Annotated[int, "elements"] = 0
+    sets: Annotated[int, "element sets, without ALL"] = 0
+    curves: Annotated[int, "curves of the seabed"] = 0
+    length: Annotated[float | None, "total length of the elements"] = None
+    depth: Annotated[float | None, "water depth of the last *OCEAN"] = None
+    content: Annotated[int | None, "digest of its values; equal where only layout and comments differ"] = None
+    key: Annotated[str, "digest of its bytes, its form, and the program and the settings that read it"] = ""
 
 
-class Table(NamedTuple):
-    """A table: its name, what a row is, and its columns behind `deck`, which joins the tables."""
+class KeywordRow(NamedTuple):
+    """A keyword block."""
 
-    name: str
-    row: str
-    columns: tuple[Column, ...]
+    number: Annotated[int, "place among the blocks of the deck, from 1"]
+    section: Annotated[str, "section, without $"]
+    keyword: Annotated[str, "keyword, without *"]
+    line: Annotated[int | None, "line of the keyword"]
+    is_read: Annotated[bool, "whether its lines are read; those of others are passed through"]
+    partly: Annotated[bool, "whether a line or part of it was passed over"]
+    superseded: Annotated[bool, "whether a newer keyword supersedes it"]
+    extension: Annotated[bool, "whether it is an extension of mudline"]
+    content: Annotated[int, "digest of its values; equal for equal blocks"]
+    others: Annotated[int, "digest of all other blocks; equal where decks differ in this block only"]
 
 
-DECK = Column("deck", "whole", "number of the content that the row belongs to")
-FILE = Column("file", "text", "path of the deck from the folder that holds the archive")
+class SetRow(NamedTuple):
+    """An element set, without the predefined ALL."""
 
-TABLES = (
-    Table(
-        "decks",
-        "a deck",
-        (
-            Column("units", "text", "unit system of all its numbers: metric, imperial or user"),
-            Column("verdict", "text", "legal, legal as far as read, illegal, or empty for a file without any section"),
-            Column("errors", "whole", "findings of severity error"),
-            Column("warnings", "whole", "findings of severity warning"),
-            Column("infos", "whole", "findings of severity info"),
-            Column("sections", "whole", "sections"),
-            Column("keywords", "whole", "keyword blocks"),
-            Column("read", "whole", "keyword blocks of which all was read"),
-            Column("partly", "whole", "keyword blocks of which a line or part was passed over"),
-            Column("unread", "whole", "keyword blocks whose lines were passed over"),
-            Column("nodes", "whole", "nodes"),
-            Column("elements", "whole", "elements"),
-            Column("sets", "whole", "element sets, without ALL"),
-            Column("curves", "whole", "curves of the seabed"),
-            Column("length", "number", "total length of the elements"),
-            Column("depth", "number", "water depth of the last *OCEAN"),
-            Column("content", "whole", "digest of its values; equal where only layout and comments differ"),
-        ),
-    ),
-    Table(
-        "keywords",
-        "a keyword block",
-        (
-            Column("number", "whole", "place among the blocks of the deck, from 1"),
-            Column("section", "text", "section, without $"),
-            Column("keyword", "text", "keyword, without *"),
-            Column("line", "whole", "line of the keyword"),
-            Column("is_read", "flag", "whether its lines are read; those of others are passed through"),
-            Column("partly", "flag", "whether a line or part of it was passed over"),
-            Column("superseded", "flag", "whether a newer keyword supersedes it"),
-            Column("extension", "flag", "whether it is an extension of mudline"),
-            Column("content", "whole", "digest of its values; equal for equal blocks"),
-            Column("others", "whole", "digest of all other blocks; equal where decks differ in this block only"),
-        ),
-    ),
-    Table(
-        "sets",
-        "an element set, without the predefined ALL",
-        (
-            Column("name", "text", "name"),
-            Column("elements", "whole", "number of its elements"),
-            Column("first", "whole", "smallest element number"),
-            Column("last", "whole", "largest element number"),
-            Column("complete", "flag", "whether the deck shows all its elements"),
-            Column("used", "flag", "whether anything in the deck names it"),
-            Column("line", "whole", "line of its definition"),
-        ),
-    ),
-    Table(
-        "curves",
-        "a curve: those of a seabed first, then all others",
-        (
-            Column("curve", "whole", "place among the curves of the deck, from 1"),
-            Column("name", "text", "name; of *EMBEDMENT that of its set"),
-            Column("kind", "text", "what kind of curve it is, such as force-embedment curve"),
-            Column("keyword", "text", "keyword that gives it"),
-            Column("legacy", "flag", "whether it is one of *EMBEDMENT"),
-            Column(
-                "ratios",
-                "numbers",
-                "embedment ratios of its points, sorted: penetration / external diameter; of others the abscissa",
-            ),
-            Column("forces", "numbers", "forces per unit length at these points; of others the ordinate"),
-            Column("first_ratio", "number", "smallest embedment ratio"),
-            Column("last_ratio", "number", "largest embedment ratio"),
-            Column("largest_force", "number", "largest force per unit length at a point"),
-            Column("steepest", "number", "largest d force / d ratio of a segment"),
-            Column("elements", "whole", "elements that follow it"),
-            Column("shape", "whole", "digest of its sorted points; equal for equal curves"),
-            Column("line", "whole", "line of its name"),
-        ),
-    ),
-    Table(
-        "laws",
-        "a seabed stiffness or curve that a place of the deck gives to a set",
-        (
-            Column("law", "whole", "place among the laws of the deck, from 1"),
-            Column("keyword", "text", "keyword that gives it"),
-            Column("family", "text", "legacy or new"),
-            Column("kind", "text", "curve, linear, rigid or none"),
-            Column("set", "text", "set that it is given to"),
-            Column("curve", "whole", "number of its curve"),
-            Column("stiffness", "number", "linear stiffness per unit length"),
-            Column("set_elements", "whole", "elements of the set"),
-            Column("elements", "whole", "elements that follow it"),
-            Column("line", "whole", "line in which it stands"),
-        ),
-    ),
-    Table(
-        "parameters",
-        "a parameter of *PARAMETERS",
-        (
-            Column("name", "text", "name"),
-            Column("value", "number", "value, if it is a number"),
-            Column("text", "text", "value, if it is a text"),
-            Column("equation", "text", "equation, if one gives the value"),
-            Column("used", "flag", "whether an equation names it; none in a deck with variations"),
-            Column("line", "whole", "line of its value"),
-        ),
-    ),
-    Table(
-        "findings",
-        "a finding of mudline lint, under the configuration of the deck",
-        (
-            Column("code", "text", "code of the rule"),
-            Column("slug", "text", "name of the rule"),
-            Column("severity", "text", "error, warning or info"),
-            Column("message", "text", "message"),
-            Column("line", "whole", "line, from 1"),
-            Column("start_column", "whole", "column, from 1"),
-            Column("end_line", "whole", "line of the end"),
-            Column("end_column", "whole", "column of the end, exclusive"),
-            Column("fix", "text", "safe or unsafe, if it can be fixed"),
-            Column("blocks", "flag", "whether it keeps the deck from being evaluated"),
-        ),
-    ),
-)
+    name: Annotated[str, "name"]
+    elements: Annotated[int, "number of its elements"]
+    first: Annotated[int | None, "smallest element number"]
+    last: Annotated[int | None, "largest element number"]
+    complete: Annotated[bool, "whether the deck shows all its elements"]
+    used: Annotated[bool, "whether anything in the deck names it"]
+    line: Annotated[int | None, "line of its definition"]
 
-FILES = Table(
-    "files",
-    "the file of a deck as it was when it was read",
-    (
-        FILE,
-        Column("bytes", "whole", "size"),
-        Column("modified", "whole", "its last change in ns since 1970; -1 where that was too new to trust"),
-        Column("digest", "text", "digest of its bytes"),
-        Column("key", "text", "digest of its bytes, form, and the settings and program of the run"),
-        Column("depends", "text", "JSON: files that its rows depend on, from the deck's folder, with digests"),
-    ),
-)
 
-STORED = (FILES, *TABLES)
-"""The tables of Parquet files; each also has `deck`, in front of the other columns."""
+class CurveRow(NamedTuple):
+    """A curve: those of a seabed first, then all others."""
+
+    curve: Annotated[int, "place among the curves of the deck, from 1"]
+    name: Annotated[str, "name; of *EMBEDMENT that of its set"]
+    kind: Annotated[str, "what kind of curve it is, such as force-embedment curve"]
+    keyword: Annotated[str, "keyword that gives it"]
+    legacy: Annotated[bool, "whether it is one of *EMBEDMENT"]
+    ratios: Annotated[
+        list[float], "embedment ratios of its points, sorted: penetration / external diameter; of others the abscissa"
+    ]
+    forces: Annotated[list[float], "forces per unit length at these points; of others the ordinate"]
+    first_ratio: Annotated[float | None, "smallest embedment ratio"]
+    last_ratio: Annotated[float | None, "largest embedment ratio"]
+    largest_force: Annotated[float | None, "largest force per unit length at a point"]
+    steepest: Annotated[float | None, "largest d force / d ratio of a segment"]
+    elements: Annotated[int, "elements that follow it"]
+    shape: Annotated[int, "digest of its sorted points; equal for equal curves"]
+    line: Annotated[int | None, "line of its name"]
+
+
+class LawRow(NamedTuple):
+    """A seabed stiffness or curve that a place of the deck gives to a set."""
+
+    law: Annotated[int, "place among the laws of the deck, from 1"]
+    keyword: Annotated[str, "keyword that gives it"]
+    family: Annotated[str, "legacy or new"]
+    kind: Annotated[str, "curve, linear, rigid or none"]
+    set: Annotated[str, "set that it is given to"]
+    curve: Annotated[int | None, "number of its curve"]
+    stiffness: Annotated[float | None, "linear stiffness per unit length"]
+    set_elements: Annotated[int, "elements of the set"]
+    elements: Annotated[int, "elements that follow it"]
+    line: Annotated[int | None, "line in which it stands"]
+
+
+class ParameterRow(NamedTuple):
+    """A parameter of *PARAMETERS."""
+
+    name: Annotated[str, "name"]
+    value: Annotated[float | None, "value, if it is a number"]
+    text: Annotated[str | None, "value, if it is a text"]
+    equation: Annotated[str | None, "equation, if one gives the value"]
+    used: Annotated[bool | None, "whether an equation names it; none in a deck with variations"]
+    line: Annotated[int | None, "line of its value"]
+
+
+class FindingRow(NamedTuple):
+    """A finding of mudline lint, under the configuration of the deck."""
+
+    code: Annotated[str, "code of the rule"]
+    slug: Annotated[str, "name of the rule"]
+    severity: Annotated[str, "error, warning or info"]
+    message: Annotated[str, "message"]
+    line: Annotated[int | None, "line, from 1"]
+    start_column: Annotated[int | None, "column, from 1"]
+    end_line: Annotated[int | None, "line of the end"]
+    end_column: Annotated[int | None, "column of the end, exclusive"]
+    fix: Annotated[str | None, "safe or unsafe, if it can be fixed"]
+    blocks: Annotated[bool, "whether it keeps the deck from being evaluated"]
+
+
+TABLES: dict[str, type[Any]] = {
+    f"{row.__name__.removesuffix('Row').lower()}s": row
+    for row in (DeckRow, KeywordRow, SetRow, CurveRow, LawRow, ParameterRow, FindingRow)
+}
+"""The class of the rows of each table, by the name of its file and view."""
+
+
+def columns_of(table: str) -> Iterator[tuple[Any, ...]]:
+    """Yield name, Python type and meaning of the columns of a table."""
+    yield "file", str, "path of the deck from the folder that holds the archive"
+    for name, hint in get_type_hints(TABLES[table], include_extras=True).items():
+        yield name, *get_args(hint)

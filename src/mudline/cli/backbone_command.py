@@ -24,8 +24,6 @@ from mudline.scene.deck_curves import OF_SEABED
 if TYPE_CHECKING:
     from mudline.curves.points import FloatArray
 
-_INVERT = 0.5
-"""From the ratio of a pipe's invert to that of its axis."""
 _FINEST = 1e-5
 _DRAWN = 400
 
@@ -50,14 +48,12 @@ class Wanted(NamedTuple):
         depth: the largest ratio z/D.
         tolerance: share of the largest force.
         legacy: whether to write `*EMBEDMENT`.
-        shift: what is subtracted from the ratios z/D.
     """
 
     name: str
     depth: float
     tolerance: float
     legacy: bool
-    shift: float
 
 
 @options.command("backbone")
@@ -82,7 +78,6 @@ class Wanted(NamedTuple):
 )
 @options.option("--name", metavar="NAME", help="Name of the curve, or of the set with --legacy (default: MODEL).")
 @options.option("--legacy", is_flag=True, help="Write *EMBEDMENT in place of *SEABED STIFFNESS.")
-@options.option("--invert", is_flag=True, help="Shift the ratios by -0.5: from the invert of the model to the axis.")
 @options.option("--extend", is_flag=True, help="Go on beyond the ratios for which the model is published.")
 @plot_option("model and curve")
 @options.common
@@ -95,7 +90,6 @@ def command(
     depth: float | None,
     name: str | None,
     plot: Plot,
-    invert: bool,
     extend: bool,
     tolerance: float,
     legacy: bool,
@@ -112,7 +106,6 @@ def command(
         chosen.published if depth is None else depth,
         tolerance,
         legacy,
-        _INVERT if invert else 0.0,
     )
     if not 0.0 < wanted.depth < math.inf:
         raise click.UsageError(f"--depth {wanted.depth:g}: expected a ratio z/D above 0")
@@ -146,13 +139,12 @@ def _soil(model: Model, diameter: float, strength: tuple[float, float], weight: 
 
 def _text(backbone: Backbone, wanted: Wanted, points: FloatArray) -> str:
     """The block; raises click.UsageError for a name that a deck cannot have, and for points that are no curve."""
-    rows = np.column_stack((np.round(points[:, 0] - wanted.shift, 15) if wanted.shift else points[:, 0], points[:, 1]))
     try:
-        ForceCurve(rows)
+        ForceCurve(points)
     except CurveError as error:
         raise click.UsageError(f"--tolerance {wanted.tolerance:g} is too fine for this model: {error}") from error
     comments = [Comment(text=f" {line}", before=0) for line in _head(backbone, wanted, points)]
-    text = "".join(f"{line}\n" for line in block_lines(_block(wanted, rows.tolist(), comments)))
+    text = "".join(f"{line}\n" for line in block_lines(_block(wanted, points.tolist(), comments)))
     # What a name may be is known to the reader alone.
     deck = load_bytes(f"$MODEL\n{text}".encode(), "backbone.keyxm")
     found = [curve for section in deck.sections for block in section.blocks for curve in getattr(block, "curves", ())]
@@ -178,14 +170,13 @@ def _head(backbone: Backbone, wanted: Wanted, points: FloatArray) -> list[str]:
     bound = 100.0 * wanted.tolerance
     weight = f", submerged weight of soil w {shown(soil.weight)}" if model.weighs else ""
     beyond = "; the last points are beyond it" if wanted.depth > model.published else ""
-    shift = "z/D - 0.5: depth of the axis" if wanted.shift else "z/D: penetration of the invert, not shifted by -0.5"
     return [
         f"{model.title}",
         f"Force per unit length: {model.formula}, r = z/D",
         f"D {shown(soil.diameter)}, s_u {shown(soil.strength)} + {shown(soil.gradient)} z{weight}",
         f"Error of interpolation: {100.0 * error:.2g} % of the largest force {shown(largest)}, bound {bound:g} %",
         f"Published for z/D from 0 to {shown(model.published)}: {model.range_note}{beyond}",
-        f"Ratios are {shift}",
+        "Ratios are z/D: penetration of the invert",
     ]
 
 
@@ -196,4 +187,4 @@ def _rows(backbone: Backbone, wanted: Wanted, points: FloatArray) -> list[dict[s
     """The model and its curve, as they are drawn."""
     smooth = np.linspace(0.0, 1.0, _DRAWN) ** 2 * wanted.depth
     drawn = (("model", np.column_stack((smooth, backbone.force(smooth)))), (wanted.name, points))
-    return [{"name": name, "kind": OF_SEABED, "points": given - [wanted.shift, 0.0]} for name, given in drawn]
+    return [{"name": name, "kind": OF_SEABED, "points": given} for name, given in drawn]

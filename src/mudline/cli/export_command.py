@@ -20,7 +20,7 @@ from mudline.scene.model import resolve
 if TYPE_CHECKING:
     from mudline.export.report import Report
 
-_TARGETS = ("moordyn", "orcaflex", "riflex")
+_TARGETS = ("moordyn", "orcaflex")
 
 
 @options.command("export")

@@ -1,39 +1,32 @@
-"""`mudline index`: decks into an archive, in this process or in others."""
+"""`mudline index`: decks into an archive of Parquet tables, in this process or in others."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
-from contextlib import closing, suppress
+from collections.abc import Iterator, Mapping
+from contextlib import closing
+from dataclasses import replace
+from functools import partial
 from importlib.util import find_spec
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import TYPE_CHECKING
 
 import click
 
+from mudline.archive.rows import Rows, rows_of
 from mudline.cli import DONE, WRONG_USAGE, options
 from mudline.cli.inputs import Input, Inputs, collect_any_form
-from mudline.cli.lint_run import SettingsOf, checked_settings
+from mudline.cli.lint_run import Order, SettingsOf, checked_settings, rules_named
 from mudline.cli.streams import counted, notify, notify_missing, reason
 from mudline.cli.view import Progress, View, wants_bar
-from mudline.files import is_url
+from mudline.files import alone_at, is_url, recording_looks
 from mudline.linting.configuration import Given
+from mudline.linting.registry import plugin_files
 from mudline.running import storage
 from mudline.running.executors import Crash, executor, in_order
 
 if TYPE_CHECKING:
-    from mudline.archive.updating import Order, Update
-
-LIBRARIES = ("duckdb", "pyarrow")
-EXTRA = "archive"
-
-
-def lacks_libraries(command: str) -> bool:
-    """Whether a library of the extra is not installed; that is reported."""
-    missing = [name for name in LIBRARIES if find_spec(name) is None]
-    if missing:
-        notify_missing(f"mudline {command}", " and ".join(missing), EXTRA)
-    return bool(missing)
+    from mudline.archive.updating import Archive
 
 
 @options.command("index")
@@ -59,106 +52,88 @@ def command(
     units: str | None,
     view: View,
 ) -> int:
-    """Bring decks into an archive, which mudline query answers questions about.
+    """Bring decks into an archive: Parquet tables, and a DuckDB file that shows them.
 
     PATHS are decks, or directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that
     begin as decks do), or URLs of either. Decks that have not changed are not read again; those that are no longer
     there are dropped. Needs pip install 'mudline[archive]'.
     """
-    if lacks_libraries("index"):
+    if missing := [name for name in ("duckdb", "pyarrow") if find_spec(name) is None]:
+        notify_missing("mudline index", " and ".join(missing), "archive")
         return WRONG_USAGE
     if "-" in paths:
         raise click.UsageError("standard input cannot be archived: give files or directories")
-    output = _folder(output)
-    inputs = collect_any_form(paths, "", gitignore=not every_file, urls=True)
-    listed = inputs.code == 0
     settings = checked_settings(config, Given(units=units), "none", isolated=isolated, fail_on=None)
-    from mudline.archive.store import Archive, ArchiveError  # noqa: PLC0415 - an extra
-    from mudline.archive.updating import Update  # noqa: PLC0415 - an extra
+    inputs = collect_any_form(paths, "", gitignore=not every_file, urls=True)
+    from mudline.archive.updating import LOCK, Archive, ArchiveError, check_folder  # noqa: PLC0415 - an extra
 
-    folder = Path(output)
     try:
-        with Archive.for_one_run(folder, lambda: notify(f"{folder.as_posix()}: waiting for another run")) as archive:
-            update = Update(archive, storage.exists)
-            if update.damage:
-                notify(update.damage)
-            _index(inputs, settings.of, update, view, jobs, scheduler)
-            update.remove_gone(_folders(paths, listed=listed), everywhere=prune)
-            update.save()
+        folder = Path(output := storage.as_path(output))
+        if is_url(output) or any(_is_inside(path, folder) for path in paths):
+            raise click.UsageError(f"-o {output}: an archive is a folder outside of the decks, and not a URL")
+        check_folder(folder)
+        folder.mkdir(parents=True, exist_ok=True)
+        inputs.files = [file for file in inputs.files if not _is_inside(file.path or file.name, folder)]
+        given = [storage.as_path(path) for path in paths if not inputs.code]
+        searched = [path if is_url(path) else os.path.abspath(path) for path in given]  # noqa: PTH100 - as in places
+        waiting = partial(notify, f"{folder.as_posix()}: waiting for another run")
+        with alone_at(folder / LOCK, waiting, made=True), closing(Archive(folder)) as archive:
+            seen = _index(inputs, settings.of, archive, view, jobs, scheduler)
+            archive.remove_gone(seen, searched, everywhere=prune)
     except ArchiveError as error:
         raise click.ClickException(str(error)) from error
     except OSError as error:
-        raise click.ClickException(f"{folder.as_posix()}: cannot be written: {reason(error)}") from error
+        raise click.ClickException(f"{output}: cannot be written: {reason(error)}") from error
     if not view.quiet:
-        _notify_counts(update, folder)
+        counts = archive.counts
+        words = ", ".join(f"{counts[name]} {name}" for name in ("new", "changed", "unchanged", "gone") if counts[name])
+        total = counted(counts.total() - counts["gone"], "deck")
+        notify(f"{total}{': ' if words else ''}{words} -> {folder.as_posix()}")
     return max(inputs.code, DONE)
 
 
-def _folder(output: str) -> str:
-    try:
-        output = storage.as_path(output)
-    except OSError as error:
-        raise click.UsageError(f"-o {output}: {reason(error)}") from error
-    if is_url(output):
-        raise click.UsageError(f"-o {output}: an archive is a folder, not a URL: give the path of a folder")
-    return output
+def _is_inside(path: str, folder: Path) -> bool:
+    return not is_url(path) and Path(os.path.realpath(path)).is_relative_to(os.path.realpath(folder))
 
 
-def _folders(paths: Sequence[str], *, listed: bool) -> list[str]:
-    """The folders whose decks are all known now; of those at URLs only if everything was `listed`."""
-    found = []
-    for path in paths:
-        with suppress(OSError):
-            given = storage.as_path(path)
-            if (listed and storage.is_folder(given)) if is_url(given) else os.path.isdir(given):  # noqa: PTH112 - as in inputs
-                found.append(given)
-    return found
+def read_deck(order: Order) -> tuple[Rows, list[str]]:
+    """Read a deck, in any process: its rows, and the paths that they depend on; never raises for content."""
+    file = order.file.seen_from(order.here)
+    with recording_looks() as paths:
+        settings = replace(order.settings, rules=rules_named(order.codes))
+        rows = rows_of(order.data, PurePath(file.path or file.name).name, settings, file.folder)
+    return rows, [*paths, *plugin_files()]
 
 
 def _index(
-    inputs: Inputs, settings_of: SettingsOf, update: Update, view: View, jobs: int, scheduler: str | None
-) -> None:
-    """Read the decks that have changed; what has been read is written, also when the run is interrupted."""
-    from mudline.archive.updating import read_deck  # noqa: PLC0415 - an extra
+    inputs: Inputs, settings_of: SettingsOf, archive: Archive, view: View, jobs: int, scheduler: str | None
+) -> set[str]:
+    """Read the decks that are new or have changed; returns the places of all."""
+    files = {archive.place(file.path or file.name): file for file in inputs.files}
+    with Progress(len(files), view, shown=wants_bar(view)) as progress, executor(jobs, scheduler) as pool:
+        orders = _orders(files, inputs, settings_of, archive)
 
-    with Progress(len(inputs.files), view, shown=wants_bar(view)) as progress, executor(jobs, scheduler) as pool:
-        orders = _orders(inputs, settings_of, update, progress)
-
-        def crashed(file: Input, crash: Crash) -> None:
+        def crashed(item: tuple[str, str], crash: Crash) -> None:
             progress.hide()
-            inputs.crashed(file, crash, verbose=view.verbose)
+            inputs.crashed(files[item[0]], crash, verbose=view.verbose)
             progress.advance()
 
-        try:
-            with closing(in_order(pool, read_deck, orders, len(inputs.files), crashed)) as found:
-                for _, read in found:
-                    if read is not None:
-                        update.take(read)
-                    progress.advance()
-        except BaseException:
-            update.save()
-            raise
+        with closing(in_order(pool, read_deck, orders, len(files), crashed)) as found:
+            for (place, key), read in found:
+                if read is not None:
+                    archive.put(place, key, *read)
+                progress.advance()
+    return set(files)
 
 
 def _orders(
-    inputs: Inputs, settings_of: SettingsOf, update: Update, progress: Progress
-) -> Iterator[tuple[Input, Order | None]]:
-    """The decks, those to be read with an order; one that cannot be opened is reported, and stays as it was."""
-    from mudline.archive.updating import looked  # noqa: PLC0415 - an extra
-
-    for file in inputs.files:
-        try:
-            now = looked(*file.size_and_date())
-            yield file, update.order(file.path or file.name, now, file.read, settings_of(file))
-        except OSError as error:
-            progress.hide()
-            inputs.fail(f"{file.name}: {reason(error)}")
-            yield file, None
-
-
-def _notify_counts(update: Update, folder: Path) -> None:
-    found = update.counts
-    named = {"new": found.new, "changed": found.changed, "moved": found.moved, "unchanged": found.unchanged}
-    words: Sequence[str] = [f"{count} {name}" for name, count in (named | {"gone": found.gone}).items() if count]
-    total = counted(sum(named.values()), "deck")
-    notify(f"{total}{': ' if words else ''}{', '.join(words)} -> {folder.as_posix()}")
+    files: Mapping[str, Input], inputs: Inputs, settings_of: SettingsOf, archive: Archive
+) -> Iterator[tuple[tuple[str, str], Order | None]]:
+    """Yield place and key of each deck, with an order if it is to be read; one that cannot be opened stays."""
+    for place, file in files.items():
+        settings, data = settings_of(file), inputs.content(file)
+        if data is not None:
+            codes = tuple(rule.code.code for rule in settings.rules)
+            bare = replace(settings, rules=(), unfixable=frozenset())
+            key = archive.memory.key(place, repr((codes, bare)), data)
+            yield (place, key), Order(file, data, bare, codes, os.getcwd()) if archive.is_new(place, key) else None  # noqa: PTH109 - sent as text

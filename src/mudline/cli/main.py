@@ -40,7 +40,6 @@ COMMANDS = {
     "evaluate": "Evaluate the contact forces and stiffnesses of a deck.",
     "batch": "Evaluate many decks or load cases: a row and a result file each.",
     "index": "Bring decks into an archive.",
-    "query": "Answer a question about an archive in SQL.",
     "study": "Measure what accuracy costs on a deck, and what is stable.",
     "report": "Write a page about a deck for a checker to sign.",
     "rules": "List the rules, or explain one.",
