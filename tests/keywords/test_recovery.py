@@ -5,8 +5,7 @@ from __future__ import annotations
 import pytest
 
 from mudline.diagnostics import Span
-from mudline.keywords.grammar import Content, Node
-from mudline.keywords.recovery import by_lines
+from mudline.keywords.grammar import Content, Node, by_lines
 
 Reported = tuple[int | None, str, str]
 """The line that does not fit, None for the end of the block; what was expected in its place; and what is missing."""
@@ -16,7 +15,7 @@ def shown(node: Node | Content) -> str:
     """A tree with the lines by their numbers."""
     if isinstance(node, Content):
         return str(node.position)
-    return f"{node.rule}({' '.join(map(shown, node.children))})"
+    return f"{node.data}({' '.join(map(shown, node.children))})"
 
 
 def read(rule: str, lines: str, *, insert: bool = True) -> tuple[str, list[Reported]]:

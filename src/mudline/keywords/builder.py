@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, cast
+
+from lark import Tree
 
 from mudline.codes.fields import SYN003
 from mudline.codes.lines import SYN001, SYN004, SYN014
@@ -15,6 +17,7 @@ from mudline.keywords.numbers import cut_number
 from mudline.keywords.places import Path, Places
 from mudline.keywords.table import fewest_fields, row_format
 from mudline.keywords.text import (
+    MIXED_FIELDS,
     TableBuilder,
     UnreadableError,
     Value,
@@ -30,6 +33,8 @@ from mudline.keywords.values import Kind, Names
 from mudline.spelling import nearest
 from mudline.syntax.fields import Field, Group, read_line, split, trimmed
 from mudline.syntax.rows import blank_separated
+
+_OTHER, _TITLE, _IDENT = Kind.OTHER, Kind.TITLE, Kind.IDENT
 
 
 @dataclass(slots=True)
@@ -64,20 +69,35 @@ class ParsedRecord:
 
     def reach(self, position: int) -> None:
         """Take note of a line."""
-        self.first = position if self.last is None else self.first
-        self.last = position if self.last is None else max(self.last, position)
+        if self.last is None:
+            self.first = self.last = position
+        elif position > self.last:
+            self.last = position
 
 
 class Builder:
     """Reads the lines of one block; `end` is where the file ends behind a last line that has no line end, or -1."""
 
-    def __init__(self, text: str, places: Places, problems: list[Problem], *, slashes: bool, end: int = -1) -> None:
+    def __init__(
+        self,
+        text: str,
+        places: Places,
+        problems: list[Problem],
+        *,
+        slashes: bool,
+        end: int = -1,
+        recording: bool = True,
+        attaching: bool = True,
+    ) -> None:
         self.text = text
         self.end = end
         self.slashes = slashes
         self.places = places
+        self.recording = recording
+        self.attaching = attaching
         self.problems = problems
         self.lost = 0
+        self.asked = False
         self.unclosed: Span | None = None
         self.unchosen: set[Path] = set()
 
@@ -88,12 +108,12 @@ class Builder:
         tables: dict[str, TableBuilder] = {}
         row_number = 0
         for child in node.children:
-            if isinstance(child, Node):
-                self._child(built, found.children[child.rule], child, path)
+            if isinstance(child, Tree):
+                self._child(built, found.children[child.data], child, path)
                 continue
-            if not built.items and built.last is None:
+            if self.recording and built.last is None:
                 self.places.spans[path] = trimmed(self.text, *child.span)
-            if child.terminal == ROW:
+            if child.type == ROW:
                 self._row(built, child, path, last, row_number, tables)
                 row_number += 1
             else:
@@ -133,23 +153,27 @@ class Builder:
         before = built.children.setdefault(slot.json, [])
         inner = (*path, slot.json, len(before))
         last = before[-1].sticky if before else None
-        child = self.build(slot.record[node.rule], node, inner, last)
-        child.sticky = child.part.carries(child.known, last)
+        child = self.build(slot.record[node.data], node, inner, last)
+        if child.part.sticky:
+            child.sticky = child.part.carries(child.known, last)
         if child.last is None:
             return
         before.append(child)
         built.values.setdefault(slot.json, []).append(child.values)
-        built.items.append(Item(slot.order, child.first, 1))
+        if self.attaching:
+            built.items.append(Item(slot.order, child.first, 1))
         built.reach(child.first)
         built.reach(child.last)
 
     def _settings(self, built: ParsedRecord, content: Content, path: Path) -> None:
         found = record_schema(built.part)
         line = read_line(self.text, content.span, slashes=self.slashes)
-        self._brackets(line.problems, built)
+        self.unclosed = None
+        if line.problems:
+            self._brackets(line.problems, built)
         opening = built.last is None and not issubclass(built.part, Block)
         self._groups(built, line.groups, path)
-        if not opening:
+        if self.attaching and not opening:
             order = min((found.keys[g.key].order for g in line.groups if g.key in found.keys), default=0)
             built.items.append(Item(order, content.position, 1))
         built.reach(content.position)
@@ -158,9 +182,14 @@ class Builder:
         """Settings that stand on one line."""
         found = record_schema(built.part)
         first = found.keys.get(groups[0].key) if groups else None
-        if first and first.json not in built.values and self._of_other_form(built, first, groups, path):
+        if (
+            first
+            and first.kind is _OTHER
+            and first.json not in built.values
+            and self._of_other_form(built, first, groups, path)
+        ):
             return
-        if first and first.kind is Kind.TITLE and groups[0].fields[0].text:
+        if first and first.kind is _TITLE and groups[0].fields[0].text:
             self._rest_of_line(built, first, groups, path)
             return
         for group in groups:
@@ -198,7 +227,8 @@ class Builder:
         built.values[slot.json] = self.text[slice(*whole)]
 
     def _setting(self, built: ParsedRecord, slot: FieldSpec, group: Group, path: Path) -> None:
-        self.places.spans[path] = group.span
+        if self.recording:
+            self.places.spans[path] = group.span
         fields = group.fields
         if slot.row and not _alone(slot, fields):
             self.lost += issubclass(slot.row, ListRow) and built.unsure
@@ -222,7 +252,8 @@ class Builder:
     def _value(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field], path: Path) -> None:
         """The value of a setting; of several the first one, where it names a new thing."""
         built.values[slot.json] = UNKNOWN
-        self.places.spans[path] = fields[0].span
+        if self.recording:
+            self.places.spans[path] = fields[0].span
         if fields[0].span.end == self.end and cut_number(fields[0].text):
             message = f"the file ends inside {fields[0].text!r}: it seems to be cut off, add what is missing"
             self.report(SYN014, message, fields[0].span)
@@ -247,19 +278,24 @@ class Builder:
     ) -> None:
         found = record_schema(built.part)
         behind: list[Group] = []
-        if path in self.unchosen and sum(column.row is not None for column in found.columns) > 1:
+        if self.unchosen and path in self.unchosen and sum(column.row is not None for column in found.columns) > 1:
             built.reach(content.position)  # which format it has is not known
             return
         if found.table and not found.columns:
             slot, fields = found.table, list[Field]()
         else:
             fields, behind, problems = self._cut(content.span, keys=bool(found.keys))
-            self._brackets(problems, built)
+            self.unclosed = None
+            if problems:
+                self._brackets(problems, built)
             if len(fields) == 1 and blank_separated(fields[0].text):
                 fields = self._apart(fields[0])
-            name = built.part.row_slot(number, len(fields), built.known, last)
-            slot = next(s for s in found.slots if s.name == name)
-        inner = (*path, slot.json)
+            if len(found.row_names) == 1:
+                slot = found.columns[0] if found.columns else cast("FieldSpec", found.table)
+            else:
+                name = built.part.row_slot(number, len(fields), built.known, last)
+                slot = next(s for s in found.slots if s.name == name)
+        inner = (*path, slot.json) if self.recording or slot is found.table or slot.row or slot.many else ()
         count = 1
         if slot is found.table:
             table = tables.setdefault(slot.json, TableBuilder(self, slot, inner))
@@ -270,16 +306,19 @@ class Builder:
             )
             self.report(SYN001, message, trimmed(self.text, *content.span))
         elif slot.row:
-            self.places.spans[inner] = trimmed(self.text, *content.span)
+            if self.recording:
+                self.places.spans[inner] = trimmed(self.text, *content.span)
             built.values[slot.json] = self._row_values(slot.row, fields, inner)
         elif slot.many:
             built.values[slot.json] = self._list(slot, fields, inner)
-        elif len(found.columns) > 1 and any(column.row for column in found.columns):
+        elif found.mixed:
             self._single(built, slot, fields, path)
         else:
             built.values |= self._fields(found.columns, fields, path)
-        self._groups(built, behind, path)
-        built.items.append(Item(slot.order, content.position, count))
+        if behind:
+            self._groups(built, behind, path)
+        if self.attaching:
+            built.items.append(Item(slot.order, content.position, count))
         built.reach(content.position)
 
     def _cut(self, span: Span, *, keys: bool) -> tuple[list[Field], list[Group], list[Problem]]:
@@ -313,11 +352,12 @@ class Builder:
         before = len(self.problems)
         fields = self._counted(columns, fields, path)
         # Of a wrong count any value may be that of another column, but for the number or name that begins the row.
-        wrong = any(one.weight is Severity.ERROR for one in self.problems[before:])
+        wrong = len(self.problems) > before and any(one.weight is Severity.ERROR for one in self.problems[before:])
         miscounted = wrong or bool(self.unclosed)
         values: dict[str, Value] = dict.fromkeys((slot.json for slot in columns), UNKNOWN) if miscounted else {}
         for slot, given in zip(columns, fields, strict=False):
-            self.places.spans[*path, slot.json] = given.span
+            if self.recording:
+                self.places.spans[*path, slot.json] = given.span
             if not given.text:
                 if slot.required and not miscounted:
                     self.short(f"{slot.label} is missing", given.span)
@@ -328,14 +368,13 @@ class Builder:
             except UnreadableError as fault:
                 self._unreadable(fault.problem)
                 value = UNKNOWN
-            if not wrong or (slot is columns[0] and (slot.is_text or slot.kind is Kind.IDENT)):
+            if not wrong or (slot is columns[0] and (slot.is_text or slot.kind is _IDENT)):
                 values[slot.json] = value
         return values
 
     def _counted(self, columns: Sequence[FieldSpec], fields: list[Field], path: Path) -> list[Field]:
         """The fields without trailing empty ones; a wrong number of them is a problem."""
-        required = [slot.required for slot in columns]
-        fewest = fewest_fields(required)
+        fewest = fewest_fields([slot.required for slot in columns])
         if len(fields) == 1 and len(columns) > 1 and blank_separated(fields[0].text):
             fields = self._apart(fields[0])
         while len(fields) > max(fewest, 1) and not fields[-1].text:
@@ -344,7 +383,9 @@ class Builder:
             self.problems.append(problem)
             return fields[:1]
         if fewest <= len(fields) <= len(columns):
-            if problem := mixed_commas(fields, [slot.kind for slot in columns], fewest):
+            if len(fields) >= MIXED_FIELDS and (
+                problem := mixed_commas(fields, [slot.kind for slot in columns], fewest)
+            ):
                 self.problems.append(problem)
             return fields
         if self.unclosed:  # the open bracket holds the fields that are missing
@@ -352,9 +393,10 @@ class Builder:
         if problem := decimal_comma(fields, [slot.kind for slot in columns], fewest):
             self.problems.append(problem)
             return fields[: len(columns)]
-        wanted = row_format([slot.label for slot in columns], required)
+        wanted = row_format([slot.label for slot in columns], [slot.required for slot in columns])
         count = f"{fewest}" if fewest == len(columns) else f"{fewest} to {len(columns)}"
         message = f"{count} fields expected (`{wanted}`), found {len(fields)}"
+        self.asked |= not fields and not self.recording
         span = Span(fields[0].span.start, fields[-1].span.end) if fields else self.places.find(path)
         if len(fields) < fewest:
             self.short(message, span)
@@ -367,7 +409,7 @@ class Builder:
         fields: list[Field] = []
         for word in given.text.split():
             start = self.text.index(word, start)
-            fields.append(Field(word, Span(start, start + len(word))))
+            fields.append(Field(word, start))
             start += len(word)
         return fields
 
@@ -382,7 +424,8 @@ class Builder:
                 self._unreadable(fault.problem)
                 values = Partly(values)
                 continue
-            self.places.spans[*path, len(values)] = given.span
+            if self.recording:
+                self.places.spans[*path, len(values)] = given.span
             values.append(value)
         return values
 

@@ -1,48 +1,45 @@
-"""Level two: a keyword's rule over the lines of level one, read from the grammar when a deck has the keyword.
-
-Lines that fit are read here, in a hundredth of the time that lark takes to compile the rule; the tree is the same. Of
-other lines `mudline.keywords.recovery` finds which are wrong.
-"""
+"""Level two: lark's parser of a keyword's rule, over the lines of level one."""
 
 from __future__ import annotations
 
+import pickle
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Iterator, Sequence
+from copy import copy
 from functools import cache, lru_cache
+from io import BytesIO
+from pathlib import Path
 from typing import NamedTuple, cast
+
+import lark
+from lark import Lark, Token, Tree, UnexpectedToken
+from lark.lexer import Lexer
+from lark.parsers.lalr_interactive_parser import InteractiveParser
 
 from mudline.diagnostics import Span
 from mudline.resources import grammar_file
 
 END = "$END"
 ROW = "ROW"
+_FEW = 64
+"""Lines of a block whose tree is remembered."""
 
-_NAME = re.compile(r"\b[a-z_][a-z_0-9]*+")
-_OPENING = re.compile(rf"({_NAME.pattern})\s*:")
-_TERMINAL = re.compile(r"\b[A-Z][A-Z_0-9]*+")
-_WORD = re.compile(rf"\s*({_NAME.pattern}|{_TERMINAL.pattern}|[()|*+?])\s*")
-
-_RECORDS = re.compile(r"[a-z_]+: ([a-z_]+)\*\n")
-_IN_BRACKETS = re.compile(r"\([^()]*\)")
-_OPENED = re.compile(r"[a-z_]+: ([A-Z_0-9]+)(?![A-Z_0-9?*+])")
-
-SMALL = 64
-"""Contents of a block whose tree is remembered: decks of one family hold blocks of the same few forms."""
+_RULE = re.compile(r"^([a-z_][a-z_0-9]*)\s*:.*(?:\n[ \t]+.*)*", re.MULTILINE)
+_NAME = re.compile(r"\b[a-z_][a-z_0-9]*\b")
+_TERMINAL = re.compile(r"\b[A-Z][A-Z_0-9]*\b")
+_COMMENT = re.compile(r"//.*")
 
 
 class Content(NamedTuple):
-    """A line of a block, or a run of rows: the terminal it is, its place, and its position among the block's leaves."""
+    """A line of a block, or a run of rows, as lark's token: the terminal it is, its place, its position in the block."""
 
-    terminal: str
+    type: str
     span: Span
     position: int
 
 
-class Node(NamedTuple):
-    """A rule with the contents and rules below it."""
-
-    rule: str
-    children: list[Node | Content]
+Node = Tree[Content]
+"""A rule with the contents and rules below it."""
 
 
 class Mismatch(NamedTuple):
@@ -53,226 +50,165 @@ class Mismatch(NamedTuple):
     missing: str
 
 
-class Line(NamedTuple):
-    """One of a sequence of terminals, with its index."""
+class _Given(Lexer):
+    """No lexer: the tokens are fed one by one."""
 
-    terminal: str
-    at: int
+    def __init__(self, _configuration: object) -> None:
+        pass
 
-
-class Tree(NamedTuple):
-    """A rule with the terminals and rules below it: a `Node` of any lines that are these terminals."""
-
-    rule: str
-    children: list[Tree | Line]
-
-
-# ---------------------------------------------------------------------------------------- the rules as they are written
+    def lex(self, lexer_state: object, parser_state: object) -> Iterator[Token]:  # noqa: ARG002 - lark's signature
+        """Nothing to cut."""
+        return iter(())
 
 
 @cache
 def _rules() -> dict[str, str]:
-    """The rules of the grammar, as they are written, by their names."""
-    found: dict[str, str] = {}
-    name = ""
-    for line in grammar_file("blocks.lark").read_text(encoding="utf-8").splitlines():
-        written = line.partition("//")[0].rstrip()
-        if opening := _OPENING.match(written):
-            name = opening[1]
-        if written:
-            found[name] = f"{found.get(name, '')}{written}\n"
-    return found
+    """The rules of the grammar as they are written, by their names."""
+    text = _COMMENT.sub("", grammar_file("blocks.lark").read_text(encoding="utf-8"))
+    return {found[1]: found[0] for found in _RULE.finditer(text)}
 
 
-def rules_below(rule: str) -> str:
-    """Return the text of a rule and of those it leads to."""
+def _below(rule: str) -> dict[str, str]:
+    """A rule and those it leads to."""
     wanted, found = [rule], dict[str, str]()
     while wanted:
         name = wanted.pop()
         if name not in found:
             found[name] = _rules()[name]
-            wanted += sorted(set(_NAME.findall(found[name])) & _rules().keys())
-    return "".join(found.values())
+            wanted += sorted({*_NAME.findall(found[name])} & _rules().keys())
+    return found
 
 
-def terminals_below(rule: str) -> list[str]:
-    """Return the terminals of a rule and of those it leads to, each as often as it is written."""
-    return _TERMINAL.findall(rules_below(rule))
+@cache
+def _parser(rule: str) -> Lark:
+    """The parser of a rule: its tables as the package brings them, else compiled, which takes 2 ms."""
+    if kept := _tables().get(rule):
+        return Lark.load(BytesIO(kept))
+    below = _below(rule)
+    text = "\n".join(below.values())
+    text += f"\n%declare {' '.join(sorted({*_TERMINAL.findall(text)}))}\n"
+    return Lark(text, parser="lalr", start=rule, lexer=_Given, keep_all_tokens=True, maybe_placeholders=False)
 
 
+@cache
+def _tables() -> dict[str, bytes]:
+    """What lark saved of each rule when the package was built; nothing in a checkout, or beside another lark."""
+    path = grammar_file("blocks.tables")
+    version, tables = pickle.loads(path.read_bytes()) if path.exists() else ("", {})  # noqa: S301 - a file of our own
+    return tables if version == lark.__version__ else {}
+
+
+def save_tables(path: Path) -> None:
+    """Write the tables of all rules, for the package."""
+    _tables.cache_clear()
+    kept: dict[str, bytes] = {}
+    for rule in _rules():
+        if not rule.startswith("_"):
+            saved = BytesIO()
+            _parser(rule).save(saved)
+            kept[rule] = saved.getvalue()
+    path.write_bytes(pickle.dumps((lark.__version__, kept)))
+
+
+@cache
 def terminal_of(key: str) -> str:
     """The terminal of a setting line by its first key."""
     return "K_" + "".join(letter if letter.isalnum() else "_" for letter in key)
 
 
-class Records(NamedTuple):
-    """The rule of the records of which a block is a list, and the terminal with which each of them begins."""
-
-    rule: str
-    opening: str
-
-
-@cache
-def records_of(rule: str) -> Records | None:
-    """Return the records of a block of nothing else; None unless a terminal stands at their beginning, and only there.
-
-    Such a block can be cut into records before it is parsed: its tree has no other one.
-    """
-    listed = _RECORDS.fullmatch(_rules()[rule])
-    opened = listed and _OPENED.match(_rules()[listed[1]])
-    if listed is None or opened is None:
-        return None
-    always = "|" not in _IN_BRACKETS.sub("", _rules()[listed[1]])
-    once = terminals_below(listed[1]).count(opened[1]) == 1
-    return Records(listed[1], opened[1]) if always and once else None
-
-
 @cache
 def first_terminals(rule: str) -> frozenset[str]:
     """Return the terminals with which the lines of a rule may begin."""
-    words = _WORD.findall(_rules()[rule].partition(":")[2])
-    return frozenset(_firsts(words[::-1])[0])
+    return frozenset(_parser(rule).parse_interactive().accepts()) - {END}
 
 
-def _firsts(words: list[str]) -> tuple[set[str], bool]:
-    """The terminals at the beginning of what stands before a closing bracket, and whether it may be left out."""
-    found: set[str] = set()
-    empty = False
-    open_ = True
-    while words and words[-1] != ")":
-        word = words.pop()
-        if word == "|":
-            empty, open_ = empty or open_, True
-            continue
-        first, optional = _firsts(words) if word == "(" else ({word}, False)
-        if word == "(":
-            words.pop()
-        elif not word.isupper():
-            first = set(first_terminals(word))
-        if words and words[-1] in {"*", "+", "?"}:
-            optional = words.pop() != "+" or optional
-        found |= first if open_ else set()
-        open_ = open_ and optional
-    return found, empty or open_
-
-
-# ----------------------------------------------------------------------------------------------- lines that fit a rule
-
-_Take = Callable[[Sequence[str], int, list[Tree | Line]], int]
-"""Takes terminals from an index on, adds what they are, and returns the next index; -1 where they do not fit."""
-
-
-@lru_cache(maxsize=1024)
-def fitting(rule: str, terminals: tuple[str, ...]) -> Tree | None:
-    """Return the tree of lines by their terminals, if all of them fit."""
-    found: list[Tree | Line] = []
-    if _named(rule)(terminals, 0, found) != len(terminals):
-        return None
-    return cast("Tree", found[0])
-
-
-@cache
-def _named(name: str) -> _Take:
-    """Take a terminal, or the lines of a rule; what is below a rule whose name begins with _ is added without it."""
-
-    def terminal(given: Sequence[str], start: int, found: list[Tree | Line]) -> int:
-        if start == len(given) or given[start] != name:
-            return -1
-        found.append(Line(name, start))
-        return start + 1
-
-    if name.isupper():
-        return terminal
-    body = _body(name)
-
-    def rule(given: Sequence[str], start: int, found: list[Tree | Line]) -> int:
-        below: list[Tree | Line] = []
-        end = body(given, start, below)
-        found.append(Tree(name, below))
-        return end
-
-    return body if name.startswith("_") else rule
-
-
-def _body(name: str) -> _Take:
-    """What stands behind the colon of a rule."""
-    text = _rules()[name].partition(":")[2]
-    words: list[str] = []
-    at = 0
-    while at < len(text):
-        word = _WORD.match(text, at)
-        if word is None:
-            raise ValueError(f"the rule {name} may have names, brackets, |, *, + and ? only, not {text[at:].strip()!r}")
-        words.append(word[1])
-        at = word.end()
-    return _choice(words[::-1])
-
-
-def _choice(words: list[str]) -> _Take:
-    """Take the first of the sequences before a closing bracket that fits; `words` are in reverse, and are used up."""
-    options = [_sequence(words)]
-    while words and words[-1] == "|":
-        words.pop()
-        options.append(_sequence(words))
-
-    def take(given: Sequence[str], start: int, found: list[Tree | Line]) -> int:
-        before = len(found)
-        for option in options:
-            end = option(given, start, found)
-            if end >= 0:
-                return end
-            del found[before:]
-        return -1
-
-    return take if len(options) > 1 else options[0]
-
-
-def _sequence(words: list[str]) -> _Take:
-    items: list[_Take] = []
-    while words and words[-1] not in {"|", ")"}:
-        word = words.pop()
-        item = _choice(words) if word == "(" else _named(word)
-        if word == "(":
-            words.pop()
-        if words and words[-1] in {"*", "+", "?"}:
-            item = _repeated(item, words.pop())
-        items.append(item)
-
-    def take(given: Sequence[str], start: int, found: list[Tree | Line]) -> int:
-        for item in items:
-            start = item(given, start, found)
-            if start < 0:
-                return -1
-        return start
-
-    return take if len(items) > 1 else items[0]
-
-
-def _repeated(item: _Take, sign: str) -> _Take:
-    """As many as fit: lark, too, goes on with a list wherever it can."""
-
-    def take(given: Sequence[str], start: int, found: list[Tree | Line]) -> int:
-        first, before = start, len(found)
-        while (end := item(given, start, found)) > start:
-            start, before = end, len(found)
-            if sign == "?":
-                return start
-        del found[before:]
-        return -1 if sign == "+" and start == first else start
-
-    return take
-
-
-# ------------------------------------------------------------------------------------------------- the tree of a block
-
-
-def tree_of(rule: str, contents: list[Content]) -> Node | None:
+def tree_of(rule: str, contents: Sequence[Content]) -> Node | None:
     """Return the tree of a block under its rule, if all of its lines fit."""
-    terminals = tuple([content.terminal for content in contents])
-    tree = (fitting if len(contents) <= SMALL else fitting.__wrapped__)(rule, terminals)
-    return tree and _node(tree, contents)
+    parsed = _parsed if len(contents) <= _FEW else _parsed.__wrapped__
+    tree = parsed(rule, tuple([content.type for content in contents]))
+    return tree and _with_lines(tree, iter(contents))
 
 
-def _node(tree: Tree, contents: list[Content]) -> Node:
-    below = [_node(child, contents) if isinstance(child, Tree) else contents[child.at] for child in tree.children]
-    return Node(tree.rule, below)
+@lru_cache(1024)
+def _parsed(rule: str, terminals: tuple[str, ...]) -> Tree[_Bare] | None:
+    """The tree of lines by their terminals: decks hold blocks of the same few forms."""
+    parser = _parser(rule).parse_interactive()
+    feed = parser.parser_state.feed_token
+    try:
+        for terminal in terminals:
+            feed(_Bare(terminal))
+        return cast("Tree[_Bare]", parser.feed_eof())
+    except UnexpectedToken:
+        return None
+
+
+class _Bare(NamedTuple):
+    """A line without a place."""
+
+    type: str
+
+
+def _with_lines(tree: Tree[_Bare], lines: Iterator[Content]) -> Node:
+    """The tree with the lines themselves, which come in the order of its leaves."""
+    return Tree(
+        tree.data, [_with_lines(child, lines) if type(child) is Tree else next(lines) for child in tree.children]
+    )
+
+
+def by_lines(rule: str, contents: Sequence[Content], *, insert: bool = True) -> tuple[Node, list[Mismatch]]:
+    """Return the tree of a block line by line, whatever fits.
+
+    A line that does not fit is left out, unless putting in a missing line before it makes it fit; each is reported.
+    In a block with lines of unknown form none is missing for certain: there nothing is to `insert`.
+    """
+    parser = _parser(rule).parse_interactive()
+    mismatches: list[Mismatch] = []
+    for content in contents:
+        if _takes(parser, content):  # a parser that refuses a token has closed what it could before
+            parser.feed_token(content)
+            continue
+        expected = tuple(sorted(parser.accepts()))
+        options = (name for name in expected if insert and name != END and _takes(parser, _missing(name), content))
+        missing = next(options, "")
+        if missing:
+            parser.feed_token(_missing(missing))
+            parser.feed_token(content)
+        mismatches.append(Mismatch(content, expected, missing))
+    if END not in (expected := parser.accepts()):
+        mismatches.append(Mismatch(None, tuple(sorted(expected)), _completed(parser)[0]))
+    return _without_missing(cast("Node", parser.feed_eof())), mismatches
+
+
+def _missing(terminal: str) -> Content:
+    """The token of a line that is missing."""
+    return Content(terminal, Span(0, 0), -1)
+
+
+def _takes(parser: InteractiveParser, *tokens: Content) -> bool:
+    """Whether a parser takes some tokens; the trial makes no tree, so that nothing has to be copied for it."""
+    state = parser.parser_state
+    rules = copy(state.parse_conf)
+    rules.callbacks = {}
+    trial = type(state)(rules, state.lexer, [*state.state_stack], [*state.value_stack])
+    try:
+        for token in tokens:
+            trial.feed_token(token, token.type == END)
+    except UnexpectedToken:
+        return False
+    return True
+
+
+def _completed(parser: InteractiveParser) -> list[str]:
+    """Feed the mandatory lines that the end of a block lacks: that which ends it, or one that was not put in yet."""
+    fed: list[str] = []
+    while END not in (options := sorted(parser.accepts())):
+        ends = (option for option in options if _takes(parser, _missing(option), _missing(END)))
+        fed.append(next(ends, "") or next((option for option in options if option not in fed), options[0]))
+        parser.feed_token(_missing(fed[-1]))
+    return fed
+
+
+def _without_missing(node: Node) -> Node:
+    """The tree of the lines that are there."""
+    below = [_without_missing(child) if isinstance(child, Tree) else child for child in node.children]
+    return Tree(node.data, [child for child in below if isinstance(child, Tree) or child.position >= 0])

@@ -33,6 +33,10 @@ _DECIMAL = re.compile(r"[-+]?[0-9]+,[0-9]+(?:[eEdD][-+]?[0-9]+)?")
 _FRACTION = re.compile(r"[0-9]+(?:[eEdD][-+]?[0-9]+)?")
 
 
+_NAME, _TITLE, _OTHER, _IDENT = Kind.NAME, Kind.TITLE, Kind.OTHER, Kind.IDENT
+_WHOLE_KINDS = (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL)
+
+
 class UnreadableError(Exception):
     """A field that gives no value; the problem is the reason."""
 
@@ -43,13 +47,14 @@ class UnreadableError(Exception):
 
 def read_value(field: Field, slot: FieldSpec, problems: list[Problem]) -> Value:
     """The value of a field; raises UnreadableError. What is only doubtful is added to `problems`."""
-    if slot.kind is Kind.NAME or slot.kind is Kind.TITLE:
+    kind = slot.kind
+    if kind is _NAME or kind is _TITLE:
         return field.text
-    if slot.kind is Kind.OTHER:
+    if kind is _OTHER:
         return _open_choice(field, slot, problems)
-    if slot.choices and (slot.kind is None or not maybe_number(field.text)):
+    if slot.choices and (kind is None or not maybe_number(field.text)):
         return _choice(field, slot)
-    equation = None if slot.kind is Kind.IDENT else Equation.match(field.text)
+    equation = None if kind is _IDENT or field.text[:1] != "=" else Equation.match(field.text)
     return equation or _number(field, slot, problems)
 
 
@@ -61,7 +66,7 @@ def _number(field: Field, slot: FieldSpec, problems: list[Problem]) -> Value:
         if slot.kind is Kind.REAL_OR_NAME and not field.text.startswith("=[") and not looks_numeric(field.text):
             return field.text
         raise UnreadableError(not_a_number(field.text, field.span, slot.label))
-    if slot.kind not in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL):
+    if slot.kind not in _WHOLE_KINDS:
         return number
     if not number.is_integer() or abs(number) > LARGEST_WHOLE:
         raise UnreadableError(Problem(SYN002, not_whole(field.text, number, slot.label), field.span))
@@ -130,7 +135,7 @@ def decimal_comma(values: list[Field], kinds: list[Kind | None], fewest: int) ->
 
 def semicolons(text: str, fields: list[Field]) -> Problem | None:
     """The finding about numbers that semicolons separate, as a spreadsheet writes them where commas are decimal."""
-    if not any(";" in field.text for field in fields):
+    if not fields or text.find(";", fields[0].start, fields[-1].span.end) < 0:
         return None
     span = Span(fields[0].span.start, fields[-1].span.end)
     numbers = [part.strip() for part in text[span.start : span.end].split(";")]
@@ -144,7 +149,7 @@ def semicolons(text: str, fields: list[Field]) -> Problem | None:
 
 def _is_tight(one: Field, two: Field, *_: Field) -> bool:
     """Whether two fields have a comma between them, and no blank."""
-    return one.span.end + 1 == two.span.start
+    return one.start + len(one.text) + 1 == two.start
 
 
 def _two_fields(one: Field, two: Field, severity: Severity | None = None) -> Problem:
@@ -158,7 +163,7 @@ def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> 
     One such pair may be a slip of the fingers, unless the second half begins with a zero or all other numbers have a
     point; two of them where real numbers belong are decimal commas.
     """
-    tight = [one.span.end + 1 == two.span.start for one, two in pairwise(values)]
+    tight = [one.start + len(one.text) + 1 == two.start for one, two in pairwise(values)]
     if len(values) < MIXED_FIELDS or not any(tight) or all(tight):
         return None
     pairs = [at for at, joined in enumerate(tight) if joined]

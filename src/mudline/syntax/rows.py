@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic_core import from_json
 
 from mudline.diagnostics import Span
 from mudline.limits import LONGEST_BLANK_SEPARATED, LONGEST_NUMBER
@@ -77,8 +78,27 @@ def spells_number(text: str) -> bool:
 def read_rows(text: str, span: Span, columns: int) -> Rows:
     """Read the lines of a run into at most `columns` columns. `text` must have LF or CRLF line ends."""
     if span.end - span.start < _SHORT:
-        return read_rows_slow(text, span, columns)
+        return _short_rows(text[slice(*span)], columns) or read_rows_slow(text, span, columns)
     return _together(_parts(text, span, columns), span.end - span.start)
+
+
+def _short_rows(run: str, columns: int) -> Rows | None:
+    """A few rows of numbers as JSON writes them, separated by commas and without a word; None for others."""
+    if not _PLAIN_ROWS.fullmatch(run) or _TOO_LONG.search(run):
+        return None
+    try:
+        values = np.array(from_json(f"[[{run.strip().replace(_LF, '],[')}]]", allow_inf_nan=False), np.float64)
+    except (ValueError, OverflowError):
+        return None
+    fits = values.ndim == _AXES and values.size and values.shape[1] <= columns and np.isfinite(values).all()
+    return _plain(values) if fits else None
+
+
+_LF = "\n"
+_TOO_LONG = re.compile(r"[0-9.]{40}")
+_AXES = 2
+_PLAIN_ROWS = re.compile(r"(?:[ \t0-9.eE+,]|-(?!0))++(?:\r?\n(?:[ \t0-9.eE+,]|-(?!0))++)*+\r?\n?")
+"""A negative zero is no whole number of JSON."""
 
 
 def read_rows_slow(text: str, span: Span, columns: int) -> Rows:
@@ -262,7 +282,7 @@ def row_fields(text: str, line: Span, columns: int) -> list[Field]:
     at = 0
     for word in _row_words(body, columns)[0]:
         at = body.index(word, at)
-        fields.append(Field(word, Span(line.start + at, line.start + at + len(word))))
+        fields.append(Field(word, line.start + at))
         comma = body.find(",", at + len(word))
         at = comma + 1 if comma >= 0 else at + len(word)
     return fields
