@@ -13,6 +13,8 @@ from pathlib import Path
 from typing import NamedTuple
 from zlib import crc32
 
+from tests.keywords.test_plain_blocks import same
+
 from mudline.deck.forms.json import to_json
 from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.loading import load_bytes
@@ -28,7 +30,6 @@ from mudline.scene.data_files import fault_of, has_uneven_times
 from mudline.scene.seabed import read_profile
 from mudline.syntax.source import Source
 from tests.cli.runner import Outcome, run
-from tests.keywords.test_plain_blocks import same
 from tests.samples import SAMPLES
 
 ROOT = Path(__file__).parents[2]

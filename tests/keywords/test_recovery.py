@@ -14,15 +14,15 @@ Reported = tuple[int | None, str, str]
 def shown(node: Node | Content) -> str:
     """A tree with the lines by their numbers."""
     if isinstance(node, Content):
-        return str(node.position)
+        return str(node.span.start)
     return f"{node.data}({' '.join(map(shown, node.children))})"
 
 
 def read(rule: str, lines: str, *, insert: bool = True) -> tuple[str, list[Reported]]:
-    contents = [Content(terminal, Span(at, at + 1), at) for at, terminal in enumerate(lines.split())]
+    contents = [Content(terminal, Span(at, at + 1)) for at, terminal in enumerate(lines.split())]
     tree, mismatches = by_lines(rule, contents, insert=insert)
     return shown(tree), [
-        (one.found.position if one.found else None, " ".join(one.expected), one.missing) for one in mismatches
+        (one.found.span.start if one.found else None, " ".join(one.expected), one.missing) for one in mismatches
     ]
 
 

@@ -175,8 +175,8 @@ class Builder:
         self._groups(built, line.groups, path)
         if self.attaching and not opening:
             order = min((found.keys[g.key].order for g in line.groups if g.key in found.keys), default=0)
-            built.items.append(Item(order, content.position, 1))
-        built.reach(content.position)
+            built.items.append(Item(order, content.span.start, 1))
+        built.reach(content.span.start)
 
     def _groups(self, built: ParsedRecord, groups: list[Group], path: Path) -> None:
         """Settings that stand on one line."""
@@ -279,7 +279,7 @@ class Builder:
         found = record_schema(built.part)
         behind: list[Group] = []
         if self.unchosen and path in self.unchosen and sum(column.row is not None for column in found.columns) > 1:
-            built.reach(content.position)  # which format it has is not known
+            built.reach(content.span.start)  # which format it has is not known
             return
         if found.table and not found.columns:
             slot, fields = found.table, list[Field]()
@@ -318,8 +318,8 @@ class Builder:
         if behind:
             self._groups(built, behind, path)
         if self.attaching:
-            built.items.append(Item(slot.order, content.position, count))
-        built.reach(content.position)
+            built.items.append(Item(slot.order, content.span.start, count))
+        built.reach(content.span.start)
 
     def _cut(self, span: Span, *, keys: bool) -> tuple[list[Field], list[Group], list[Problem]]:
         """The fields of a row, and the settings behind them on the line of a record that has `keys`."""

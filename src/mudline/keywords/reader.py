@@ -226,9 +226,9 @@ class _Reader:
                 case Kind.SETTING:
                     ends = self._setting(span, contents)
                 case Kind.RUN if not self.declared.tabular:
-                    contents += [Content(ROW, line, line.start) for line in line_spans(self.text, span)]
+                    contents += [Content(ROW, line) for line in line_spans(self.text, span)]
                 case Kind.RUN | Kind.TEXT:
-                    contents.append(Content(ROW, span, span.start))
+                    contents.append(Content(ROW, span))
                 case _:
                     pass
         return contents
@@ -265,7 +265,7 @@ class _Reader:
         """A line that begins with a setting; returns the keys that end the lines to be kept behind it, if any are."""
         key = first_key(self.text, span)
         if key in self.keys:
-            contents.append(Content(grammar.terminal_of(key), span, span.start))
+            contents.append(Content(grammar.terminal_of(key), span))
             return opened(self.declared, key, self.text[slice(*span)].partition("=")[2])
         known = sorted(self.keys)
         allowed = ", ".join(f"{name}=" for name in known) or "no KEY= at all"

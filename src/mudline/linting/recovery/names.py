@@ -15,10 +15,10 @@ from mudline.keywords.model import Block, Setting, record_schema
 from mudline.keywords.reader import all_keys
 from mudline.keywords.values import Names
 from mudline.linting.recovery.blocks import (
-    behind,
     Blocks,
     Correction,
     also_in,
+    behind,
     data_of,
     line_at,
     lines_of,

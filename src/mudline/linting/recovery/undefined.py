@@ -12,7 +12,7 @@ from mudline.diagnostics import Problem, Severity, Span, Where
 from mudline.keywords.model import Part
 from mudline.keywords.naming import names_given
 from mudline.keywords.values import Names
-from mudline.linting.recovery.blocks import behind, ROW_NUMBER, Correction, also_in, line_at, start_of
+from mudline.linting.recovery.blocks import ROW_NUMBER, Correction, also_in, behind, line_at, start_of
 from mudline.linting.rule import LintContext
 from mudline.scene.checks.laws import REF002, undefined_curve
 from mudline.scene.checks.names import REF019

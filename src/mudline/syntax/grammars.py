@@ -1,0 +1,80 @@
+"""The grammars of the package as lark's parsers: their tables come with the package, or they are compiled."""
+
+from __future__ import annotations
+
+import pickle
+from functools import cache
+from io import BytesIO
+from pathlib import Path
+
+import lark
+from lark import Lark
+from lark.grammar import NonTerminal
+from lark.load_grammar import Grammar, load_grammar
+
+from mudline.resources import grammar_file
+
+
+@cache
+def parser(name: str, start: str = "start") -> Lark:
+    """Return the LALR parser of a grammar from one of its rules.
+
+    To compile a grammar takes ten times as long as to load its tables.
+    """
+    if saved := _tables(name).get(start):
+        return Lark.load(BytesIO(saved))
+    return Lark(
+        _below(definitions(name), start),
+        parser="lalr",
+        lexer="basic",
+        start=start,
+        keep_all_tokens=True,
+        maybe_placeholders=False,
+    )
+
+
+def save_tables(name: str) -> Path:
+    """Write the tables of the parsers from all rules of a grammar beside it; returns the file."""
+    _tables.cache_clear()
+    path = grammar_file(f"{name}.lark").with_suffix(".tables")
+    path.unlink(missing_ok=True)
+    tables: dict[str, bytes] = {}
+    for start in (str(rule) for rule, *_ in definitions(name).rule_defs if not rule.startswith("_")):
+        saved = BytesIO()
+        parser(name, start).save(saved)
+        tables[start] = saved.getvalue()
+    path.write_bytes(pickle.dumps((lark.__version__, _text(name), tables)))
+    return path
+
+
+@cache
+def definitions(name: str) -> Grammar:
+    """Return the rules and terminals of a grammar."""
+    return load_grammar(_text(name), f"{name}.lark", [], False)[0]  # noqa: FBT003 - lark's signature
+
+
+def _text(name: str) -> str:
+    return grammar_file(f"{name}.lark").read_text(encoding="utf-8")
+
+
+@cache
+def _tables(name: str) -> dict[str, bytes]:
+    """Return the tables that were made when the package was built; none of another lark or grammar."""
+    path = grammar_file(f"{name}.tables")
+    if not path.exists():
+        return {}
+    version, text, tables = pickle.loads(path.read_bytes())  # noqa: S301 - a file of the package
+    return tables if (version, text) == (lark.__version__, _text(name)) else {}
+
+
+def _below(grammar: Grammar, start: str) -> Grammar:
+    """Return the part of a grammar that a rule leads to: lark compiles all rules that it is given."""
+    rules = {str(rule[0]): rule for rule in grammar.rule_defs}
+    found: dict[str, None] = {}
+    wanted = [start]
+    while wanted:
+        name = wanted.pop()
+        if name not in found:
+            found[name] = None
+            wanted += [inner.name for inner in rules[name][2].scan_values(lambda each: isinstance(each, NonTerminal))]
+    return Grammar([rules[name] for name in found], grammar.term_defs, grammar.ignore)
