@@ -83,13 +83,16 @@ def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -
 
 
 def _read(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
-    """A block, of which the places are found by reading it again when somebody asks, or a finding needs one."""
-    reader = _Reader(text, raw, declared, last=last, recording=False)
-    found = reader.read()
-    if reader.asked:
-        return _Reader(text, raw, declared, last=last).read()
-    found.found = lambda: _Reader(text, raw, declared, last=last).read().own
-    return found
+    """Read a block, whose places are found by reading it again when somebody asks: few blocks are asked for them."""
+    read = _Reader(text, raw, declared, last=last).read()
+    read.found = lambda: _places(text, raw, declared, last=last)
+    return read
+
+
+def _places(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> Places:
+    reader = _Reader(text, raw, declared, last=last)
+    reader.read()
+    return reader.places()
 
 
 def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
@@ -125,18 +128,17 @@ def _moved(raw: RawBlock, by: int) -> RawBlock:
 
 
 class _Reader:
-    def __init__(self, text: str, raw: RawBlock, declared: type[Block], *, last: bool, recording: bool = True) -> None:
+    def __init__(self, text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> None:
         self.text = text
         self.raw = raw
         self.declared = declared
         self.last = last
-        self.recording = recording
         self.keys = all_keys(declared)
         self.problems: list[Problem] = []
         self.comments: list[Between] = []
         self.kept: list[Between] = []
         self.lost = 0
-        self.asked = False
+        self.built: ParsedRecord | None = None
 
     def read(self) -> ReadBlock:
         """What the lines give; of an open block without those that have another form than it knows."""
@@ -162,46 +164,42 @@ class _Reader:
             if self.declared.open_lines:
                 self._keep_all({mismatch.found for mismatch in mismatches if mismatch.found}, contents)
                 mismatches = [mismatch for mismatch in mismatches if not mismatch.found]
-        places = Places(self.text, trimmed(self.text, *self.raw.head.span))
         end = len(self.text.rstrip(" \t")) if self.last and not self.text.endswith("\n") else -1
-        builder = Builder(
-            self.text,
-            places,
-            self.problems,
-            slashes=self.declared.slashes,
-            end=end,
-            recording=self.recording,
-            attaching=bool(self.comments or self.kept),
-        )
+        builder = Builder(self.text, self.problems, slashes=self.declared.slashes, end=end)
         for mismatch in mismatches:
             self._report(mismatch)
-        built = builder.build(self.declared, node)
+        built = self.built = builder.build(self.declared, node)
         trailing = attach(self.comments, self.kept, built) if self.comments or self.kept else []
         self.lost += builder.lost + len(self.kept)
-        self.asked |= builder.asked
-        model = self._model(built, builder)
-        places.kept = frozenset(line.start for kept in self.kept for line in line_spans(self.text, kept.span))
+        model = self._model(built)
         problems = merge_per_line(self.text, self.problems)
         may_keep = "unread" in self.declared.model_fields
         if self.kept and may_keep and any(problem.code in (SYN001, SYN014) for problem in problems):
-            return ReadBlock(model, places, doubtful(problems), lost=self.lost, opaque=True)
-        return ReadBlock(model, places, problems, trailing, self.lost)
+            return ReadBlock(model, self.places, doubtful(problems), lost=self.lost, opaque=True)
+        return ReadBlock(model, self.places, problems, trailing, self.lost)
 
-    def _model(self, built: ParsedRecord, builder: Builder) -> Block:
-        """The validated model; of a block with faults, what could be read of it."""
+    def places(self) -> Places:
+        """Return the places of the values that were read."""
+        kept = frozenset(line.start for kept in self.kept for line in line_spans(self.text, kept.span))
+        places = Places(self.text, trimmed(self.text, *self.raw.head.span), kept=kept)
+        if self.built:
+            places.add(self.built)
+        return places
+
+    def _model(self, built: ParsedRecord) -> Block:
+        """Return the validated model; of a block with faults, what could be read of it."""
         built.values["keyword"] = self.raw.name
         if not any(one.weight is Severity.ERROR for one in self.problems):
             try:
                 return self.declared.model_validate(built.values, context=AS_TEXT)
             except ValidationError as error:
+                places = self.places()
                 for fault in error.errors():
                     place = tuple(fault["loc"])
                     message = fault["msg"].removeprefix("Value error, ")
                     if fault["type"] == "missing":
                         message = f"{_label(self.declared, place)} is missing here"
-                    self.asked = not self.recording
-                    span = builder.places.find(place)
-                    self.problems.append(Problem(SYN001, message, span))
+                    self.problems.append(Problem(SYN001, message, places.find(place)))
         lost = [one.span.start for one in self.problems if one.code in (SYN001, SYN004) and one.span is not None]
         if lost:
             lose(built, lost)

@@ -15,7 +15,6 @@ from mudline.codes.lines import SYN001, SYN004, SYN005
 from mudline.diagnostics import Problem, Repair, Severity, Span
 from mudline.keywords.model import FieldSpec, columns_of, record_schema
 from mudline.keywords.numbers import looks_numeric, maybe_number, not_a_number, not_finite
-from mudline.keywords.places import Path, Places
 from mudline.keywords.table import LARGEST_WHOLE, Column, Table, from_rows, not_whole, row_format
 from mudline.keywords.values import Equation, Kind, Label
 from mudline.limits import MOST_REPORTED
@@ -309,7 +308,6 @@ class BlockReading(Protocol):
     """The reading of a block, which a table in it adds to."""
 
     text: str
-    places: Places
     problems: list[Problem]
     unclosed: Span | None
 
@@ -320,10 +318,10 @@ class BlockReading(Protocol):
 class TableBuilder:
     """Collects the runs of one table."""
 
-    def __init__(self, builder: BlockReading, slot: FieldSpec, path: Path) -> None:
+    def __init__(self, builder: BlockReading, slot: FieldSpec) -> None:
         self.builder = builder
         self.columns: list[Column] = columns_of(slot)
-        self.path = path
+        self.runs: list[tuple[int, Span]] = []
         self.parts: list[Table] = []
         self.count = 0
 
@@ -331,7 +329,7 @@ class TableBuilder:
         """Read one run; returns its number of rows."""
         text = self.builder.text
         raw = read_rows(text, span, len(self.columns))
-        self.builder.places.runs.setdefault(self.path, []).append((self.count, span))
+        self.runs.append((self.count, span))
         table, faults = from_rows(raw, self.columns)
         if faults:
             self._report(span, raw, table, faults)

@@ -6,6 +6,7 @@ import pickle
 from functools import cache
 from io import BytesIO
 from pathlib import Path
+from typing import cast
 
 import lark
 from lark import Lark
@@ -50,7 +51,8 @@ def save_tables(name: str) -> Path:
 @cache
 def definitions(name: str) -> Grammar:
     """Return the rules and terminals of a grammar."""
-    return load_grammar(_text(name), f"{name}.lark", [], False)[0]  # noqa: FBT003 - lark's signature
+    made, _ = load_grammar(_text(name), f"{name}.lark", [], global_keep_all_tokens=False)
+    return cast("Grammar", made)
 
 
 def _text(name: str) -> str:

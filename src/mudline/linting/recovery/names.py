@@ -145,17 +145,14 @@ def _name_below(blocks: Blocks, problem: Problem, key: str) -> Correction | None
         written = text.source.unified[slice(*line)]
         if written.partition("=")[0].strip().upper() != key:
             break
-        last, first = (
-            _first_number(blocks, each)
-            for each in (line.start - 1, behind(text if "text" in locals() else blocks.text, line))
-        )
+        last, first = (_first_number(blocks, each) for each in (line.start - 1, behind(text, line)))
         if last is not None and first is not None and first < last:
             break  # the points below it are of a curve of their own
         begin = line_at(text, at).start
         message = f"{written.strip()} in line {text.source.position(line.start)[0]} stands below its points: move it up"
         edits = (
             TextEdit(Span(begin, begin), f"{written}\n"),
-            TextEdit(Span(line.start, behind(text if "text" in locals() else blocks.text, line)), ""),
+            TextEdit(Span(line.start, behind(text, line)), ""),
         )
         return Correction(problem, edits, Span(begin, line.end), message)
     return None
@@ -200,7 +197,7 @@ def other_settings(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Corr
         if (
             name
             and key.strip().upper() in _names_of_curves() - {name}
-            and _first_number(blocks, behind(text if "text" in locals() else blocks.text, line)) is not None
+            and _first_number(blocks, behind(text, line)) is not None
         ):
             yield Correction(problem, (TextEdit(line, f" {name}={value.strip()}"),), whole(block))
         elif problem.code is SYN004 and not all_keys(declared) and (row := _as_row(blocks, block)):

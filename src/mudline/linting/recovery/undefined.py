@@ -108,7 +108,7 @@ def _given_twice(context: LintContext, text: TextOrigin) -> Iterator[Correction]
         places = (
             line,
             line_at(text, max(line.start - 1, 0)),
-            line_at(text, min(behind(text if "text" in locals() else blocks.text, line), len(unified))),
+            line_at(text, min(behind(text, line), len(unified))),
         )
         own, above, below = (ROW_NUMBER.match(unified, *place) for place in places)
         meant = {str(int(row[1]) + step) for row, step in ((above, 1), (below, -1)) if row} & lacking
