@@ -79,6 +79,9 @@ def spells_number(text: str) -> bool:
 
 def read_rows(text: str, span: Span, columns: int) -> Rows:
     """Read the lines of a run into at most `columns` columns. `text` must have LF or CRLF line ends."""
+    if span.end - span.start <= _SMALLEST:
+        values = read_numbers(text[span.start : span.end].rstrip("\r\n"), columns)
+        return read_rows_slow(text, span, columns) if values is None else _plain(values)
     return _together(_parts(text, span, columns, PIECE), span.end - span.start)
 
 
