@@ -322,7 +322,7 @@ class Builder:
             self._inner_row(built, slot, fields, line)
         elif slot.many:
             self._list(built, slot, fields, None)
-        elif not found.mixed:
+        elif len(found.columns) == 1 or not any(column.row for column in found.columns):
             self._columns(built, found.columns, fields, line)
         elif slot.json in built.values:
             self.report(SYN001, f"{slot.label} is given twice", fields[0].span)

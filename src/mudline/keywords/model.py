@@ -374,11 +374,6 @@ class RecordSchema:
         return [slot.name for slot in (*self.columns, *([self.table] if self.table else []))]
 
     @cached_property
-    def mixed(self) -> bool:
-        """Whether a row fills one of several fields, some of which are rows themselves."""
-        return len(self.columns) > 1 and any(column.row for column in self.columns)
-
-    @cached_property
     def fewest(self) -> int:
         """How many fields a row must have."""
         return fewest_fields(slot.required for slot in self.columns)

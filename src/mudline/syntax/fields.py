@@ -10,11 +10,9 @@ from typing import NamedTuple
 
 from mudline.codes.fields import SYN003, SYN006
 from mudline.diagnostics import Problem, Span
-from mudline.limits import LONGEST_TABLE, MOST_FIELDS
+from mudline.limits import MOST_FIELDS
 
 _KEY = re.compile(r"[ \t]*([A-Za-z][\w \t-]*)=")
-_ONE_SETTING = re.compile(r"([A-Za-z][\w \t-]*+)=[ \t]*+([^,=\[\"{/\s][^,=\[\"{/\r\n]*)")
-"""A line of one setting, whose value has no brackets."""
 _BLANKS = re.compile(r"[ \t]+")
 _SPECIAL = re.compile(r'[\["{/]')
 _MARKS = ',"[{/'
@@ -69,8 +67,6 @@ def canonical_key(key: str) -> str:
 def read_line(text: str, span: Span, *, slashes: bool = False) -> Line:
     """Cut one line of `text` into groups of fields. `slashes`: `/.../` is one field."""
     body = trimmed(text, *span)
-    if (match := _ONE_SETTING.fullmatch(text, *body)) and len(match[1]) < LONGEST_TABLE:
-        return Line(body, [Group(canonical_key(match[1]), body, [Field(match[2], match.start(2))])], [])
     fields, problems = _split(text, body, slashes=slashes)
     if text.find("=", body.start, body.end) < 0:
         return Line(body, [Group("", body, fields)] if fields else [], problems)

@@ -13,6 +13,7 @@ from lark import Lark
 from lark.grammar import NonTerminal
 from lark.load_grammar import Grammar, load_grammar
 
+from mudline.files import write_atomically
 from mudline.resources import grammar_file
 
 
@@ -22,30 +23,25 @@ def parser(name: str, start: str = "start") -> Lark:
 
     To compile a grammar takes ten times as long as to load its tables.
     """
-    if saved := _tables(name).get(start):
-        return Lark.load(BytesIO(saved))
-    return Lark(
-        _below(definitions(name), start),
-        parser="lalr",
-        lexer="basic",
-        start=start,
-        keep_all_tokens=True,
-        maybe_placeholders=False,
-    )
+    saved = _tables(name).get(start)
+    return Lark.load(BytesIO(saved)) if saved else _compiled(name, start)
 
 
 def save_tables(name: str) -> Path:
     """Write the tables of the parsers from all rules of a grammar beside it; returns the file."""
-    _tables.cache_clear()
-    path = grammar_file(f"{name}.lark").with_suffix(".tables")
-    path.unlink(missing_ok=True)
     tables: dict[str, bytes] = {}
     for start in (str(rule) for rule, *_ in definitions(name).rule_defs if not rule.startswith("_")):
         saved = BytesIO()
-        parser(name, start).save(saved)
+        _compiled(name, start).save(saved)
         tables[start] = saved.getvalue()
-    path.write_bytes(pickle.dumps((lark.__version__, _text(name), tables)))
+    path = grammar_file(f"{name}.lark").with_suffix(".tables")
+    write_atomically(path, pickle.dumps((lark.__version__, _text(name), tables)))
     return path
+
+
+def _compiled(name: str, start: str) -> Lark:
+    grammar = _below(definitions(name), start)
+    return Lark(grammar, parser="lalr", lexer="basic", start=start, keep_all_tokens=True, maybe_placeholders=False)
 
 
 @cache
