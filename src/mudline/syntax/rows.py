@@ -6,6 +6,7 @@ import math
 import re
 from array import array
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import compress
 from typing import NamedTuple
 
 import numpy as np
@@ -29,6 +30,7 @@ _BLANK = np.isin(np.arange(256), np.frombuffer(b" \t\r\n", np.uint8))
 _ROOM = 1.05
 _KEPT_BACK = 1 << 22
 _IN_NUMBERS = b"0123456789+-.eE \t\r"
+_ODD = re.compile(r"[^0-9+\-.eEdD, \t\r]")
 _D_TO_E = bytes.maketrans(b"dD", b"EE")
 _SIGNED_ZERO = re.compile(rb"-0(?![.eE])(?<![eE]-0)")
 """A zero whose sign JSON does not keep."""
@@ -106,7 +108,25 @@ def _parts(text: str, span: Span, columns: int, size: int) -> Iterator[tuple[int
         elif size > _SMALLEST and end - start > _SMALLEST:
             yield from _parts(text, Span(start, end), columns, size // _PARTS)
         else:
-            yield end - start, read_rows_slow(lines, Span(0, end - start), columns)
+            yield end - start, _mixed_rows(lines, columns)
+
+
+def _mixed_rows(lines: str, columns: int) -> Rows:
+    """Return the rows of lines of which some hold more than numbers: these one by one, the others at once."""
+    texts = lines.split("\n")
+    odd = np.array([_ODD.search(text) is not None for text in texts])
+    numbers = read_numbers("\n".join(compress(texts, ~odd)), columns)
+    if numbers is None or not odd.any():
+        return read_rows_slow(lines, Span(0, len(lines)), columns)
+    text = "\n".join(compress(texts, odd))
+    others = read_rows_slow(text, Span(0, len(text)), columns)
+    values = np.full((len(texts), max(numbers.shape[1], others.values.shape[1])), math.nan)
+    values[~odd, : numbers.shape[1]] = numbers
+    values[odd, : others.values.shape[1]] = others.values
+    lengths = np.full(len(texts), numbers.shape[1], dtype=np.intp)
+    lengths[odd] = others.lengths
+    places = np.flatnonzero(odd).tolist()
+    return Rows(values, lengths, {(places[row], column): word for (row, column), word in others.words.items()})
 
 
 def read_numbers(lines: str, columns: int) -> NDArray[np.float64] | None:
