@@ -8,7 +8,7 @@ from operator import attrgetter
 from typing import NamedTuple
 
 from mudline.diagnostics import Span
-from mudline.keywords.builder import ParsedRecord
+from mudline.keywords.parsed import ParsedRecord
 
 
 class Between(NamedTuple):

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from operator import itemgetter
 
 from mudline.diagnostics import Span
-from mudline.keywords.builder import ParsedRecord
+from mudline.keywords.parsed import ParsedRecord
 from mudline.limits import MOST_COLUMNS
 from mudline.short_repr import short_repr
 from mudline.syntax.fields import trimmed

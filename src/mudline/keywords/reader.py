@@ -13,12 +13,13 @@ from mudline.codes.lines import SYN001, SYN004, SYN013, SYN014
 from mudline.diagnostics import Problem, Severity, Span
 from mudline.keywords import grammar
 from mudline.keywords.attaching import Between, attach
-from mudline.keywords.builder import Builder, ParsedRecord
+from mudline.keywords.builder import Builder
 from mudline.keywords.constructing import construct, lose
 from mudline.keywords.grammar import END, ROW, Content, Mismatch
 from mudline.keywords.keeping import is_choice, opened
 from mudline.keywords.kept_lines import doubtful, of_other_form
 from mudline.keywords.model import AS_TEXT, Block, Part, RecordSchema, record_schema
+from mudline.keywords.parsed import ParsedRecord
 from mudline.keywords.places import Places
 from mudline.keywords.text import hint, instead, merge_per_line, shown, suggestion
 from mudline.short_repr import short_repr
