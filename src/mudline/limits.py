@@ -36,8 +36,6 @@ LONGEST_NUMBER = 400
 """Characters of a number: nobody writes longer ones, and reading one takes time that grows with their square."""
 LONGEST_BLANK_SEPARATED = 10_000
 """Characters of a line without commas that is read as several numbers: a stray file without commas is one line."""
-LONGEST_TABLE = 4096
-"""Characters of a block with tables that is tried as a plain one: a longer one would be read twice."""
 LONGEST_EQUATION = 10_000
 """Characters of an equation: the grammar takes memory for each."""
 LONGEST_TEXT = 10_000

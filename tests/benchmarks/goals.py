@@ -57,8 +57,6 @@ GOALS = (
     Goal("meshio 4", _READING, "file, 4 columns: meshio / `mudline.read`", "at least", 5.0),
     Goal("opm 2", _READING, "file, 2 columns: OPM / `mudline.read`", "at least", 0.9),
     Goal("opm 4", _READING, "file, 4 columns: OPM / `mudline.read`", "at least", 0.9),
-    Goal("opm pyarrow 2", _READING, "file, 2 columns: OPM / `mudline.read` with pyarrow", "at least", 2.0),
-    Goal("opm pyarrow 4", _READING, "file, 4 columns: OPM / `mudline.read` with pyarrow", "at least", 2.0),
     Goal("memory 2", _READING, "peak memory of the process, 2 columns", "at most", 140.0, "MB"),
     Goal("memory 4", _READING, "peak memory of the process, 4 columns", "at most", 210.0, "MB"),
     Goal("equations", _READING, "2 columns, an equation in every tenth row", "at most", 2.0, "s"),

@@ -15,10 +15,9 @@ _HEADS = {"curve": 3, "nodes": 2}
 """Lines in front of the rows."""
 SIZES = tuple(10**power for power in range(2, 8))
 
-_NUMPY_ALONE = "sys.modules['pyarrow'] = None\nimport mudline"
-_OURS = Work(_NUMPY_ALONE, "return mudline.read(path)")
-LINT = Work(_NUMPY_ALONE, "return mudline.lint(path)")
-_ARRAYS = f"{_NUMPY_ALONE}\nfrom mudline.diagnostics import Span\nfrom mudline.syntax.rows import read_rows"
+_OURS = Work("import mudline", "return mudline.read(path)")
+LINT = Work("import mudline", "return mudline.lint(path)")
+_ARRAYS = "import mudline\nfrom mudline.diagnostics import Span\nfrom mudline.syntax.rows import read_rows"
 
 
 def run(bench: Bench) -> None:
@@ -51,7 +50,7 @@ _PROGRAMS = {
 
 
 def readers(bench: Bench, kinds: dict[str, str]) -> dict[str, Maker]:
-    """What makes the job of a size, for each program that is there and for mudline with pyarrow."""
+    """What makes the job of a size, for each program that is there."""
 
     def maker(name: str, work: Work, peer: str = "") -> Maker:
         return lambda count: bench.timed(work, kinds[name], count, peer)
@@ -60,7 +59,6 @@ def readers(bench: Bench, kinds: dict[str, str]) -> dict[str, Maker]:
     loadtxt = Work("import numpy as np", f"return np.loadtxt(path, delimiter=',', skiprows={head})")
     makers = {
         "mudline": maker("mudline", _OURS),
-        "mudline, pyarrow": maker("mudline", _OURS._replace(setup="import mudline, pyarrow.csv")),
         "np.loadtxt": maker("np.loadtxt", loadtxt),
     }
     there = {name: work for name, work in _PROGRAMS.items() if name in kinds and bench.has(name)}
@@ -80,9 +78,8 @@ def _files(bench: Bench) -> None:
             figures[f"meshio {columns}"] = ratio(cpu(found["meshio"]), ours)
         if "opm" in found:
             figures[f"opm {columns}"] = ratio(cpu(found["opm"]), ours)
-            figures[f"opm pyarrow {columns}"] = ratio(cpu(found["opm"]), cpu(found["mudline, pyarrow"]))
         for name in readers(bench, NODES):
-            path = bench.table(kinds[name.partition(",")[0]], count) if name in found else None
+            path = bench.table(kinds[name], count) if name in found else None
             cells.setdefault(name, []).extend(_cells(found[name], path) if path else ["", "", ""])
     head = ["program", *(f"{what}, {n} columns" for n in (2, 4) for what in ("s", "MB/s", "peak MB"))]
     rows = [[name, *row] for name, row in cells.items()]
@@ -134,7 +131,7 @@ def spellings(bench: Bench) -> None:
 def _faults(bench: Bench) -> None:
     """A table with bad fields, beside the clean one."""
     count = bench.size(ROWS)
-    setup = f"{_NUMPY_ALONE}\nfrom contextlib import suppress"
+    setup = "import mudline\nfrom contextlib import suppress"
     work = Work(setup, "with suppress(mudline.DeckError): return mudline.read(path)")
     kinds = {"clean": "curve"} | {f"bad {bad}": f"bad:{bad}" for bad in BAD_FIELDS}
     found = bench.costs({name: bench.timed(work, kind, count) for name, kind in kinds.items()}, 3)

@@ -15,7 +15,8 @@ _RUN = re.compile(r'^```(?:console|\w+ title="([\w./-]+)")\n(.*?)^```$', re.MULT
 
 def copy_of_files(root: Path, folder: Path) -> None:
     """Put the files that commands of the pages name into a folder, where the commands may write too."""
-    shutil.copytree(root / "samples", folder / "samples")
+    for name in ("grammar", "samples"):
+        shutil.copytree(root / name, folder / name)
     shutil.copytree(root / "docs/examples", folder / "docs/examples")
 
 

@@ -77,7 +77,7 @@ def _line(text: str, line: Span, declared: type[Block] | None) -> Iterator[tuple
 
 
 def _field(given: Field, choices: set[str]) -> Iterator[tuple[Span, str]]:
-    text, span = given
+    text, span = given.text, given.span
     if text.startswith("=["):
         yield span, "operator"
         yield Span(span.start + 2, span.end - text.endswith("]")), ""

@@ -28,7 +28,6 @@ from mudline.scene.data_files import fault_of, has_uneven_times
 from mudline.scene.seabed import read_profile
 from mudline.syntax.source import Source
 from tests.cli.runner import Outcome, run
-from tests.keywords.test_plain_blocks import same
 from tests.samples import SAMPLES
 
 ROOT = Path(__file__).parents[2]
@@ -126,11 +125,6 @@ def _convert(data: bytes) -> None:
         return
     if to_json(load_bytes(keyword.encode(), NAME)) != text:
         raise BrokenPromiseError("a deck in JSON, written as keyword text and read, is another one")
-
-
-def _fast(data: bytes) -> None:
-    """The fast reader of plain blocks gives what the grammar gives."""
-    same(data)
 
 
 def _document(data: bytes) -> None:
@@ -272,7 +266,6 @@ def _archives() -> list[bytes]:
 
 TARGETS = {
     "read": Target(_read, decks),
-    "fast": Target(_fast, decks),
     "lint": Target(_lint, decks),
     "fix": Target(_fix, decks),
     "format": Target(_format, decks),

@@ -7,17 +7,19 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from lark.load_grammar import load_grammar
 
 from mudline.comparison.comparing import compare
 from mudline.deck.document import json_schema
 from mudline.deck.forms.json import read, to_json
 from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.loading import load_bytes
-from mudline.keywords import catalogue, grammar, index, library
+from mudline.keywords import catalogue, index, library
 from mudline.keywords.catalogue import suggest_keyword
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules
 from mudline.scene.model import resolve
+from mudline.syntax import grammars
 from tests.builders.decks import CLAY, PIPE, STEEL
 from tests.docs.keyword_index import keyword_index
 from tests.docs.keyword_page import keyword_page
@@ -61,10 +63,11 @@ class SeabedAnchor(Block):
 
 BLOCK = SeabedAnchor
 '''
-RULES = {
-    "seabed_anchor": "seabed_anchor: anchor_set*\n",
-    "anchor_set": "anchor_set: K_SET (K_CURVE | K_FILE | K_SPACING)*\n",
-}
+RULES = """
+seabed_anchor: anchor_set*
+anchor_set: K_SET (K_CURVE | K_FILE | K_SPACING)*
+%declare K_SET K_CURVE K_FILE K_SPACING
+"""
 SEABED = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"
 DECK = PIPE + STEEL + CLAY + SEABED + f"*{NAME}\n"
 LINE = DECK.count("\n") + 1
@@ -77,8 +80,11 @@ def anchor(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     monkeypatch.setattr(library, "__path__", [*library.__path__, str(tmp_path)])
     caches = (catalogue._by_keyword, catalogue.keywords, catalogue.read_keywords, catalogue.sections_of, catalogue.load)
     monkeypatch.setattr(index, "ENTRIES", tuple(declared_entries()))
-    for rule, text in RULES.items():
-        monkeypatch.setitem(grammar._rules(), rule, text)
+    known, new = grammars.definitions("blocks"), load_grammar(RULES, "new", [], False)[0]
+    monkeypatch.setattr(known, "rule_defs", [*known.rule_defs, *new.rule_defs])
+    monkeypatch.setattr(
+        known, "term_defs", [*{str(one[0]): one for one in (*known.term_defs, *new.term_defs)}.values()]
+    )
     for cache in caches:
         cache.cache_clear()
     yield

@@ -5,8 +5,7 @@ from __future__ import annotations
 import pytest
 
 from mudline.diagnostics import Span
-from mudline.keywords.grammar import Content, Node
-from mudline.keywords.recovery import by_lines
+from mudline.keywords.grammar import Content, Node, by_lines
 
 Reported = tuple[int | None, str, str]
 """The line that does not fit, None for the end of the block; what was expected in its place; and what is missing."""
@@ -15,15 +14,15 @@ Reported = tuple[int | None, str, str]
 def shown(node: Node | Content) -> str:
     """A tree with the lines by their numbers."""
     if isinstance(node, Content):
-        return str(node.position)
-    return f"{node.rule}({' '.join(map(shown, node.children))})"
+        return str(node.span.start)
+    return f"{node.data}({' '.join(map(shown, node.children))})"
 
 
 def read(rule: str, lines: str, *, insert: bool = True) -> tuple[str, list[Reported]]:
-    contents = [Content(terminal, Span(at, at + 1), at) for at, terminal in enumerate(lines.split())]
+    contents = [Content(terminal, Span(at, at + 1)) for at, terminal in enumerate(lines.split())]
     tree, mismatches = by_lines(rule, contents, insert=insert)
     return shown(tree), [
-        (one.found.position if one.found else None, " ".join(one.expected), one.missing) for one in mismatches
+        (one.found.span.start if one.found else None, " ".join(one.expected), one.missing) for one in mismatches
     ]
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from unittest.mock import patch
 
 import pytest
 from hypothesis import example, given, settings
@@ -55,17 +54,6 @@ def test_samples(path: Path, end: bytes, mark: bytes) -> None:
     assert not source.problems
     assert source.bom == bool(mark)
     read_back(mark + data.replace(b"\n", end).rstrip())
-
-
-LINES = ("1, 2", "-1", "+.5, =[a]", ",", ".5", " 3, 4", "\t5", "/6", ": 7", "*8", "$9", "C 1", "", " ", "\u0661", "1\r")
-
-
-@given(st.lists(st.tuples(st.sampled_from(LINES), st.integers(1, 9)), max_size=12), st.booleans(), st.integers(1, 40))
-def test_long_runs_are_cut_as_short_ones(parts: list[tuple[str, int]], ended: bool, chunk: int) -> None:
-    lines = [line for line, count in parts for _ in range(count)]
-    text = "\n".join([*lines, ""] if ended else lines)
-    with patch.multiple("mudline.syntax.tree", _LONG=8, _CHUNK=chunk):
-        read_back(text.encode())
 
 
 @given(deck_texts(), st.booleans())

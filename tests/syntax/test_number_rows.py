@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Callable
-from decimal import Decimal
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -13,9 +14,18 @@ from numpy.typing import NDArray
 
 import mudline
 from mudline.diagnostics import DeckError, Span
-from mudline.syntax.number_rows import NumberRows, nearest
-from mudline.syntax.rows import line_spans, read_number, read_rows, read_rows_fast, read_rows_slow, row_starts
+from mudline.syntax import rows
+from mudline.syntax.rows import (
+    line_spans,
+    read_number,
+    read_numbers,
+    read_rows,
+    read_rows_fast,
+    read_rows_slow,
+    row_starts,
+)
 from mudline.syntax.source import Source
+from tests.syntax.test_rows import STRANGE
 
 RNG = np.random.default_rng(20)
 MANY = 10_000
@@ -61,57 +71,76 @@ def test_many_numbers_of_a_spelling(name: str, comma: str) -> None:
     values, spelling = SPELLINGS[name]
     words = [spelling(value) for value in values.tolist()][comma == " " :: 2]
     text = "".join(f" {first}{comma}{second}\n" for first, second in zip(words[::2], words[1::2], strict=False))
-    rows = read_rows_fast(text, Span(0, len(text)), 2)
-    assert rows is not None
+    found = read_rows_fast(text, Span(0, len(text)), 2)
+    assert found is not None
     given_words = words[: 2 * (len(words) // 2)]
     expected = np.array([read_number(word) for word in given_words], dtype=np.float64)
-    assert rows.values.ravel().tobytes() == expected.tobytes()
-    assert rows.words == {}
+    assert found.values.ravel().tobytes() == expected.tobytes()
+    assert found.words == {}
 
 
-@given(st.integers(0, 10**19 - 1), st.integers(-400, 400))
-@example(0, -400)
-@example(2**53 + 1, 0)
-@example(22250738585072011, -324)
-@example(22250738585072014, -324)
-@example(17976931348623159, 292)
-@example(9007199254740993, 22)
-def test_a_certain_double_is_the_nearest(digits: int, power: int) -> None:
-    for others in (0, 7):  # beside a large number, another way is taken
-        numbers, powers = np.array([digits, 2**63 + others], np.uint64), np.array([power, -3])
-        values, sure = nearest(numbers[: 1 + others], powers[: 1 + others])
-        if sure is None or sure[0]:
-            assert float(values[0]).hex() == float(Decimal(digits).scaleb(power)).hex()
+ODD_SPELLINGS = [
+    *STRANGE,
+    *("1D3", "1d-3", "1.5D+03", ".5", "5.", "-.5", "+1", "+.5", "1.e5", "-0.0", "0e999", "007", "1e05", "1E+05"),
+    *("'1'", "\\1", "#1", "x", "1\t", "\t1", " 1 ", "1;2", "1,", "0" * 500, "1" * 390 + ".5"),
+    *("0." + "3" * 398, "0." + "3" * 399, "1e" + "0" * 399 + "1", "1" * 200 + "." + "1" * 200),
+]
 
 
-@given(st.integers(10**18, 10**19 - 1), st.integers(-300, 280), st.integers(0, 10**6 - 1))
-def test_digits_that_are_cut_off_change_no_certain_double(digits: int, power: int, behind: int) -> None:
-    values, sure = nearest(np.array([digits], np.uint64), np.array([power]), np.array([True]))
-    if sure is not None and sure[0]:
-        assert float(values[0]).hex() == float(f"{digits}.{behind:06}e{power}").hex()
+def bits(value: int) -> str:
+    """The shortest spelling of a finite double of any bits."""
+    number = struct.unpack("<d", struct.pack("<Q", value))[0]
+    return repr(number) if np.isfinite(number) else "0"
 
 
-def test_most_doubles_are_certain() -> None:
-    digits = RNG.integers(10**16, 10**17, MANY).astype(np.uint64)
-    _, sure = nearest(digits, RNG.integers(-300, 280, MANY))
-    assert sure is not None
-    assert np.count_nonzero(sure) > 0.98 * MANY
+PLAIN = st.one_of(
+    st.integers(0, 2**64 - 1).map(bits),
+    st.integers(-(10**20), 10**20).map(str),
+    st.builds("{}{}{}{}".format, st.sampled_from(["", "-"]), st.integers(0, 10**25), st.sampled_from(["", ".", ".50"]),
+              st.one_of(st.just(""), st.integers(-330, 310).map("e{}".format), st.integers(0, 310).map("E+{}".format))),
+)  # fmt: skip
+
+
+def holds_the_slow_rows(text: str, columns: int) -> None:
+    span = Span(0, len(text))
+    slow = read_rows_slow(text, span, columns)
+    for piece in (1, 40, rows.PIECE):
+        with patch.multiple(rows, PIECE=piece, _SMALLEST=2):
+            assert read_rows(text, span, columns).same(slow)
+
+
+@given(
+    st.lists(
+        st.lists(st.one_of(PLAIN, st.sampled_from(ODD_SPELLINGS)), min_size=1, max_size=4), min_size=1, max_size=8
+    ),
+    st.sampled_from([", ", ",", " ", "\t,", " ,\t"]),
+    st.sampled_from(["\n", "\r\n", " \n", "\n\n", "\n \n", "\n\t\r\n"]),
+    st.integers(1, 4),
+)
+def test_rows_of_any_fields(fields: list[list[str]], comma: str, end: str, columns: int) -> None:
+    holds_the_slow_rows(end.join(comma.join(row) for row in fields), columns)
+
+
+@given(st.text(st.sampled_from("1.5e+-, \t\n\r\0\x0b\ufeff\"'"), max_size=60))
+@example("1,2\r3,4\n")
+@example("\ufeff1,2\n3,4\n")
+@example("1,2\n\n3,4\n")
+def test_any_text(text: str) -> None:
+    holds_the_slow_rows(text.replace("\r", "\r\n"), 2)
 
 
 @pytest.mark.parametrize(
-    ("lines", "odd"),
-    [
-        ("1, 2\n3\n5, 6", [False, True, False]),
-        ("1, 2\n3, 4,\n5, 6", [False, True, False]),
-        ("1, 2\n=[a*2], 4\n5, 6", [False, True, False]),
-        ("1, 2\n3, 4\n5, 6\n 7 8 9", [False, False, False, True]),
-        ("1, 2\n3, (4\n5, 6", [False, True, False]),
-    ],
+    "digits", ["1" * 400 + "e-300", "-0." + "1" * 398, "1" * 200 + "." + "1" * 198 + "e+" + "1" * 3]
 )
-def test_lines_of_another_shape_are_found(lines: str, odd: list[bool]) -> None:
-    rows = NumberRows(lines)
-    assert rows.read() is None
-    assert rows.odd_lines().tolist() == odd
+def test_long_numbers_are_refused(digits: str) -> None:
+    assert read_number(digits) is None
+    assert read_numbers(f"1,2\n{digits},4\n" + "5,6\n" * 30, 2) is None
+
+
+@pytest.mark.parametrize("word", ["true", "null", "NaN", "Infinity", "[1]", "{}", '"1"', "1e400", "", "1 2"])
+def test_other_values_of_json_are_no_numbers(word: str) -> None:
+    assert read_numbers(f"1,2\n{word},4", 2) is None
+    assert read_numbers("1,2\n3,4", 2) is not None
 
 
 BAD = {
@@ -154,8 +183,8 @@ def test_long_tables_are_slow_rows_whatever_stands_in_a_few_lines() -> None:
     for end in ("\n", "\r\n"):
         text = end.join(lines)
         for columns in (2, 3):
-            rows = read_rows(text, Span(0, len(text)), columns)
-            assert rows.same(read_rows_slow(text, Span(0, len(text)), columns))
+            found = read_rows(text, Span(0, len(text)), columns)
+            assert found.same(read_rows_slow(text, Span(0, len(text)), columns))
 
 
 @given(st.text(st.sampled_from("1, \t\r\n\xe9\u2028"), max_size=40), st.integers(0, 5))

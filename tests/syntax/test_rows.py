@@ -74,7 +74,7 @@ def compared(text: str, columns: int) -> Rows:
     slow = read_rows_slow(text, whole(text), columns)
     assert read_rows(text, whole(text), columns).same(slow)
     for piece in (reader.PIECE, 12):
-        with patch.multiple(reader, _SHORT=0, PIECE=piece):
+        with patch.multiple(reader, PIECE=piece, _SMALLEST=2):
             assert read_rows(text, whole(text), columns).same(slow)
             fast = read_rows_fast(text, whole(text), columns)
             assert fast is None or fast.same(slow)

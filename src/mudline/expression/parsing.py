@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from collections.abc import Set as AbstractSet
-from functools import cache
 from typing import Any, cast
 
 from lark import Lark, Token, Transformer, UnexpectedCharacters, UnexpectedInput, UnexpectedToken, v_args
@@ -31,7 +30,7 @@ from mudline.expression.nodes import (
     shorten,
 )
 from mudline.limits import DEEPEST, LONGEST_EQUATION
-from mudline.resources import grammar_file
+from mudline.syntax.grammars import parser
 
 SAME_OPERATOR = {"==": "=", "!=": "<>"}
 """The one spelling of operators that have two."""
@@ -66,11 +65,9 @@ def parse(text: str) -> Expression:
     return Expression(text, tuple(names), tuple(functions), root)
 
 
-@cache
 def equation_grammar() -> Lark:
     """Return the parser of equations; it gives nodes."""
-    text = grammar_file("expression.lark").read_text(encoding="utf-8")
-    return Lark(text, parser="lalr", lexer="basic", start="disjunction", transformer=_Nodes())
+    return parser("expression", "disjunction", _Nodes)
 
 
 # ----------------------------------------------------------------------------------------------------------- the nodes
@@ -93,7 +90,7 @@ class _Nodes(Transformer[Token, Node]):
         return Group(_span(opening, closing), inner)
 
     def call(self, name: Token, _opening: Token, *others: Node | Token) -> Call:
-        return Call(_span(name, others[-1]), str(name), _span(name), cast("tuple[Node, ...]", others[:-1]))
+        return Call(_span(name, others[-1]), str(name), _span(name), cast("tuple[Node, ...]", others[:-1:2]))
 
     def prefix(self, operator: Token, operand: Node) -> Prefix:
         return Prefix(_span(operator, operand), operator.lower(), operand)
@@ -111,6 +108,10 @@ class _Nodes(Transformer[Token, Node]):
     def logical(self, *parts: Node | Token) -> Logical:
         operator = str(parts[1]).lower()
         return Logical(_span(parts[0], parts[-1]), operator, cast("tuple[Node, ...]", parts[::2]))
+
+
+MAKES = _Nodes
+"""What makes an equation of the parts that the grammar names."""
 
 
 def _span(first: Token | Node, last: Token | Node | None = None) -> Span:

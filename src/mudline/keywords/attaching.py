@@ -8,7 +8,7 @@ from operator import attrgetter
 from typing import NamedTuple
 
 from mudline.diagnostics import Span
-from mudline.keywords.builder import ParsedRecord
+from mudline.keywords.parsed import ParsedRecord
 
 
 class Between(NamedTuple):
@@ -92,7 +92,7 @@ class _Places:
         count = 0
         for item in sorted(self.record.items, key=attrgetter("order", "position")):
             before.setdefault((item.order, item.position), count)
-            count += item.count
+            count += item.size
         return count, before
 
     def begun(self, position: int) -> list[_Places]:

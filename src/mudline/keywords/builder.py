@@ -1,21 +1,23 @@
-"""The tree of a block to plain values, with the place of each and every fault of a field as one problem."""
+"""The tree of a block to plain values; every fault of a field is one problem."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
-from typing import Any
+from collections.abc import Iterable, Sequence
+from typing import cast
+
+from lark import Tree
 
 from mudline.codes.fields import SYN003
 from mudline.codes.lines import SYN001, SYN004, SYN014
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.keywords.grammar import ROW, Content, Node
-from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Path, Record, record_schema
+from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Record, record_schema
 from mudline.keywords.numbers import cut_number
-from mudline.keywords.places import Places
+from mudline.keywords.parsed import Item, ParsedRecord, Written
+from mudline.keywords.runs import TableBuilder
 from mudline.keywords.table import fewest_fields, row_format
 from mudline.keywords.text import (
-    TableBuilder,
+    MIXED_FIELDS,
     UnreadableError,
     Value,
     decimal_comma,
@@ -31,77 +33,40 @@ from mudline.spelling import nearest
 from mudline.syntax.fields import Field, Group, read_line, split, trimmed
 from mudline.syntax.rows import blank_separated
 
-
-@dataclass(slots=True)
-class Item:
-    """A line or a record in a record: where it is written, where it stands, how many it counts for."""
-
-    order: int
-    position: int
-    count: int
-
-
-@dataclass(slots=True)
-class ParsedRecord:
-    """A record as plain values, and what is needed to place comments in it.
-
-    One is `unsure` where lines or settings of it could not be used: what it seems to lack may be there.
-    """
-
-    part: type[Record]
-    values: dict[str, Any] = field(default_factory=dict)
-    children: dict[str, list[ParsedRecord]] = field(default_factory=dict)
-    items: list[Item] = field(default_factory=list)
-    sticky: object = None
-    first: int = 0
-    last: int | None = None
-    unsure: bool = False
-
-    @property
-    def known(self) -> dict[str, Any]:
-        """The values that could be read."""
-        return {name: value for name, value in self.values.items() if value is not UNKNOWN}
-
-    def reach(self, position: int) -> None:
-        """Take note of a line."""
-        self.first = position if self.last is None else self.first
-        self.last = position if self.last is None else max(self.last, position)
+_OTHER, _TITLE, _IDENT = Kind.OTHER, Kind.TITLE, Kind.IDENT
 
 
 class Builder:
     """Reads the lines of one block; `end` is where the file ends behind a last line that has no line end, or -1."""
 
-    def __init__(self, text: str, places: Places, problems: list[Problem], *, slashes: bool, end: int = -1) -> None:
+    def __init__(self, text: str, problems: list[Problem], *, slashes: bool, end: int = -1) -> None:
         self.text = text
         self.end = end
         self.slashes = slashes
-        self.places = places
         self.problems = problems
         self.lost = 0
         self.unclosed: Span | None = None
-        self.unchosen: set[Path] = set()
 
-    def build(self, part: type[Record], node: Node, path: Path = (), last: object = None) -> ParsedRecord:
-        """The values of a record; `last` is what the sticky field of the records before it gave."""
+    def build(self, part: type[Record], node: Node, last: object = None) -> ParsedRecord:
+        """Return a record; `last` is what the sticky field of the records before it gave."""
         built = ParsedRecord(part)
         found = record_schema(part)
-        tables: dict[str, TableBuilder] = {}
         row_number = 0
         for child in node.children:
-            if isinstance(child, Node):
-                self._child(built, found.children[child.rule], child, path)
+            if isinstance(child, Tree):
+                self._child(built, found.children[child.data], child)
                 continue
-            if not built.items and built.last is None:
-                self.places.spans[path] = trimmed(self.text, *child.span)
-            if child.terminal == ROW:
-                self._row(built, child, path, last, row_number, tables)
+            if built.last is None:
+                built.opening = child.span
+            if child.type == ROW:
+                self._row(built, child, last, row_number)
                 row_number += 1
             else:
-                self._settings(built, child, path)
-        for name, table in tables.items():
+                self._settings(built, child)
+        if found.table and found.table.required:
+            built.tables.setdefault(found.table.json, TableBuilder(self, found.table))
+        for name, table in built.tables.items():
             built.values[name] = table.finish()
-        if found.table and found.table.required and found.table.json not in built.values:
-            built.values[found.table.json] = TableBuilder(self, found.table, (*path, found.table.json)).finish()
         return built
 
     def report(self, code: Code, message: str, span: Span, repair: Repair | None = None) -> None:
@@ -129,12 +94,12 @@ class Builder:
         if not (self.unclosed and problem.span and self.unclosed.start < problem.span.end):
             self.problems.append(problem)
 
-    def _child(self, built: ParsedRecord, slot: FieldSpec, node: Node, path: Path) -> None:
+    def _child(self, built: ParsedRecord, slot: FieldSpec, node: Node) -> None:
         before = built.children.setdefault(slot.json, [])
-        inner = (*path, slot.json, len(before))
         last = before[-1].sticky if before else None
-        child = self.build(slot.record[node.rule], node, inner, last)
-        child.sticky = child.part.carries(child.known, last)
+        child = self.build(slot.record[node.data], node, last)
+        if child.part.sticky:
+            child.sticky = child.part.carries(child.known, last)
         if child.last is None:
             return
         before.append(child)
@@ -143,69 +108,77 @@ class Builder:
         built.reach(child.first)
         built.reach(child.last)
 
-    def _settings(self, built: ParsedRecord, content: Content, path: Path) -> None:
-        found = record_schema(built.part)
+    def _settings(self, built: ParsedRecord, content: Content) -> None:
         line = read_line(self.text, content.span, slashes=self.slashes)
-        self._brackets(line.problems, built)
-        opening = built.last is None and not issubclass(built.part, Block)
-        self._groups(built, line.groups, path)
-        if not opening:
-            order = min((found.keys[g.key].order for g in line.groups if g.key in found.keys), default=0)
-            built.items.append(Item(order, content.position, 1))
-        built.reach(content.position)
+        self.unclosed = None
+        if line.problems:
+            self._brackets(line.problems, built)
+        if built.last is not None or issubclass(built.part, Block):
+            keys = record_schema(built.part).keys
+            order = min((keys[group.key].order for group in line.groups if group.key in keys), default=0)
+            built.items.append(Item(order, content.span.start, 1))
+        self._groups(built, line.groups)
+        built.reach(content.span.start)
 
-    def _groups(self, built: ParsedRecord, groups: list[Group], path: Path) -> None:
+    def _groups(self, built: ParsedRecord, groups: list[Group]) -> None:
         """Settings that stand on one line."""
         found = record_schema(built.part)
         first = found.keys.get(groups[0].key) if groups else None
-        if first and first.json not in built.values and self._of_other_form(built, first, groups, path):
+        if (
+            first
+            and first.kind is _OTHER
+            and first.json not in built.values
+            and self._of_other_form(built, first, groups)
+        ):
             return
-        if first and first.kind is Kind.TITLE and groups[0].fields[0].text:
-            self._rest_of_line(built, first, groups, path)
+        if first and first.kind is _TITLE and groups[0].fields[0].text:
+            self._rest_of_line(built, first, groups)
             return
         for group in groups:
             slot = found.keys.get(group.key)
             if slot and slot.json in built.values:  # a key that may stand twice has a field for each
                 slot = next((s for s in found.slots if s.key == group.key and s.json not in built.values), slot)
             if slot is None:
-                expected = ", ".join(f"{key}=" for key in found.keys)
-                near = nearest(group.key, found.keys)
-                message = f"{group.key}= does not belong on this line{hint(near)}: expected {expected}"
-                key = trimmed(self.text, group.span.start, self.text.find("=", group.span.start))
-                self.report(SYN004, message, group.span, instead(near, key))
+                self._unknown_key(group, found.keys)
             elif slot.json in built.values:
                 self.report(SYN001, f"{group.key}= is given twice", group.span)
             else:
-                self._setting(built, slot, group, (*path, slot.json))
+                self._setting(built, slot, group)
 
-    def _of_other_form(self, built: ParsedRecord, slot: FieldSpec, groups: list[Group], path: Path) -> bool:
+    def _unknown_key(self, group: Group, known: Iterable[str]) -> None:
+        near = nearest(group.key, known)
+        expected = ", ".join(f"{key}=" for key in known)
+        message = f"{group.key}= does not belong on this line{hint(near)}: expected {expected}"
+        key = trimmed(self.text, group.span.start, self.text.find("=", group.span.start))
+        self.report(SYN004, message, group.span, instead(near, key))
+
+    def _of_other_form(self, built: ParsedRecord, slot: FieldSpec, groups: list[Group]) -> bool:
         """Read a line that says that it has a form which is not known: all behind its key is one value."""
-        open_ = slot.kind is Kind.OTHER and slot.about.opaque is not None
-        if not open_ or not groups[0].fields[0].text or (len(groups) == 1 and len(groups[0].fields) == 1):
+        fields = groups[0].fields
+        if slot.about.opaque is None or not fields[0].text or (len(groups) == 1 and len(fields) == 1):
             return False
-        value = read_value(groups[0].fields[0], slot, [])
-        if value in slot.choices and value not in (slot.about.opaque or ()):
+        value = read_value(fields[0], slot, [])
+        if value in slot.choices and value not in slot.about.opaque:
             return False
-        read_value(groups[0].fields[0], slot, self.problems)
-        self._rest_of_line(built, slot, groups, path)
+        read_value(fields[0], slot, self.problems)
+        self._rest_of_line(built, slot, groups)
         return True
 
-    def _rest_of_line(self, built: ParsedRecord, slot: FieldSpec, groups: list[Group], path: Path) -> None:
-        """All behind the key of a setting as its value."""
+    def _rest_of_line(self, built: ParsedRecord, slot: FieldSpec, groups: list[Group]) -> None:
+        """Read all behind the key of a setting as its value."""
         start = self.text.index("=", groups[0].span.start) + 1
         whole = trimmed(self.text, start, groups[-1].span.end)
-        self.places.spans[*path, slot.json] = whole
+        built.written.append(Written(slot.json, whole, (), ()))
         built.values[slot.json] = self.text[slice(*whole)]
 
-    def _setting(self, built: ParsedRecord, slot: FieldSpec, group: Group, path: Path) -> None:
-        self.places.spans[path] = group.span
+    def _setting(self, built: ParsedRecord, slot: FieldSpec, group: Group) -> None:
         fields = group.fields
         if slot.row and not _alone(slot, fields):
             self.lost += issubclass(slot.row, ListRow) and built.unsure
-            built.values[slot.json] = self._row_values(slot.row, fields, path)
+            self._inner_row(built, slot, fields, group.span)
             return
         if slot.many and any(given.text for given in fields):
-            built.values[slot.json] = self._list(slot, fields, path)
+            self._list(built, slot, fields, group.span)
             return
         while len(fields) > 1 and not fields[-1].text:
             fields.pop()
@@ -214,16 +187,17 @@ class Builder:
             place = Span(fields[0].span.start, fields[-1].span.end)
             self.problems.append(decimal_comma(fields, [slot.kind], 1) or Problem(SYN003, message, place))
         if not fields[0].text:
+            built.written.append(Written(slot.json, group.span, (), ()))
             built.values[slot.json] = UNKNOWN
             self.report(SYN003, f"{slot.label} has no value{_value_of(slot)}", group.span)
             return
-        self._value(built, slot, fields, path)
+        self._value(built, slot, fields)
 
-    def _value(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field], path: Path) -> None:
-        """The value of a setting; of several the first one, where it names a new thing."""
+    def _value(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field]) -> None:
+        """Read the value of a setting; of several the first one, where it names a new thing."""
+        built.written.append(Written(None, None, (slot.json,), fields))
         built.values[slot.json] = UNKNOWN
-        self.places.spans[path] = fields[0].span
-        if fields[0].span.end == self.end and cut_number(fields[0].text):
+        if self.end >= 0 and fields[0].span.end == self.end and cut_number(fields[0].text):
             message = f"the file ends inside {fields[0].text!r}: it seems to be cut off, add what is missing"
             self.report(SYN014, message, fields[0].span)
             return
@@ -233,91 +207,105 @@ class Builder:
                 built.values[slot.json] = value
         except UnreadableError as fault:
             self._unreadable(fault.problem)
-            if slot.choices and slot.name == built.part.sticky:
-                self.unchosen.add(path[:-1])
+            built.unchosen |= bool(slot.choices) and slot.name == built.part.sticky
 
-    def _row(
-        self,
-        built: ParsedRecord,
-        content: Content,
-        path: Path,
-        last: object,
-        number: int,
-        tables: dict[str, TableBuilder],
-    ) -> None:
+    def _row(self, built: ParsedRecord, content: Content, last: object, number: int) -> None:
+        """Read a row, or a run of rows that is a table."""
         found = record_schema(built.part)
-        behind: list[Group] = []
-        if path in self.unchosen and sum(column.row is not None for column in found.columns) > 1:
-            built.reach(content.position)  # which format it has is not known
+        start, count = content.span.start, 1
+        if built.unchosen and sum(column.row is not None for column in found.columns) > 1:
+            built.reach(start)
             return
+        behind: list[Group] = []
         if found.table and not found.columns:
             slot, fields = found.table, list[Field]()
         else:
-            fields, behind, problems = self._cut(content.span, keys=bool(found.keys))
-            self._brackets(problems, built)
-            if len(fields) == 1 and blank_separated(fields[0].text):
-                fields = self._apart(fields[0])
-            name = built.part.row_slot(number, len(fields), built.known, last)
-            slot = next(s for s in found.slots if s.name == name)
-        inner = (*path, slot.json)
-        count = 1
+            fields, behind = self._cut(built, content.span, keys=bool(found.keys))
+            slot = self._slot_of_row(built, number, len(fields), last)
         if slot is found.table:
-            table = tables.setdefault(slot.json, TableBuilder(self, slot, inner))
+            table = built.tables.setdefault(slot.json, TableBuilder(self, slot))
             count = table.add(content.span)
-        elif slot.row and slot.json in built.values:
-            message = (
-                f"one line only has its place here (`{record_schema(slot.row).wanted}`): remove it, or the one above"
-            )
-            self.report(SYN001, message, trimmed(self.text, *content.span))
-        elif slot.row:
-            self.places.spans[inner] = trimmed(self.text, *content.span)
-            built.values[slot.json] = self._row_values(slot.row, fields, inner)
-        elif slot.many:
-            built.values[slot.json] = self._list(slot, fields, inner)
-        elif len(found.columns) > 1 and any(column.row for column in found.columns):
-            self._single(built, slot, fields, path)
         else:
-            built.values |= self._fields(found.columns, fields, path)
-        self._groups(built, behind, path)
-        built.items.append(Item(slot.order, content.position, count))
-        built.reach(content.position)
+            self._fill(built, slot, fields, trimmed(self.text, *content.span))
+        if behind:
+            self._groups(built, behind)
+        built.items.append(Item(slot.order, start, count))
+        built.reach(start)
 
-    def _cut(self, span: Span, *, keys: bool) -> tuple[list[Field], list[Group], list[Problem]]:
-        """The fields of a row, and the settings behind them on the line of a record that has `keys`."""
-        if not keys:
+    def _cut(self, built: ParsedRecord, span: Span, *, keys: bool) -> tuple[list[Field], list[Group]]:
+        """Return the fields of a row, and the settings behind them on the line of a record that has `keys`."""
+        behind: list[Group] = []
+        if keys:
+            line = read_line(self.text, span, slashes=self.slashes)
+            problems = line.problems
+            fields = [given for group in line.groups if not group.key for given in group.fields]
+            behind = [group for group in line.groups if group.key]
+        else:
             fields, problems = split(self.text, span, slashes=self.slashes)
-            return fields, [], problems
-        line = read_line(self.text, span, slashes=self.slashes)
-        own = [given for group in line.groups if not group.key for given in group.fields]
-        return own, [group for group in line.groups if group.key], line.problems
+        self.unclosed = None
+        if problems:
+            self._brackets(problems, built)
+        if len(fields) == 1 and blank_separated(fields[0].text):
+            fields = self._apart(fields[0])
+        return fields, behind
 
-    def _single(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field], path: Path) -> None:
-        """A row of one value."""
-        if slot.json in built.values:
+    @staticmethod
+    def _slot_of_row(built: ParsedRecord, number: int, count: int, last: object) -> FieldSpec:
+        """Return the field that a row fills, or the first one of those that it fills."""
+        found = record_schema(built.part)
+        if len(found.row_names) == 1:
+            return found.columns[0] if found.columns else cast("FieldSpec", found.table)
+        name = built.part.row_slot(number, count, built.known, last)
+        return next(slot for slot in found.slots if slot.name == name)
+
+    def _fill(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field], line: Span) -> None:
+        """Read the fields of a row."""
+        found = record_schema(built.part)
+        if slot.row and slot.json in built.values:
+            wanted = record_schema(slot.row).wanted
+            self.report(SYN001, f"one line only has its place here (`{wanted}`): remove it, or the one above", line)
+        elif slot.row:
+            self._inner_row(built, slot, fields, line)
+        elif slot.many:
+            self._list(built, slot, fields, None)
+        elif len(found.columns) == 1 or not any(column.row for column in found.columns):
+            self._columns(built, found.columns, fields, line)
+        elif slot.json in built.values:
             self.report(SYN001, f"{slot.label} is given twice", fields[0].span)
-            return
-        built.values |= self._fields([slot], fields, path)
+        else:
+            self._columns(built, [slot], fields, line)
 
-    def _row_values(self, row: type[Part], fields: list[Field], path: Path) -> dict[str, Value] | list[Value]:
+    def _columns(self, built: ParsedRecord, columns: Sequence[FieldSpec], fields: list[Field], line: Span) -> None:
+        """Read fields that are those of the record itself."""
+        values, fields = self._fields(columns, fields, line)
+        built.values |= values
+        built.written.append(Written(None, None, [slot.json for slot in columns], fields))
+
+    def _inner_row(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field], span: Span) -> None:
+        """Read fields that are those of a row in the record."""
+        row = cast("type[Part]", slot.row)
         columns = record_schema(row).columns
-        if not issubclass(row, ListRow):
-            return self._fields(columns, fields, path)
-        values = self._fields(columns, fields, path)
-        for index, slot in enumerate(columns):
-            if (*path, slot.json) in self.places.spans:
-                self.places.spans[*path, index] = self.places.spans.pop((*path, slot.json))
-        self.lost += any(value is UNKNOWN for value in values.values())
-        return [values.get(slot.json) for slot in columns[: len(values)]]
+        values, fields = self._fields(columns, fields, span)
+        names: Sequence[str | int] = [column.json for column in columns]
+        if issubclass(row, ListRow):
+            self.lost += any(value is UNKNOWN for value in values.values())
+            built.values[slot.json] = [values.get(column.json) for column in columns[: len(values)]]
+            names = range(len(columns))
+        else:
+            built.values[slot.json] = values
+        built.written.append(Written(slot.json, span, names, fields))
 
-    def _fields(self, columns: Sequence[FieldSpec], fields: list[Field], path: Path) -> dict[str, Value]:
+    def _fields(
+        self, columns: Sequence[FieldSpec], fields: list[Field], line: Span
+    ) -> tuple[dict[str, Value], list[Field]]:
+        """Return the values of a row, and the fields that have a place among its columns."""
         before = len(self.problems)
-        fields = self._counted(columns, fields, path)
+        fields = self._counted(columns, fields, line)
         # Of a wrong count any value may be that of another column, but for the number or name that begins the row.
         wrong = any(one.weight is Severity.ERROR for one in self.problems[before:])
         miscounted = wrong or bool(self.unclosed)
         values: dict[str, Value] = dict.fromkeys((slot.json for slot in columns), UNKNOWN) if miscounted else {}
         for slot, given in zip(columns, fields, strict=False):
-            self.places.spans[*path, slot.json] = given.span
             if not given.text:
                 if slot.required and not miscounted:
                     self.short(f"{slot.label} is missing", given.span)
@@ -328,12 +316,12 @@ class Builder:
             except UnreadableError as fault:
                 self._unreadable(fault.problem)
                 value = UNKNOWN
-            if not wrong or (slot is columns[0] and (slot.is_text or slot.kind is Kind.IDENT)):
+            if not wrong or (slot is columns[0] and (slot.is_text or slot.kind is _IDENT)):
                 values[slot.json] = value
-        return values
+        return values, fields
 
-    def _counted(self, columns: Sequence[FieldSpec], fields: list[Field], path: Path) -> list[Field]:
-        """The fields without trailing empty ones; a wrong number of them is a problem."""
+    def _counted(self, columns: Sequence[FieldSpec], fields: list[Field], line: Span) -> list[Field]:
+        """Return the fields without trailing empty ones; a wrong number of them is a problem."""
         required = [slot.required for slot in columns]
         fewest = fewest_fields(required)
         if len(fields) == 1 and len(columns) > 1 and blank_separated(fields[0].text):
@@ -344,7 +332,9 @@ class Builder:
             self.problems.append(problem)
             return fields[:1]
         if fewest <= len(fields) <= len(columns):
-            if problem := mixed_commas(fields, [slot.kind for slot in columns], fewest):
+            if len(fields) >= MIXED_FIELDS and (
+                problem := mixed_commas(fields, [slot.kind for slot in columns], fewest)
+            ):
                 self.problems.append(problem)
             return fields
         if self.unclosed:  # the open bracket holds the fields that are missing
@@ -355,7 +345,7 @@ class Builder:
         wanted = row_format([slot.label for slot in columns], required)
         count = f"{fewest}" if fewest == len(columns) else f"{fewest} to {len(columns)}"
         message = f"{count} fields expected (`{wanted}`), found {len(fields)}"
-        span = Span(fields[0].span.start, fields[-1].span.end) if fields else self.places.find(path)
+        span = Span(fields[0].span.start, fields[-1].span.end) if fields else line
         if len(fields) < fewest:
             self.short(message, span)
         else:
@@ -367,24 +357,25 @@ class Builder:
         fields: list[Field] = []
         for word in given.text.split():
             start = self.text.index(word, start)
-            fields.append(Field(word, Span(start, start + len(word))))
+            fields.append(Field(word, start))
             start += len(word)
         return fields
 
-    def _list(self, slot: FieldSpec, fields: list[Field], path: Path) -> list[Value]:
+    def _list(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field], span: Span | None) -> None:
+        """Read fields that are the values of one field."""
         while len(fields) > 1 and not fields[-1].text:
             fields.pop()
         values: list[Value] = []
+        read: list[Field] = []
         for given in fields:
             try:
-                value = read_value(given, slot, self.problems)
+                values.append(read_value(given, slot, self.problems))
+                read.append(given)
             except UnreadableError as fault:
                 self._unreadable(fault.problem)
                 values = Partly(values)
-                continue
-            self.places.spans[*path, len(values)] = given.span
-            values.append(value)
-        return values
+        built.values[slot.json] = values
+        built.written.append(Written(slot.json, span, range(len(read)), read))
 
 
 def _value_of(slot: FieldSpec) -> str:

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from itertools import chain
 from typing import Any
 
-from mudline.keywords.builder import ParsedRecord
 from mudline.keywords.model import FieldSpec, ListRow, Part, record_schema
+from mudline.keywords.parsed import ParsedRecord
 from mudline.keywords.text import Value
 from mudline.keywords.unknown import UNKNOWN, UNKNOWN_NAME, Partly, is_unknown
 

@@ -1,48 +1,33 @@
-"""Level two: a keyword's rule over the lines of level one, read from the grammar when a deck has the keyword.
-
-Lines that fit are read here, in a hundredth of the time that lark takes to compile the rule; the tree is the same. Of
-other lines `mudline.keywords.recovery` finds which are wrong.
-"""
+"""Level two: lark's parser of a keyword's rule, over the lines of level one."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Sequence
+from collections.abc import Iterator, Sequence
+from copy import copy
 from functools import cache, lru_cache
-from typing import NamedTuple, cast
+from typing import Any, NamedTuple, cast
+
+from lark import Tree, UnexpectedToken
+from lark.parsers.lalr_interactive_parser import InteractiveParser
 
 from mudline.diagnostics import Span
-from mudline.resources import grammar_file
+from mudline.syntax.grammars import parser
 
 END = "$END"
 ROW = "ROW"
-
-_NAME = re.compile(r"\b[a-z_][a-z_0-9]*+")
-_OPENING = re.compile(rf"({_NAME.pattern})\s*:")
-_TERMINAL = re.compile(r"\b[A-Z][A-Z_0-9]*+")
-_WORD = re.compile(rf"\s*({_NAME.pattern}|{_TERMINAL.pattern}|[()|*+?])\s*")
-
-_RECORDS = re.compile(r"[a-z_]+: ([a-z_]+)\*\n")
-_IN_BRACKETS = re.compile(r"\([^()]*\)")
-_OPENED = re.compile(r"[a-z_]+: ([A-Z_0-9]+)(?![A-Z_0-9?*+])")
-
-SMALL = 64
-"""Contents of a block whose tree is remembered: decks of one family hold blocks of the same few forms."""
+_FEW = 64
+"""Lines of a block whose tree is remembered: decks hold blocks of the same few forms."""
 
 
 class Content(NamedTuple):
-    """A line of a block, or a run of rows: the terminal it is, its place, and its position among the block's leaves."""
+    """A line of a block, or a run of rows, as lark's token: lark asks for nothing but the `type`, its terminal."""
 
-    terminal: str
+    type: str
     span: Span
-    position: int
 
 
-class Node(NamedTuple):
-    """A rule with the contents and rules below it."""
-
-    rule: str
-    children: list[Node | Content]
+Node = Tree[Content]
+"""A rule with the contents and rules below it."""
 
 
 class Mismatch(NamedTuple):
@@ -53,226 +38,109 @@ class Mismatch(NamedTuple):
     missing: str
 
 
-class Line(NamedTuple):
-    """One of a sequence of terminals, with its index."""
-
-    terminal: str
-    at: int
-
-
-class Tree(NamedTuple):
-    """A rule with the terminals and rules below it: a `Node` of any lines that are these terminals."""
-
-    rule: str
-    children: list[Tree | Line]
-
-
-# ---------------------------------------------------------------------------------------- the rules as they are written
-
-
 @cache
-def _rules() -> dict[str, str]:
-    """The rules of the grammar, as they are written, by their names."""
-    found: dict[str, str] = {}
-    name = ""
-    for line in grammar_file("blocks.lark").read_text(encoding="utf-8").splitlines():
-        written = line.partition("//")[0].rstrip()
-        if opening := _OPENING.match(written):
-            name = opening[1]
-        if written:
-            found[name] = f"{found.get(name, '')}{written}\n"
-    return found
-
-
-def rules_below(rule: str) -> str:
-    """Return the text of a rule and of those it leads to."""
-    wanted, found = [rule], dict[str, str]()
-    while wanted:
-        name = wanted.pop()
-        if name not in found:
-            found[name] = _rules()[name]
-            wanted += sorted(set(_NAME.findall(found[name])) & _rules().keys())
-    return "".join(found.values())
-
-
-def terminals_below(rule: str) -> list[str]:
-    """Return the terminals of a rule and of those it leads to, each as often as it is written."""
-    return _TERMINAL.findall(rules_below(rule))
-
-
 def terminal_of(key: str) -> str:
-    """The terminal of a setting line by its first key."""
+    """Return the terminal of a setting line by its first key."""
     return "K_" + "".join(letter if letter.isalnum() else "_" for letter in key)
-
-
-class Records(NamedTuple):
-    """The rule of the records of which a block is a list, and the terminal with which each of them begins."""
-
-    rule: str
-    opening: str
-
-
-@cache
-def records_of(rule: str) -> Records | None:
-    """Return the records of a block of nothing else; None unless a terminal stands at their beginning, and only there.
-
-    Such a block can be cut into records before it is parsed: its tree has no other one.
-    """
-    listed = _RECORDS.fullmatch(_rules()[rule])
-    opened = listed and _OPENED.match(_rules()[listed[1]])
-    if listed is None or opened is None:
-        return None
-    always = "|" not in _IN_BRACKETS.sub("", _rules()[listed[1]])
-    once = terminals_below(listed[1]).count(opened[1]) == 1
-    return Records(listed[1], opened[1]) if always and once else None
 
 
 @cache
 def first_terminals(rule: str) -> frozenset[str]:
     """Return the terminals with which the lines of a rule may begin."""
-    words = _WORD.findall(_rules()[rule].partition(":")[2])
-    return frozenset(_firsts(words[::-1])[0])
+    return frozenset(_begin(rule).accepts()) - {END}
 
 
-def _firsts(words: list[str]) -> tuple[set[str], bool]:
-    """The terminals at the beginning of what stands before a closing bracket, and whether it may be left out."""
-    found: set[str] = set()
-    empty = False
-    open_ = True
-    while words and words[-1] != ")":
-        word = words.pop()
-        if word == "|":
-            empty, open_ = empty or open_, True
-            continue
-        first, optional = _firsts(words) if word == "(" else ({word}, False)
-        if word == "(":
-            words.pop()
-        elif not word.isupper():
-            first = set(first_terminals(word))
-        if words and words[-1] in {"*", "+", "?"}:
-            optional = words.pop() != "+" or optional
-        found |= first if open_ else set()
-        open_ = open_ and optional
-    return found, empty or open_
+def _begin(rule: str) -> InteractiveParser:
+    return parser("blocks", rule).parse_interactive()
 
 
-# ----------------------------------------------------------------------------------------------- lines that fit a rule
-
-_Take = Callable[[Sequence[str], int, list[Tree | Line]], int]
-"""Takes terminals from an index on, adds what they are, and returns the next index; -1 where they do not fit."""
-
-
-@lru_cache(maxsize=1024)
-def fitting(rule: str, terminals: tuple[str, ...]) -> Tree | None:
-    """Return the tree of lines by their terminals, if all of them fit."""
-    found: list[Tree | Line] = []
-    if _named(rule)(terminals, 0, found) != len(terminals):
-        return None
-    return cast("Tree", found[0])
-
-
-@cache
-def _named(name: str) -> _Take:
-    """Take a terminal, or the lines of a rule; what is below a rule whose name begins with _ is added without it."""
-
-    def terminal(given: Sequence[str], start: int, found: list[Tree | Line]) -> int:
-        if start == len(given) or given[start] != name:
-            return -1
-        found.append(Line(name, start))
-        return start + 1
-
-    if name.isupper():
-        return terminal
-    body = _body(name)
-
-    def rule(given: Sequence[str], start: int, found: list[Tree | Line]) -> int:
-        below: list[Tree | Line] = []
-        end = body(given, start, below)
-        found.append(Tree(name, below))
-        return end
-
-    return body if name.startswith("_") else rule
-
-
-def _body(name: str) -> _Take:
-    """What stands behind the colon of a rule."""
-    text = _rules()[name].partition(":")[2]
-    words: list[str] = []
-    at = 0
-    while at < len(text):
-        word = _WORD.match(text, at)
-        if word is None:
-            raise ValueError(f"the rule {name} may have names, brackets, |, *, + and ? only, not {text[at:].strip()!r}")
-        words.append(word[1])
-        at = word.end()
-    return _choice(words[::-1])
-
-
-def _choice(words: list[str]) -> _Take:
-    """Take the first of the sequences before a closing bracket that fits; `words` are in reverse, and are used up."""
-    options = [_sequence(words)]
-    while words and words[-1] == "|":
-        words.pop()
-        options.append(_sequence(words))
-
-    def take(given: Sequence[str], start: int, found: list[Tree | Line]) -> int:
-        before = len(found)
-        for option in options:
-            end = option(given, start, found)
-            if end >= 0:
-                return end
-            del found[before:]
-        return -1
-
-    return take if len(options) > 1 else options[0]
-
-
-def _sequence(words: list[str]) -> _Take:
-    items: list[_Take] = []
-    while words and words[-1] not in {"|", ")"}:
-        word = words.pop()
-        item = _choice(words) if word == "(" else _named(word)
-        if word == "(":
-            words.pop()
-        if words and words[-1] in {"*", "+", "?"}:
-            item = _repeated(item, words.pop())
-        items.append(item)
-
-    def take(given: Sequence[str], start: int, found: list[Tree | Line]) -> int:
-        for item in items:
-            start = item(given, start, found)
-            if start < 0:
-                return -1
-        return start
-
-    return take if len(items) > 1 else items[0]
-
-
-def _repeated(item: _Take, sign: str) -> _Take:
-    """As many as fit: lark, too, goes on with a list wherever it can."""
-
-    def take(given: Sequence[str], start: int, found: list[Tree | Line]) -> int:
-        first, before = start, len(found)
-        while (end := item(given, start, found)) > start:
-            start, before = end, len(found)
-            if sign == "?":
-                return start
-        del found[before:]
-        return -1 if sign == "+" and start == first else start
-
-    return take
-
-
-# ------------------------------------------------------------------------------------------------- the tree of a block
-
-
-def tree_of(rule: str, contents: list[Content]) -> Node | None:
+def tree_of(rule: str, contents: Sequence[Content]) -> Node | None:
     """Return the tree of a block under its rule, if all of its lines fit."""
-    terminals = tuple([content.terminal for content in contents])
-    tree = (fitting if len(contents) <= SMALL else fitting.__wrapped__)(rule, terminals)
-    return tree and _node(tree, contents)
+    parsed = _parsed if len(contents) <= _FEW else _parsed.__wrapped__
+    tree = parsed(rule, tuple([content.type for content in contents]))
+    return tree and _with_lines(tree, iter(contents))
 
 
-def _node(tree: Tree, contents: list[Content]) -> Node:
-    below = [_node(child, contents) if isinstance(child, Tree) else contents[child.at] for child in tree.children]
-    return Node(tree.rule, below)
+def _with_lines(tree: Node, lines: Iterator[Content]) -> Node:
+    """Return a tree with other lines, which come in the order of its leaves."""
+    return Tree(
+        tree.data, [_with_lines(child, lines) if type(child) is Tree else next(lines) for child in tree.children]
+    )
+
+
+@lru_cache(1024)
+def _parsed(rule: str, terminals: tuple[str, ...]) -> Node | None:
+    """Return the tree of lines of which only the terminals are known."""
+    state = _begin(rule)
+    try:
+        for terminal in terminals:
+            _feed(state, _placeless(terminal))
+        return cast("Node", state.feed_eof())
+    except UnexpectedToken:
+        return None
+
+
+def by_lines(rule: str, contents: Sequence[Content], *, insert: bool = True) -> tuple[Node, list[Mismatch]]:
+    """Return the tree of a block line by line, whatever fits.
+
+    A line that does not fit is left out, unless putting in a missing line before it makes it fit; each is reported.
+    In a block with lines of unknown form none is missing for certain: there nothing is to `insert`.
+    """
+    state = _begin(rule)
+    mismatches: list[Mismatch] = []
+    for content in contents:
+        if _takes(state, content):  # a parser that refuses a token has closed what it could before
+            _feed(state, content)
+            continue
+        expected = tuple(sorted(state.accepts()))
+        options = (name for name in expected if insert and name != END and _takes(state, _placeless(name), content))
+        missing = next(options, "")
+        if missing:
+            _feed(state, _placeless(missing), content)
+        mismatches.append(Mismatch(content, expected, missing))
+    if END not in (expected_last := state.accepts()):
+        mismatches.append(Mismatch(None, tuple(sorted(expected_last)), _complete(state)))
+    return _without_missing(cast("Node", state.feed_eof())), mismatches
+
+
+def _placeless(terminal: str) -> Content:
+    """Return the token of a line that is not there."""
+    return Content(terminal, Span(-1, -1))
+
+
+def _feed(state: InteractiveParser, *tokens: Content) -> None:
+    for token in tokens:
+        state.feed_token(cast("Any", token))
+
+
+def _takes(state: InteractiveParser, *tokens: Content) -> bool:
+    """Return True if a parser takes some tokens; the trial makes no tree, so that nothing has to be copied for it."""
+    present = state.parser_state
+    rules = copy(present.parse_conf)
+    rules.callbacks = {}
+    trial = type(present)(rules, present.lexer, [*present.state_stack], [*present.value_stack])
+    try:
+        for token in tokens:
+            trial.feed_token(cast("Any", token), token.type == END)
+    except UnexpectedToken:
+        return False
+    return True
+
+
+def _complete(state: InteractiveParser) -> str:
+    """Feed the mandatory lines that the end of a block lacks, and return the first.
+
+    Each is that which ends the block, or one that was not put in yet.
+    """
+    fed: list[str] = []
+    while END not in (options := sorted(state.accepts())):
+        ends = (option for option in options if _takes(state, _placeless(option), _placeless(END)))
+        fed.append(next(ends, "") or next((option for option in options if option not in fed), options[0]))
+        _feed(state, _placeless(fed[-1]))
+    return fed[0]
+
+
+def _without_missing(node: Node) -> Node:
+    """Return the tree of the lines that are there."""
+    below = [_without_missing(child) if isinstance(child, Tree) else child for child in node.children]
+    return Tree(node.data, [child for child in below if isinstance(child, Tree) or child.span.start >= 0])

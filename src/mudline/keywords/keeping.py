@@ -116,7 +116,8 @@ class _Opener:
 def openers(block: type[Block]) -> dict[str, _Opener]:
     """The settings of a block behind which lines may be kept, by their keys."""
     found: dict[str, _Opener] = {}
-    _add_openers(block, (), (), found)
+    if can_keep(block):
+        _add_openers(block, (), (), found)
     return found
 
 

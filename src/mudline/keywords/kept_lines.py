@@ -29,7 +29,7 @@ def of_other_form(
     certain: set[Content] = set()
     for problem in problems:
         at = bisect_right(starts, problem.span.start) - 1 if problem.span else -1
-        if at < 0 or (tabular and contents[at].terminal == ROW):
+        if at < 0 or (tabular and contents[at].type == ROW):
             continue
         if problem.code is SYN015:
             certain.add(contents[at])
@@ -45,7 +45,7 @@ def _may_be(problem: Problem, text: str, content: Content) -> bool:
     written = text[slice(*span)]
     if problem.code is SYN002:
         return written[:1].isalpha() and reads_as_name(written)
-    if problem.code is SYN003 and content.terminal == ROW:
+    if problem.code is SYN003 and content.type == ROW:
         return any(reads_as_name(field.strip()) for field in written.split(","))
     return problem.code is not SYN003 or bool(written.partition("=")[2].strip()) or "=" not in written
 

@@ -1,4 +1,4 @@
-"""Where values stand: a map from the path of a value to its span, kept beside the values; only diagnostics read it."""
+"""Where values stand: a map from the path of a value to its span, made when somebody asks."""
 
 from __future__ import annotations
 
@@ -9,8 +9,10 @@ from operator import itemgetter
 
 from mudline.diagnostics import Span
 from mudline.keywords.model import Path
+from mudline.keywords.parsed import ParsedRecord
 from mudline.limits import MOST_COLUMNS
 from mudline.short_repr import short_repr
+from mudline.syntax.fields import trimmed
 from mudline.syntax.rows import row_fields, row_starts
 
 
@@ -29,6 +31,23 @@ class Places:
     _lines: dict[Span, array[int]] = field(default_factory=dict)
 
     __repr__ = short_repr
+
+    def add(self, record: ParsedRecord, path: Path = ()) -> None:
+        """Add the values of a record, and of the records in it."""
+        if record.opening:
+            self.spans[path] = trimmed(self.text, *record.opening)
+        for name, span, names, fields in record.written:
+            inner = path if name is None else (*path, name)
+            if span:
+                self.spans[inner] = span
+            for column, given in zip(names, fields, strict=False):
+                self.spans[*inner, column] = given.span
+        for name, table in record.tables.items():
+            if table.runs:
+                self.runs[*path, name] = table.runs
+        for name, children in record.children.items():
+            for index, child in enumerate(children):
+                self.add(child, (*path, name, index))
 
     def find(self, path: Path) -> Span:
         """The span of a value; where it has none (it was left out), that of the nearest thing around it."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
-from functools import cache, partial
+from functools import cache
 from typing import Protocol, cast
 
 from pydantic import ValidationError
@@ -13,14 +13,14 @@ from mudline.codes.lines import SYN001, SYN004, SYN013, SYN014
 from mudline.diagnostics import Problem, Severity, Span
 from mudline.keywords import grammar
 from mudline.keywords.attaching import Between, attach
-from mudline.keywords.builder import Builder, ParsedRecord
+from mudline.keywords.builder import Builder
 from mudline.keywords.constructing import construct, lose
 from mudline.keywords.grammar import END, ROW, Content, Mismatch
 from mudline.keywords.keeping import is_choice, opened
 from mudline.keywords.kept_lines import doubtful, of_other_form
 from mudline.keywords.model import AS_TEXT, Block, Part, RecordSchema, record_schema
+from mudline.keywords.parsed import ParsedRecord
 from mudline.keywords.places import Places
-from mudline.keywords.plain import read_plain
 from mudline.keywords.text import hint, instead, merge_per_line, shown, suggestion
 from mudline.short_repr import short_repr
 from mudline.spelling import nearest
@@ -80,8 +80,20 @@ class BlockReader(Protocol):
 
 def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
     """Read a block. `text` is the unified text of the source; `last` says that nothing follows the block in it."""
-    found = partial(_places, text, raw, declared, last=last)
-    return _plain(text, raw, declared, found) or _Reader(text, raw, declared, last=last).read()
+    return _read(text, raw, declared, last=last)
+
+
+def _read(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
+    """Read a block, whose places are found by reading it again when somebody asks: few blocks are asked for them."""
+    read = _Reader(text, raw, declared, last=last).read()
+    read.found = lambda: _places(text, raw, declared, last=last)
+    return read
+
+
+def _places(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> Places:
+    reader = _Reader(text, raw, declared, last=last)
+    reader.read()
+    return reader.places()
 
 
 def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
@@ -99,47 +111,16 @@ def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
             if key not in keys or (ends and not is_choice(declared, key, value)):
                 return False
     reader = _Reader(text, raw, declared, last=False)
-    fits = _plain(text, raw, declared, reader.nowhere) is not None
-    if not fits and grammar.tree_of(declared.rule, reader.contents()) is not None and not reader.lost:
-        kept = len(reader.kept)
-        reader = _Reader(text, raw, declared, last=False)
-        found = reader.read()
-        fits = found.lost == kept and not any(one.weight is Severity.ERROR for one in found.problems)
-    return fits
+    if grammar.tree_of(declared.rule, reader.contents()) is None or reader.lost:
+        return False
+    kept = len(reader.kept)
+    found = _Reader(text, raw, declared, last=False).read()
+    return found.lost == kept and not any(one.weight is Severity.ERROR for one in found.problems)
 
 
 def read_piece(piece: str, start: int, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
     """Read a block as if its own lines were the whole text; `raw` is the block in the text, where it is at `start`."""
-
-    def found() -> Places:
-        return _places(piece, _moved(raw, -start), declared, last=last)
-
-    plain = _plain(piece, raw, declared, found, start)
-    return plain or _Reader(piece, _moved(raw, -start), declared, last=last).read()
-
-
-def _plain(
-    text: str, raw: RawBlock, declared: type[Block], found: Callable[[], Places], start: int = 0
-) -> ReadBlock | None:
-    """A plain block, and the comments behind it; its places are found by reading it again, line by line.
-
-    `start` is where the text begins in that of `raw`.
-    """
-    leaves = raw.leaves
-    end = len(leaves)
-    while end and leaves[end - 1].kind in (Kind.COMMENT, Kind.BLANK):
-        end -= 1
-    own, behind = (leaves[:end], leaves[end:]) if end < len(leaves) else (leaves, ())
-    model = read_plain(text, own, raw.name, declared, all_keys(declared), start)
-    if model is None:
-        return None
-    comments = [leaf.span for leaf in behind if leaf.kind is Kind.COMMENT]
-    trailing = [text[span.start - start : span.end - start].rstrip("\r\n")[1:] for span in comments]
-    return ReadBlock(model, found, [], trailing)
-
-
-def _places(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> Places:
-    return _Reader(text, raw, declared, last=last).read().own
+    return _read(piece, _moved(raw, -start), declared, last=last)
 
 
 def _moved(raw: RawBlock, by: int) -> RawBlock:
@@ -158,6 +139,7 @@ class _Reader:
         self.comments: list[Between] = []
         self.kept: list[Between] = []
         self.lost = 0
+        self.built: ParsedRecord | None = None
 
     def read(self) -> ReadBlock:
         """What the lines give; of an open block without those that have another form than it knows."""
@@ -179,50 +161,50 @@ class _Reader:
         mismatches: list[Mismatch] = []
         node = grammar.tree_of(self.declared.rule, contents)
         if node is None:
-            from mudline.keywords.recovery import by_lines  # noqa: PLC0415 - lark, which most decks do without
-
-            node, mismatches = by_lines(self.declared.rule, contents, insert=not self.declared.open_lines)
+            node, mismatches = grammar.by_lines(self.declared.rule, contents, insert=not self.declared.open_lines)
             if self.declared.open_lines:
                 self._keep_all({mismatch.found for mismatch in mismatches if mismatch.found}, contents)
                 mismatches = [mismatch for mismatch in mismatches if not mismatch.found]
-        places = Places(self.text, trimmed(self.text, *self.raw.head.span))
         end = len(self.text.rstrip(" \t")) if self.last and not self.text.endswith("\n") else -1
-        builder = Builder(self.text, places, self.problems, slashes=self.declared.slashes, end=end)
+        builder = Builder(self.text, self.problems, slashes=self.declared.slashes, end=end)
         for mismatch in mismatches:
             self._report(mismatch)
-        built = builder.build(self.declared, node)
+        built = self.built = builder.build(self.declared, node)
         trailing = attach(self.comments, self.kept, built) if self.comments or self.kept else []
         self.lost += builder.lost + len(self.kept)
-        model = self._model(built, builder)
-        places.kept = frozenset(line.start for kept in self.kept for line in line_spans(self.text, kept.span))
+        model = self._model(built)
         problems = merge_per_line(self.text, self.problems)
         may_keep = "unread" in self.declared.model_fields
         if self.kept and may_keep and any(problem.code in (SYN001, SYN014) for problem in problems):
-            return ReadBlock(model, places, doubtful(problems), lost=self.lost, opaque=True)
-        return ReadBlock(model, places, problems, trailing, self.lost)
+            return ReadBlock(model, self.places, doubtful(problems), lost=self.lost, opaque=True)
+        return ReadBlock(model, self.places, problems, trailing, self.lost)
 
-    def _model(self, built: ParsedRecord, builder: Builder) -> Block:
-        """The validated model; of a block with faults, what could be read of it."""
+    def places(self) -> Places:
+        """Return the places of the values that were read."""
+        kept = frozenset(line.start for kept in self.kept for line in line_spans(self.text, kept.span))
+        places = Places(self.text, trimmed(self.text, *self.raw.head.span), kept=kept)
+        if self.built:
+            places.add(self.built)
+        return places
+
+    def _model(self, built: ParsedRecord) -> Block:
+        """Return the validated model; of a block with faults, what could be read of it."""
         built.values["keyword"] = self.raw.name
         if not any(one.weight is Severity.ERROR for one in self.problems):
             try:
                 return self.declared.model_validate(built.values, context=AS_TEXT)
             except ValidationError as error:
+                places = self.places()
                 for fault in error.errors():
                     place = tuple(fault["loc"])
                     message = fault["msg"].removeprefix("Value error, ")
                     if fault["type"] == "missing":
                         message = f"{_label(self.declared, place)} is missing here"
-                    span = builder.places.find(place)
-                    self.problems.append(Problem(SYN001, message, span))
+                    self.problems.append(Problem(SYN001, message, places.find(place)))
         lost = [one.span.start for one in self.problems if one.code in (SYN001, SYN004) and one.span is not None]
         if lost:
             lose(built, lost)
         return cast("Block", construct(built))
-
-    def nowhere(self) -> Places:
-        """No places, for a block of which none is asked for."""
-        return Places(self.text, self.raw.head.span)
 
     def contents(self) -> list[Content]:
         """The lines as the terminals of the grammar; those that are none are reported."""
@@ -243,9 +225,9 @@ class _Reader:
                 case Kind.SETTING:
                     ends = self._setting(span, contents)
                 case Kind.RUN if not self.declared.tabular:
-                    contents += [Content(ROW, line, line.start) for line in line_spans(self.text, span)]
+                    contents += [Content(ROW, line) for line in line_spans(self.text, span)]
                 case Kind.RUN | Kind.TEXT:
-                    contents.append(Content(ROW, span, span.start))
+                    contents.append(Content(ROW, span))
                 case _:
                     pass
         return contents
@@ -282,7 +264,7 @@ class _Reader:
         """A line that begins with a setting; returns the keys that end the lines to be kept behind it, if any are."""
         key = first_key(self.text, span)
         if key in self.keys:
-            contents.append(Content(grammar.terminal_of(key), span, span.start))
+            contents.append(Content(grammar.terminal_of(key), span))
             return opened(self.declared, key, self.text[slice(*span)].partition("=")[2])
         known = sorted(self.keys)
         allowed = ", ".join(f"{name}=" for name in known) or "no KEY= at all"
@@ -321,7 +303,7 @@ class _Reader:
                 message = f"expected {wanted} before this line"
             self.problems.append(Problem(SYN001, message, span))
             return
-        found = "a row" if mismatch.found.terminal == ROW else f"{first_key(self.text, mismatch.found.span)}="
+        found = "a row" if mismatch.found.type == ROW else f"{first_key(self.text, mismatch.found.span)}="
         message = f"*{self.raw.name} has no place for {found} here: expected {wanted}"
         self.problems.append(Problem(SYN001, message, span))
 

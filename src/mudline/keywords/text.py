@@ -6,23 +6,17 @@ import re
 from collections.abc import Iterable
 from dataclasses import replace
 from itertools import pairwise
-from typing import Protocol
-
-import numpy as np
 
 from mudline.codes.fields import SYN002, SYN003, SYN015, SYN016
 from mudline.codes.lines import SYN001, SYN004, SYN005
 from mudline.diagnostics import Problem, Repair, Severity, Span
-from mudline.keywords.model import FieldSpec, Path, columns_of, record_schema
+from mudline.keywords.model import FieldSpec, record_schema
 from mudline.keywords.numbers import looks_numeric, maybe_number, not_a_number, not_finite
-from mudline.keywords.places import Places
-from mudline.keywords.table import LARGEST_WHOLE, Column, Table, from_rows, not_whole, row_format
+from mudline.keywords.table import LARGEST_WHOLE, not_whole
 from mudline.keywords.values import Equation, Kind, Label
-from mudline.limits import MOST_REPORTED
 from mudline.spelling import Effort, nearest
-from mudline.syntax.fields import Field, is_one_field, split, trimmed
-from mudline.syntax.rows import Rows as RawRows
-from mudline.syntax.rows import read_number, read_rows, row_fields, row_starts, spells_number
+from mudline.syntax.fields import Field, is_one_field, trimmed
+from mudline.syntax.rows import read_number, spells_number
 
 Value = float | int | str | None
 _REAL = (Kind.REAL, Kind.REAL_OR_NAME)
@@ -31,6 +25,10 @@ MIXED_FIELDS = 4
 _WHOLE = re.compile(r"[-+]?[0-9]+")
 _DECIMAL = re.compile(r"[-+]?[0-9]+,[0-9]+(?:[eEdD][-+]?[0-9]+)?")
 _FRACTION = re.compile(r"[0-9]+(?:[eEdD][-+]?[0-9]+)?")
+
+
+_NAME, _TITLE, _OTHER, _IDENT = Kind.NAME, Kind.TITLE, Kind.OTHER, Kind.IDENT
+_WHOLE_KINDS = (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL)
 
 
 class UnreadableError(Exception):
@@ -43,13 +41,14 @@ class UnreadableError(Exception):
 
 def read_value(field: Field, slot: FieldSpec, problems: list[Problem]) -> Value:
     """The value of a field; raises UnreadableError. What is only doubtful is added to `problems`."""
-    if slot.kind is Kind.NAME or slot.kind is Kind.TITLE:
+    kind = slot.kind
+    if kind is _NAME or kind is _TITLE:
         return field.text
-    if slot.kind is Kind.OTHER:
+    if kind is _OTHER:
         return _open_choice(field, slot, problems)
-    if slot.choices and (slot.kind is None or not maybe_number(field.text)):
+    if slot.choices and (kind is None or not maybe_number(field.text)):
         return _choice(field, slot)
-    equation = None if slot.kind is Kind.IDENT else Equation.match(field.text)
+    equation = None if kind is _IDENT or field.text[:1] != "=" else Equation.match(field.text)
     return equation or _number(field, slot, problems)
 
 
@@ -61,7 +60,7 @@ def _number(field: Field, slot: FieldSpec, problems: list[Problem]) -> Value:
         if slot.kind is Kind.REAL_OR_NAME and not field.text.startswith("=[") and not looks_numeric(field.text):
             return field.text
         raise UnreadableError(not_a_number(field.text, field.span, slot.label))
-    if slot.kind not in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL):
+    if slot.kind not in _WHOLE_KINDS:
         return number
     if not number.is_integer() or abs(number) > LARGEST_WHOLE:
         raise UnreadableError(Problem(SYN002, not_whole(field.text, number, slot.label), field.span))
@@ -130,7 +129,7 @@ def decimal_comma(values: list[Field], kinds: list[Kind | None], fewest: int) ->
 
 def semicolons(text: str, fields: list[Field]) -> Problem | None:
     """The finding about numbers that semicolons separate, as a spreadsheet writes them where commas are decimal."""
-    if not any(";" in field.text for field in fields):
+    if not fields or text.find(";", fields[0].start, fields[-1].span.end) < 0:
         return None
     span = Span(fields[0].span.start, fields[-1].span.end)
     numbers = [part.strip() for part in text[span.start : span.end].split(";")]
@@ -144,7 +143,7 @@ def semicolons(text: str, fields: list[Field]) -> Problem | None:
 
 def _is_tight(one: Field, two: Field, *_: Field) -> bool:
     """Whether two fields have a comma between them, and no blank."""
-    return one.span.end + 1 == two.span.start
+    return one.start + len(one.text) + 1 == two.start
 
 
 def _two_fields(one: Field, two: Field, severity: Severity | None = None) -> Problem:
@@ -158,7 +157,7 @@ def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> 
     One such pair may be a slip of the fingers, unless the second half begins with a zero or all other numbers have a
     point; two of them where real numbers belong are decimal commas.
     """
-    tight = [one.span.end + 1 == two.span.start for one, two in pairwise(values)]
+    tight = [one.start + len(one.text) + 1 == two.start for one, two in pairwise(values)]
     if len(values) < MIXED_FIELDS or not any(tight) or all(tight):
         return None
     pairs = [at for at, joined in enumerate(tight) if joined]
@@ -298,129 +297,3 @@ def _remarks(text: str, problems: list[Problem]) -> list[Span | None]:
             remark = Span(start, start + len(words)) if words else None
         found.append(remark)
     return found
-
-
-class BlockReading(Protocol):
-    """The reading of a block, which a table in it adds to."""
-
-    text: str
-    places: Places
-    problems: list[Problem]
-    unclosed: Span | None
-
-    def short(self, message: str, span: Span) -> None:
-        """Note a row that is too short."""
-
-
-class TableBuilder:
-    """Collects the runs of one table."""
-
-    def __init__(self, builder: BlockReading, slot: FieldSpec, path: Path) -> None:
-        self.builder = builder
-        self.columns: list[Column] = columns_of(slot)
-        self.path = path
-        self.parts: list[Table] = []
-        self.count = 0
-
-    def add(self, span: Span) -> int:
-        """Read one run; returns its number of rows."""
-        text = self.builder.text
-        raw = read_rows(text, span, len(self.columns))
-        self.builder.places.runs.setdefault(self.path, []).append((self.count, span))
-        table, faults = from_rows(raw, self.columns)
-        if faults:
-            self._report(span, raw, table, faults)
-        self.parts.append(table)
-        self.count += len(table)
-        return len(table)
-
-    def finish(self) -> Table:
-        """All rows in one table."""
-        if len(self.parts) == 1:
-            return self.parts[0]
-        width = max((part.values.shape[1] for part in self.parts), default=0)
-        values = np.full((self.count, width), np.nan)
-        words: dict[tuple[int, int], Equation | Label | None] = {}
-        start = 0
-        for part in self.parts:
-            values[start : start + len(part), : part.values.shape[1]] = part.values
-            words |= {(row + start, column): word for (row, column), word in part.words.items()}
-            start += len(part)
-        lengths = [part.lengths for part in self.parts] or [np.zeros(0, dtype=np.intp)]
-        return Table(values, np.concatenate(lengths), words)
-
-    def _report(self, span: Span, raw: RawRows, table: Table, faults: dict[tuple[int, int], str]) -> None:
-        text = self.builder.text
-        starts = row_starts(text, span)
-
-        def line(row: int) -> Span:
-            end = text.find("\n", starts[row], span.end)
-            return Span(starts[row], span.end if end < 0 else end)
-
-        short = {row for row, column in faults if column < 0}
-        reported = 0
-        broken: set[int] = set()
-        for (row, column), fault in sorted(faults.items()):
-            if row in short and column >= 0:
-                continue
-            if self._label(table, raw, line(row), row, column):
-                continue
-            reported += 1
-            if reported > MOST_REPORTED:
-                continue
-            if row not in broken and self._brackets(line(row)):
-                broken.add(row)
-            if row not in broken:
-                self._fault(line(row), row, column, fault, raw)
-        if reported > MOST_REPORTED:
-            message = f"{reported - MOST_REPORTED} more faulty rows or fields in this table"
-            self.builder.problems.append(Problem(SYN002, message, line(-1)))
-
-    def _label(self, table: Table, raw: RawRows, line: Span, row: int, column: int) -> bool:
-        """A word where a node number belongs is taken for a label whose braces were forgotten."""
-        word = raw.words.get((row, column), "")
-        if column < 0 or self.columns[column].kind is not Kind.IDENT or (label := maybe_label(word)) is None:
-            return False
-        table.words[row, column] = label
-        place = row_fields(self.builder.text, line, len(self.columns))[column].span
-        message = f"{word!r} is not a number: if it is a label, write {label}"
-        self.builder.problems.append(Problem(SYN016, message, place, repair=in_braces(word, place)))
-        return True
-
-    def _brackets(self, line: Span) -> bool:
-        """Whether the fault of a row is an unclosed bracket, which is then reported instead."""
-        _, problems = split(self.builder.text, line)
-        for problem in problems:
-            if problem.span != self.builder.unclosed:
-                self.builder.problems.append(problem)
-        return bool(problems)
-
-    def _fault(self, line: Span, row: int, column: int, fault: str, raw: RawRows) -> None:
-        text = self.builder.text
-        if column < 0:
-            fields, _ = split(text, line)
-            required = [column.required for column in self.columns]
-            if problem := decimal_comma(fields, [column.kind for column in self.columns], sum(required)):
-                self.builder.problems.append(problem)
-                return
-            if problem := semicolons(text, fields):
-                self.builder.problems.append(problem)
-                return
-            wanted = row_format([column.label for column in self.columns], required)
-            place = Span(fields[0].span.start, fields[-1].span.end)
-            message = f"{fault} (`{wanted}`)"
-            if len(fields) < sum(required):
-                self.builder.short(message, place)
-            else:
-                self.builder.problems.append(Problem(SYN003, message, place))
-            return
-        place = row_fields(text, line, len(self.columns))[column].span
-        word = raw.words.get((row, column))
-        if word == "":
-            self.builder.short(fault, place)
-            return
-        if word and (problem := semicolons(text, row_fields(text, line, len(self.columns)))):
-            self.builder.problems.append(problem)
-            return
-        wrong = word and not_a_number(word, place, self.columns[column].label, self.columns[column].kind)
-        self.builder.problems.append(wrong or Problem(SYN002, fault, place))

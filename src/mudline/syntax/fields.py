@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
+from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -21,10 +22,15 @@ _CLOSERS = {"[": "]", "{": "}", '"': '"', "/": "/"}
 
 
 class Field(NamedTuple):
-    """The text of a field without outer blanks, and where it is."""
+    """The text of a field without outer blanks, and where it begins."""
 
     text: str
-    span: Span
+    start: int
+
+    @property
+    def span(self) -> Span:
+        """Where it is."""
+        return Span(self.start, self.start + len(self.text))
 
 
 @dataclass(slots=True)
@@ -46,16 +52,12 @@ class Line(NamedTuple):
 
 def trimmed(text: str, start: int, end: int) -> Span:
     """The span without blanks, tabs and line ends on both sides; an empty one stands at `start`."""
-    left = start
-    while left < end and text[left] in _OUTER:
-        left += 1
-    if left >= end:
-        return Span(start, start)
-    while text[end - 1] in _OUTER:
-        end -= 1
-    return Span(left, end)
+    right = text[start:end].lstrip(_OUTER)
+    left = end - len(right) if right else start
+    return Span(left, left + len(right.rstrip(_OUTER)))
 
 
+@lru_cache(1024)
 def canonical_key(key: str) -> str:
     """A KEY in upper case with single blanks."""
     key = key.strip(" \t")
@@ -69,16 +71,17 @@ def read_line(text: str, span: Span, *, slashes: bool = False) -> Line:
     if text.find("=", body.start, body.end) < 0:
         return Line(body, [Group("", body, fields)] if fields else [], problems)
     groups = [Group("", body)]
-    for field_ in fields:
-        match = _KEY.match(field_.text)
+    for given in fields:
+        match = _KEY.match(given.text) if "=" in given.text else None
         if match is None:
-            groups[-1].fields.append(field_)
+            groups[-1].fields.append(given)
             continue
-        start, end = field_.span
-        groups.append(Group(canonical_key(match[1]), Span(start, end)))
-        groups[-1].fields.append(_field(text, Span(start + match.end(), end)))
+        value = given.text[match.end() :].lstrip(_OUTER)
+        first = Field(value, given.start + (len(given.text) - len(value) if value else match.end()))
+        groups.append(Group(canonical_key(match[1]), given.span, [first]))
     for group in groups[1:]:
-        group.span = Span(group.span.start, group.fields[-1].span.end)
+        if len(group.fields) > 1:
+            group.span = Span(group.span.start, group.fields[-1].span.end)
     return Line(body, groups if groups[0].fields else groups[1:], problems)
 
 
@@ -89,8 +92,9 @@ def first_key(text: str, span: Span) -> str:
 
 
 def _field(text: str, piece: Span) -> Field:
-    span = trimmed(text, *piece)
-    return Field(text[span.start : span.end], span)
+    written = text[piece.start : piece.end]
+    inner = written.strip(_OUTER)
+    return Field(inner, piece.start + (written.find(inner) if inner else 0))
 
 
 def split(text: str, span: Span, *, slashes: bool = False) -> tuple[list[Field], list[Problem]]:
@@ -117,10 +121,8 @@ def _parted(body: str, start: int) -> list[Field]:
     """The fields of a line in which only commas have a meaning; it begins at the offset `start`."""
     fields: list[Field] = []
     for piece in body.split(","):
-        right = piece.lstrip(_OUTER)
-        text = right.rstrip(_OUTER)
-        left = start + len(piece) - len(right) if text else start
-        fields.append(Field(text, Span(left, left + len(text))))
+        text = piece.strip(_OUTER)
+        fields.append(Field(text, start + (piece.find(text) if text else 0)))
         start += len(piece) + 1
     return fields
 

@@ -1,22 +1,21 @@
-"""Runs of rows to arrays: the slow reader defines their meaning, the fast one says the same bit for bit or declines."""
+"""Runs of rows to arrays: rows of numbers many at once as JSON, all others field by field."""
 
 from __future__ import annotations
 
 import math
 import re
 from array import array
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import compress
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic_core import from_json
 
 from mudline.diagnostics import Span
 from mudline.limits import LONGEST_BLANK_SEPARATED, LONGEST_NUMBER
-from mudline.syntax import number_rows
 from mudline.syntax.fields import Field, split
-from mudline.syntax.number_rows import NumberRows
 
 NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eEdD][-+]?[0-9]+)?")
 """A number as decks write it."""
@@ -25,15 +24,21 @@ GROUPED = re.compile(r'[\["{]')
 """What opens an equation, a string or a label, in which a comma does not separate fields."""
 _ONLY_EQUATIONS = re.compile(r'(?:[^"{\[]++|(?<==)\[[^\[\]"{,]*+\])*+')
 """A row whose only brackets are those of equations without commas, brackets, strings or labels inside."""
-_SHORT = 800  # characters: shorter runs are read sooner without arrays
 PIECE = 256 * 1024
 """Characters that are read at once: their arrays stay in the fast memory of a processor."""
 _BLANK = np.isin(np.arange(256), np.frombuffer(b" \t\r\n", np.uint8))
-_ODD_SHARE = 0.5
 _ROOM = 1.05
 _KEPT_BACK = 1 << 22
-_REFUSED = 2
-"""How many more pieces pyarrow may refuse than read: a text of which it refuses half is read sooner without it."""
+_IN_NUMBERS = b"0123456789+-.eE \t\r"
+_ODD = re.compile(r"[^0-9+\-.eEdD, \t\r]")
+_D_TO_E = bytes.maketrans(b"dD", b"EE")
+_SIGNED_ZERO = re.compile(rb"-0(?![.eE])(?<![eE]-0)")
+"""A zero whose sign JSON does not keep."""
+_DIGITS = bytes.maketrans(b"123456789", b"000000000")
+_LONG = b"0" * 40
+"""Digits of a number that is left to `float`."""
+_PARTS, _SMALLEST = 8, 4096
+"""Parts of a piece that is not all numbers, and characters of a part that is not divided."""
 
 
 class Rows(NamedTuple):
@@ -76,9 +81,90 @@ def spells_number(text: str) -> bool:
 
 def read_rows(text: str, span: Span, columns: int) -> Rows:
     """Read the lines of a run into at most `columns` columns. `text` must have LF or CRLF line ends."""
-    if span.end - span.start < _SHORT:
-        return read_rows_slow(text, span, columns)
-    return _together(_parts(text, span, columns), span.end - span.start)
+    if span.end - span.start <= _SMALLEST:
+        values = read_numbers(text[span.start : span.end].rstrip("\r\n"), columns)
+        return read_rows_slow(text, span, columns) if values is None else _plain(values)
+    return _together(_parts(text, span, columns, PIECE), span.end - span.start)
+
+
+def read_rows_fast(text: str, span: Span, columns: int) -> Rows | None:
+    """Return the rows if every field is a number and all rows have one length; None otherwise."""
+    parts: list[tuple[int, Rows]] = []
+    for start, end in _pieces(text, span):
+        values = read_numbers(text[start:end], columns) if end - start <= 2 * PIECE else None
+        if values is None or (parts and values.shape[1] != parts[0][1].values.shape[1]):
+            return None
+        parts.append((end - start, _plain(values)))
+    return _together(parts, span.end - span.start) if parts else None
+
+
+def _parts(text: str, span: Span, columns: int, size: int) -> Iterator[tuple[int, Rows]]:
+    """Yield the rows of one part of a text after the other, each with its characters; smaller parts around odd rows."""
+    for start, end in _pieces(text, span, size):
+        lines = text[start:end]
+        values = read_numbers(lines, columns) if end - start <= 2 * PIECE else None  # longer: one line without end
+        if values is not None:
+            yield end - start, _plain(values)
+        elif size > _SMALLEST and end - start > _SMALLEST:
+            yield from _parts(text, Span(start, end), columns, size // _PARTS)
+        else:
+            yield end - start, _mixed_rows(lines, columns)
+
+
+def _mixed_rows(lines: str, columns: int) -> Rows:
+    """Return the rows of lines of which some hold more than numbers: these one by one, the others at once."""
+    texts = lines.split("\n")
+    odd = np.array([_ODD.search(text) is not None for text in texts])
+    numbers = read_numbers("\n".join(compress(texts, ~odd)), columns)
+    if numbers is None or not odd.any():
+        return read_rows_slow(lines, Span(0, len(lines)), columns)
+    text = "\n".join(compress(texts, odd))
+    others = read_rows_slow(text, Span(0, len(text)), columns)
+    values = np.full((len(texts), max(numbers.shape[1], others.values.shape[1])), math.nan)
+    values[~odd, : numbers.shape[1]] = numbers
+    values[odd, : others.values.shape[1]] = others.values
+    lengths = np.full(len(texts), numbers.shape[1], dtype=np.intp)
+    lengths[odd] = others.lengths
+    places = np.flatnonzero(odd).tolist()
+    return Rows(values, lengths, {(places[row], column): word for (row, column), word in others.words.items()})
+
+
+def read_numbers(lines: str, columns: int) -> NDArray[np.float64] | None:
+    """Return rows of as many finite numbers each, at most `columns`; None for any other lines.
+
+    Without their numbers the lines are commas and line ends, which must be the same in each.
+    """
+    data = lines.encode("ascii", "replace").translate(_D_TO_E)
+    marks = data.translate(None, _IN_NUMBERS)
+    if not marks.strip(b"\n"):
+        rows = data.split(b"\n")
+        if max(map(len, rows)) > LONGEST_BLANK_SEPARATED:
+            return None
+        data = b"\n".join([b",".join(row.split()) for row in rows])
+        marks = data.translate(None, _IN_NUMBERS)
+    count = marks.count(b"\n") + 1
+    width = (len(marks) + 1) // count
+    if width > columns or marks + b"\n" != (b"," * (width - 1) + b"\n") * count:
+        return None
+    flat = data.replace(b"\n", b",")
+    try:
+        values = np.array(_doubles(flat))
+    except (ValueError, OverflowError):
+        return None
+    return values.reshape(count, width) if len(values) and np.isfinite(values).all() else None
+
+
+def _doubles(numbers: bytes) -> Sequence[float]:
+    """Return the numbers between commas: those that JSON has, else those that `float` reads of the same characters."""
+    if not _SIGNED_ZERO.search(numbers) and _LONG not in numbers.translate(_DIGITS):
+        try:
+            return array("d", from_json(b"[%b]" % numbers))
+        except ValueError:
+            pass
+    words = numbers.split(b",")
+    if max(map(len, words)) > LONGEST_NUMBER:
+        raise ValueError("a number is too long")
+    return [float(word) for word in words]
 
 
 def read_rows_slow(text: str, span: Span, columns: int) -> Rows:
@@ -102,75 +188,8 @@ def read_rows_slow(text: str, span: Span, columns: int) -> Rows:
     return Rows(np.ascontiguousarray(array[:, :width]), np.array(lengths, dtype=np.intp), words)
 
 
-def read_rows_fast(text: str, span: Span, columns: int) -> Rows | None:
-    """The same rows where every field is a number and all rows have one length; None otherwise."""
-    parts: list[tuple[int, Rows]] = []
-    for start, end in _pieces(text, span):
-        found = NumberRows(text[start:end]).read() if end - start <= 2 * PIECE else None
-        if found is None or found[1] is not None or found[0].shape[1] > columns:
-            return None
-        parts.append((end - start, _plain(found[0])))
-        if found[0].shape[1] != parts[0][1].values.shape[1]:
-            return None
-    return _together(parts, span.end - span.start) if parts else None
-
-
 def _plain(values: NDArray[np.float64]) -> Rows:
-    return Rows(values, np.broadcast_to(np.intp(values.shape[1]), len(values)), {})
-
-
-def _parts(text: str, span: Span, columns: int) -> Iterator[tuple[int, Rows]]:
-    """The rows of one piece of a text after the other, and how many characters each piece has."""
-    arrow = number_rows.arrow_csv(span.end - span.start)
-    refused = 0
-    for start, end in _pieces(text, span, number_rows.ARROW_PIECE if arrow else PIECE):
-        values = number_rows.read_with_arrow(arrow, text[start:end], columns) if arrow else None
-        if values is not None:
-            refused -= 1
-            yield end - start, _plain(values)
-            continue
-        refused += 1
-        arrow = arrow if refused < _REFUSED else None
-        for piece in _pieces(text, Span(start, end)):
-            yield piece.end - piece.start, _read_piece(text[piece.start : piece.end], columns)
-
-
-def _read_piece(lines: str, columns: int) -> Rows:
-    """The rows of some lines: those that hold numbers alone many at once, the others one by one."""
-    if len(lines) > 2 * PIECE:  # one line without end
-        return read_rows_slow(lines, Span(0, len(lines)), columns)
-    rows = NumberRows(lines)
-    odd = np.zeros(rows.count, dtype=bool)
-    found = rows.read()
-    if found is None:
-        odd = rows.odd_lines()
-        if 0 < np.count_nonzero(odd) <= _ODD_SHARE * len(odd):
-            found = NumberRows("\n".join(compress(lines.split("\n"), ~odd))).read()
-    if found is None or found[0].shape[1] > columns:
-        return read_rows_slow(lines, Span(0, len(lines)), columns)
-    values, faulty = found
-    if faulty is not None:
-        odd[np.flatnonzero(~odd)[faulty]] = True
-        values = values[~faulty]
-    return _merged(_plain(values), lines, odd, columns) if odd.any() else _plain(values)
-
-
-def _merged(numbers: Rows, lines: str, odd: NDArray[np.bool_], columns: int) -> Rows:
-    """The rows of some lines, of which `numbers` has all but the odd ones."""
-    text = "\n".join(compress(lines.split("\n"), odd))
-    others = read_rows_slow(text, Span(0, len(text)), columns)
-    if len(others.lengths) + len(numbers.lengths) < len(odd):  # a blank line is not a row
-        return read_rows_slow(lines, Span(0, len(lines)), columns)
-    if not len(numbers.values):
-        return others
-    width = max(numbers.values.shape[1], others.values.shape[1])
-    values = np.full((len(odd), width), math.nan)
-    values[~odd, : numbers.values.shape[1]] = numbers.values
-    values[odd, : others.values.shape[1]] = others.values
-    lengths = np.empty(len(odd), dtype=np.intp)
-    lengths[~odd], lengths[odd] = numbers.lengths, others.lengths
-    places = np.flatnonzero(odd).tolist()
-    return Rows(values, lengths, {(places[row], column): word for (row, column), word in others.words.items()})
+    return Rows(values, np.full(len(values), values.shape[1], dtype=np.intp), {})
 
 
 def _together(parts: Iterable[tuple[int, Rows]], size: int) -> Rows:
@@ -262,7 +281,7 @@ def row_fields(text: str, line: Span, columns: int) -> list[Field]:
     at = 0
     for word in _row_words(body, columns)[0]:
         at = body.index(word, at)
-        fields.append(Field(word, Span(line.start + at, line.start + at + len(word))))
+        fields.append(Field(word, line.start + at))
         comma = body.find(",", at + len(word))
         at = comma + 1 if comma >= 0 else at + len(word)
     return fields

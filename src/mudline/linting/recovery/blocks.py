@@ -86,6 +86,11 @@ def line_at(text: TextOrigin, offset: int) -> Span:
     return Span(unified.rfind("\n", 0, offset) + 1, end - (unified[end - 1 : end] == "\r"))
 
 
+def behind(text: TextOrigin, line: Span) -> int:
+    """Where the next line begins."""
+    return (text.source.unified.find("\n", line.end) + 1) or len(text.source.unified) + 1
+
+
 def head_start(text: TextOrigin, block: RawBlock) -> int:
     """Where the name of a block begins: behind the blanks of its line."""
     line = text.source.unified[slice(*block.head.span)]

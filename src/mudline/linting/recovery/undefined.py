@@ -12,7 +12,7 @@ from mudline.diagnostics import Problem, Severity, Span, Where
 from mudline.keywords.model import Part
 from mudline.keywords.naming import names_given
 from mudline.keywords.values import Names
-from mudline.linting.recovery.blocks import ROW_NUMBER, Correction, also_in, line_at, start_of
+from mudline.linting.recovery.blocks import ROW_NUMBER, Correction, also_in, behind, line_at, start_of
 from mudline.linting.rule import LintContext
 from mudline.scene.checks.laws import REF002, undefined_curve
 from mudline.scene.checks.names import REF019
@@ -107,7 +107,7 @@ def _given_twice(context: LintContext, text: TextOrigin) -> Iterator[Correction]
         places = (
             line,
             line_at(text, max(line.start - 1, 0)),
-            line_at(text, min(line.end + 1, len(unified))),
+            line_at(text, min(behind(text, line), len(unified))),
         )
         own, above, below = (ROW_NUMBER.match(unified, *place) for place in places)
         meant = {str(int(row[1]) + step) for row, step in ((above, 1), (below, -1)) if row} & lacking
