@@ -102,14 +102,14 @@ def read_deck(order: Order) -> tuple[Rows, list[str]]:
     with recording_looks() as paths:
         settings = replace(order.settings, rules=rules_named(order.codes))
         rows = rows_of(order.data, PurePath(file.path or file.name).name, settings, file.folder)
-    return rows, [*paths, *plugin_files()]
+    return rows, list(paths)
 
 
 def _index(
     inputs: Inputs, settings_of: SettingsOf, archive: Archive, view: View, jobs: int, scheduler: str | None
 ) -> set[str]:
     """Read the decks that are new or have changed; returns the places of all."""
-    files = {archive.place(file.path or file.name): file for file in inputs.files}
+    files, plugins = {archive.place(file.path or file.name): file for file in inputs.files}, plugin_files()
     with Progress(len(files), view, shown=wants_bar(view)) as progress, executor(jobs, scheduler) as pool:
         orders = _orders(files, inputs, settings_of, archive)
 
@@ -121,7 +121,7 @@ def _index(
         with closing(in_order(pool, read_deck, orders, len(files), crashed)) as found:
             for (place, key), read in found:
                 if read is not None:
-                    archive.put(place, key, *read)
+                    archive.put(place, key, read[0], (*read[1], *plugins))
                 progress.advance()
     return set(files)
 
