@@ -70,19 +70,21 @@ def read_line(text: str, span: Span, *, slashes: bool = False) -> Line:
     fields, problems = _split(text, body, slashes=slashes)
     if text.find("=", body.start, body.end) < 0:
         return Line(body, [Group("", body, fields)] if fields else [], problems)
-    groups = [Group("", body)]
+    groups: list[Group] = []
     for given in fields:
         match = _KEY.match(given.text) if "=" in given.text else None
         if match is None:
+            if not groups:
+                groups.append(Group("", body))
             groups[-1].fields.append(given)
             continue
         value = given.text[match.end() :].lstrip(_OUTER)
         first = Field(value, given.start + (len(given.text) - len(value) if value else match.end()))
         groups.append(Group(canonical_key(match[1]), given.span, [first]))
-    for group in groups[1:]:
-        if len(group.fields) > 1:
+    for group in groups:
+        if group.key and len(group.fields) > 1:
             group.span = Span(group.span.start, group.fields[-1].span.end)
-    return Line(body, groups if groups[0].fields else groups[1:], problems)
+    return Line(body, groups, problems)
 
 
 def first_key(text: str, span: Span) -> str:
@@ -119,6 +121,8 @@ def _split(text: str, body: Span, *, slashes: bool) -> tuple[list[Field], list[P
 
 def _parted(body: str, start: int) -> list[Field]:
     """The fields of a line in which only commas have a meaning; it begins at the offset `start`."""
+    if "," not in body:
+        return [Field(body, start)]
     fields: list[Field] = []
     for piece in body.split(","):
         text = piece.strip(_OUTER)
