@@ -90,7 +90,7 @@ class _Nodes(Transformer[Token, Node]):
         return Group(_span(opening, closing), inner)
 
     def call(self, name: Token, _opening: Token, *others: Node | Token) -> Call:
-        return Call(_span(name, others[-1]), str(name), _span(name), cast("tuple[Node, ...]", others[:-1:2]))
+        return Call(_span(name, others[-1]), str(name), _span(name), cast("tuple[Node, ...]", others[:-1]))
 
     def prefix(self, operator: Token, operand: Node) -> Prefix:
         return Prefix(_span(operator, operand), operator.lower(), operand)

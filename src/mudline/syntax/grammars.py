@@ -84,5 +84,6 @@ def _below(grammar: Grammar, start: str) -> Grammar:
         name = wanted.pop()
         if name not in found:
             found[name] = None
-            wanted += [inner.name for inner in rules[name][2].scan_values(lambda each: isinstance(each, NonTerminal))]
+            inside = rules[name][2].scan_values(lambda each: isinstance(each, NonTerminal))
+            wanted += [inner.name for inner in inside if inner.name in rules]  # another name is an alias
     return Grammar([rules[name] for name in found], grammar.term_defs, grammar.ignore)
