@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from mudline.diagnostics import Span
 from mudline.syntax import rows as reader
-from mudline.syntax.rows import Rows, read_number, read_rows, read_rows_fast, read_rows_slow
+from mudline.syntax.rows import Rows, read_number, read_numbers, read_rows, read_rows_slow
 from tests.builders.spellings import ODD_NUMBERS, numbers
 
 NO_NUMBERS = [
@@ -69,15 +69,23 @@ def whole(text: str) -> Span:
     return Span(0, len(text))
 
 
+def is_same(one: Rows, other: Rows) -> bool:
+    """Return True for rows that are equal to the last bit, NaN and the sign of zero included."""
+    return (
+        one.values.shape == other.values.shape
+        and one.values.tobytes() == other.values.tobytes()
+        and bool(np.array_equal(one.lengths, other.lengths))
+        and one.words == other.words
+    )
+
+
 def compared(text: str, columns: int) -> Rows:
     """The rows of a text by the slow reader, with which the fast one is compared on the whole and on small pieces."""
     slow = read_rows_slow(text, whole(text), columns)
-    assert read_rows(text, whole(text), columns).same(slow)
+    assert is_same(read_rows(text, whole(text), columns), slow)
     for piece in (reader.PIECE, 12):
         with patch.multiple(reader, PIECE=piece, _SMALLEST=2):
-            assert read_rows(text, whole(text), columns).same(slow)
-            fast = read_rows_fast(text, whole(text), columns)
-            assert fast is None or fast.same(slow)
+            assert is_same(read_rows(text, whole(text), columns), slow)
     return slow
 
 
@@ -133,7 +141,7 @@ def test_any_text_of_the_fast_alphabet(text: str, columns: int) -> None:
 @pytest.mark.parametrize("row", [" 1., .5, +2.\n", "1 -.5 2D3\n", "1.E-3\t+.25  7.\n", "1.0D+02, 2., -3.d0\n"])
 def test_the_fast_reader_takes_the_spellings_of_old_tools(row: str) -> None:
     text = row * 3
-    assert read_rows_fast(text, whole(text), 4) is not None
+    assert read_numbers(text.rstrip(), 4) is not None
     compared(text, 4)
 
 
@@ -161,7 +169,7 @@ def test_only_the_span_is_read() -> None:
     span = Span(6, 18)
     rows = read_rows(text, span, 2)
     assert rows.values.tolist() == [[1.0, 2.0], [3.0, 4.0]]
-    assert rows.same(read_rows_slow(text, span, 2))
+    assert is_same(rows, read_rows_slow(text, span, 2))
 
 
 def test_words_lengths_and_columns() -> None:

@@ -19,7 +19,7 @@ from mudline.keywords.table import LARGEST_WHOLE
 from mudline.keywords.text import shown
 from mudline.limits import LISTED
 from mudline.scene.numbering import Floats, Ids
-from mudline.syntax.rows import read_number, read_rows_fast
+from mudline.syntax.rows import read_number, read_rows
 
 SEPARATORS = (",", ";", "\t")
 """Between the fields of a file that another program wrote."""
@@ -131,8 +131,8 @@ def read_numeric_csv(
     )
     wanted = [name for name in names if not name.startswith(_UNUSED)]
     start = text.find("\n") + 1
-    rows = read_rows_fast(text, Span(start, len(text)), len(names)) if start and separator == "," else None
-    if rows is not None and rows.values.shape[1] == len(names):
+    rows = read_rows(text, Span(start, len(text)), len(names)) if start and separator == "," else None
+    if rows is not None and not rows.words and len(rows.lengths) and (rows.lengths == len(names)).all():
         columns = {name: rows.values[:, names.index(name)].copy() for name in wanted}
         return NumericTable(file, columns, range(2, len(rows.values) + 2))
     table = _texts(file, text, names, separator)

@@ -53,15 +53,6 @@ class Rows(NamedTuple):
     lengths: NDArray[np.intp]
     words: dict[tuple[int, int], str]
 
-    def same(self, other: Rows) -> bool:
-        """Equal to the last bit, NaN and the sign of zero included."""
-        return (
-            self.values.shape == other.values.shape
-            and self.values.tobytes() == other.values.tobytes()
-            and bool(np.array_equal(self.lengths, other.lengths))
-            and self.words == other.words
-        )
-
 
 def read_number(text: str) -> float | None:
     """The finite double that a field spells, or None. Fortran's D exponent is read as E."""
@@ -85,17 +76,6 @@ def read_rows(text: str, span: Span, columns: int) -> Rows:
         values = read_numbers(text[span.start : span.end].rstrip("\r\n"), columns)
         return read_rows_slow(text, span, columns) if values is None else _plain(values)
     return _together(_parts(text, span, columns, PIECE), span.end - span.start)
-
-
-def read_rows_fast(text: str, span: Span, columns: int) -> Rows | None:
-    """Return the rows if every field is a number and all rows have one length; None otherwise."""
-    parts: list[tuple[int, Rows]] = []
-    for start, end in _pieces(text, span):
-        values = read_numbers(text[start:end], columns) if end - start <= 2 * PIECE else None
-        if values is None or (parts and values.shape[1] != parts[0][1].values.shape[1]):
-            return None
-        parts.append((end - start, _plain(values)))
-    return _together(parts, span.end - span.start) if parts else None
 
 
 def _parts(text: str, span: Span, columns: int, size: int) -> Iterator[tuple[int, Rows]]:
