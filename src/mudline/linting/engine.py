@@ -183,11 +183,9 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
     Suppressed problems are among them; unused suppression comments are not.
     """
     found: list[Problem] = []
-    noticed, holds = bool(context.noticed), context.holds
+    noticed = bool(context.noticed)
     for rule in chosen:
         check = rule.check
-        if rule.of and holds.isdisjoint(rule.of):
-            continue
         if type(check) is not Noticed:
             found.extend(map(_advice, check(context)))
         elif noticed:

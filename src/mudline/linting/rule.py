@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property, wraps
-from itertools import chain, islice, pairwise
+from itertools import chain, islice
 from operator import is_
 from textwrap import dedent
 from typing import Any, NamedTuple, TypeVar
@@ -14,10 +14,9 @@ from typing import Any, NamedTuple, TypeVar
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import MORE, Blocks, Code, Problem, Where
-from mudline.keywords.catalogue import holds_in_soil, is_superseded
+from mudline.keywords.catalogue import holds_in_soil
 from mudline.limits import MOST_REPORTED
 from mudline.scene.context import placed_blocks
-from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene, resolve
 from mudline.variations.names import (
     may_vary,
@@ -28,17 +27,6 @@ from mudline.variations.names import (
 )
 
 T = TypeVar("T")
-
-MOST_POINTS = 64
-"""Points of a curve that are looked at one by one; longer curves are left to the rules."""
-
-ODD_CURVES = "odd curves"
-"""What `LintContext.holds` has of a deck with curves that rules about the shape of a curve look at."""
-
-LARGEST_RATIO = 5.0
-"""Diameters of embedment; a larger ratio is a length or a percentage."""
-STEEPEST = 100.0
-"""Ratio of two slopes of a curve."""
 
 
 @dataclass(eq=False)
@@ -92,26 +80,6 @@ class LintContext:
         return any(map(holds_in_soil, self.keywords))
 
     @cached_property
-    def superseded(self) -> list[str]:
-        """Those of the keywords that newer ones supersede."""
-        return [keyword for keyword in self.keywords if is_superseded(keyword)]
-
-    @cached_property
-    def odd_curves(self) -> list[tuple[int, SceneCurve]]:
-        """The curves that rules about the shape of a curve have to look at, with their index in the table of laws.
-
-        The others are as they should be: all their points were read, they begin at (0, 0) and rise in order, with
-        slopes that differ by a factor of 100 at most, to a ratio of 5 at most.
-        """
-        return [(number, entry) for number, entry in enumerate(self.scene.laws.curves) if not _ordinary(entry)]
-
-    @cached_property
-    def holds(self) -> frozenset[str]:
-        """What `Context.holds` gives, and ODD_CURVES where there are some."""
-        found = self.scene.context.holds
-        return found | {ODD_CURVES} if self.odd_curves else found
-
-    @cached_property
     def noticed(self) -> dict[str, list[Problem]]:
         """What reading and resolving the deck, and the checks of its scene, report, by code."""
         found: dict[str, list[Problem]] = {}
@@ -146,19 +114,6 @@ def _of_variations(deck: Deck) -> Iterator[Problem]:
     for find in (undefined_parameters, undefined_variations, misspelt_keywords, misspelt_sections):
         for problem in islice(find(deck), MOST_REPORTED):
             yield replace(problem, blocks=Blocks.NEVER)
-
-
-def _ordinary(entry: SceneCurve) -> bool:
-    if not entry.usable or len(entry.points) > MOST_POINTS:
-        return False
-    points = entry.points.tolist()
-    if points[0] != [0.0, 0.0] or points[-1][0] > LARGEST_RATIO:
-        return False
-    steps = [(after[0] - before[0], after[1] - before[1]) for before, after in pairwise(points)]
-    if any(width <= 0.0 or rise <= 0.0 for width, rise in steps):
-        return False
-    slopes = [rise / width for width, rise in steps]
-    return bool(max(slopes) <= STEEPEST * min(slopes))
 
 
 # --------------------------------------------------------------------------------------------- what a rule is
@@ -210,17 +165,14 @@ class RulePage(NamedTuple):
 class Rule(NamedTuple):
     """A rule: its code, the function that finds, and the docstring that becomes its page.
 
-    A rule that is `off` runs only where it is selected, and one with anything in `of` only in a deck that holds some of
-    it.
-
-    The findings of a rule whose check is not `Noticed` never keep a deck from being evaluated, whatever their severity.
+    A rule that is `off` runs only where it is selected. The findings of a rule whose check is not `Noticed` never keep
+    a deck from being evaluated, whatever their severity.
     """
 
     code: Code
     check: Check
     docstring: str
     off: bool = False
-    of: tuple[str, ...] = ()
 
     @property
     def page(self) -> RulePage:
@@ -239,10 +191,8 @@ class Noticed:
         return context.problems_of(self.code)
 
 
-def rule(code: Code, *, off: bool = False, of: tuple[str, ...] = ()) -> Callable[[Check], Check]:
+def rule(code: Code, *, off: bool = False) -> Callable[[Check], Check]:
     """Register a function as the rule of a code that only advises; `off` keeps it from running unless it is selected.
-
-    `of` is what a deck may do without (`LintContext.holds`): it is not asked in one that has nothing of it.
 
     Its docstring begins with the title, a sentence on a line of its own; the text after it says why. Below `Example:`
     are a bad and a good deck in one, indented by four spaces: a line after a space is in both, one after `-` in the bad
@@ -255,7 +205,7 @@ def rule(code: Code, *, off: bool = False, of: tuple[str, ...] = ()) -> Callable
     """
 
     def register(check: Check) -> Check:
-        add(Rule(code, check, check.__doc__ or "", off, of))
+        add(Rule(code, check, check.__doc__ or "", off))
         return check
 
     return register

@@ -45,8 +45,6 @@ def superseded_keyword(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:1
     """
-    if not context.superseded:
-        return
     found = context.deck.blocks_that(lambda declared: declared.subject == "seabed" and declared.facts.superseded_by)
     for number, (where, block) in enumerate(found):
         newer = " and ".join(map(str, block.facts.superseded_by))
@@ -101,7 +99,7 @@ def mixed_families(context: LintContext) -> Iterator[Problem]:
 
     Finds: 4:1
     """
-    legacy = _first(context, context.superseded)
+    legacy = _first(context, filter(is_superseded, context.keywords))
     new = _first(context, filter(supersedes, context.keywords)) if legacy else None
     if not legacy or not new or context.problems_of(SBD002):
         return  # of two seabeds, one of which goes, SBD002 speaks

@@ -26,7 +26,7 @@ VES001 = Code("VES001", "two-kinds-of-drift", Severity.ERROR)
 _LAST_STORED = -1.0
 
 
-@rule(TIM001, of=("$LOAD CASE", "$SUMMARY POSTPROCESSING"))
+@rule(TIM001)
 @limited
 def end_not_after_start(context: LintContext) -> Iterator[Problem]:
     """The end of a run in time does not come after its start.
@@ -61,7 +61,7 @@ def _backwards(span: object, where: Where) -> Iterator[Problem]:
         yield Problem(TIM001, message, where=where.inside("end"))
 
 
-@rule(TIM002, of=("$LOAD CASE",))
+@rule(TIM002)
 @limited
 def step_limits_out_of_order(context: LintContext) -> Iterator[Problem]:
     """The suggested time step does not lie between the least and the largest one.
@@ -103,7 +103,7 @@ def _disordered(limits: StepLimits, where: Where) -> Iterator[Problem]:
         yield Problem(TIM002, message, where=where.inside("suggested"))
 
 
-@rule(WAV001, of=("$LOAD CASE",))
+@rule(WAV001)
 @limited
 def airy_period_without_amplitude(context: LintContext) -> Iterator[Problem]:
     """A Stokes wave has the period of an equivalent Airy wave, but no amplitude for it.
@@ -126,7 +126,7 @@ def airy_period_without_amplitude(context: LintContext) -> Iterator[Problem]:
             yield Problem(WAV001, message, where=where.inside("airy_period"))
 
 
-@rule(VES001, of=("$LOAD CASE",))
+@rule(VES001)
 @limited
 def two_kinds_of_drift(context: LintContext) -> Iterator[Problem]:
     """A vessel drifts by a sinusoid and by a file.

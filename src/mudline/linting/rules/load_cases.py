@@ -33,7 +33,7 @@ def _analysis(context: LintContext) -> set[str]:
     return {str(cast("AnalysisType", block).type_).upper() for _, block in blocks if block.type_}
 
 
-@rule(VES002, of=("$LOAD CASE",))
+@rule(VES002)
 @limited
 def vessel_without_rao(context: LintContext) -> Iterator[Problem]:
     """A vessel has no response amplitude operators in a dynamic run with waves.
@@ -85,7 +85,7 @@ def _has_waves(context: LintContext) -> bool:
     return any(_WAVES.fullmatch(block.keyword) for section in sections for block in section.blocks)
 
 
-@rule(TIM005, of=("$LOAD CASE",))
+@rule(TIM005)
 @limited
 def static_steps_without_effect(context: LintContext) -> Iterator[Problem]:
     """*NON LINEAR STATIC stands in a run that is not one in the frequency domain.

@@ -101,7 +101,7 @@ def element_without_section(context: LintContext) -> Iterator[Problem]:
         yield Problem(GEO007, message, where=scene.table.numbered.where(int(bare[0])))
 
 
-@rule(GEO008, of=("$LOAD CASE",))
+@rule(GEO008)
 def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
     """Elements have no hydrodynamic properties in a load case with waves or a current.
 

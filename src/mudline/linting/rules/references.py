@@ -154,7 +154,7 @@ def repeated_set(context: LintContext) -> Iterator[Problem]:
         known.add(key)
 
 
-@rule(REF017, of=("$PREPROCESSOR",))
+@rule(REF017)
 @limited
 def repeated_parameter(context: LintContext) -> Iterator[Problem]:
     """A parameter is defined twice: the later value applies everywhere.
@@ -206,7 +206,7 @@ def _names(parameter: Parameter) -> list[str]:
 WATER = re.compile(r"CURRENT|WAVE(?:-.*)?")
 
 
-@rule(REF018, of=("$LOAD CASE",))
+@rule(REF018)
 def missing_ocean(context: LintContext) -> Iterator[Problem]:
     """A load case has waves or a current, and the model has no *OCEAN.
 

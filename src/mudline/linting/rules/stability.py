@@ -16,7 +16,6 @@ from mudline.limits import MOST_REPORTED
 from mudline.linting.rule import LintContext, rule
 from mudline.linting.rules.seabed_position import bounds_of
 from mudline.quantities import unit_names
-from mudline.scene.context import EXTENSION
 from mudline.scene.deck_values import number
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene
@@ -40,7 +39,7 @@ _FAILS = ", central difference fails"
 FARTHEST = 1.0e4
 
 
-@rule(STB001, of=(EXTENSION,))
+@rule(STB001)
 def suction_snap(context: LintContext) -> Iterator[Problem]:
     """The suction force decreases while the pipe keeps rising.
 
@@ -171,7 +170,7 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
             yield Problem(STB002, message, where=where.inside("fixed", "increment"))
 
 
-@rule(STB004, of=(EXTENSION,))
+@rule(STB004)
 def lateral_softening(context: LintContext) -> Iterator[Problem]:
     """The lateral resistance falls while the pipe moves on.
 
@@ -287,7 +286,7 @@ def stiff_jump(context: LintContext) -> Iterator[Problem]:
 
     Finds: 5:2
     """
-    for _, entry in context.odd_curves:
+    for entry in context.scene.laws.curves:
         if entry.curve is not None and entry.whole:
             yield from _inside(entry, entry.curve.ratios, entry.curve.slopes)
     yield from _beside(context)
@@ -383,7 +382,7 @@ def _neighbours(scene: Scene) -> tuple[Indices, Indices]:
     return one[wanted], other[wanted]
 
 
-@rule(EXT008, of=(EXTENSION,))
+@rule(EXT008)
 def soft_unloading(context: LintContext) -> Iterator[Problem]:
     """The unloading stiffness is below the steepest slope of the loading law.
 

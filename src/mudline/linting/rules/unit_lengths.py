@@ -11,8 +11,9 @@ import numpy as np
 from mudline.diagnostics import Problem, Where
 from mudline.keywords.model import Part
 from mudline.limits import MOST_REPORTED
-from mudline.linting.rule import LARGEST_RATIO, LintContext, rule
+from mudline.linting.rule import LintContext, rule
 from mudline.linting.rules.coordinates import UNT006, odd_coordinates
+from mudline.linting.rules.curve_shape import LARGEST_RATIO
 from mudline.linting.rules.seabed_friction import given, resisting
 from mudline.linting.rules.seabed_position import bounds_of, depths
 from mudline.linting.rules.unit_densities import (

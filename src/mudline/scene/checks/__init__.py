@@ -25,24 +25,22 @@ Find = Callable[["ResolvedDeck"], Iterable[Problem]]
 class Check(NamedTuple):
     """A function that finds problems of a code in a scene; each says whether it keeps the deck from being evaluated.
 
-    The page is the docstring of the function, unless the code has one. It is not asked about a scene that
-    holds none of `of` (`Context.holds`), where there are some.
+    The page is the docstring of the function, unless the code has one.
     """
 
     code: Code
     find: Find
-    of: tuple[str, ...] = ()
 
 
 CHECKS: list[Check] = []
 """Those of the modules that were imported."""
 
 
-def check(code: Code, *, of: tuple[str, ...] = ()) -> Callable[[Find], Find]:
-    """Declare a function as a check; for `of` and the form of its docstring see `mudline.linting.rule.rule`."""
+def check(code: Code) -> Callable[[Find], Find]:
+    """Declare a function as a check; for the form of its docstring see `mudline.linting.rule.rule`."""
 
     def declare(find: Find) -> Find:
-        CHECKS.append(Check(code, find, of))
+        CHECKS.append(Check(code, find))
         return find
 
     return declare
@@ -59,8 +57,6 @@ def checked(scene: ResolvedDeck) -> list[Problem]:
     """What all checks find, of each without the rest where it is very much."""
     found: list[Problem] = []
     for one in all_checks():
-        if one.of and scene.context.holds.isdisjoint(one.of):
-            continue
         most = len(found) + MOST_REPORTED
         for problem in one.find(scene):
             if len(found) == most:

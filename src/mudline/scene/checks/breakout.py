@@ -11,7 +11,6 @@ from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.unknown import is_partly_unknown
 from mudline.scene.checks import check
 from mudline.scene.checks.laws import lacks_diameter
-from mudline.scene.context import EXTENSION
 from mudline.scene.deck_values import number
 
 if TYPE_CHECKING:
@@ -21,7 +20,7 @@ if TYPE_CHECKING:
 EXT013 = Code("EXT013", "bad-breakout", Severity.ERROR)
 
 
-@check(EXT013, of=(EXTENSION,))
+@check(EXT013)
 def bad_breakout(scene: ResolvedDeck) -> Iterator[Problem]:
     """The lateral breakout of *SEABED FRICTION is incomplete, impossible, or beside a law that it excludes.
 

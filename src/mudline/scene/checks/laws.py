@@ -16,7 +16,6 @@ from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.keywords.text import advice_on, shown
 from mudline.keywords.values import Names, number_meant
 from mudline.scene.checks import check
-from mudline.scene.context import SUPERSEDED
 from mudline.scene.laws import NOTHING, typed_blocks
 from mudline.scene.names import CURVES, names_used, undefined
 from mudline.scene.numbering import FEW
@@ -150,7 +149,7 @@ def _without_set(name: str | None, where: Where, what: str) -> Iterator[Problem]
         yield Problem(SBD003, message, None, Severity.WARNING, where)
 
 
-@check(SBD004, of=(SUPERSEDED,))
+@check(SBD004)
 def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
     """*ELASTIC SURFACE gives no stiffness, and there is no *EMBEDMENT.
 
@@ -179,7 +178,7 @@ def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
             yield reading.missing(SBD004, message, where, "EMBEDMENT")
 
 
-@check(SBD005, of=(SUPERSEDED,))
+@check(SBD005)
 def embedment_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     """*EMBEDMENT is used with a rigid seabed, or with none.
 

@@ -12,7 +12,6 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.scene.checks import check
-from mudline.scene.context import EXTENSION
 from mudline.scene.deck_values import file_name, missing_files, number
 from mudline.scene.seabed import COMPILED, SeabedKind, SeabedShape
 from mudline.syntax.source import BINARY
@@ -156,7 +155,7 @@ def unreadable_profile(scene: ResolvedDeck) -> Iterator[Problem]:
         yield Problem(SBD023, f"{fault}: correct the points", None, Severity.ERROR, where)
 
 
-@check(EXT002, of=(EXTENSION,))
+@check(EXT002)
 def floor_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     """The seabed is given twice: by planes and by a profile or a slope.
 
@@ -193,7 +192,7 @@ def floor_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
         yield Problem(EXT002, message, where=max(places, default=planes[0]))
 
 
-@check(EXT007, of=(EXTENSION,))
+@check(EXT007)
 def bad_plane(scene: ResolvedDeck) -> Iterator[Problem]:
     """A plane of the seabed is incomplete, vertical or empty.
 

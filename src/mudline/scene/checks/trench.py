@@ -11,7 +11,6 @@ from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.keywords.unknown import is_partly_unknown
 from mudline.scene.checks import check
 from mudline.scene.checks.laws import extends_rigid
-from mudline.scene.context import EXTENSION
 from mudline.scene.deck_values import number
 from mudline.scene.numbering import Floats, Mask, marked
 
@@ -29,7 +28,7 @@ _LOCKED = "mu2 tan(theta) must be below 1, else the wall of the trench locks its
 _HIDDEN = "; sets or lines that this deck does not show may give them another friction"
 
 
-@check(EXT003, of=(EXTENSION,))
+@check(EXT003)
 def bad_trench(scene: ResolvedDeck) -> Iterator[Problem]:
     """A trench has no possible geometry, no resistance, no friction spring, or a wall that locks itself.
 
