@@ -13,9 +13,9 @@ from mudline.deck.forms.yaml import to_yaml
 from mudline.deck.loading import load_bytes
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Diagnostic, Severity
+from mudline.linting.context import LintContext
 from mudline.linting.engine import lint_bytes, lint_context, read_deck
 from mudline.linting.registry import rules, select
-from mudline.linting.rule import LintContext
 from tests.builders.keyword_texts import mutated
 from tests.deck.test_round_trips import texts as valid_texts
 from tests.linting.findings import CLAY, PIPE, PROPERTIES, RESTART, found

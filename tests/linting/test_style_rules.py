@@ -11,10 +11,11 @@ from hypothesis import strategies as st
 from mudline.deck.forms.json import to_json
 from mudline.deck.loading import load_bytes
 from mudline.limits import MOST_REPORTED
+from mudline.linting.context import LintContext
 from mudline.linting.engine import Fixing, LintSettings, lint_bytes
 from mudline.linting.fixing import Fixed, fix_bytes
 from mudline.linting.registry import select
-from mudline.linting.rule import LintContext, first_reported
+from mudline.rules import first_reported
 from tests.growth import call_growth
 from tests.linting.findings import CLAY, CURVES, found, messages
 

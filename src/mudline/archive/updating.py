@@ -27,7 +27,7 @@ from mudline.archive.tables import FILES, TABLES
 from mudline.files import is_url, recording_looks
 from mudline.linting.engine import LintSettings
 from mudline.linting.registry import plugin_files, rules
-from mudline.linting.rule import Rule
+from mudline.rules import Rule
 from mudline.running.remembered import changed_since, program, state
 
 DECKS = 2000

@@ -22,9 +22,10 @@ from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.model import Opaque, comment_texts
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Code, DeckError, Diagnostic, Problem, Repair, Severity, Span, Where
+from mudline.linting.context import LintContext
 from mudline.linting.registry import find, rules
-from mudline.linting.rule import LintContext, Rule, first_reported
 from mudline.overwriting import reading
+from mudline.rules import Rule, first_reported
 from mudline.spelling import nearest
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, Leaf

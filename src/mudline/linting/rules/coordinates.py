@@ -12,7 +12,7 @@ import numpy as np
 
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Severity, Where
-from mudline.linting.rule import LintContext
+from mudline.linting.context import LintContext
 from mudline.scene.model import Scene
 from mudline.scene.numbering import FEW, Floats, Indices, Mask, blocks_of
 

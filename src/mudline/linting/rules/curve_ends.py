@@ -9,10 +9,11 @@ import numpy as np
 from mudline.curves import ForceCurve
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
+from mudline.linting.context import LintContext
 from mudline.linting.joints import Found, Joined, joint
-from mudline.linting.rule import LintContext, rule
 from mudline.linting.rules.curve_shape import is_upside_down
 from mudline.linting.rules.seabed_position import DEEPEST, bounds_of
+from mudline.rules import rule
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.seabed import SeabedKind
 

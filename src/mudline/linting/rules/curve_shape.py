@@ -12,8 +12,9 @@ from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
 from mudline.keywords.text import shown
 from mudline.limits import MOST_REPORTED
+from mudline.linting.context import LintContext
 from mudline.linting.joints import Found, Joined, joint
-from mudline.linting.rule import LintContext, rule
+from mudline.rules import rule
 from mudline.scene.deck_curves import other_curves
 from mudline.scene.force_curves import SceneCurve, clashes_and_repeats
 from mudline.scene.model import Scene

@@ -11,9 +11,10 @@ from mudline.diagnostics import Code, Problem, Repair, Severity, Where
 from mudline.keywords.catalogue import is_extension, is_superseded, supersedes
 from mudline.keywords.text import shown
 from mudline.limits import LISTED
-from mudline.linting.rule import LintContext, rule
-from mudline.scene.checks.laws import SBD002
+from mudline.linting.context import LintContext
+from mudline.rules import rule
 from mudline.scene.model import Scene
+from mudline.scene.rules.laws import SBD002
 from mudline.syntax.edits import with_line_ends
 
 LEG001 = Code("LEG001", "superseded-keyword", Severity.INFO)

@@ -9,7 +9,8 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.text import shown
 from mudline.keywords.unknown import is_unknown
-from mudline.linting.rule import LintContext, limited, rule
+from mudline.linting.context import LintContext
+from mudline.rules import limited, rule
 from mudline.scene.deck_values import bare
 
 if TYPE_CHECKING:

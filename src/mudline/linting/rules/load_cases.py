@@ -11,7 +11,8 @@ from mudline.keywords import catalogue
 from mudline.keywords.naming import names_given
 from mudline.keywords.text import shown
 from mudline.keywords.values import Names
-from mudline.linting.rule import LintContext, limited, rule
+from mudline.linting.context import LintContext
+from mudline.rules import limited, rule
 from mudline.scene.sets import set_key
 
 if TYPE_CHECKING:

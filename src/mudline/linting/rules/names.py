@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mudline.diagnostics import Code, Problem, Severity
-from mudline.linting.rule import LintContext, limited, rule
+from mudline.linting.context import LintContext
+from mudline.rules import limited, rule
 from mudline.scene.names import THINGS, repeated
 
 REF020 = Code("REF020", "repeated-name", Severity.WARNING)

@@ -11,8 +11,9 @@ from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
 from mudline.keywords.text import shown
 from mudline.keywords.unknown import is_unknown, known_name
-from mudline.linting.rule import LintContext, entries_of_sets, limited, rule
+from mudline.linting.context import LintContext, entries_of_sets
 from mudline.linting.rules.style_lines import line_around
+from mudline.rules import limited, rule
 from mudline.scene.sets import ALL, LONGEST_NAME
 from mudline.syntax.edits import TextEdit, with_line_ends
 

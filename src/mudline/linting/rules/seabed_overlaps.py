@@ -16,8 +16,9 @@ from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.model import Record
 from mudline.keywords.text import shown
 from mudline.limits import MOST_REPORTED
-from mudline.linting.rule import LintContext, rule
+from mudline.linting.context import LintContext
 from mudline.linting.rules.seabed_position import first_of
+from mudline.rules import rule
 from mudline.scene.laws import SetLaw, present
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices

@@ -10,7 +10,8 @@ import numpy as np
 
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.table import LARGEST_WHOLE
-from mudline.linting.rule import LintContext, limited, rule
+from mudline.linting.context import LintContext
+from mudline.rules import limited, rule
 from mudline.scene.deck_values import number
 from mudline.scene.model import Scene
 from mudline.scene.numbering import FEW, Floats, Indices, Mask, blocks_of

@@ -13,9 +13,10 @@ from mudline.contact.input import LawKind
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.limits import MOST_REPORTED
-from mudline.linting.rule import LintContext, rule
+from mudline.linting.context import LintContext
 from mudline.linting.rules.seabed_position import bounds_of
 from mudline.quantities import unit_names
+from mudline.rules import rule
 from mudline.scene.deck_values import number
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene

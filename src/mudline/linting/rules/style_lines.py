@@ -11,8 +11,9 @@ from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.keywords import catalogue
 from mudline.keywords.reader import ReadBlock, all_keys
-from mudline.linting.rule import LintContext, first_reported, rule
+from mudline.linting.context import LintContext
 from mudline.linting.suppression import STY010, suppressions
+from mudline.rules import first_reported, rule
 from mudline.syntax.fields import first_key, trimmed
 from mudline.syntax.tree import Kind, Leaf, canonical_name
 

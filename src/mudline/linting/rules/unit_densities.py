@@ -11,7 +11,8 @@ from mudline.codes.fields import SYN015
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.model import Part
 from mudline.limits import MOST_REPORTED
-from mudline.linting.rule import LintContext, entries_of_sets, limited, rule
+from mudline.linting.context import LintContext, entries_of_sets
+from mudline.rules import limited, rule
 from mudline.scene.deck_values import FOOT, POUND, number
 from mudline.scene.deck_values import LENGTH_UNIT as METRES
 from mudline.scene.model import Scene

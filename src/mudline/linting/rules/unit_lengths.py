@@ -11,7 +11,7 @@ import numpy as np
 from mudline.diagnostics import Problem, Where
 from mudline.keywords.model import Part
 from mudline.limits import MOST_REPORTED
-from mudline.linting.rule import LintContext, rule
+from mudline.linting.context import LintContext
 from mudline.linting.rules.coordinates import UNT006, odd_coordinates
 from mudline.linting.rules.curve_shape import LARGEST_RATIO
 from mudline.linting.rules.seabed_friction import given, resisting
@@ -29,6 +29,7 @@ from mudline.linting.rules.unit_densities import (
     rounded,
     water_density,
 )
+from mudline.rules import rule
 from mudline.scene.deck_values import DEFAULT_DENSITY, LARGEST_MOBILISATION, number
 from mudline.scene.deck_values import LENGTH_UNIT as METRES
 from mudline.scene.force_curves import SceneCurve

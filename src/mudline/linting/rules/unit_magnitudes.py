@@ -14,9 +14,10 @@ from mudline.deck.reading import GRAVITIES
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.text import shown
 from mudline.limits import MOST_REPORTED
-from mudline.linting.rule import LintContext, entries_of_sets, limited, rule
+from mudline.linting.context import LintContext, entries_of_sets
 from mudline.linting.rules.curve_shape import swapped
 from mudline.linting.rules.seabed_friction import given
+from mudline.rules import limited, rule
 from mudline.scene.model import Scene
 
 if TYPE_CHECKING:

@@ -10,7 +10,8 @@ import numpy as np
 
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.table import Table
-from mudline.linting.rule import LintContext, limited, rule
+from mudline.linting.context import LintContext
+from mudline.rules import limited, rule
 from mudline.scene.deck_values import DEFAULT_GRAVITY, number
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.keywords.text import advice_on, shown
 from mudline.keywords.values import Names, number_meant
-from mudline.scene.checks import check
+from mudline.rules import rule
 from mudline.scene.laws import NOTHING, typed_blocks
 from mudline.scene.names import CURVES, names_used, undefined
 from mudline.scene.numbering import FEW
@@ -41,7 +41,7 @@ def extends_rigid(scene: ResolvedDeck) -> bool:
     return extension and "RIGID" in scene.laws.types and "ELASTIC" not in scene.laws.types
 
 
-@check(SBD001)
+@rule(SBD001, blocks=True)
 def rigid_with_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     """A rigid seabed has a force-embedment curve, or a value that only an elastic one has.
 
@@ -78,7 +78,7 @@ def rigid_with_curve(scene: ResolvedDeck) -> Iterator[Problem]:
                     yield Problem(SBD001, message, None, Severity.WARNING, inner)
 
 
-@check(SBD002)
+@rule(SBD002, blocks=True)
 def two_seabed_types(scene: ResolvedDeck) -> Iterator[Problem]:
     """The model has a rigid and an elastic seabed.
 
@@ -113,7 +113,7 @@ def two_seabed_types(scene: ResolvedDeck) -> Iterator[Problem]:
         yield Problem(SBD002, message, None, Severity.WARNING, where)
 
 
-@check(SBD003)
+@rule(SBD003, blocks=True)
 def missing_type(scene: ResolvedDeck) -> Iterator[Problem]:
     """*SEABED PROPERTIES does not say whether the seabed is rigid or elastic.
 
@@ -149,7 +149,7 @@ def _without_set(name: str | None, where: Where, what: str) -> Iterator[Problem]
         yield Problem(SBD003, message, None, Severity.WARNING, where)
 
 
-@check(SBD004)
+@rule(SBD004, blocks=True)
 def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
     """*ELASTIC SURFACE gives no stiffness, and there is no *EMBEDMENT.
 
@@ -178,7 +178,7 @@ def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
             yield reading.missing(SBD004, message, where, "EMBEDMENT")
 
 
-@check(SBD005)
+@rule(SBD005, blocks=True)
 def embedment_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     """*EMBEDMENT is used with a rigid seabed, or with none.
 
@@ -224,7 +224,7 @@ def embedment_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
             yield reading.missing(SBD005, message, curve.where, "ELASTIC SURFACE")
 
 
-@check(SBD009)
+@rule(SBD009, blocks=True)
 def missing_diameter(scene: ResolvedDeck) -> Iterator[Problem]:
     """Elements follow a force-embedment curve and have no external diameter.
 
@@ -297,7 +297,7 @@ def lacks_diameter(scene: ResolvedDeck, code: Code, message: str, where: Where) 
 REF002 = Code("REF002", "undefined-curve", Severity.ERROR)
 
 
-@check(REF002)
+@rule(REF002, blocks=True)
 def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     """A STIFFNESS=, or another setting that takes the name of a curve, names one that the deck does not define.
 

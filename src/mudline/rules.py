@@ -1,124 +1,21 @@
-"""What a rule is: a function that finds, with a docstring that becomes its page; and what it sees of a deck."""
+"""What a rule is: a code, a function that finds, a docstring that becomes its page; and the registry of all rules."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
-from functools import cache, cached_property, wraps
-from itertools import chain, islice
-from operator import is_
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
+from functools import cache, wraps
+from itertools import islice
 from textwrap import dedent
 from typing import Any, NamedTuple, TypeVar
 
-from mudline.deck.model import Deck
-from mudline.deck.reading import TextOrigin
-from mudline.diagnostics import MORE, Blocks, Code, Problem, Where
-from mudline.keywords.catalogue import holds_in_soil
+from mudline.diagnostics import MORE, Code, Problem
 from mudline.limits import MOST_REPORTED
-from mudline.scene.context import placed_blocks
-from mudline.scene.model import Scene, resolve
-from mudline.variations.names import (
-    may_vary,
-    misspelt_keywords,
-    misspelt_sections,
-    undefined_parameters,
-    undefined_variations,
-)
 
+Check = Callable[[Any], Iterable[Problem]]
+F = TypeVar("F", bound=Check)
 T = TypeVar("T")
-
-
-@dataclass(eq=False)
-class LintContext:
-    """A deck as it is written (equations and all) and its scene (evaluated and resolved, as far as that goes).
-
-    `dialect` is the deck language that the deck must keep to: "mudline", or "flexcom" without extension keywords.
-    `fixing` says that repairs are made: those that another deck beside this one forbids must not be among them.
-    """
-
-    deck: Deck
-    dialect: str = "mudline"
-    fixing: bool = False
-    _made: dict[object, Any] = field(default_factory=dict, repr=False)
-
-    @property
-    def text(self) -> TextOrigin | None:
-        """Tree, source and places of a deck that was read from text; None for one in JSON or YAML."""
-        return self.deck.origin if isinstance(self.deck.origin, TextOrigin) else None
-
-    @cached_property
-    def scene(self) -> Scene:
-        """The scene of the deck."""
-        return resolve(self.deck)
-
-    def blocks(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
-        """What `Deck.blocks` gives for the deck of the scene, whose equations are evaluated."""
-        return self.scene.context.blocks(keyword, section)
-
-    def written(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
-        """What `Deck.blocks` gives for the deck itself, with its equations."""
-        return self._written.get((section, keyword), ())
-
-    @cached_property
-    def _written(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
-        evaluated, own = self.scene.deck.sections, self.deck.sections
-        if len(evaluated) == len(own) and all(
-            all(map(is_, a.blocks, b.blocks)) for a, b in zip(evaluated, own, strict=True)
-        ):
-            return self.scene.context.placed  # no equation, and no deck that it continues
-        return placed_blocks(self.deck)
-
-    @cached_property
-    def keywords(self) -> set[str]:
-        """Names of the keywords in the models of the deck of the scene, those that are not read among them."""
-        return self.scene.deck.keywords()
-
-    @cached_property
-    def in_soil(self) -> bool:
-        """Whether the model has soil springs."""
-        return any(map(holds_in_soil, self.keywords))
-
-    @cached_property
-    def noticed(self) -> dict[str, list[Problem]]:
-        """What reading and resolving the deck, and the checks of its scene, report, by code."""
-        found: dict[str, list[Problem]] = {}
-        for problem in chain(self.scene.findings, _of_variations(self.deck)):
-            found.setdefault(problem.code.code, []).append(problem)
-        return found
-
-    def once(self, make: Callable[[LintContext], T]) -> T:
-        """What a function makes of this deck, made once for all rules that ask."""
-        try:
-            found: T = self._made[make]
-        except KeyError:
-            found = self._made[make] = make(self)
-        return found
-
-    def problems_of(self, code: Code) -> Sequence[Problem]:
-        """What reading and resolving the deck, and the checks of its scene, report under a code."""
-        return self.noticed.get(code.code, ())
-
-
-def entries_of_sets(blocks: Iterable[tuple[Where, Any]]) -> Iterator[tuple[Where, Any]]:
-    """Every entry below a SET= of some blocks, with its place."""
-    for where, block in blocks:
-        for index, entry in enumerate(block.sets):
-            yield where.inside("sets", index), entry
-
-
-def _of_variations(deck: Deck) -> Iterator[Problem]:
-    """Undefined names in variations: they are faults of the varied decks, and not of this one."""
-    if not may_vary(deck):
-        return
-    for find in (undefined_parameters, undefined_variations, misspelt_keywords, misspelt_sections):
-        for problem in islice(find(deck), MOST_REPORTED):
-            yield replace(problem, blocks=Blocks.NEVER)
-
-
-# --------------------------------------------------------------------------------------------- what a rule is
-
-Check = Callable[[LintContext], Iterable[Problem]]
 
 _HEADINGS = r"(?m)^(Example|Finds|File|Bytes|Cut|Dialect):[ \t]*(.*)$"
 RULES: dict[str, Rule] = {}
@@ -165,14 +62,15 @@ class RulePage(NamedTuple):
 class Rule(NamedTuple):
     """A rule: its code, the function that finds, and the docstring that becomes its page.
 
-    A rule that is `off` runs only where it is selected. The findings of a rule whose check is not `Noticed` never keep
-    a deck from being evaluated, whatever their severity.
+    A rule that is `off` runs only where it is selected. The function takes the `ResolvedDeck` of a rule that `blocks`,
+    the `LintContext` of another one; it is None where reading or resolving a deck finds what the rule reports.
     """
 
     code: Code
-    check: Check
+    check: Check | None
     docstring: str
     off: bool = False
+    blocks: bool = False
 
     @property
     def page(self) -> RulePage:
@@ -180,21 +78,13 @@ class Rule(NamedTuple):
         return described_by(self.code, self.docstring)
 
 
-@dataclass(frozen=True, slots=True)
-class Noticed:
-    """What reading and resolving a deck, or a check of its scene, reports under a code."""
+def rule(code: Code, *, off: bool = False, blocks: bool = False) -> Callable[[F], F]:
+    """Register a function as the rule of a code; `off` keeps it from running unless it is selected.
 
-    code: Code
+    A rule that `blocks` needs nothing but the resolved deck, and stands in `mudline.scene.rules`: each of its findings
+    says whether it keeps the deck from being evaluated. The findings of other rules never do, whatever their severity.
 
-    def __call__(self, context: LintContext) -> Iterable[Problem]:
-        """The problems of the code."""
-        return context.problems_of(self.code)
-
-
-def rule(code: Code, *, off: bool = False) -> Callable[[Check], Check]:
-    """Register a function as the rule of a code that only advises; `off` keeps it from running unless it is selected.
-
-    Its docstring begins with the title, a sentence on a line of its own; the text after it says why. Below `Example:`
+    The docstring begins with the title, a sentence on a line of its own; the text after it says why. Below `Example:`
     are a bad and a good deck in one, indented by four spaces: a line after a space is in both, one after `-` in the bad
     deck only, one after `+` in the good deck only. `Finds: line:column` is the place of the only finding in the bad
     deck. `File: name` (default deck.keyxm) is the name of both decks. `Bytes: encoding` saves the bad deck in another
@@ -204,18 +94,18 @@ def rule(code: Code, *, off: bool = False) -> Callable[[Check], Check]:
     that has no mark, and two decks that are the same are faults of a plugin, found when it is loaded.
     """
 
-    def register(check: Check) -> Check:
-        add(Rule(code, check, check.__doc__ or "", off))
+    def register(check: F) -> F:
+        add(Rule(code, check, check.__doc__ or "", off, blocks))
         return check
 
     return register
 
 
-def limited(check: Check) -> Check:
+def limited(check: Callable[[T], Iterable[Problem]]) -> Callable[[T], Iterator[Problem]]:
     """Give the first findings of a rule, as many as are reported one by one."""
 
     @wraps(check)
-    def first(context: LintContext) -> Iterator[Problem]:
+    def first(context: T) -> Iterator[Problem]:
         return islice(check(context), MOST_REPORTED)
 
     return first

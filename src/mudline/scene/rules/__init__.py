@@ -1,0 +1,23 @@
+"""Rules about what makes a deck illegal, doubtful, or impossible to evaluate, a module for each subject.
+
+What reading and resolving notice on their way needs no function and is declared in `mudline.codes`.
+All modules in here are imported.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from mudline.resources import modules_of
+from mudline.rules import RULES, first_reported
+
+if TYPE_CHECKING:
+    from mudline.diagnostics import Problem
+    from mudline.scene.resolved import ResolvedDeck
+
+
+def checked(scene: ResolvedDeck) -> list[Problem]:
+    """Return what all rules that block find, of each without the rest where it is very much."""
+    modules_of("mudline.scene.rules")
+    found = [first_reported(one.check(scene)) for one in RULES.values() if one.blocks and one.check]
+    return [problem for problems in found for problem in problems]
