@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
-from functools import cache, wraps
+from functools import cache
 from itertools import islice
 from textwrap import dedent
 from typing import Any, NamedTuple, TypeVar
@@ -15,7 +15,6 @@ from mudline.limits import MOST_REPORTED
 
 Check = Callable[[Any], Iterable[Problem]]
 F = TypeVar("F", bound=Check)
-T = TypeVar("T")
 
 _HEADINGS = r"(?m)^(Example|Finds|File|Bytes|Cut|Dialect):[ \t]*(.*)$"
 RULES: dict[str, Rule] = {}
@@ -77,6 +76,10 @@ class Rule(NamedTuple):
         """What the docstring says; raises ValueError for one that lacks a part."""
         return described_by(self.code, self.docstring)
 
+    def findings(self, subject: object) -> Iterator[Problem]:
+        """Give what the function finds in its subject, without the rest where it is very much."""
+        return first_reported(self.check(subject) if self.check else ())
+
 
 def rule(code: Code, *, off: bool = False, blocks: bool = False) -> Callable[[F], F]:
     """Register a function as the rule of a code; `off` keeps it from running unless it is selected.
@@ -99,16 +102,6 @@ def rule(code: Code, *, off: bool = False, blocks: bool = False) -> Callable[[F]
         return check
 
     return register
-
-
-def limited(check: Callable[[T], Iterable[Problem]]) -> Callable[[T], Iterator[Problem]]:
-    """Give the first findings of a rule, as many as are reported one by one."""
-
-    @wraps(check)
-    def first(context: T) -> Iterator[Problem]:
-        return islice(check(context), MOST_REPORTED)
-
-    return first
 
 
 def add(declared: Rule) -> None:

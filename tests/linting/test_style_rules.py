@@ -272,7 +272,7 @@ def test_of_many_findings_the_first_are_told_and_a_long_table_is_quick() -> None
         return LintContext(load_bytes(text.encode(), "deck.keyxm"))
 
     def exponents(context: LintContext) -> list[str]:
-        return [problem.message for rule in select(["STY003"]) for problem in rule.check(context)]
+        return [problem.message for rule in select(["STY003"]) for problem in rule.findings(context)]
 
     short, long = table(25_000), table(50_000)
     assert call_growth(exponents, short, long) == 1.0

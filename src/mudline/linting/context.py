@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import chain, islice
-from operator import is_
 from typing import Any, TypeVar
 
 from mudline.deck.model import Deck
@@ -60,11 +59,6 @@ class LintContext:
 
     @cached_property
     def _written(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
-        evaluated, own = self.scene.deck.sections, self.deck.sections
-        if len(evaluated) == len(own) and all(
-            all(map(is_, a.blocks, b.blocks)) for a, b in zip(evaluated, own, strict=True)
-        ):
-            return self.scene.context.placed  # no equation, and no deck that it continues
         return placed_blocks(self.deck)
 
     @cached_property

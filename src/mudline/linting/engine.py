@@ -188,7 +188,7 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
         if rule.check is None or rule.blocks:
             found += context.problems_of(rule.code)
         else:
-            found.extend(map(_advice, rule.check(context)))
+            found.extend(map(_advice, rule.findings(context)))
     return [problem for problem in found if not of_base(context.deck, problem)]
 
 

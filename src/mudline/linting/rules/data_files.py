@@ -16,7 +16,7 @@ from mudline.keywords.text import shown
 from mudline.keywords.values import Contents
 from mudline.linting.context import LintContext
 from mudline.outside import without_text
-from mudline.rules import limited, rule
+from mudline.rules import rule
 from mudline.scene.data_files import fault_of, has_uneven_times, unequal_frequencies
 from mudline.scene.deck_values import file_name, find_file
 
@@ -39,7 +39,6 @@ class _Named(NamedTuple):
 
 
 @rule(DAT002)
-@limited
 def faulty_data(context: LintContext) -> Iterator[Problem]:
     """A file that the deck names does not hold what it should, or lines in its place do not.
 

@@ -22,7 +22,7 @@ from mudline.linting.context import LintContext, entries_of_sets
 from mudline.linting.joints import Found, Joined, joint
 from mudline.linting.rules.coordinates import UNT006
 from mudline.linting.rules.unit_densities import UNT004, UNT005
-from mudline.rules import limited, rule
+from mudline.rules import rule
 from mudline.scene.numbering import Mask
 from mudline.scene.rules.fields import GEO001
 from mudline.scene.sections import Section, format_of
@@ -51,7 +51,6 @@ _NAMES = {"eiyy": "EIyy", "eizz": "EIzz", "gj": "GJ", "ea": "EA", "e": "E"}
 
 
 @rule(GEO002)
-@limited
 def number_and_curve(context: LintContext) -> Iterator[Problem]:
     """A stiffness is given twice: as a number, and by a curve.
 

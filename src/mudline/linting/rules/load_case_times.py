@@ -10,7 +10,7 @@ from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.text import shown
 from mudline.keywords.unknown import is_unknown
 from mudline.linting.context import LintContext
-from mudline.rules import limited, rule
+from mudline.rules import rule
 from mudline.scene.deck_values import bare
 
 if TYPE_CHECKING:
@@ -28,7 +28,6 @@ _LAST_STORED = -1.0
 
 
 @rule(TIM001)
-@limited
 def end_not_after_start(context: LintContext) -> Iterator[Problem]:
     """The end of a run in time does not come after its start.
 
@@ -63,7 +62,6 @@ def _backwards(span: object, where: Where) -> Iterator[Problem]:
 
 
 @rule(TIM002)
-@limited
 def step_limits_out_of_order(context: LintContext) -> Iterator[Problem]:
     """The suggested time step does not lie between the least and the largest one.
 
@@ -105,7 +103,6 @@ def _disordered(limits: StepLimits, where: Where) -> Iterator[Problem]:
 
 
 @rule(WAV001)
-@limited
 def airy_period_without_amplitude(context: LintContext) -> Iterator[Problem]:
     """A Stokes wave has the period of an equivalent Airy wave, but no amplitude for it.
 
@@ -128,7 +125,6 @@ def airy_period_without_amplitude(context: LintContext) -> Iterator[Problem]:
 
 
 @rule(VES001)
-@limited
 def two_kinds_of_drift(context: LintContext) -> Iterator[Problem]:
     """A vessel drifts by a sinusoid and by a file.
 

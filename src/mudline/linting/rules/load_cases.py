@@ -12,7 +12,7 @@ from mudline.keywords.naming import names_given
 from mudline.keywords.text import shown
 from mudline.keywords.values import Names
 from mudline.linting.context import LintContext
-from mudline.rules import limited, rule
+from mudline.rules import rule
 from mudline.scene.sets import set_key
 
 if TYPE_CHECKING:
@@ -35,7 +35,6 @@ def _analysis(context: LintContext) -> set[str]:
 
 
 @rule(VES002)
-@limited
 def vessel_without_rao(context: LintContext) -> Iterator[Problem]:
     """A vessel has no response amplitude operators in a dynamic run with waves.
 
@@ -87,7 +86,6 @@ def _has_waves(context: LintContext) -> bool:
 
 
 @rule(TIM005)
-@limited
 def static_steps_without_effect(context: LintContext) -> Iterator[Problem]:
     """*NON LINEAR STATIC stands in a run that is not one in the frequency domain.
 

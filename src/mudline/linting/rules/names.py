@@ -6,14 +6,13 @@ from collections.abc import Iterator
 
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
-from mudline.rules import limited, rule
+from mudline.rules import rule
 from mudline.scene.names import THINGS, repeated
 
 REF020 = Code("REF020", "repeated-name", Severity.WARNING)
 
 
 @rule(REF020)
-@limited
 def repeated_name(context: LintContext) -> Iterator[Problem]:
     """Two vessels, or two other things of one kind, have one name.
 

@@ -13,7 +13,7 @@ from mudline.keywords.text import shown
 from mudline.keywords.unknown import is_unknown, known_name
 from mudline.linting.context import LintContext, entries_of_sets
 from mudline.linting.rules.style_lines import line_around
-from mudline.rules import limited, rule
+from mudline.rules import rule
 from mudline.scene.sets import ALL, LONGEST_NAME
 from mudline.syntax.edits import TextEdit, with_line_ends
 
@@ -61,7 +61,6 @@ def long_name(context: LintContext) -> Iterator[Problem]:
 
 
 @rule(REF012)
-@limited
 def long_list(context: LintContext) -> Iterator[Problem]:
     """A line of a set lists more than 20 elements.
 
@@ -117,7 +116,6 @@ def _split(text: TextOrigin, where: Where, count: int) -> Repair | None:
 
 
 @rule(REF016)
-@limited
 def repeated_set(context: LintContext) -> Iterator[Problem]:
     """A set is defined twice: it holds the elements of both definitions.
 
@@ -156,7 +154,6 @@ def repeated_set(context: LintContext) -> Iterator[Problem]:
 
 
 @rule(REF017)
-@limited
 def repeated_parameter(context: LintContext) -> Iterator[Problem]:
     """A parameter is defined twice: the later value applies everywhere.
 

@@ -12,7 +12,6 @@ import numpy as np
 from mudline.contact.input import LawKind
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
-from mudline.limits import MOST_REPORTED
 from mudline.linting.context import LintContext
 from mudline.linting.rules.seabed_position import bounds_of
 from mudline.quantities import unit_names
@@ -297,7 +296,7 @@ def _inside(entry: SceneCurve, ratios: Floats, slopes: Floats) -> Iterator[Probl
     """Jumps at points of a curve."""
     steep = np.flatnonzero(slopes)
     before, behind = np.abs(slopes[steep[:-1]]), np.abs(slopes[steep[1:]])
-    jumps = np.flatnonzero((before / FARTHEST > behind) | (behind / FARTHEST > before))[:MOST_REPORTED]
+    jumps = np.flatnonzero((before / FARTHEST > behind) | (behind / FARTHEST > before))
     if not len(jumps):
         return
     order = entry.points[:, 0].argsort(kind="stable")
@@ -329,7 +328,7 @@ def _beside(context: LintContext) -> Iterator[Problem]:
         far = (stiffness / FARTHEST > steepest) | ((stiffness > 0.0) & (softest / FARTHEST > stiffness))
     for at in np.flatnonzero(far).tolist():
         pair = (int(scene.laws.of_element[linear[at]]), int(scene.laws.of_element[curved[at]]))
-        if pair in reported or len(reported) >= MOST_REPORTED:
+        if pair in reported:
             continue
         reported.add(pair)
         message = (

@@ -13,7 +13,7 @@ from mudline.keywords import catalogue
 from mudline.keywords.reader import ReadBlock, all_keys
 from mudline.linting.context import LintContext
 from mudline.linting.suppression import STY010, suppressions
-from mudline.rules import first_reported, rule
+from mudline.rules import rule
 from mudline.syntax.fields import first_key, trimmed
 from mudline.syntax.tree import Kind, Leaf, canonical_name
 
@@ -55,7 +55,7 @@ def rule_of_text(
             text = context.text
             if text is None or (odd and not context.once(_has_odd_line)) or not gate(text.source.unified):
                 return ()
-            return first_reported(find(text, text.source.unified))
+            return find(text, text.source.unified)
 
         return check
 

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from itertools import islice
 
 import numpy as np
 
 from mudline.diagnostics import Problem, Where
 from mudline.keywords.model import Part
-from mudline.limits import MOST_REPORTED
 from mudline.linting.context import LintContext
 from mudline.linting.rules.coordinates import UNT006, odd_coordinates
 from mudline.linting.rules.curve_shape import LARGEST_RATIO
@@ -216,7 +214,7 @@ def suspicious_length(context: LintContext) -> Iterator[Problem]:
     Finds: 5:19
     """
     for kind in (_diameters, _mobilisation, _curves, odd_coordinates, _ocean):
-        yield from islice(kind(context), MOST_REPORTED)
+        yield from kind(context)
 
 
 def _mobilisation(context: LintContext) -> Iterator[Problem]:

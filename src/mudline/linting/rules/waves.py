@@ -11,7 +11,7 @@ import numpy as np
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.table import Table
 from mudline.linting.context import LintContext
-from mudline.rules import limited, rule
+from mudline.rules import rule
 from mudline.scene.deck_values import DEFAULT_GRAVITY, number
 
 if TYPE_CHECKING:
@@ -58,7 +58,6 @@ def waves(context: LintContext) -> list[_Wave]:
 
 
 @rule(WAV002)
-@limited
 def breaking_wave(context: LintContext) -> Iterator[Problem]:
     """A regular wave is steeper than a wave can be.
 
@@ -98,7 +97,6 @@ def _gravity(context: LintContext) -> float:
 
 
 @rule(TIM003)
-@limited
 def ramp_does_not_fit(context: LintContext) -> Iterator[Problem]:
     """Loads grow in less than a wave period, or longer than the run lasts.
 
@@ -131,7 +129,6 @@ def ramp_does_not_fit(context: LintContext) -> Iterator[Problem]:
 
 
 @rule(TIM004)
-@limited
 def step_too_long_for_waves(context: LintContext) -> Iterator[Problem]:
     """The time step is more than a twentieth of the shortest wave period.
 
@@ -178,7 +175,6 @@ def _steps(context: LintContext) -> Iterator[tuple[Where, float]]:
 
 
 @rule(CUR001)
-@limited
 def current_ends_below_surface(context: LintContext) -> Iterator[Problem]:
     """A current profile ends below the surface of the sea.
 

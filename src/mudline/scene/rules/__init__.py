@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from mudline.resources import modules_of
-from mudline.rules import RULES, first_reported
+from mudline.rules import RULES
 
 if TYPE_CHECKING:
     from mudline.diagnostics import Problem
@@ -19,5 +19,4 @@ if TYPE_CHECKING:
 def checked(scene: ResolvedDeck) -> list[Problem]:
     """Return what all rules that block find, of each without the rest where it is very much."""
     modules_of("mudline.scene.rules")
-    found = [first_reported(one.check(scene)) for one in RULES.values() if one.blocks and one.check]
-    return [problem for problems in found for problem in problems]
+    return [problem for one in RULES.values() if one.blocks for problem in one.findings(scene)]
