@@ -73,7 +73,7 @@ class LintContext:
 
     @cached_property
     def noticed(self) -> dict[str, list[Problem]]:
-        """What reading and resolving the deck, and the checks of its scene, report, by code."""
+        """What reading and resolving the deck, and the rules that block, report, by code."""
         found: dict[str, list[Problem]] = {}
         for problem in chain(self.scene.findings, _of_variations(self.deck)):
             found.setdefault(problem.code.code, []).append(problem)
@@ -88,7 +88,7 @@ class LintContext:
         return found
 
     def problems_of(self, code: Code) -> Sequence[Problem]:
-        """What reading and resolving the deck, and the checks of its scene, report under a code."""
+        """What reading and resolving the deck, and the rules that block, report under a code."""
         return self.noticed.get(code.code, ())
 
 

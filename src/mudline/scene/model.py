@@ -53,7 +53,7 @@ class Scene(ResolvedDeck):
 
     @cached_property
     def problems(self) -> list[Problem]:
-        """What resolving the deck noticed, and what the checks of the scene find."""
+        """What resolving the deck noticed, and what the rules that block find."""
         return [*self.noticed, *checked(self)]
 
     def blocking(self, tension: Literal["keep", "cut"] = "keep") -> list[Problem]:

@@ -1,4 +1,4 @@
-"""What one place of a deck uses and another one defines: element sets, parameters, the water."""
+"""What one place of a deck uses and another one defines: element sets, parameters, vessels, the water."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from mudline.keywords.unknown import is_unknown, known_name
 from mudline.linting.context import LintContext, entries_of_sets
 from mudline.linting.rules.style_lines import line_around
 from mudline.rules import rule
+from mudline.scene.names import THINGS, repeated
 from mudline.scene.sets import ALL, LONGEST_NAME
 from mudline.syntax.edits import TextEdit, with_line_ends
 
@@ -26,6 +27,7 @@ REF012 = Code("REF012", "long-list", Severity.WARNING)
 REF016 = Code("REF016", "repeated-set", Severity.WARNING)
 REF017 = Code("REF017", "repeated-parameter", Severity.WARNING)
 REF018 = Code("REF018", "missing-ocean", Severity.WARNING)
+REF020 = Code("REF020", "repeated-name", Severity.WARNING)
 
 LONGEST_LIST = 20
 
@@ -151,6 +153,27 @@ def repeated_set(context: LintContext) -> Iterator[Problem]:
             message = f"set {shown(name)} is already defined, and this adds to it: put its elements under one SET="
             yield Problem(REF016, message, where=where.inside("name"))
         known.add(key)
+
+
+@rule(REF020)
+def repeated_name(context: LintContext) -> Iterator[Problem]:
+    """Two vessels, or two other things of one kind, have one name.
+
+    The language does not say which of them a name means then. Names are case-insensitive. Choose another name, or keep
+    one of them. Sets and curves have rules of their own.
+
+    Example:
+         $MODEL
+         *VESSEL
+          VESSEL=FPSO
+          INITIAL POSITION=1005.0, 0.0, 0.0
+        - VESSEL=fpso
+        + VESSEL=Tanker
+          INITIAL POSITION=1005.0, 250.0, 0.0
+
+    Finds: 5:9
+    """
+    return repeated(context.scene.context, THINGS, REF020)
 
 
 @rule(REF017)

@@ -13,13 +13,12 @@ from mudline.contact.input import LawKind
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
-from mudline.linting.rules.seabed_position import bounds_of
 from mudline.quantities import unit_names
 from mudline.rules import rule
 from mudline.scene.deck_values import number
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene
-from mudline.scene.numbering import FEW, Floats, Indices
+from mudline.scene.numbering import Floats, Indices
 
 if TYPE_CHECKING:
     from mudline.contact.laws.suction import SuctionLaw
@@ -317,8 +316,6 @@ def _beside(context: LintContext) -> Iterator[Problem]:
     if not scene.laws.curves:
         return
     slopes = [*map(_extremes, scene.laws.curves), (math.nan, math.nan)]
-    if _near(context, slopes):
-        return
     linear, curved = _neighbours(scene)
     extremes = np.array(slopes)
     curve_of = np.array([*(grant.curve for grant in grants), -1], dtype=np.intp)
@@ -340,27 +337,10 @@ def _beside(context: LintContext) -> Iterator[Problem]:
         yield Problem(STB003, message, where=grants[pair[0]].where)
 
 
-def _near(context: LintContext, extremes: Sequence[tuple[float, float]]) -> bool:
-    """Whether no linear stiffness is far from the slopes of any curve, for any diameter."""
-    linear = [grant.stiffness for grant in context.scene.laws.set_laws if grant.stiffness > 0.0]
-    slopes = [(softest, steepest) for softest, steepest in extremes if softest > 0.0]
-    if not linear or not slopes:
-        return True
-    thinnest, thickest = context.once(bounds_of)[-2:]
-    if thickest == 0.0:
-        return True
-    too_stiff = max(linear) / FARTHEST > min(steepest for _, steepest in slopes) / thickest
-    too_soft = max(softest for softest, _ in slopes) / thinnest / FARTHEST > min(linear)
-    return not too_stiff and not too_soft
-
-
 def _extremes(entry: SceneCurve) -> tuple[float, float]:
     """The smallest and the largest slope of a curve, flat segments left out; NaN without any."""
     if entry.curve is None or not entry.whole:
         return (math.nan, math.nan)
-    if len(entry.curve.slopes) <= FEW:
-        given = [abs(slope) for slope in entry.curve.slopes.tolist() if slope]
-        return (min(given), max(given)) if given else (math.nan, math.nan)
     slopes = np.abs(entry.curve.slopes)
     slopes = slopes[slopes > 0.0]
     return (float(slopes.min()), float(slopes.max())) if slopes.size else (math.nan, math.nan)

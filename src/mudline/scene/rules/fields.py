@@ -15,7 +15,6 @@ from mudline.keywords.ranges import range_faults, ranged_slots
 from mudline.limits import MOST_REPORTED
 from mudline.rules import rule
 from mudline.scene.deck_values import missing_files, not_found
-from mudline.scene.numbering import FEW
 from mudline.scene.sections import format_of
 
 if TYPE_CHECKING:
@@ -140,8 +139,6 @@ def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 9:2
     """
-    if len(scene.length) <= FEW and all(length > 0.0 for length in scene.length.tolist()):
-        return
     suspects = ~(scene.length > 0.0)
     if not np.count_nonzero(suspects):
         return

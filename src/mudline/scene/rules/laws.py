@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, cast
@@ -18,7 +17,6 @@ from mudline.keywords.values import Names, number_meant
 from mudline.rules import rule
 from mudline.scene.laws import NOTHING, typed_blocks
 from mudline.scene.names import CURVES, names_used, undefined
-from mudline.scene.numbering import FEW
 
 if TYPE_CHECKING:
     from mudline.keywords.library.elastic_surface import ElasticSurface
@@ -263,8 +261,6 @@ def missing_diameter(scene: ResolvedDeck) -> Iterator[Problem]:
     if not scene.replaced and all(set_law.kind is not LawKind.CURVE for set_law in scene.laws.set_laws):
         return
     sections = scene.section_table
-    if len(sections.diameter) <= FEW and not any(map(math.isnan, sections.diameter.tolist())):
-        return
     lacking = np.isnan(sections.diameter) & ~sections.faulty
     if not np.count_nonzero(lacking):
         return
