@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import cache
 from itertools import islice
@@ -76,8 +76,8 @@ class Rule(NamedTuple):
         """What the docstring says; raises ValueError for one that lacks a part."""
         return described_by(self.code, self.docstring)
 
-    def findings(self, subject: object) -> Iterator[Problem]:
-        """Give what the function finds in its subject, without the rest where it is very much."""
+    def findings(self, subject: object) -> list[Problem]:
+        """Return what the function finds in its subject, without the rest where it is very much."""
         return first_reported(self.check(subject) if self.check else ())
 
 
@@ -160,9 +160,9 @@ def _decks(code: Code, example: str) -> tuple[str, str]:
     return "".join(bad), "".join(good)
 
 
-def first_reported(problems: Iterable[Problem]) -> Iterator[Problem]:
+def first_reported(problems: Iterable[Problem]) -> list[Problem]:
     """As many findings as are reported one by one; the next one says that there are more."""
-    found = iter(problems)
-    yield from islice(found, MOST_REPORTED)
-    for further in islice(found, 1):
-        yield replace(further, message=MORE, repair=None)
+    found = list(islice(problems, MOST_REPORTED + 1))
+    if len(found) > MOST_REPORTED:
+        found[-1] = replace(found[-1], message=MORE, repair=None)
+    return found

@@ -279,4 +279,4 @@ def test_of_many_findings_the_first_are_told_and_a_long_table_is_quick() -> None
     told = exponents(long)
     assert len(told) == MOST_REPORTED + 1
     assert "and more" in told[-1]
-    assert list(first_reported([])) == []
+    assert first_reported([]) == []

@@ -91,7 +91,7 @@ class Suppressions:
         """
         selected = {rule.code.code for rule in chosen}
         present = self._present(problems)
-        unused = list(first_reported(self._unused(present, selected))) if STY010.code in selected else []
+        unused = first_reported(self._unused(present, selected)) if STY010.code in selected else []
         hidden_by: dict[Hashable, set[str]] = {}
         for directive in self.directives:
             hidden_by.setdefault(directive.scope, set()).update(_named(directive))
@@ -108,10 +108,7 @@ class Suppressions:
         return next((one for one in self.directives if one.scope in scopes and _covers(_named(one), code)), None)
 
     def unknown(self) -> Iterator[Problem]:
-        """Names that no rule has and unknown instructions in comments; the first of them if there are many."""
-        yield from first_reported(self._unknown())
-
-    def _unknown(self) -> Iterator[Problem]:
+        """Names that no rule has and unknown instructions in comments."""
         for word, meant, where in self.misspelt:
             message = f"{word.text!r} is not an instruction: did you mean {meant}?"
             yield self._problem(message, word.span, where, self._replacing(word, meant))

@@ -6,17 +6,23 @@ All modules in here are imported.
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING
 
 from mudline.resources import modules_of
-from mudline.rules import RULES
+from mudline.rules import RULES, Rule
 
 if TYPE_CHECKING:
     from mudline.diagnostics import Problem
     from mudline.scene.resolved import ResolvedDeck
 
 
+@cache
+def _rules() -> tuple[Rule, ...]:
+    modules_of("mudline.scene.rules")
+    return tuple(one for one in RULES.values() if one.blocks)
+
+
 def checked(scene: ResolvedDeck) -> list[Problem]:
     """Return what all rules that block find, of each without the rest where it is very much."""
-    modules_of("mudline.scene.rules")
-    return [problem for one in RULES.values() if one.blocks for problem in one.findings(scene)]
+    return [problem for one in _rules() for problem in one.findings(scene)]
