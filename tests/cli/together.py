@@ -24,7 +24,7 @@ from tests.builders.decks import CLEAN
 
 UNTIDY = CLEAN.replace(" 0.1, 1000.0\n", " 0.1 1.0D3\n").replace(" 1, 1, 2\n", "\t1, 1, 2\n")
 """A deck that `lint --fix` changes."""
-IMPORTED = ("mudline.cli.lint_run", "mudline.linting.fixing", "mudline.scene.checks", "mudline.archive.updating")
+IMPORTED = ("mudline.cli.lint_run", "mudline.linting.fixing", "mudline.scene.rules", "mudline.archive.updating")
 """What the copies need, none of which reads a grammar yet."""
 CACHE = "../cache"
 

@@ -16,7 +16,7 @@ from mudline.keywords.model import Block
 from mudline.keywords.values import OpaqueKeyword
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules
-from mudline.linting.rule import Rule
+from mudline.rules import Rule
 
 Declared = type[Block] | OpaqueKeyword
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from mudline.diagnostics import Diagnostic
 from mudline.linting.engine import lint_bytes
-from mudline.linting.rule import Rule
+from mudline.rules import Rule
 from tests.docs.marking import MADE, marked
 
 _INDEX = """{made}

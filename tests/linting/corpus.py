@@ -15,7 +15,7 @@ from mudline.diagnostics import Diagnostic
 from mudline.linting.engine import lint_bytes
 from mudline.linting.output import visible
 from mudline.linting.registry import rules, select
-from mudline.linting.rule import Rule
+from mudline.rules import Rule
 
 CORPUS = Path(__file__).parents[1] / "corpus"
 DECKS = frozenset({".keyx", ".keyxm", ".keyxi", ".das", ".json", ".yaml", ".yml"})

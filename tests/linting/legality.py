@@ -16,9 +16,9 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Diagnostic
 from mudline.keywords import catalogue
+from mudline.linting.context import LintContext
 from mudline.linting.engine import problems_in
 from mudline.linting.registry import rules
-from mudline.linting.rule import LintContext
 from mudline.results.evaluation import evaluate_scene
 from mudline.scene.model import resolve
 

@@ -9,7 +9,8 @@ from pathlib import Path
 
 import mudline
 from mudline.diagnostics import Code, Diagnostic, Edit, Fix, Problem, Repair, Severity, Span
-from mudline.linting.rule import LintContext, Rule
+from mudline.linting.context import LintContext
+from mudline.rules import Rule
 from tests.cli.runner import ROOT, Outcome, process
 
 

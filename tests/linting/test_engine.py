@@ -11,10 +11,13 @@ from hypothesis import strategies as st
 from mudline.deck.forms.json import to_json
 from mudline.deck.forms.yaml import to_yaml
 from mudline.deck.loading import load_bytes
+from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Diagnostic, Severity
-from mudline.linting.engine import lint_bytes, lint_context
+from mudline.linting.context import LintContext
+from mudline.linting.engine import lint_bytes, lint_context, read_deck
 from mudline.linting.registry import rules, select
-from mudline.linting.rule import LintContext
+from tests.builders.keyword_texts import mutated
+from tests.deck.test_round_trips import texts as valid_texts
 from tests.linting.findings import CLAY, PIPE, PROPERTIES, RESTART, found
 
 # A line and, behind the bar, the codes that are found in it.
@@ -290,3 +293,20 @@ def test_nothing_deck_like_raises(content: bytes) -> None:
 )
 def test_decks_of_which_nothing_is_to_be_said(text: str) -> None:
     assert found(text) == []
+
+
+@given(mutated(valid_texts.map(str.encode)), st.integers(0, 3))
+@settings(max_examples=30)
+def test_a_block_that_was_read_before_somewhere_else(data: bytes, lines: int) -> None:
+    read_deck(data, "a.keyxm")
+    moved = b"C a line more\n" * lines + data
+    plain, again = load_bytes(moved, "a.keyxm"), read_deck(moved, "a.keyxm")
+    assert again == plain
+    assert again.problems == plain.problems
+    assert isinstance(plain.origin, TextOrigin)
+    assert isinstance(again.origin, TextOrigin)
+    assert again.origin.read.keys() == plain.origin.read.keys()
+    for place, block in plain.origin.read.items():
+        other = again.origin.read[place]
+        assert other.places == block.places
+        assert (other.problems, other.trailing, other.lost) == (block.problems, block.trailing, block.lost)

@@ -16,7 +16,7 @@ from mudline.diagnostics import Code, DeckError, Severity
 from mudline.linting.engine import LintSettings, lint_bytes
 from mudline.linting.fixing import FixState, Reader
 from mudline.linting.registry import rules
-from mudline.linting.rule import Rule, described_by
+from mudline.rules import Rule, described_by
 
 ROW = re.compile(r"\| \[([A-Z]+[0-9]+)\]\(\1\.md\) \| `([a-z0-9-]+)` \| (\w+)(, off)? \| (\w*) \| .+ \|")
 PAGE = Path(__file__).parents[2] / "docs" / "rules" / "README.md"

@@ -17,11 +17,12 @@ from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.limits import MOST_PASSES
 from mudline.linting import fixing as fixing_module
+from mudline.linting.context import LintContext
 from mudline.linting.engine import Fixing, LintSettings, lint_bytes
 from mudline.linting.fixing import Fixed, fix_bytes, lint_one, with_severities
 from mudline.linting.registry import rules
-from mudline.linting.rule import LintContext, Rule
 from mudline.linting.suppression import STY010
+from mudline.rules import Rule
 from tests.linting.findings import CLAY, CURVES, PIPE, PROPERTIES
 from tests.linting.made_rules import finding, replacing
 

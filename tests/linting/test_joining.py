@@ -12,9 +12,9 @@ from mudline.deck.forms.json import to_json
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import MORE, Blocks, Code, Problem, Repair, Severity, Span
 from mudline.linting import joining
+from mudline.linting.context import LintContext
 from mudline.linting.joining import joined_findings
 from mudline.linting.joints import Joined
-from mudline.linting.rule import LintContext
 
 ROWS = [f" {number}, {number}.5, 7\n" for number in range(1, 10)]
 TEXT = "$MODEL\n*NODE\n" + "".join(ROWS)

@@ -12,9 +12,9 @@ import pytest
 
 import mudline
 from mudline.deck.loading import load_bytes
+from mudline.linting.context import LintContext
 from mudline.linting.engine import lint_bytes, problems_in
 from mudline.linting.registry import rules
-from mudline.linting.rule import LintContext
 from tests.growth import TWOFOLD, call_growth
 
 COUNT = 400_000

@@ -17,7 +17,7 @@ import mudline
 from mudline.cli import lint_run
 from mudline.linting import registry
 from mudline.linting.registry import origin, rules
-from mudline.linting.rule import RULES, Rule
+from mudline.rules import RULES, Rule
 from tests.cli.runner import Outcome, run
 from tests.linting.made_rules import NO_FRICTION
 from tests.processes import TIMEOUT
@@ -169,6 +169,10 @@ FAULTS = {
     "docstring in no form": (
         RULE.format(code="COR001", slug="model", body="yield").replace("Example:", "Bad:"),
         "ValueError: the docstring of COR001 must have Example: report it to its authors",
+    ),
+    "blocks evaluation": (
+        RULE.format(code="COR001", slug="model", body="yield").replace("WARNING)", "WARNING), blocks=True"),
+        "COR001 is declared to block evaluation, and rules of other packages only advise: leave it out",
     ),
     "code in no form": (RULE.format(code="cor-1", slug="model", body="yield"), "the code 'cor-1' must be"),
     "name in no form": (RULE.format(code="COR001", slug="The Model", body="yield"), "the name 'The Model' of COR001"),

@@ -11,7 +11,7 @@ import pytest
 
 from mudline.linting import registry
 from mudline.linting.registry import UnknownRule, page, rules, select
-from mudline.linting.rule import Rule
+from mudline.rules import Rule
 
 
 def _codes(chosen: tuple[Rule, ...]) -> list[str]:

@@ -11,10 +11,11 @@ from hypothesis import strategies as st
 from mudline.deck.forms.json import to_json
 from mudline.deck.loading import load_bytes
 from mudline.limits import MOST_REPORTED
+from mudline.linting.context import LintContext
 from mudline.linting.engine import Fixing, LintSettings, lint_bytes
 from mudline.linting.fixing import Fixed, fix_bytes
 from mudline.linting.registry import select
-from mudline.linting.rule import LintContext, first_reported
+from mudline.rules import first_reported
 from tests.growth import call_growth
 from tests.linting.findings import CLAY, CURVES, found, messages
 
@@ -271,11 +272,11 @@ def test_of_many_findings_the_first_are_told_and_a_long_table_is_quick() -> None
         return LintContext(load_bytes(text.encode(), "deck.keyxm"))
 
     def exponents(context: LintContext) -> list[str]:
-        return [problem.message for rule in select(["STY003"]) for problem in rule.check(context)]
+        return [problem.message for rule in select(["STY003"]) for problem in rule.findings(context)]
 
     short, long = table(25_000), table(50_000)
     assert call_growth(exponents, short, long) == 1.0
     told = exponents(long)
     assert len(told) == MOST_REPORTED + 1
     assert "and more" in told[-1]
-    assert list(first_reported([])) == []
+    assert first_reported([]) == []

@@ -12,9 +12,10 @@ import pytest_asyncio
 from lsprotocol import types
 
 from mudline.diagnostics import Diagnostic
+from mudline.linting.context import LintContext
 from mudline.linting.engine import lint_context
-from mudline.linting.rule import LintContext, Rule
 from mudline.lsp.server import DeckServer
+from mudline.rules import Rule
 from tests.builders.decks import CLEAN
 
 pytestmark = pytest.mark.asyncio

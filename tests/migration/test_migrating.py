@@ -17,9 +17,9 @@ from mudline.deck.forms.json import to_json
 from mudline.deck.forms.yaml import to_yaml
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
+from mudline.linting.context import LintContext
 from mudline.linting.engine import lint_context
 from mudline.linting.registry import rules
-from mudline.linting.rule import LintContext
 from mudline.migration.migrating import Migration, legacy_blocks, migrate, verify
 from mudline.scene.model import resolve
 from tests.builders.decks import PIPE_WITH_SETS

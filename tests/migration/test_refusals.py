@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from mudline.diagnostics import DeckError
+from mudline.linting.context import LintContext
 from mudline.linting.engine import lint_context
 from mudline.linting.registry import rules
-from mudline.linting.rule import LintContext
 from mudline.migration.migrating import migrate, verify
 from mudline.migration.refusals import superseded_blocks
 from mudline.migration.rewriting import curve_names

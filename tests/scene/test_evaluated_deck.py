@@ -15,9 +15,9 @@ from mudline.keywords.library.boundary import Boundary
 from mudline.keywords.model import Part
 from mudline.keywords.table import Table
 from mudline.keywords.values import Equation
+from mudline.linting.context import LintContext
 from mudline.linting.engine import problems_in
 from mudline.linting.registry import rules
-from mudline.linting.rule import LintContext
 from mudline.scene.model import Scene, resolve
 from tests.builders.scenes import scene_of
 from tests.linting.legality import NAME

@@ -22,9 +22,9 @@ from mudline.keywords.catalogue import is_extension, is_superseded
 from mudline.keywords.keeping import kept_lines
 from mudline.keywords.values import Equation, Names
 from mudline.keywords.writer import block_lines
+from mudline.linting.context import LintContext
 from mudline.linting.engine import LintSettings, lint_context
 from mudline.linting.fixing import with_severities
-from mudline.linting.rule import LintContext
 from mudline.linting.verdict import all_findings, errors_of
 from mudline.scene.deck_curves import OF_SEABED, other_curves
 from mudline.scene.deck_values import bare, number

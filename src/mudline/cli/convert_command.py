@@ -169,9 +169,9 @@ def _require_values(deck: Deck) -> None:
     blocks = (block for section in deck.sections for block in section.blocks)
     if not any(isinstance(block, Block) and is_refused(block) for block in blocks):
         return
+    from mudline.linting.context import LintContext  # noqa: PLC0415 - as above
     from mudline.linting.engine import joined_problems  # noqa: PLC0415 - only a faulty deck is checked
     from mudline.linting.registry import rules  # noqa: PLC0415 - as above
-    from mudline.linting.rule import LintContext  # noqa: PLC0415 - as above
 
     found = joined_problems(LintContext(deck), rules(), suppress=False)
     raise DeckError(deck.diagnose([one for one in found if one.weight is Severity.ERROR]))

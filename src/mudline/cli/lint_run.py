@@ -27,9 +27,9 @@ from mudline.linting.configuration import Configuration, Given
 from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.fixing import FileReport, lint_one
 from mudline.linting.registry import UnknownRule, code_fault, plugin_files, rules
-from mudline.linting.rule import Rule
 from mudline.linting.settings import hidden_codes, merged_settings
 from mudline.linting.suppression import Baseline, BaselineError, read_baseline
+from mudline.rules import Rule
 from mudline.running.executors import Crash, executor, in_order
 
 

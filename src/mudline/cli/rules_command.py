@@ -13,7 +13,7 @@ from mudline.cli.streams import emit_json
 from mudline.cli.view import View
 from mudline.linting.output import visible_lines
 from mudline.linting.registry import UnknownRule, origin, rules, select
-from mudline.linting.rule import Rule
+from mudline.rules import Rule
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer

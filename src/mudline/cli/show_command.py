@@ -14,8 +14,8 @@ from mudline.diagnostics import Coverage
 from mudline.keywords import catalogue
 from mudline.keywords.values import SUBJECTS
 from mudline.limits import SHOWN_ROWS
+from mudline.linting.context import LintContext
 from mudline.linting.engine import of_base
-from mudline.linting.rule import LintContext
 from mudline.linting.verdict import all_findings, errors_of
 from mudline.quantities import UnitNames, headed, shown, unit_names
 from mudline.results.summary import OPEN, summarise

@@ -20,8 +20,8 @@ from mudline.cli.view import Progress, View, wants_bar
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Coverage, DeckError, Diagnostic
 from mudline.linting.configuration import refuses_outside
+from mudline.linting.context import LintContext
 from mudline.linting.output.json import as_object
-from mudline.linting.rule import LintContext
 from mudline.linting.verdict import Verdict, judge, refused
 from mudline.outside import refusing_outside
 from mudline.quantities import csv_lines

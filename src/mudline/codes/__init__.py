@@ -1,7 +1,7 @@
 """What is noticed while a deck is read or resolved, a module for each subject.
 
-A code with a page is a check that needs no function of its own: the reader, or what resolves the deck, gives the
-findings. Codes of checks with a function stand beside it. A module of this package is all that such a code is declared
+A code with a page is a rule that needs no function of its own: the reader, or what resolves the deck, gives the
+findings. Codes of rules with a function stand beside it. A module of this package is all that such a code is declared
 in. The codes in this file are no rules: nothing leaves them out.
 """
 

@@ -248,26 +248,4 @@ REF014 = Code(
     """,
 )
 
-REF015 = Code(
-    "REF015",
-    "missing-file",
-    Severity.WARNING,
-    """
-    A file that the deck names was not found.
-
-    FILE=, as of *SEABED PROFILE, and LAST= of *RESTART name files beside the deck. Without the deck before a *RESTART
-    mudline does not know the model that this deck works on, and what is missing is a warning only. The finding is also
-    given for a deck that is there and cannot be read, and for decks that continue each other in a cycle. A deck from
-    standard input has no folder in which its files could be, so they are not searched.
-
-    Example:
-         $LOAD CASE
-        -*RESTART
-        - LAST=static
-         *TIME
-          STEP=FIXED
-          0.0, 120.0, 0.05
-
-    Finds: 3:7
-    """,
-)
+REF015 = Code("REF015", "missing-file", Severity.WARNING)

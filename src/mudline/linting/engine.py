@@ -21,8 +21,9 @@ from mudline.diagnostics import Blocks, Coverage, DeckError, Diagnostic, Problem
 from mudline.keywords.model import Block
 from mudline.keywords.naming import repeated_set
 from mudline.keywords.reader import ReadBlock, read_block, read_piece
-from mudline.linting.rule import LintContext, Noticed, Rule
+from mudline.linting.context import LintContext
 from mudline.linting.suppression import suppressions
+from mudline.rules import Rule
 from mudline.syntax.tree import RawBlock
 
 if TYPE_CHECKING:
@@ -183,15 +184,11 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
     Suppressed problems are among them; unused suppression comments are not.
     """
     found: list[Problem] = []
-    noticed, holds = bool(context.noticed), context.holds
     for rule in chosen:
-        check = rule.check
-        if rule.of and holds.isdisjoint(rule.of):
-            continue
-        if type(check) is not Noticed:
-            found.extend(map(_advice, check(context)))
-        elif noticed:
-            found += check(context)
+        if rule.check is None or rule.blocks:
+            found += context.problems_of(rule.code)
+        else:
+            found.extend(map(_advice, rule.findings(context)))
     return [problem for problem in found if not of_base(context.deck, problem)]
 
 

@@ -20,9 +20,9 @@ from mudline.deck.reading import read_source
 from mudline.diagnostics import Coverage, Diagnostic, Problem, Repair, Severity, Span
 from mudline.files import recording_looks
 from mudline.limits import MOST_PASSES, MOST_TRIES
+from mudline.linting.context import LintContext
 from mudline.linting.engine import Fixing, LintSettings, covered_findings, joined_problems
 from mudline.linting.recovery.blocks import start_of
-from mudline.linting.rule import LintContext
 from mudline.linting.suppression import MARK
 from mudline.outside import refusing_outside
 from mudline.syntax.edits import TextEdit, Undoing, edited_bytes, with_line_ends

@@ -16,9 +16,9 @@ from mudline.codes.references import REF007
 from mudline.deck.model import Origin
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import MORE, Blocks, Problem, Repair, Severity, strongest
+from mudline.linting.context import LintContext
 from mudline.linting.joints import JOINTS, Joined
 from mudline.linting.recovery.blocks import ROW_NUMBER, also_in
-from mudline.linting.rule import LintContext
 from mudline.short_repr import counted
 
 FEWEST = 3

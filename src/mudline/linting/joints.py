@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from mudline.diagnostics import Code, Problem, Span
-from mudline.linting.rule import LintContext
+from mudline.linting.context import LintContext
 
 
 class Joined(NamedTuple):

@@ -1,4 +1,4 @@
-"""All rules: the checks of reading and resolving, rules that only advise, and those of plugins; choosing among them.
+"""All rules: those of reading and resolving, those that only advise, and those of plugins; choosing among them.
 
 Rules of other packages are found through the entry point group `mudline.rules`, and loaded when rules are asked for.
 """
@@ -11,14 +11,14 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from mudline.codes import all_codes
 from mudline.diagnostics import Code, PluginError, Problem, Severity, Where
 from mudline.installed import may_declare
-from mudline.linting.rule import RULES, Check, LintContext, Noticed, Rule, add
+from mudline.linting.context import LintContext
 from mudline.resources import modules_of, rule_file
-from mudline.scene.checks import all_checks
+from mudline.rules import RULES, Check, Rule, add
 from mudline.spelling import nearest
 
 if TYPE_CHECKING:
@@ -49,11 +49,10 @@ class UnknownRule(ValueError):  # noqa: N818 - the name of the fault, as callers
 def _collected() -> tuple[tuple[Rule, ...], tuple[str, ...]]:
     if sys.flags.optimize > 1:
         raise RuntimeError(STRIPPED)
-    declared = {code.code: (code, code.page) for code in all_codes() if code.page}
-    for found in all_checks():
-        declared.setdefault(found.code.code, (found.code, found.find.__doc__ or ""))
-    for code, page in declared.values():
-        add(Rule(code, Noticed(code), page))
+    for code in all_codes():
+        if code.page:
+            add(Rule(code, None, code.page))
+    modules_of("mudline.scene.rules")
     modules_of("mudline.linting.rules")
     faults = load(RULES)
     return tuple(RULES[code] for code in sorted(RULES)), faults
@@ -134,7 +133,7 @@ def load(known: dict[str, Rule]) -> tuple[str, ...]:
             known.update(before)
             faults.append(f"the plugin {entry.name} of {package} cannot be used: {fault}, or uninstall the package")
         for code in known.keys() - before.keys():
-            known[code] = known[code]._replace(check=Guarded(known[code].check, code, package))
+            known[code] = known[code]._replace(check=Guarded(cast("Check", known[code].check), code, package))
             _ORIGINS[code] = package
     return tuple(faults)
 
@@ -169,6 +168,8 @@ def _fault_of(added: Sequence[Rule], own: set[str]) -> str:
     """What is wrong with the rules that a plugin added."""
     if not added:
         return "it adds no rule: use the decorator mudline.plugins.rule in it"
+    if blocking := [rule.code.code for rule in added if rule.blocks]:
+        return f"{blocking[0]} is declared to block evaluation, and rules of other packages only advise: leave it out"
     for code in (rule.code for rule in added):
         if not re.fullmatch(r"[A-Z]{2,8}[0-9]{3}", code.code):
             return f"the code {code.code!r} must be 2 to 8 capital letters and 3 digits, as ACM001: change it"

@@ -22,9 +22,10 @@ from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.model import Opaque, comment_texts
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Code, DeckError, Diagnostic, Problem, Repair, Severity, Span, Where
+from mudline.linting.context import LintContext
 from mudline.linting.registry import find, rules
-from mudline.linting.rule import LintContext, Rule, first_reported
 from mudline.overwriting import reading
+from mudline.rules import Rule, first_reported
 from mudline.spelling import nearest
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, Leaf
@@ -90,7 +91,7 @@ class Suppressions:
         """
         selected = {rule.code.code for rule in chosen}
         present = self._present(problems)
-        unused = list(first_reported(self._unused(present, selected))) if STY010.code in selected else []
+        unused = first_reported(self._unused(present, selected)) if STY010.code in selected else []
         hidden_by: dict[Hashable, set[str]] = {}
         for directive in self.directives:
             hidden_by.setdefault(directive.scope, set()).update(_named(directive))
@@ -107,10 +108,7 @@ class Suppressions:
         return next((one for one in self.directives if one.scope in scopes and _covers(_named(one), code)), None)
 
     def unknown(self) -> Iterator[Problem]:
-        """Names that no rule has and unknown instructions in comments; the first of them if there are many."""
-        yield from first_reported(self._unknown())
-
-    def _unknown(self) -> Iterator[Problem]:
+        """Names that no rule has and unknown instructions in comments."""
         for word, meant, where in self.misspelt:
             message = f"{word.text!r} is not an instruction: did you mean {meant}?"
             yield self._problem(message, word.span, where, self._replacing(word, meant))

@@ -9,9 +9,9 @@ from typing import NamedTuple
 from mudline.codes.contact import SBD006
 from mudline.deck.coverage import coverage_of
 from mudline.diagnostics import Coverage, DeckError, Diagnostic, Problem, Severity
+from mudline.linting.context import LintContext
 from mudline.linting.engine import joined_problems, unsuppressed
 from mudline.linting.registry import rules, select
-from mudline.linting.rule import LintContext
 from mudline.results.warnings import seabed_warnings
 from mudline.short_repr import counted
 

@@ -23,10 +23,10 @@ from mudline.files import Unsaved, recording_looks, with_unsaved
 from mudline.keywords.text import shown
 from mudline.keywords.values import Equation
 from mudline.linting.configuration import Configuration, ConfigurationError, Given, Search
+from mudline.linting.context import LintContext
 from mudline.linting.engine import LintSettings, lint_context, read_deck
 from mudline.linting.fixing import with_severities
 from mudline.linting.registry import UnknownRule, code_fault
-from mudline.linting.rule import LintContext
 from mudline.linting.settings import hidden_codes, merged_settings
 from mudline.lsp.documents import Document
 from mudline.lsp.names import Occurrence, occurrences

@@ -20,11 +20,11 @@ from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import DeckError, Diagnostic, Problem, Where
+from mudline.linting.context import LintContext
 from mudline.linting.engine import LintSettings, joined_problems, named_causes
 from mudline.linting.fixing import lint_one
 from mudline.linting.output.json import as_object
 from mudline.linting.registry import rules
-from mudline.linting.rule import LintContext
 from mudline.linting.suppression import suppressions
 from mudline.linting.verdict import Verdict, judge, refused
 from mudline.quantities import finite

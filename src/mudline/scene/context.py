@@ -25,7 +25,6 @@ from mudline.scene.deck_values import (
     makes_labels,
     opaque_labels,
     opaque_set_names,
-    surfaces,
 )
 from mudline.short_repr import counted, short_repr
 from mudline.spelling import Effort, edits, equally_near, nearest
@@ -35,8 +34,6 @@ if TYPE_CHECKING:
     from mudline.keywords.surfaces import Surface
 
 T = TypeVar("T")
-EXTENSION, SUPERSEDED = "extension", "superseded"
-"""What `Context.holds` has of a deck with keywords of that kind."""
 MOST_NAMED = 3
 """Names of which each may be the one that was meant."""
 
@@ -105,20 +102,10 @@ class Context:
         return placed_blocks(self.deck)
 
     @cached_property
-    def holds(self) -> frozenset[str]:
-        """What a deck may do without: its sections as `$NAME`, EXTENSION and SUPERSEDED where it has such keywords."""
-        found = {f"${section.name}" for section in self.deck.sections}
-        for _, keyword in self.placed:
-            if catalogue.is_extension(keyword):
-                found.add(EXTENSION)
-            if catalogue.is_superseded(keyword):
-                found.add(SUPERSEDED)
-        return frozenset(found)
-
-    @cached_property
     def surfaces(self) -> list[tuple[Where, Surface]]:
-        """What `surfaces` gives: newer keywords supersede all of them."""
-        return surfaces(self.deck) if SUPERSEDED in self.holds else []
+        """The rigid surfaces of the deck, then the elastic ones, each in the order of the file; the last one holds."""
+        found = self.deck.blocks_that(lambda declared: declared.facts.seabed_type)
+        return sorted(found, key=lambda placed: placed[1].facts.seabed_type == "ELASTIC")
 
     def report(self, code: Code, message: str, where: Where, severity: Severity | None = None) -> None:
         """Note a problem."""

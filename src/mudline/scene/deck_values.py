@@ -7,7 +7,6 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import Parameters, folded
@@ -20,10 +19,6 @@ from mudline.keywords.values import LINE_SETS, Names
 from mudline.outside import is_made_by_system, is_refused, project_of
 from mudline.syntax.fields import read_line
 from mudline.syntax.rows import read_number
-
-if TYPE_CHECKING:
-    from mudline.keywords.surfaces import Surface
-
 
 FOOT = 0.3048
 POUND = 4.4482216152605
@@ -41,12 +36,6 @@ def number(part: object, name: str, default: float = math.nan) -> float:
     """A value that is given and is a number, else `default`."""
     value = getattr(part, name, None)
     return float(value) if isinstance(value, float | int) else default
-
-
-def surfaces(deck: Deck) -> list[tuple[Where, Surface]]:
-    """The rigid surfaces of a deck, then the elastic ones, each in the order of the file; the last one holds."""
-    found = deck.blocks_that(lambda declared: declared.facts.seabed_type)
-    return sorted(found, key=lambda placed: placed[1].facts.seabed_type == "ELASTIC")
 
 
 def file_name(written: str) -> str:

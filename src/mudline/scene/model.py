@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Literal
 from mudline.deck.model import Deck
 from mudline.deck.parameters import evaluated
 from mudline.diagnostics import Blocks, DeckError, Problem, Severity
-from mudline.scene.checks import checked
 from mudline.scene.context import Context
 from mudline.scene.deck_curves import check_curves
 from mudline.scene.force_curves import read_curves
@@ -18,6 +17,7 @@ from mudline.scene.mesh import read_elements, read_nodes
 from mudline.scene.references import check_boundaries, check_idents, check_lines, check_references, check_soil
 from mudline.scene.resolved import ResolvedDeck
 from mudline.scene.restart import continued
+from mudline.scene.rules import checked
 from mudline.scene.seabed import read_seabed
 from mudline.scene.sections import read_sections
 from mudline.scene.sets import read_sets
@@ -53,7 +53,7 @@ class Scene(ResolvedDeck):
 
     @cached_property
     def problems(self) -> list[Problem]:
-        """What resolving the deck noticed, and what the checks of the scene find."""
+        """What resolving the deck noticed, and what the rules that block find."""
         return [*self.noticed, *checked(self)]
 
     def blocking(self, tension: Literal["keep", "cut"] = "keep") -> list[Problem]:

@@ -181,7 +181,7 @@ class _Looking:
             found = names_of(self.context, {Names.VESSEL}).get(Names.VESSEL)
             self.vessels = {key: given[0].name for key, given in found.defined.items()} if found else {}
         if self.vessels and folded(bare(name)) not in self.vessels:
-            from mudline.scene.checks.names import REF019  # noqa: PLC0415 - only for a finding
+            from mudline.scene.rules.names import REF019  # noqa: PLC0415 - only for a finding
 
             message = f"vessel {shown(name)} is not defined{self.context.hint(name, self.vessels)}{_UNREAD}"
             self._note(Problem(REF019, message, None, Severity.WARNING, where, lacks=name))
@@ -195,7 +195,7 @@ class _Looking:
             self.curves = {key: given[0].name for names in found for key, given in names.defined.items()}
         key = folded(bare(name))
         if key not in self.curves and key not in self._other_words and not self._may_lack_curves:
-            from mudline.scene.checks.laws import REF002  # noqa: PLC0415 - only for a finding
+            from mudline.scene.rules.laws import REF002  # noqa: PLC0415 - only for a finding
 
             meant = self.context.hint(name, self.curves)
             message = f"curve {shown(name)} is not defined{meant}: correct the name, or define it{_UNREAD}"

@@ -12,7 +12,7 @@ from urllib.parse import quote
 from mudline.diagnostics import Diagnostic, Edit, Severity
 from mudline.linting.output import Fingerprints, LintRun, visible
 from mudline.linting.registry import page, rules
-from mudline.linting.rule import Rule
+from mudline.rules import Rule
 
 SUMMARY = "SARIF 2.1.0: rules with help, levels, regions in code points, fixes and fingerprints"
 

@@ -18,9 +18,9 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.keywords.reader import BlockReader
+from mudline.linting.context import LintContext
 from mudline.linting.recovery import lines, names, sections, undefined, values
 from mudline.linting.recovery.blocks import RECOVERIES, Blocks, Correction, line_at
-from mudline.linting.rule import LintContext
 from mudline.linting.rules.keyword_families import LEG001
 from mudline.syntax.edits import OverlapError, TextEdit, Undoing, apply_edits, edited_bytes, with_line_ends
 from mudline.syntax.source import Source

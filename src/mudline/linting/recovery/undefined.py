@@ -12,13 +12,13 @@ from mudline.diagnostics import Problem, Severity, Span, Where
 from mudline.keywords.model import Part
 from mudline.keywords.naming import names_given
 from mudline.keywords.values import Names
+from mudline.linting.context import LintContext
 from mudline.linting.recovery.blocks import ROW_NUMBER, Correction, also_in, behind, line_at, start_of
-from mudline.linting.rule import LintContext
-from mudline.scene.checks.laws import REF002, undefined_curve
-from mudline.scene.checks.names import REF019
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.names import CURVES, THINGS, names_of, undefined
 from mudline.scene.references import used_names
+from mudline.scene.rules.laws import REF002, undefined_curve
+from mudline.scene.rules.names import REF019
 from mudline.scene.sets import ALL, set_key
 from mudline.spelling import Effort, meant_names
 from mudline.syntax.edits import TextEdit

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterator, Mapping
 from itertools import chain
@@ -12,9 +11,9 @@ import numpy as np
 
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Severity, Where
-from mudline.linting.rule import LintContext
+from mudline.linting.context import LintContext
 from mudline.scene.model import Scene
-from mudline.scene.numbering import FEW, Floats, Indices, Mask, blocks_of
+from mudline.scene.numbering import Floats, Indices, Mask, blocks_of
 
 if TYPE_CHECKING:
     from mudline.keywords.library.node import Nodes
@@ -39,36 +38,12 @@ _HALVES = r"([-+]?[0-9]+),([0-9]+)"
 def odd_coordinates(context: LintContext) -> Iterator[Problem]:
     """What UNT006 finds in nodes and elements."""
     scene = context.scene
-    if _is_plain_line(scene):
-        return _decimal_commas(context)
     least, most = np.minimum.reduce(scene.length, initial=1.0), np.maximum.reduce(scene.length, initial=0.0)
     even = most <= LONGEST_ELEMENT * least  # not so where a length is not known
     far = {} if even else dict(_far_nodes(scene))
     return chain(
         () if even else _elements(scene, far), _turning_back(scene, far), _skipping(scene), _decimal_commas(context)
     )
-
-
-def _is_plain_line(scene: Scene) -> bool:
-    """Whether a few elements make one line of even steps that turns nowhere: found number by number.
-
-    Calls of numpy would take five times as long, and find nothing.
-    """
-    if not 0 < len(scene.length) <= FEW or len(scene.node_ids) > FEW:
-        return False
-    lengths = scene.length.tolist()
-    if not max(lengths) <= LONGEST_ELEMENT * min(1.0, *lengths) or any(map(math.isnan, lengths)):
-        return False
-    places = scene.coordinates.tolist()
-    last: int | None = None
-    u = v = w = math.nan
-    for one, other in scene.element_nodes.tolist():
-        (x, y, z), (a, b, c) = places[one], places[other]
-        x, y, z = a - x, b - y, c - z
-        if last is not None and (one != last or not x * u + y * v + z * w > 0.0):
-            return False
-        last, u, v, w = other, x, y, z
-    return True
 
 
 def _elements(scene: Scene, far: Mapping[int, float]) -> Iterator[Problem]:

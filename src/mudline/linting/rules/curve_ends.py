@@ -9,10 +9,11 @@ import numpy as np
 from mudline.curves import ForceCurve
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
+from mudline.linting.context import LintContext
 from mudline.linting.joints import Found, Joined, joint
-from mudline.linting.rule import ODD_CURVES, STEEPEST, LintContext, rule
 from mudline.linting.rules.curve_shape import is_upside_down
 from mudline.linting.rules.seabed_position import DEEPEST, bounds_of
+from mudline.rules import rule
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.seabed import SeabedKind
 
@@ -22,6 +23,8 @@ CRV012 = Code("CRV012", "curve-pulls", Severity.WARNING)
 CRV013 = Code("CRV013", "flat-last-segment", Severity.WARNING)
 CRV014 = Code("CRV014", "beyond-curve", Severity.INFO)
 
+STEEPEST = 100.0
+"""Ratio of two slopes of a curve."""
 _SMALL = 0.01
 """Part of the largest force of a curve that counts as none."""
 
@@ -49,7 +52,7 @@ def _deepest(curve: SceneCurve) -> int:
     return int(np.argmax(curve.points[:, 0]))
 
 
-@rule(CRV007, of=(ODD_CURVES,))
+@rule(CRV007)
 def force_at_zero(context: LintContext) -> Iterator[Problem]:
     """The force at ratio 0 is not 0.
 
@@ -73,7 +76,7 @@ def force_at_zero(context: LintContext) -> Iterator[Problem]:
 
     Finds: 3:2
     """
-    for _, entry in context.odd_curves:
+    for entry in context.scene.laws.curves:
         curve = entry.curve
         if curve is None or not (force := _at_zero(curve)):
             continue
@@ -90,7 +93,7 @@ def force_at_zero(context: LintContext) -> Iterator[Problem]:
         yield Problem(CRV007, message, where=entry.where)
 
 
-@rule(CRV012, of=(ODD_CURVES,))
+@rule(CRV012)
 def curve_pulls(context: LintContext) -> Iterator[Problem]:
     """The force of a curve is negative at a ratio above 0.
 
@@ -113,7 +116,7 @@ def curve_pulls(context: LintContext) -> Iterator[Problem]:
 
     Finds: 5:2
     """
-    for _, entry in context.odd_curves:
+    for entry in context.scene.laws.curves:
         negative = np.flatnonzero((entry.points[:, 0] > 0.0) & (entry.points[:, 1] < 0.0))
         if negative.size:
             ratio, force = entry.points[negative[0]].tolist()
@@ -132,7 +135,7 @@ def curve_pulls(context: LintContext) -> Iterator[Problem]:
                 yield Problem(CRV012, message, where=entry.point(_deepest(entry)))
 
 
-@rule(CRV008, of=(ODD_CURVES,))
+@rule(CRV008)
 def steep_extrapolation(context: LintContext) -> Iterator[Problem]:
     """The last segment of a curve is over 100 times steeper than the one before it.
 
@@ -156,7 +159,7 @@ def steep_extrapolation(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:2
     """
-    for _, entry in context.odd_curves:
+    for entry in context.scene.laws.curves:
         if entry.curve is None or not entry.whole or entry.curve.slopes[-1] == 0.0:
             continue
         slopes = np.abs(entry.curve.slopes[entry.curve.slopes != 0.0])
@@ -169,7 +172,7 @@ def steep_extrapolation(context: LintContext) -> Iterator[Problem]:
             yield Problem(CRV008, message, where=entry.point(_deepest(entry)))
 
 
-@rule(CRV013, of=(ODD_CURVES,))
+@rule(CRV013)
 def flat_last_segment(context: LintContext) -> Iterator[Problem]:
     """The last segment of a curve is flat.
 
@@ -191,7 +194,7 @@ def flat_last_segment(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:2
     """
-    for _, entry in context.odd_curves:
+    for entry in context.scene.laws.curves:
         if entry.curve is not None and entry.whole and entry.curve.slopes[-1] == 0.0:
             force = float(entry.curve.forces[-1])
             message = (

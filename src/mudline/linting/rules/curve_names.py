@@ -15,9 +15,10 @@ from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
 from mudline.keywords.reader import all_keys
 from mudline.keywords.text import shown
+from mudline.linting.context import LintContext
 from mudline.linting.joints import Found, Joined, joint
-from mudline.linting.rule import LintContext, rule
 from mudline.linting.suppression import MARK
+from mudline.rules import rule
 from mudline.scene.names import CURVES, repeated, unused
 from mudline.syntax.fields import first_key
 from mudline.syntax.rows import read_number

@@ -12,8 +12,9 @@ from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
 from mudline.keywords.text import shown
 from mudline.limits import MOST_REPORTED
+from mudline.linting.context import LintContext
 from mudline.linting.joints import Found, Joined, joint
-from mudline.linting.rule import LARGEST_RATIO, ODD_CURVES, LintContext, rule
+from mudline.rules import rule
 from mudline.scene.deck_curves import other_curves
 from mudline.scene.force_curves import SceneCurve, clashes_and_repeats
 from mudline.scene.model import Scene
@@ -27,6 +28,8 @@ CRV006 = Code("CRV006", "negative-ratio", Severity.WARNING)
 CRV009 = Code("CRV009", "swapped-columns", Severity.WARNING)
 CRV010 = Code("CRV010", "ratio-range", Severity.WARNING)
 
+LARGEST_RATIO = 5.0
+"""Diameters of embedment; a larger ratio is a length or a percentage."""
 _LIKE_A_FORCE = 10.0
 _LIKE_A_RATIO = 2.0
 
@@ -40,7 +43,7 @@ def swapped(curve: SceneCurve) -> bool:
     return bool(exchanged.any() and (exchanged | ((ratios == 0.0) & (forces == 0.0))).all())
 
 
-@rule(CRV009, of=(ODD_CURVES,))
+@rule(CRV009)
 def swapped_columns(context: LintContext) -> Iterator[Problem]:
     """The columns of a curve seem to be exchanged: forces are where the ratios belong.
 
@@ -64,7 +67,7 @@ def swapped_columns(context: LintContext) -> Iterator[Problem]:
 
     Finds: 3:2
     """
-    for _, curve in context.odd_curves:
+    for curve in context.scene.laws.curves:
         if swapped(curve):
             message = (
                 f"force and ratio of curve {shown(curve.name)} seem to be exchanged, as every ratio is above "
@@ -89,7 +92,7 @@ def _exchange(text: TextOrigin, curve: SceneCurve) -> Repair | None:
     return Repair("unsafe", "exchange the columns", tuple(edits))
 
 
-@rule(CRV010, of=(ODD_CURVES,))
+@rule(CRV010)
 def ratio_range(context: LintContext) -> Iterator[Problem]:
     """The largest ratio of a curve is above 5.
 
@@ -113,7 +116,7 @@ def ratio_range(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:2
     """
-    for _, curve in context.odd_curves:
+    for curve in context.scene.laws.curves:
         if not len(curve.points) or swapped(curve):
             continue
         last = int(np.argmax(curve.points[:, 0]))
@@ -148,7 +151,7 @@ def unsorted_points(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:2
     """
-    for _, curve in context.odd_curves:
+    for curve in context.scene.laws.curves:
         ratios = curve.points[:, 0]
         if is_upside_down(curve):
             continue
@@ -183,7 +186,7 @@ def of_one_curve(_: LintContext, found: Found) -> Iterator[Joined]:
             yield Joined(first, [one for problems in given.values() for one in problems if one is not first])
 
 
-@rule(CRV005, of=(ODD_CURVES,))
+@rule(CRV005)
 def decreasing_force(context: LintContext) -> Iterator[Problem]:
     """The force decreases while the pipe penetrates deeper.
 
@@ -208,7 +211,7 @@ def decreasing_force(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:2
     """
-    for number, curve in context.odd_curves:
+    for number, curve in enumerate(context.scene.laws.curves):
         order = _distinct(curve)
         ratios, forces = curve.points[order].T
         with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
@@ -250,7 +253,7 @@ def _needed(scene: Scene, curve: int, slope: float) -> str:
         return f"|slope| / D = {float(np.float64(-slope) / smallest):.6g} ({which})"
 
 
-@rule(CRV006, of=(ODD_CURVES,))
+@rule(CRV006)
 def negative_ratio(context: LintContext) -> Iterator[Problem]:
     """A point of a curve lies above the mudline.
 
@@ -275,7 +278,7 @@ def negative_ratio(context: LintContext) -> Iterator[Problem]:
 
     Finds: 4:2
     """
-    for _, curve in context.odd_curves:
+    for curve in context.scene.laws.curves:
         if _free_above(curve.points):
             continue
         above = np.flatnonzero(curve.points[:, 0] < 0.0)[: 1 if is_upside_down(curve) else MOST_REPORTED]
@@ -315,7 +318,7 @@ def repeated_point(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:2
     """
-    for _, curve in context.odd_curves:
+    for curve in context.scene.laws.curves:
         repeats = clashes_and_repeats(curve.points)[1][:MOST_REPORTED].tolist()
         rows = plain_rows(context.text, curve) if context.text and repeats else None
         for index in repeats:

@@ -14,8 +14,9 @@ from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.model import FieldSpec, Part, record_schema
 from mudline.keywords.text import shown
 from mudline.keywords.values import Contents
-from mudline.linting.rule import LintContext, limited, rule
+from mudline.linting.context import LintContext
 from mudline.outside import without_text
+from mudline.rules import rule
 from mudline.scene.data_files import fault_of, has_uneven_times, unequal_frequencies
 from mudline.scene.deck_values import file_name, find_file
 
@@ -38,7 +39,6 @@ class _Named(NamedTuple):
 
 
 @rule(DAT002)
-@limited
 def faulty_data(context: LintContext) -> Iterator[Problem]:
     """A file that the deck names does not hold what it should, or lines in its place do not.
 

@@ -18,12 +18,13 @@ from mudline.keywords.naming import names_given
 from mudline.keywords.text import shown
 from mudline.keywords.unknown import is_partly_unknown
 from mudline.keywords.values import Names
+from mudline.linting.context import LintContext, entries_of_sets
 from mudline.linting.joints import Found, Joined, joint
-from mudline.linting.rule import LintContext, entries_of_sets, limited, rule
 from mudline.linting.rules.coordinates import UNT006
 from mudline.linting.rules.unit_densities import UNT004, UNT005
-from mudline.scene.checks.fields import GEO001
+from mudline.rules import rule
 from mudline.scene.numbering import Mask
+from mudline.scene.rules.fields import GEO001
 from mudline.scene.sections import Section, format_of
 from mudline.scene.sets import set_key
 
@@ -50,7 +51,6 @@ _NAMES = {"eiyy": "EIyy", "eizz": "EIzz", "gj": "GJ", "ea": "EA", "e": "E"}
 
 
 @rule(GEO002)
-@limited
 def number_and_curve(context: LintContext) -> Iterator[Problem]:
     """A stiffness is given twice: as a number, and by a curve.
 

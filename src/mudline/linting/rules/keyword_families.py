@@ -11,9 +11,10 @@ from mudline.diagnostics import Code, Problem, Repair, Severity, Where
 from mudline.keywords.catalogue import is_extension, is_superseded, supersedes
 from mudline.keywords.text import shown
 from mudline.limits import LISTED
-from mudline.linting.rule import LintContext, rule
-from mudline.scene.checks.laws import SBD002
+from mudline.linting.context import LintContext
+from mudline.rules import rule
 from mudline.scene.model import Scene
+from mudline.scene.rules.laws import SBD002
 from mudline.syntax.edits import with_line_ends
 
 LEG001 = Code("LEG001", "superseded-keyword", Severity.INFO)
@@ -45,8 +46,6 @@ def superseded_keyword(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:1
     """
-    if not context.superseded:
-        return
     found = context.deck.blocks_that(lambda declared: declared.subject == "seabed" and declared.facts.superseded_by)
     for number, (where, block) in enumerate(found):
         newer = " and ".join(map(str, block.facts.superseded_by))
@@ -101,7 +100,7 @@ def mixed_families(context: LintContext) -> Iterator[Problem]:
 
     Finds: 4:1
     """
-    legacy = _first(context, context.superseded)
+    legacy = _first(context, filter(is_superseded, context.keywords))
     new = _first(context, filter(supersedes, context.keywords)) if legacy else None
     if not legacy or not new or context.problems_of(SBD002):
         return  # of two seabeds, one of which goes, SBD002 speaks

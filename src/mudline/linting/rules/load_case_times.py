@@ -9,7 +9,8 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.text import shown
 from mudline.keywords.unknown import is_unknown
-from mudline.linting.rule import LintContext, limited, rule
+from mudline.linting.context import LintContext
+from mudline.rules import rule
 from mudline.scene.deck_values import bare
 
 if TYPE_CHECKING:
@@ -26,8 +27,7 @@ VES001 = Code("VES001", "two-kinds-of-drift", Severity.ERROR)
 _LAST_STORED = -1.0
 
 
-@rule(TIM001, of=("$LOAD CASE", "$SUMMARY POSTPROCESSING"))
-@limited
+@rule(TIM001)
 def end_not_after_start(context: LintContext) -> Iterator[Problem]:
     """The end of a run in time does not come after its start.
 
@@ -61,8 +61,7 @@ def _backwards(span: object, where: Where) -> Iterator[Problem]:
         yield Problem(TIM001, message, where=where.inside("end"))
 
 
-@rule(TIM002, of=("$LOAD CASE",))
-@limited
+@rule(TIM002)
 def step_limits_out_of_order(context: LintContext) -> Iterator[Problem]:
     """The suggested time step does not lie between the least and the largest one.
 
@@ -103,8 +102,7 @@ def _disordered(limits: StepLimits, where: Where) -> Iterator[Problem]:
         yield Problem(TIM002, message, where=where.inside("suggested"))
 
 
-@rule(WAV001, of=("$LOAD CASE",))
-@limited
+@rule(WAV001)
 def airy_period_without_amplitude(context: LintContext) -> Iterator[Problem]:
     """A Stokes wave has the period of an equivalent Airy wave, but no amplitude for it.
 
@@ -126,8 +124,7 @@ def airy_period_without_amplitude(context: LintContext) -> Iterator[Problem]:
             yield Problem(WAV001, message, where=where.inside("airy_period"))
 
 
-@rule(VES001, of=("$LOAD CASE",))
-@limited
+@rule(VES001)
 def two_kinds_of_drift(context: LintContext) -> Iterator[Problem]:
     """A vessel drifts by a sinusoid and by a file.
 

@@ -11,7 +11,8 @@ from mudline.keywords import catalogue
 from mudline.keywords.naming import names_given
 from mudline.keywords.text import shown
 from mudline.keywords.values import Names
-from mudline.linting.rule import LintContext, limited, rule
+from mudline.linting.context import LintContext
+from mudline.rules import rule
 from mudline.scene.sets import set_key
 
 if TYPE_CHECKING:
@@ -33,8 +34,7 @@ def _analysis(context: LintContext) -> set[str]:
     return {str(cast("AnalysisType", block).type_).upper() for _, block in blocks if block.type_}
 
 
-@rule(VES002, of=("$LOAD CASE",))
-@limited
+@rule(VES002)
 def vessel_without_rao(context: LintContext) -> Iterator[Problem]:
     """A vessel has no response amplitude operators in a dynamic run with waves.
 
@@ -85,8 +85,7 @@ def _has_waves(context: LintContext) -> bool:
     return any(_WAVES.fullmatch(block.keyword) for section in sections for block in section.blocks)
 
 
-@rule(TIM005, of=("$LOAD CASE",))
-@limited
+@rule(TIM005)
 def static_steps_without_effect(context: LintContext) -> Iterator[Problem]:
     """*NON LINEAR STATIC stands in a run that is not one in the frequency domain.
 

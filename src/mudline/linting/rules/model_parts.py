@@ -18,9 +18,10 @@ from mudline.keywords.keeping import kept_lines
 from mudline.keywords.model import Block, Part
 from mudline.keywords.naming import idents_given, may_name
 from mudline.keywords.values import Names
-from mudline.linting.rule import LintContext, rule
+from mudline.linting.context import LintContext
 from mudline.linting.rules.references import WATER
 from mudline.linting.rules.seabed_position import first_of
+from mudline.rules import rule
 from mudline.scene.deck_values import number
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Mask
@@ -101,7 +102,7 @@ def element_without_section(context: LintContext) -> Iterator[Problem]:
         yield Problem(GEO007, message, where=scene.table.numbered.where(int(bare[0])))
 
 
-@rule(GEO008, of=("$LOAD CASE",))
+@rule(GEO008)
 def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
     """Elements have no hydrodynamic properties in a load case with waves or a current.
 

@@ -11,8 +11,9 @@ import numpy as np
 from mudline.codes.contact import GEO005
 from mudline.contact.input import LawKind
 from mudline.diagnostics import Problem
-from mudline.linting.rule import LintContext, rule
+from mudline.linting.context import LintContext
 from mudline.linting.rules.seabed_position import bounds_of, depths
+from mudline.rules import rule
 from mudline.scene.deck_values import number
 from mudline.scene.numbering import Floats, Mask, blocks_of
 from mudline.scene.vertical_axis import FLAT, NEAR

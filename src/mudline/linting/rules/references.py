@@ -1,4 +1,4 @@
-"""What one place of a deck uses and another one defines: element sets, parameters, the water."""
+"""What one place of a deck uses and another one defines: element sets, parameters, vessels, the water."""
 
 from __future__ import annotations
 
@@ -11,8 +11,10 @@ from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
 from mudline.keywords.text import shown
 from mudline.keywords.unknown import is_unknown, known_name
-from mudline.linting.rule import LintContext, entries_of_sets, limited, rule
+from mudline.linting.context import LintContext, entries_of_sets
 from mudline.linting.rules.style_lines import line_around
+from mudline.rules import rule
+from mudline.scene.names import THINGS, repeated
 from mudline.scene.sets import ALL, LONGEST_NAME
 from mudline.syntax.edits import TextEdit, with_line_ends
 
@@ -25,6 +27,7 @@ REF012 = Code("REF012", "long-list", Severity.WARNING)
 REF016 = Code("REF016", "repeated-set", Severity.WARNING)
 REF017 = Code("REF017", "repeated-parameter", Severity.WARNING)
 REF018 = Code("REF018", "missing-ocean", Severity.WARNING)
+REF020 = Code("REF020", "repeated-name", Severity.WARNING)
 
 LONGEST_LIST = 20
 
@@ -60,7 +63,6 @@ def long_name(context: LintContext) -> Iterator[Problem]:
 
 
 @rule(REF012)
-@limited
 def long_list(context: LintContext) -> Iterator[Problem]:
     """A line of a set lists more than 20 elements.
 
@@ -116,7 +118,6 @@ def _split(text: TextOrigin, where: Where, count: int) -> Repair | None:
 
 
 @rule(REF016)
-@limited
 def repeated_set(context: LintContext) -> Iterator[Problem]:
     """A set is defined twice: it holds the elements of both definitions.
 
@@ -154,8 +155,28 @@ def repeated_set(context: LintContext) -> Iterator[Problem]:
         known.add(key)
 
 
-@rule(REF017, of=("$PREPROCESSOR",))
-@limited
+@rule(REF020)
+def repeated_name(context: LintContext) -> Iterator[Problem]:
+    """Two vessels, or two other things of one kind, have one name.
+
+    The language does not say which of them a name means then. Names are case-insensitive. Choose another name, or keep
+    one of them. Sets and curves have rules of their own.
+
+    Example:
+         $MODEL
+         *VESSEL
+          VESSEL=FPSO
+          INITIAL POSITION=1005.0, 0.0, 0.0
+        - VESSEL=fpso
+        + VESSEL=Tanker
+          INITIAL POSITION=1005.0, 250.0, 0.0
+
+    Finds: 5:9
+    """
+    return repeated(context.scene.context, THINGS, REF020)
+
+
+@rule(REF017)
 def repeated_parameter(context: LintContext) -> Iterator[Problem]:
     """A parameter is defined twice: the later value applies everywhere.
 
@@ -206,7 +227,7 @@ def _names(parameter: Parameter) -> list[str]:
 WATER = re.compile(r"CURRENT|WAVE(?:-.*)?")
 
 
-@rule(REF018, of=("$LOAD CASE",))
+@rule(REF018)
 def missing_ocean(context: LintContext) -> Iterator[Problem]:
     """A load case has waves or a current, and the model has no *OCEAN.
 

@@ -9,7 +9,8 @@ import numpy as np
 
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity, Where
-from mudline.linting.rule import LintContext, rule
+from mudline.linting.context import LintContext
+from mudline.rules import rule
 from mudline.scene.laws import DIRECTIONS, Extension, typed_blocks
 from mudline.scene.sets import ALL
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import islice
 from typing import NamedTuple, cast
 
 import numpy as np
@@ -15,9 +14,9 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.model import Record
 from mudline.keywords.text import shown
-from mudline.limits import MOST_REPORTED
-from mudline.linting.rule import LintContext, rule
+from mudline.linting.context import LintContext
 from mudline.linting.rules.seabed_position import first_of
+from mudline.rules import rule
 from mudline.scene.laws import SetLaw, present
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices
@@ -62,10 +61,10 @@ def overlapping_sets(context: LintContext) -> Iterator[Problem]:
     """
     new = _own_grants(context, "new")
     if len(new) > 1:
-        yield from islice((problem for _, problem in _properties(context.scene, new)), MOST_REPORTED)
+        yield from (problem for _, problem in _properties(context.scene, new))
     embedment = [grant for grant in _own_grants(context, "legacy") if grant.curve >= 0]
     if len(embedment) > 1:
-        yield from islice(_embedment(context.scene, embedment), MOST_REPORTED)
+        yield from _embedment(context.scene, embedment)
 
 
 def _own_grants(context: LintContext, family: str) -> list[SetLaw]:
@@ -112,8 +111,8 @@ def law_without_effect(context: LintContext) -> Iterator[Problem]:
     Finds: 16:6
     """
     if len(context.scene.element_ids):
-        yield from islice(_unused_properties(context), MOST_REPORTED)
-    yield from islice(_unused_surfaces(context), MOST_REPORTED)
+        yield from _unused_properties(context)
+    yield from _unused_surfaces(context)
 
 
 def _unused_properties(context: LintContext) -> Iterator[Problem]:

@@ -10,7 +10,8 @@ import numpy as np
 
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.table import LARGEST_WHOLE
-from mudline.linting.rule import LintContext, limited, rule
+from mudline.linting.context import LintContext
+from mudline.rules import rule
 from mudline.scene.deck_values import number
 from mudline.scene.model import Scene
 from mudline.scene.numbering import FEW, Floats, Indices, Mask, blocks_of
@@ -270,7 +271,6 @@ def _surface(scene: Scene) -> str:
 
 
 @rule(SBD021)
-@limited
 def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
     """Only one of the degrees of freedom 1 and 2 is constrained at a node on a sloping rigid seabed.
 

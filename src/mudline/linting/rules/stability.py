@@ -12,15 +12,13 @@ import numpy as np
 from mudline.contact.input import LawKind
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
-from mudline.limits import MOST_REPORTED
-from mudline.linting.rule import LintContext, rule
-from mudline.linting.rules.seabed_position import bounds_of
+from mudline.linting.context import LintContext
 from mudline.quantities import unit_names
-from mudline.scene.context import EXTENSION
+from mudline.rules import rule
 from mudline.scene.deck_values import number
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene
-from mudline.scene.numbering import FEW, Floats, Indices
+from mudline.scene.numbering import Floats, Indices
 
 if TYPE_CHECKING:
     from mudline.contact.laws.suction import SuctionLaw
@@ -40,7 +38,7 @@ _FAILS = ", central difference fails"
 FARTHEST = 1.0e4
 
 
-@rule(STB001, of=(EXTENSION,))
+@rule(STB001)
 def suction_snap(context: LintContext) -> Iterator[Problem]:
     """The suction force decreases while the pipe keeps rising.
 
@@ -171,7 +169,7 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
             yield Problem(STB002, message, where=where.inside("fixed", "increment"))
 
 
-@rule(STB004, of=(EXTENSION,))
+@rule(STB004)
 def lateral_softening(context: LintContext) -> Iterator[Problem]:
     """The lateral resistance falls while the pipe moves on.
 
@@ -287,7 +285,7 @@ def stiff_jump(context: LintContext) -> Iterator[Problem]:
 
     Finds: 5:2
     """
-    for _, entry in context.odd_curves:
+    for entry in context.scene.laws.curves:
         if entry.curve is not None and entry.whole:
             yield from _inside(entry, entry.curve.ratios, entry.curve.slopes)
     yield from _beside(context)
@@ -297,7 +295,7 @@ def _inside(entry: SceneCurve, ratios: Floats, slopes: Floats) -> Iterator[Probl
     """Jumps at points of a curve."""
     steep = np.flatnonzero(slopes)
     before, behind = np.abs(slopes[steep[:-1]]), np.abs(slopes[steep[1:]])
-    jumps = np.flatnonzero((before / FARTHEST > behind) | (behind / FARTHEST > before))[:MOST_REPORTED]
+    jumps = np.flatnonzero((before / FARTHEST > behind) | (behind / FARTHEST > before))
     if not len(jumps):
         return
     order = entry.points[:, 0].argsort(kind="stable")
@@ -318,8 +316,6 @@ def _beside(context: LintContext) -> Iterator[Problem]:
     if not scene.laws.curves:
         return
     slopes = [*map(_extremes, scene.laws.curves), (math.nan, math.nan)]
-    if _near(context, slopes):
-        return
     linear, curved = _neighbours(scene)
     extremes = np.array(slopes)
     curve_of = np.array([*(grant.curve for grant in grants), -1], dtype=np.intp)
@@ -329,7 +325,7 @@ def _beside(context: LintContext) -> Iterator[Problem]:
         far = (stiffness / FARTHEST > steepest) | ((stiffness > 0.0) & (softest / FARTHEST > stiffness))
     for at in np.flatnonzero(far).tolist():
         pair = (int(scene.laws.of_element[linear[at]]), int(scene.laws.of_element[curved[at]]))
-        if pair in reported or len(reported) >= MOST_REPORTED:
+        if pair in reported:
             continue
         reported.add(pair)
         message = (
@@ -341,27 +337,10 @@ def _beside(context: LintContext) -> Iterator[Problem]:
         yield Problem(STB003, message, where=grants[pair[0]].where)
 
 
-def _near(context: LintContext, extremes: Sequence[tuple[float, float]]) -> bool:
-    """Whether no linear stiffness is far from the slopes of any curve, for any diameter."""
-    linear = [grant.stiffness for grant in context.scene.laws.set_laws if grant.stiffness > 0.0]
-    slopes = [(softest, steepest) for softest, steepest in extremes if softest > 0.0]
-    if not linear or not slopes:
-        return True
-    thinnest, thickest = context.once(bounds_of)[-2:]
-    if thickest == 0.0:
-        return True
-    too_stiff = max(linear) / FARTHEST > min(steepest for _, steepest in slopes) / thickest
-    too_soft = max(softest for softest, _ in slopes) / thinnest / FARTHEST > min(linear)
-    return not too_stiff and not too_soft
-
-
 def _extremes(entry: SceneCurve) -> tuple[float, float]:
     """The smallest and the largest slope of a curve, flat segments left out; NaN without any."""
     if entry.curve is None or not entry.whole:
         return (math.nan, math.nan)
-    if len(entry.curve.slopes) <= FEW:
-        given = [abs(slope) for slope in entry.curve.slopes.tolist() if slope]
-        return (min(given), max(given)) if given else (math.nan, math.nan)
     slopes = np.abs(entry.curve.slopes)
     slopes = slopes[slopes > 0.0]
     return (float(slopes.min()), float(slopes.max())) if slopes.size else (math.nan, math.nan)
@@ -383,7 +362,7 @@ def _neighbours(scene: Scene) -> tuple[Indices, Indices]:
     return one[wanted], other[wanted]
 
 
-@rule(EXT008, of=(EXTENSION,))
+@rule(EXT008)
 def soft_unloading(context: LintContext) -> Iterator[Problem]:
     """The unloading stiffness is below the steepest slope of the loading law.
 

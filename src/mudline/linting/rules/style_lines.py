@@ -11,8 +11,9 @@ from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.keywords import catalogue
 from mudline.keywords.reader import ReadBlock, all_keys
-from mudline.linting.rule import LintContext, first_reported, rule
+from mudline.linting.context import LintContext
 from mudline.linting.suppression import STY010, suppressions
+from mudline.rules import rule
 from mudline.syntax.fields import first_key, trimmed
 from mudline.syntax.tree import Kind, Leaf, canonical_name
 
@@ -33,18 +34,15 @@ _INDENTED_HEAD = r"[ \t]++[*$]"
 _HEAD_BELOW = rf"\n{_INDENTED_HEAD}"
 _SMALL_HEAD = r"[ \t]*+[*$][^\na-z]*+[a-z]"
 _SMALL_BELOW = rf"\n{_SMALL_HEAD}"
-_ODD = re.compile(r"[Cc][A-Za-z]|[ \t]++(?:[Cc](?:[ \t]|[-*=#_.~+]{2})|[*$])|[*$][^\na-z]*+[a-z]")
-_ODD_BELOW = re.compile(rf"\n(?:{_ODD.pattern})")
 _UPPER = {code: code - 32 for code in range(ord("a"), ord("z") + 1)}
 
 
 def rule_of_text(
-    code: Code, gate: Callable[[str], object], *, off: bool = False, odd: bool = False
+    code: Code, gate: Callable[[str], object], *, off: bool = False
 ) -> Callable[[Callable[[TextOrigin, str], Iterator[Problem]]], object]:
     """Make a function of a text and its unified source a rule: decks in JSON and YAML have nothing of its kind.
 
-    `gate` looks at the whole source, quickly: without a match the function is not called. `odd` says that what it
-    looks for is on an odd line: it is not asked where there is none.
+    `gate` looks at the whole source, quickly: without a match the function is not called.
     """
 
     def register(find: Callable[[TextOrigin, str], Iterator[Problem]]) -> object:
@@ -52,19 +50,13 @@ def rule_of_text(
         @wraps(find)
         def check(context: LintContext) -> Iterable[Problem]:
             text = context.text
-            if text is None or (odd and not context.once(_has_odd_line)) or not gate(text.source.unified):
+            if text is None or not gate(text.source.unified):
                 return ()
-            return first_reported(find(text, text.source.unified))
+            return find(text, text.source.unified)
 
         return check
 
     return register
-
-
-def _has_odd_line(context: LintContext) -> bool:
-    """Whether a line may be of interest to one of the rules of odd lines: one search for all of them."""
-    source = context.text.source.unified if context.text else ""
-    return bool(_ODD_BELOW.search(source) or _ODD.match(source))
 
 
 class Placed(NamedTuple):
@@ -140,7 +132,7 @@ def lower_case_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
             yield Problem(STY002, "the comment begins with a lower-case c: write a capital C", mark, repair=repair)
 
 
-@rule_of_text(STY008, lambda source: re.search(_KEY_LIKE, source), odd=True)
+@rule_of_text(STY008, lambda source: re.search(_KEY_LIKE, source))
 def key_like_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A setting such as CURVE= begins in column 1, where a C makes a comment.
 
@@ -170,7 +162,7 @@ def key_like_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
             yield Problem(STY008, message, Span(start, source.index("=", start) + 1), repair=repair)
 
 
-@rule_of_text(STY009, lambda source: re.search(_COMMENT_BELOW, source) or INDENTED_COMMENT.match(source), odd=True)
+@rule_of_text(STY009, lambda source: re.search(_COMMENT_BELOW, source) or INDENTED_COMMENT.match(source))
 def indented_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A line that looks like a comment is indented, and so it is data.
 
@@ -195,7 +187,7 @@ def indented_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
             yield Problem(STY009, message, trimmed(source, *leaf.span))
 
 
-@rule_of_text(STY005, lambda source: re.search(_HEAD_BELOW, source) or re.match(_INDENTED_HEAD, source), odd=True)
+@rule_of_text(STY005, lambda source: re.search(_HEAD_BELOW, source) or re.match(_INDENTED_HEAD, source))
 def indented_keyword(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A keyword or a section does not begin in column 1.
 
@@ -220,7 +212,7 @@ def indented_keyword(text: TextOrigin, source: str) -> Iterator[Problem]:
             yield Problem(STY005, message, head, repair=repair)
 
 
-@rule_of_text(STY006, lambda source: re.search(_SMALL_BELOW, source) or re.match(_SMALL_HEAD, source), odd=True)
+@rule_of_text(STY006, lambda source: re.search(_SMALL_BELOW, source) or re.match(_SMALL_HEAD, source))
 def keyword_case(text: TextOrigin, source: str) -> Iterator[Problem]:
     """The name of a keyword or a section is not in upper case.
 

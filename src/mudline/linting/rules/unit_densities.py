@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from mudline.codes.fields import SYN015
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.model import Part
-from mudline.limits import MOST_REPORTED
-from mudline.linting.rule import LintContext, entries_of_sets, limited, rule
+from mudline.linting.context import LintContext, entries_of_sets
+from mudline.rules import rule
 from mudline.scene.deck_values import FOOT, POUND, number
 from mudline.scene.deck_values import LENGTH_UNIT as METRES
 from mudline.scene.model import Scene
@@ -173,10 +173,10 @@ def suspicious_density(context: LintContext) -> Iterator[Problem]:
     """
     unit = DENSITY_UNIT.get(context.scene.units)
     if unit is None:
-        yield from islice(_ratios(context), MOST_REPORTED)
+        yield from _ratios(context)
     else:
-        yield from islice(_water(context, unit), MOST_REPORTED)
-        yield from islice(_walls(context, unit), MOST_REPORTED)
+        yield from _water(context, unit)
+        yield from _walls(context, unit)
 
 
 def _water(context: LintContext, unit: str) -> Iterator[Problem]:
@@ -254,7 +254,6 @@ def is_metal(section: Part | None, context: LintContext, lightest: float) -> boo
 
 
 @rule(UNT005)
-@limited
 def suspicious_modulus(context: LintContext) -> Iterator[Problem]:
     """Young's modulus or the shear modulus looks as if it were in another unit, or the two do not fit each other.
 

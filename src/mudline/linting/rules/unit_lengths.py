@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from itertools import islice
 
 import numpy as np
 
 from mudline.diagnostics import Problem, Where
 from mudline.keywords.model import Part
-from mudline.limits import MOST_REPORTED
-from mudline.linting.rule import LARGEST_RATIO, LintContext, rule
+from mudline.linting.context import LintContext
 from mudline.linting.rules.coordinates import UNT006, odd_coordinates
+from mudline.linting.rules.curve_shape import LARGEST_RATIO
 from mudline.linting.rules.seabed_friction import given, resisting
 from mudline.linting.rules.seabed_position import bounds_of, depths
 from mudline.linting.rules.unit_densities import (
@@ -28,6 +27,7 @@ from mudline.linting.rules.unit_densities import (
     rounded,
     water_density,
 )
+from mudline.rules import rule
 from mudline.scene.deck_values import DEFAULT_DENSITY, LARGEST_MOBILISATION, number
 from mudline.scene.deck_values import LENGTH_UNIT as METRES
 from mudline.scene.force_curves import SceneCurve
@@ -214,7 +214,7 @@ def suspicious_length(context: LintContext) -> Iterator[Problem]:
     Finds: 5:19
     """
     for kind in (_diameters, _mobilisation, _curves, odd_coordinates, _ocean):
-        yield from islice(kind(context), MOST_REPORTED)
+        yield from kind(context)
 
 
 def _mobilisation(context: LintContext) -> Iterator[Problem]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import islice
 from math import isnan
 from typing import TYPE_CHECKING, NamedTuple, cast
 
@@ -13,10 +12,10 @@ from mudline.contact.input import LawKind
 from mudline.deck.reading import GRAVITIES
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.text import shown
-from mudline.limits import MOST_REPORTED
-from mudline.linting.rule import LintContext, entries_of_sets, limited, rule
+from mudline.linting.context import LintContext, entries_of_sets
 from mudline.linting.rules.curve_shape import swapped
 from mudline.linting.rules.seabed_friction import given
+from mudline.rules import rule
 from mudline.scene.model import Scene
 
 if TYPE_CHECKING:
@@ -111,8 +110,8 @@ def suspicious_magnitude(context: LintContext) -> Iterator[Problem]:
     """
     if least := LEAST.get(context.scene.units):
         for kind in (_soft, _weak, _fluid, _unloaded):
-            yield from islice(kind(context.scene, least), MOST_REPORTED)
-        yield from islice(_slight(context, least), MOST_REPORTED)
+            yield from kind(context.scene, least)
+        yield from _slight(context, least)
 
 
 def _soft(scene: Scene, least: _Least) -> Iterator[Problem]:
@@ -177,7 +176,6 @@ def _stiffness_message(what: str, stiffness: float, expected: float, least: _Lea
 
 
 @rule(UNT003)
-@limited
 def large_friction(context: LintContext) -> Iterator[Problem]:
     """A friction coefficient is above 2.
 

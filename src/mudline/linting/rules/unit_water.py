@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import chain
 
+from mudline.linting.context import LintContext
 from mudline.linting.joints import Found, Joined, joint
-from mudline.linting.rule import LintContext
 from mudline.linting.rules.coordinates import UNT006
 from mudline.linting.rules.unit_densities import UNT004, UNT005
 from mudline.syntax.rows import read_number

@@ -14,11 +14,12 @@ from mudline.contact.input import LawKind
 from mudline.deck.model import Opaque
 from mudline.diagnostics import Problem, Repair, Span, Where
 from mudline.keywords.catalogue import is_superseded, sections_of
-from mudline.linting.rule import LintContext, rule
+from mudline.linting.context import LintContext
 from mudline.linting.rules.seabed_position import first_of
-from mudline.scene.checks.laws import SBD004
+from mudline.rules import rule
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, Mask, blocks_of
+from mudline.scene.rules.laws import SBD004
 from mudline.scene.seabed import SeabedKind
 
 if TYPE_CHECKING:

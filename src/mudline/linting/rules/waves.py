@@ -10,7 +10,8 @@ import numpy as np
 
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.table import Table
-from mudline.linting.rule import LintContext, limited, rule
+from mudline.linting.context import LintContext
+from mudline.rules import rule
 from mudline.scene.deck_values import DEFAULT_GRAVITY, number
 
 if TYPE_CHECKING:
@@ -56,8 +57,7 @@ def waves(context: LintContext) -> list[_Wave]:
     return [wave for wave in found if wave.height > 0.0 and wave.period > 0.0]
 
 
-@rule(WAV002, of=("$LOAD CASE",))
-@limited
+@rule(WAV002)
 def breaking_wave(context: LintContext) -> Iterator[Problem]:
     """A regular wave is steeper than a wave can be.
 
@@ -96,8 +96,7 @@ def _gravity(context: LintContext) -> float:
     return DEFAULT_GRAVITY.get(context.scene.units, math.nan)
 
 
-@rule(TIM003, of=("$LOAD CASE",))
-@limited
+@rule(TIM003)
 def ramp_does_not_fit(context: LintContext) -> Iterator[Problem]:
     """Loads grow in less than a wave period, or longer than the run lasts.
 
@@ -129,8 +128,7 @@ def ramp_does_not_fit(context: LintContext) -> Iterator[Problem]:
             yield Problem(TIM003, message, where=where.inside("ramp"))
 
 
-@rule(TIM004, of=("$LOAD CASE",))
-@limited
+@rule(TIM004)
 def step_too_long_for_waves(context: LintContext) -> Iterator[Problem]:
     """The time step is more than a twentieth of the shortest wave period.
 
@@ -176,8 +174,7 @@ def _steps(context: LintContext) -> Iterator[tuple[Where, float]]:
             yield where.inside("limits", index, "largest"), number(limits, "largest")
 
 
-@rule(CUR001, of=("$LOAD CASE",))
-@limited
+@rule(CUR001)
 def current_ends_below_surface(context: LintContext) -> Iterator[Problem]:
     """A current profile ends below the surface of the sea.
 

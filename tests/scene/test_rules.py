@@ -1,17 +1,12 @@
-"""The list of checks, ranges of fields, and what checks find in decks that they used to miss or to refuse in vain."""
+"""Ranges of fields, and what rules that block find in decks that they used to miss or to refuse in vain."""
 
 from __future__ import annotations
 
 import pytest
 
 from mudline.diagnostics import Blocks, DeckError, Severity
-from mudline.scene.checks import all_checks
 from tests.builders.decks import LINEAR_BED, PIPE, STEEL
 from tests.builders.scenes import messages, reported, scene_of
-
-
-def test_no_check_is_there_twice() -> None:
-    assert len(all_checks()) == len({check.find for check in all_checks()})
 
 
 def test_cohesion_needs_a_diameter_unless_it_is_overridden() -> None:

@@ -13,9 +13,8 @@ from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.keywords.catalogue import may_have_no_length
 from mudline.keywords.ranges import range_faults, ranged_slots
 from mudline.limits import MOST_REPORTED
-from mudline.scene.checks import check
+from mudline.rules import rule
 from mudline.scene.deck_values import missing_files, not_found
-from mudline.scene.numbering import FEW
 from mudline.scene.sections import format_of
 
 if TYPE_CHECKING:
@@ -29,7 +28,7 @@ _GEOMETRY = "geometry"
 """A setting of `*SEABED TRENCH`, the third step of a path to its values; EXT003 says what is wrong with them."""
 
 
-@check(SBD010)
+@rule(SBD010, blocks=True)
 def negative_property(scene: ResolvedDeck) -> Iterator[Problem]:
     """A value is out of its range: a stiffness, a length or a diameter is negative, or zero where it divides.
 
@@ -57,15 +56,29 @@ def negative_property(scene: ResolvedDeck) -> Iterator[Problem]:
                         yield Problem(SBD010, message, where=Where(i, j, path))
 
 
-@check(REF015)
+@rule(REF015, blocks=True)
 def missing_file(scene: ResolvedDeck) -> Iterator[Problem]:
-    """Every FILE= of the deck itself that names no file, if it is known where files could be.
+    """A file that the deck names was not found.
 
-    Without the file of its profile the seabed is not known.
+    FILE=, as of *SEABED PROFILE, and LAST= of *RESTART name files beside the deck. Without the deck before a *RESTART
+    mudline does not know the model that this deck works on, and what is missing is a warning only. The finding is also
+    given for a deck that is there and cannot be read, and for decks that continue each other in a cycle. A deck from
+    standard input has no folder in which its files could be, so they are not searched.
+
+    Example:
+         $LOAD CASE
+        -*RESTART
+        - LAST=static
+         *TIME
+          STEP=FIXED
+          0.0, 120.0, 0.05
+
+    Finds: 3:7
     """
     for where, folder, name in missing_files(scene.context.written):
         message, refused = not_found(folder, name)
         severity = Severity.ERROR if refused else None
+        # Without the file of its profile the seabed is not known.
         profile = refused or (bool(scene.seabed.missing) and where == scene.seabed.where.inside("file"))
         blocks = Blocks.ALWAYS if profile else Blocks.NEVER
         yield Problem(REF015, message, None, severity, where, blocks=blocks)
@@ -75,7 +88,7 @@ GEO001 = Code("GEO001", "inner-exceeds-outer", Severity.ERROR)
 GEO004 = Code("GEO004", "zero-length-element", Severity.ERROR)
 
 
-@check(GEO001)
+@rule(GEO001, blocks=True)
 def inner_exceeds_outer(scene: ResolvedDeck) -> Iterator[Problem]:
     """The internal diameter of a section is not smaller than its external diameter.
 
@@ -102,7 +115,7 @@ def inner_exceeds_outer(scene: ResolvedDeck) -> Iterator[Problem]:
                 yield Problem(GEO001, message, where=where.inside("sets", index, format_of(entry), "Di"))
 
 
-@check(GEO004)
+@rule(GEO004, blocks=True)
 def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
     """The two nodes of an element lie at one place.
 
@@ -126,8 +139,6 @@ def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 9:2
     """
-    if len(scene.length) <= FEW and all(length > 0.0 for length in scene.length.tolist()):
-        return
     suspects = ~(scene.length > 0.0)
     if not np.count_nonzero(suspects):
         return

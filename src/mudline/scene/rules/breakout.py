@@ -9,10 +9,9 @@ import numpy as np
 
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.unknown import is_partly_unknown
-from mudline.scene.checks import check
-from mudline.scene.checks.laws import lacks_diameter
-from mudline.scene.context import EXTENSION
+from mudline.rules import rule
 from mudline.scene.deck_values import number
+from mudline.scene.rules.laws import lacks_diameter
 
 if TYPE_CHECKING:
     from mudline.keywords.library.seabed_friction import FrictionSet
@@ -21,7 +20,7 @@ if TYPE_CHECKING:
 EXT013 = Code("EXT013", "bad-breakout", Severity.ERROR)
 
 
-@check(EXT013, of=(EXTENSION,))
+@rule(EXT013, blocks=True)
 def bad_breakout(scene: ResolvedDeck) -> Iterator[Problem]:
     """The lateral breakout of *SEABED FRICTION is incomplete, impossible, or beside a law that it excludes.
 

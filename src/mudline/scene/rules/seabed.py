@@ -11,8 +11,7 @@ import numpy as np
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Problem, Severity
 from mudline.keywords.text import shown
-from mudline.scene.checks import check
-from mudline.scene.context import EXTENSION
+from mudline.rules import rule
 from mudline.scene.deck_values import file_name, missing_files, number
 from mudline.scene.seabed import COMPILED, SeabedKind, SeabedShape
 from mudline.syntax.source import BINARY
@@ -33,7 +32,7 @@ _STEEP = 45.0
 _VERTICAL = 90.0
 
 
-@check(SBD011)
+@rule(SBD011, blocks=True)
 def profile_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     """A rigid seabed has a profile that only an elastic one takes.
 
@@ -71,7 +70,7 @@ def profile_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
             yield Problem(SBD011, message, None, Severity.WARNING, where.inside("direction"))
 
 
-@check(SBD012)
+@rule(SBD012, blocks=True)
 def steep_slope(scene: ResolvedDeck) -> Iterator[Problem]:
     """The slope of the seabed is steep.
 
@@ -118,7 +117,7 @@ def _exchanged_columns(floor: SeabedShape) -> Iterator[Problem]:
         yield Problem(SBD012, message, None, Severity.WARNING, floor.where)
 
 
-@check(SBD023)
+@rule(SBD023, blocks=True)
 def unreadable_profile(scene: ResolvedDeck) -> Iterator[Problem]:
     """The profile of the seabed cannot be read, or its points make no seabed.
 
@@ -156,7 +155,7 @@ def unreadable_profile(scene: ResolvedDeck) -> Iterator[Problem]:
         yield Problem(SBD023, f"{fault}: correct the points", None, Severity.ERROR, where)
 
 
-@check(EXT002, of=(EXTENSION,))
+@rule(EXT002, blocks=True)
 def floor_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     """The seabed is given twice: by planes and by a profile or a slope.
 
@@ -193,7 +192,7 @@ def floor_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
         yield Problem(EXT002, message, where=max(places, default=planes[0]))
 
 
-@check(EXT007, of=(EXTENSION,))
+@rule(EXT007, blocks=True)
 def bad_plane(scene: ResolvedDeck) -> Iterator[Problem]:
     """A plane of the seabed is incomplete, vertical or empty.
 

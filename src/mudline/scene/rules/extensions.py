@@ -9,11 +9,10 @@ import numpy as np
 
 from mudline.contact.input import LawKind
 from mudline.diagnostics import Blocks, Code, Problem, Severity
-from mudline.scene.checks import check
-from mudline.scene.checks.laws import lacks_diameter
-from mudline.scene.context import EXTENSION
+from mudline.rules import rule
 from mudline.scene.deck_values import number
 from mudline.scene.numbering import Mask
+from mudline.scene.rules.laws import lacks_diameter
 
 if TYPE_CHECKING:
     from mudline.scene.force_curves import SceneCurve
@@ -28,7 +27,7 @@ EXT009 = Code("EXT009", "unloading-conflict", Severity.ERROR)
 _LOWEST, _HIGHEST = 0.01, 0.99
 
 
-@check(EXT001)
+@rule(EXT001, blocks=True)
 def extension_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     """An extension keyword is in a model without an elastic seabed.
 
@@ -69,7 +68,7 @@ def extension_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
             yield Problem(EXT001, message, where=next(rigid, where))
 
 
-@check(EXT004, of=(EXTENSION,))
+@rule(EXT004, blocks=True)
 def bad_cutoff(scene: ResolvedDeck) -> Iterator[Problem]:
     """The corners of the suction trapezoid are out of order or out of range.
 
@@ -100,7 +99,7 @@ def bad_cutoff(scene: ResolvedDeck) -> Iterator[Problem]:
             yield Problem(EXT004, message, where=where.inside("cutoff"))
 
 
-@check(EXT005, of=(EXTENSION,))
+@rule(EXT005, blocks=True)
 def suction_incomplete(scene: ResolvedDeck) -> Iterator[Problem]:
     """A suction law lacks a value that it needs.
 
@@ -147,7 +146,7 @@ def suction_incomplete(scene: ResolvedDeck) -> Iterator[Problem]:
             yield Problem(EXT005, "REGULARISATION= is missing: with user units it has no default; give it", where=title)
 
 
-@check(EXT006, of=(EXTENSION,))
+@rule(EXT006, blocks=True)
 def suction_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     """Elements have two suction laws.
 
@@ -226,7 +225,7 @@ def _may_pull(entry: SceneCurve) -> bool:
     return bool(force[0] < 0.0 or force[1] < 0.0 or slope[1] < 0.0)
 
 
-@check(EXT009, of=(EXTENSION,))
+@rule(EXT009, blocks=True)
 def unloading_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     """Unloading is combined with smoothing or a nodal stiffness, or its stiffness is not above 0.
 

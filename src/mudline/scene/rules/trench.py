@@ -9,11 +9,10 @@ import numpy as np
 
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.keywords.unknown import is_partly_unknown
-from mudline.scene.checks import check
-from mudline.scene.checks.laws import extends_rigid
-from mudline.scene.context import EXTENSION
+from mudline.rules import rule
 from mudline.scene.deck_values import number
 from mudline.scene.numbering import Floats, Mask, marked
+from mudline.scene.rules.laws import extends_rigid
 
 if TYPE_CHECKING:
     from mudline.contact.input import LawAssignment
@@ -31,7 +30,7 @@ _LOCKED = "mu2 tan(theta) must be below 1, else the wall of the trench locks its
 _HIDDEN = "; sets or lines that this deck does not show may give them another friction"
 
 
-@check(EXT003, of=(EXTENSION,))
+@rule(EXT003, blocks=True)
 def bad_trench(scene: ResolvedDeck) -> Iterator[Problem]:
     """A trench has no possible geometry, no resistance, no friction spring, or a wall that locks itself.
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, cast
@@ -15,11 +14,9 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.keywords.text import advice_on, shown
 from mudline.keywords.values import Names, number_meant
-from mudline.scene.checks import check
-from mudline.scene.context import SUPERSEDED
+from mudline.rules import rule
 from mudline.scene.laws import NOTHING, typed_blocks
 from mudline.scene.names import CURVES, names_used, undefined
-from mudline.scene.numbering import FEW
 
 if TYPE_CHECKING:
     from mudline.keywords.library.elastic_surface import ElasticSurface
@@ -42,7 +39,7 @@ def extends_rigid(scene: ResolvedDeck) -> bool:
     return extension and "RIGID" in scene.laws.types and "ELASTIC" not in scene.laws.types
 
 
-@check(SBD001)
+@rule(SBD001, blocks=True)
 def rigid_with_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     """A rigid seabed has a force-embedment curve, or a value that only an elastic one has.
 
@@ -79,7 +76,7 @@ def rigid_with_curve(scene: ResolvedDeck) -> Iterator[Problem]:
                     yield Problem(SBD001, message, None, Severity.WARNING, inner)
 
 
-@check(SBD002)
+@rule(SBD002, blocks=True)
 def two_seabed_types(scene: ResolvedDeck) -> Iterator[Problem]:
     """The model has a rigid and an elastic seabed.
 
@@ -114,7 +111,7 @@ def two_seabed_types(scene: ResolvedDeck) -> Iterator[Problem]:
         yield Problem(SBD002, message, None, Severity.WARNING, where)
 
 
-@check(SBD003)
+@rule(SBD003, blocks=True)
 def missing_type(scene: ResolvedDeck) -> Iterator[Problem]:
     """*SEABED PROPERTIES does not say whether the seabed is rigid or elastic.
 
@@ -150,7 +147,7 @@ def _without_set(name: str | None, where: Where, what: str) -> Iterator[Problem]
         yield Problem(SBD003, message, None, Severity.WARNING, where)
 
 
-@check(SBD004, of=(SUPERSEDED,))
+@rule(SBD004, blocks=True)
 def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
     """*ELASTIC SURFACE gives no stiffness, and there is no *EMBEDMENT.
 
@@ -179,7 +176,7 @@ def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
             yield reading.missing(SBD004, message, where, "EMBEDMENT")
 
 
-@check(SBD005, of=(SUPERSEDED,))
+@rule(SBD005, blocks=True)
 def embedment_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     """*EMBEDMENT is used with a rigid seabed, or with none.
 
@@ -225,7 +222,7 @@ def embedment_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
             yield reading.missing(SBD005, message, curve.where, "ELASTIC SURFACE")
 
 
-@check(SBD009)
+@rule(SBD009, blocks=True)
 def missing_diameter(scene: ResolvedDeck) -> Iterator[Problem]:
     """Elements follow a force-embedment curve and have no external diameter.
 
@@ -264,8 +261,6 @@ def missing_diameter(scene: ResolvedDeck) -> Iterator[Problem]:
     if not scene.replaced and all(set_law.kind is not LawKind.CURVE for set_law in scene.laws.set_laws):
         return
     sections = scene.section_table
-    if len(sections.diameter) <= FEW and not any(map(math.isnan, sections.diameter.tolist())):
-        return
     lacking = np.isnan(sections.diameter) & ~sections.faulty
     if not np.count_nonzero(lacking):
         return
@@ -298,7 +293,7 @@ def lacks_diameter(scene: ResolvedDeck, code: Code, message: str, where: Where) 
 REF002 = Code("REF002", "undefined-curve", Severity.ERROR)
 
 
-@check(REF002)
+@rule(REF002, blocks=True)
 def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     """A STIFFNESS=, or another setting that takes the name of a curve, names one that the deck does not define.
 

@@ -9,8 +9,7 @@ import numpy as np
 
 from mudline.contact.input import LawKind
 from mudline.diagnostics import Code, Problem, Severity
-from mudline.scene.checks import check
-from mudline.scene.context import EXTENSION
+from mudline.rules import rule
 from mudline.scene.deck_values import number
 
 if TYPE_CHECKING:
@@ -42,7 +41,7 @@ def _fields(extension: Extension) -> Iterator[tuple[int, Parameter, tuple[str, .
                 yield index, parameter, path, value
 
 
-@check(EXT010, of=(EXTENSION,))
+@rule(EXT010, blocks=True)
 def soil_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     """An element with *SEABED SOIL has another law of its normal reaction.
 
@@ -98,7 +97,7 @@ def soil_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
             yield Problem(EXT010, message, None, Severity.INFO, where.inside("set"))
 
 
-@check(EXT011, of=(EXTENSION,))
+@rule(EXT011, blocks=True)
 def impossible_soil(scene: ResolvedDeck) -> Iterator[Problem]:
     """A value of *SEABED SOIL is one that no soil has.
 
@@ -134,7 +133,7 @@ def impossible_soil(scene: ResolvedDeck) -> Iterator[Problem]:
                 yield Problem(EXT011, message, where=where.inside("buoyancy", name))
 
 
-@check(EXT012, of=(EXTENSION,))
+@rule(EXT012, blocks=True)
 def unusual_soil(scene: ResolvedDeck) -> Iterator[Problem]:
     """A value of *SEABED SOIL is outside of what published soils have, or its units cannot be checked.
 

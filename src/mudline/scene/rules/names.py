@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from mudline.diagnostics import Code, Problem, Severity
-from mudline.scene.checks import check
+from mudline.rules import rule
 from mudline.scene.names import THINGS, undefined
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 REF019 = Code("REF019", "undefined-name", Severity.ERROR)
 
 
-@check(REF019)
+@rule(REF019, blocks=True)
 def undefined_name(scene: ResolvedDeck) -> Iterator[Problem]:
     """A vessel, a line, a vector or another thing with a name is used, and the deck does not define it.
 
