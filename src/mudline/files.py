@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import os
-import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
@@ -13,8 +12,6 @@ from pathlib import Path, PurePath
 from typing import BinaryIO, NamedTuple
 
 from mudline.overwriting import reading
-
-_URL = re.compile(r"[A-Za-z][A-Za-z0-9+.:-]+://")
 
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0) | getattr(os, "O_NOFOLLOW", 0)
 _NEW = 0o666
@@ -30,11 +27,6 @@ _tidied: set[str] = set()
 """Folders in which this run has looked for what killed runs left."""
 
 _LOOKED_AT: ContextVar[dict[str, None] | None] = ContextVar("looked_at", default=None)
-
-
-def is_url(path: str) -> bool:
-    """Whether a path is a URL."""
-    return _URL.match(path) is not None
 
 
 @contextmanager

@@ -222,7 +222,7 @@ def test_two_writers_at_the_same_time(decks: Path, archive: Path, tmp_path: Path
     assert summary(index(decks, archive=archive)) == "3 decks: 3 unchanged"
 
 
-def test_other_processes_and_urls_give_the_same(
+def test_other_processes_give_the_same(
     decks: Path, archive: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(executors, "PAYS", dict.fromkeys(executors.PAYS, 0.0))
@@ -231,12 +231,3 @@ def test_other_processes_and_urls_give_the_same(
     index(decks, archive=archive)
     assert summary(run("index", decks, "-o", tmp_path / "two", "--isolated", "--jobs", "2")) == "4 decks: 4 new"
     assert contents(tmp_path / "two") == contents(archive)
-    fsspec = pytest.importorskip("fsspec", reason="fsspec is not installed")
-    memory = fsspec.filesystem("memory")
-    for name in ("a", "b"):
-        memory.pipe(f"/indexed/{name}.keyxm", (decks / f"{name}.keyxm").read_bytes())
-    assert summary(index("memory://indexed", archive=tmp_path / "far")) == "2 decks: 2 new"
-    memory.rm("/indexed/b.keyxm")
-    assert summary(index("memory://indexed", archive=tmp_path / "far")) == "1 deck: 1 unchanged, 1 gone"
-    memory.rm("/indexed", recursive=True)
-    assert "an archive is a folder, not a URL" in run("index", decks, "-o", "s3://b/archive").err

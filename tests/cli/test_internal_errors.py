@@ -19,7 +19,7 @@ LOOPS: dict[str, tuple[str, str, Callable[..., str], list[str]]] = {
     "batch": (
         "batch_cases",
         "_evaluated",
-        lambda order, _: order.case.file.name,
+        lambda order: order.case.file.name,
         ["--output-format", "json", "-o", "r"],
     ),
 }

@@ -24,7 +24,7 @@ from mudline.archive.contents import Rows, number_of, rows_of
 from mudline.archive.database import write_views
 from mudline.archive.store import VIEWS, Archive, escaped, table_of
 from mudline.archive.tables import FILES, TABLES
-from mudline.files import is_url, recording_looks
+from mudline.files import recording_looks
 from mudline.linting.engine import LintSettings
 from mudline.linting.registry import plugin_files, rules
 from mudline.linting.rule import Rule
@@ -63,14 +63,13 @@ class Entry(NamedTuple):
 
 
 class Order(NamedTuple):
-    """A deck to read: its place in the archive, its path from the folder `here`, its content, and how to lint it.
+    """A deck to read: its place in the archive, its path, its content, and how to lint it.
 
     It can be sent to another process: the settings are without their rules, which `codes` names.
     """
 
     place: str
     path: str
-    here: str
     data: bytes
     now: Looked
     digest: str
@@ -91,12 +90,9 @@ def read_deck(order: Order) -> Read:
     """Read a deck, in any process. Never raises for content."""
     began = time.time()
     path = order.path
-    if not is_url(path) and os.getcwd() != order.here:  # noqa: PTH109 - compared as text
-        path = os.path.join(order.here, path)  # noqa: PTH118 - as above
     with recording_looks() as looked_at:
-        folder = None if is_url(path) else Path(path).parent
         settings = replace(order.settings, rules=_named(order.codes))
-        made = rows_of(order.data, os.path.basename(path), settings, folder)  # noqa: PTH119 - a text
+        made = rows_of(order.data, os.path.basename(path), settings, Path(path).parent)  # noqa: PTH119 - a text
     depends = _depends_on(looked_at, path, began)
     number = number_of(f"{order.key} {depends}".encode())
     return Read(order.place, Entry(number, *order.now, order.digest, order.key, depends), made)
@@ -133,13 +129,9 @@ class Counts:
 
 @dataclass
 class Update:
-    """A run that brings decks into an archive. Raises ArchiveError where it cannot be read, OSError, where written.
-
-    `is_at_url` says whether there is something at a URL; it raises OSError where that cannot be found out.
-    """
+    """A run that brings decks into an archive. Raises ArchiveError where it cannot be read, OSError, where written."""
 
     archive: Archive
-    is_at_url: Callable[[str], bool] = bool
     counts: Counts = field(default_factory=Counts)
     damage: str = ""
     _files: dict[str, Entry] = field(default_factory=dict)
@@ -154,7 +146,6 @@ class Update:
 
     def __post_init__(self) -> None:
         self._root = os.path.dirname(os.path.abspath(self.archive.folder))  # noqa: PTH100, PTH120 - links stay
-        self._here = os.getcwd()  # noqa: PTH109 - sent as text
         self._state = cache(state)  # many decks may continue the same one
         self.damage = self.archive.damage(thorough=True)
         self._files = {} if self.damage else _entries(self.archive)
@@ -193,7 +184,7 @@ class Update:
         if same is not None and self._depends_hold(same, path):
             self._changes[place] = Entry(same.deck, *now, digest, key, same.depends)
             return None
-        return Order(place, path, self._here, data, now, digest, key, plain, codes)
+        return Order(place, path, data, now, digest, key, plain, codes)
 
     def _holds(self, entry: Entry, start: str, path: str, digest: str) -> bool:
         """Whether the rows of a file are those of this content under settings with this digest."""
@@ -219,12 +210,7 @@ class Update:
         return found
 
     def _place(self, path: str) -> str:
-        """A path from the folder that holds the archive, so that both may be moved; as it is from another drive.
-
-        A URL is its own place.
-        """
-        if is_url(path):
-            return escaped(path)
+        """A path from the folder that holds the archive, so that both may be moved; as it is from another drive."""
         folder, name = os.path.split(path)
         if folder not in self._places:
             absolute = os.path.abspath(folder)  # noqa: PTH100 - links stay what they are called
@@ -258,12 +244,11 @@ class Update:
 
     def _gone(self, below: Sequence[str], *, everywhere: bool) -> Iterator[str]:
         """The places of files that are not found any more; not those that nobody may look at."""
-        starts = tuple(self._place(f"{folder.rstrip('/') if is_url(folder) else folder}/_")[:-1] for folder in below)
+        starts = tuple(self._place(f"{folder}/_")[:-1] for folder in below)
         for place in self._files:
             if place in self._seen:
                 continue
-            elsewhere = place.startswith("../") or is_url(place)
-            inside = any(place.startswith(start) if start else not elsewhere for start in starts)
+            inside = any(place.startswith(start) if start else not place.startswith("../") for start in starts)
             if not inside and not everywhere:
                 continue
             try:
@@ -275,8 +260,6 @@ class Update:
 
     def _is_there(self, place: str) -> bool:
         """Raises OSError for a file that may not be looked at."""
-        if is_url(place):
-            return self.is_at_url(place)
         try:
             os.stat(os.path.normpath(os.path.join(self._root, place)))  # noqa: PTH116, PTH118 - many files
         except (FileNotFoundError, NotADirectoryError):
@@ -318,10 +301,6 @@ def _digest(data: bytes) -> str:
 
 
 def _key(start: str, name: str, digest: str) -> str:
-    """The key of a content in a file of this name, whose suffix gives form and units.
-
-    At a URL it is another one: files beside it are not looked for.
-    """
+    """The key of a content in a file of this name, whose suffix gives form and units."""
     suffix = os.path.splitext(name)[1].lower()  # noqa: PTH122 - many files
-    where = " at a URL" if is_url(name) else ""
-    return _digest(f"{start} {suffix}{where} {digest}".encode("utf-8", "surrogatepass"))
+    return _digest(f"{start} {suffix} {digest}".encode("utf-8", "surrogatepass"))

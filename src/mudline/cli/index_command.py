@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
-from contextlib import closing, suppress
+from contextlib import closing
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,9 +16,7 @@ from mudline.cli.inputs import Input, Inputs, collect_any_form
 from mudline.cli.lint_run import SettingsOf, checked_settings
 from mudline.cli.streams import counted, notify, notify_missing, reason
 from mudline.cli.view import Progress, View, wants_bar
-from mudline.files import is_url
 from mudline.linting.configuration import Given
-from mudline.running import storage
 from mudline.running.executors import Crash, executor, in_order
 
 if TYPE_CHECKING:
@@ -54,7 +52,6 @@ def command(
     config: str | None,
     isolated: bool,
     jobs: int,
-    scheduler: str | None,
     every_file: bool,
     units: str | None,
     view: View,
@@ -62,16 +59,14 @@ def command(
     """Bring decks into an archive, which mudline query answers questions about.
 
     PATHS are decks, or directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that
-    begin as decks do), or URLs of either. Decks that have not changed are not read again; those that are no longer
-    there are dropped. Needs pip install 'mudline[archive]'.
+    begin as decks do). Decks that have not changed are not read again; those that are no longer there are dropped.
+    Needs pip install 'mudline[archive]'.
     """
     if lacks_libraries("index"):
         return WRONG_USAGE
     if "-" in paths:
         raise click.UsageError("standard input cannot be archived: give files or directories")
-    output = _folder(output)
-    inputs = collect_any_form(paths, "", gitignore=not every_file, urls=True)
-    listed = inputs.code == 0
+    inputs = collect_any_form(paths, "", gitignore=not every_file)
     settings = checked_settings(config, Given(units=units), "none", isolated=isolated, fail_on=None)
     from mudline.archive.store import Archive, ArchiveError  # noqa: PLC0415 - an extra
     from mudline.archive.updating import Update  # noqa: PLC0415 - an extra
@@ -79,11 +74,12 @@ def command(
     folder = Path(output)
     try:
         with Archive.for_one_run(folder, lambda: notify(f"{folder.as_posix()}: waiting for another run")) as archive:
-            update = Update(archive, storage.exists)
+            update = Update(archive)
             if update.damage:
                 notify(update.damage)
-            _index(inputs, settings.of, update, view, jobs, scheduler)
-            update.remove_gone(_folders(paths, listed=listed), everywhere=prune)
+            _index(inputs, settings.of, update, view, jobs)
+            folders = [path for path in paths if os.path.isdir(path)]  # noqa: PTH112 - as in inputs
+            update.remove_gone(folders, everywhere=prune)
             update.save()
     except ArchiveError as error:
         raise click.ClickException(str(error)) from error
@@ -94,34 +90,11 @@ def command(
     return max(inputs.code, DONE)
 
 
-def _folder(output: str) -> str:
-    try:
-        output = storage.as_path(output)
-    except OSError as error:
-        raise click.UsageError(f"-o {output}: {reason(error)}") from error
-    if is_url(output):
-        raise click.UsageError(f"-o {output}: an archive is a folder, not a URL: give the path of a folder")
-    return output
-
-
-def _folders(paths: Sequence[str], *, listed: bool) -> list[str]:
-    """The folders whose decks are all known now; of those at URLs only if everything was `listed`."""
-    found = []
-    for path in paths:
-        with suppress(OSError):
-            given = storage.as_path(path)
-            if (listed and storage.is_folder(given)) if is_url(given) else os.path.isdir(given):  # noqa: PTH112 - as in inputs
-                found.append(given)
-    return found
-
-
-def _index(
-    inputs: Inputs, settings_of: SettingsOf, update: Update, view: View, jobs: int, scheduler: str | None
-) -> None:
+def _index(inputs: Inputs, settings_of: SettingsOf, update: Update, view: View, jobs: int) -> None:
     """Read the decks that have changed; what has been read is written, also when the run is interrupted."""
     from mudline.archive.updating import read_deck  # noqa: PLC0415 - an extra
 
-    with Progress(len(inputs.files), view, shown=wants_bar(view)) as progress, executor(jobs, scheduler) as pool:
+    with Progress(len(inputs.files), view, shown=wants_bar(view)) as progress, executor(jobs) as pool:
         orders = _orders(inputs, settings_of, update, progress)
 
         def crashed(file: Input, crash: Crash) -> None:

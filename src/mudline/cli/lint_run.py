@@ -1,7 +1,7 @@
 """One run of `mudline lint`: the settings of each deck, its findings without the known ones, and fixed decks.
 
-Of many files those that are remembered are not linted again; the rest is linted here, in other processes or by the
-workers of a scheduler, always in the order given.
+Of many files those that are remembered are not linted again; the rest is linted here or in other processes, always in
+the order given.
 """
 
 from __future__ import annotations
@@ -111,7 +111,6 @@ def lint_files(
     recording: bool,
     diff: bool,
     jobs: int,
-    scheduler: str | None,
 ) -> bool:
     """Lint all files; returns whether there is a reason to fail.
 
@@ -123,7 +122,7 @@ def lint_files(
     differs, documents = False, 0
     if fixing:  # a deck that is fixed may be one that others continue
         jobs = 1
-    with closing(_lint_all(inputs, settings.of, known, jobs, scheduler, report.view)) as results:
+    with closing(_lint_all(inputs, settings.of, known, jobs, report.view)) as results:
         for file, data, result in results:
             own, content = settings.of(file), data if result.changed is None else result.changed
             if fixing:
@@ -171,16 +170,12 @@ SettingsOf = Callable[[Input], LintSettings]
 
 
 class Order(NamedTuple):
-    """A file as it is sent: its settings without rules, whose functions may not be picklable, but with their codes.
-
-    `here` is the working folder, below which files are looked for that the deck names.
-    """
+    """A file as it is sent: its settings without rules, whose functions may not be picklable, but with their codes."""
 
     file: Input
     data: bytes
     settings: LintSettings
     codes: tuple[str, ...]
-    here: str
 
 
 class _Read(NamedTuple):
@@ -197,7 +192,6 @@ def _lint_all(
     settings_of: SettingsOf,
     known: KnownFindings | None,
     jobs: int,
-    scheduler: str | None,
     view: View,
 ) -> Generator[tuple[Input, bytes, FileReport], None, None]:
     """Each file that can be read with its content and its report, in the order of the files.
@@ -211,7 +205,7 @@ def _lint_all(
         inputs.crashed(one.file, crash, verbose=view.verbose)
 
     with (
-        executor(jobs, scheduler) as pool,
+        executor(jobs) as pool,
         closing(in_order(pool, lint_order, orders, len(inputs.files), crashed)) as reports,
     ):
         for one, made in reports:
@@ -231,7 +225,6 @@ def _orders(
     Settings that many files share are one object, which is sent once.
     """
     sendable: dict[int, tuple[LintSettings, LintSettings, tuple[str, ...]]] = {}
-    here = os.getcwd()  # noqa: PTH109 - sent as text
     for number, file in enumerate(inputs.files):
         settings = settings_of(file)
         if known is not None and number in known.clean:
@@ -248,13 +241,13 @@ def _orders(
             codes = tuple(rule.code.code for rule in settings.rules)
             sendable[id(settings)] = (settings, replace(settings, rules=()), codes)
         _, without_rules, codes = sendable[id(settings)]
-        yield _Read(file, data, key), Order(file, data, without_rules, codes, here)
+        yield _Read(file, data, key), Order(file, data, without_rules, codes)
 
 
 def lint_order(order: Order) -> FileReport:
     """Lint a file, in any process."""
     settings = replace(order.settings, rules=rules_named(order.codes))
-    return lint_one(order.file.name, order.data, settings, order.file.seen_from(order.here).folder)
+    return lint_one(order.file.name, order.data, settings, order.file.folder)
 
 
 @cache

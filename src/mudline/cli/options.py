@@ -80,38 +80,43 @@ def common(command: Command) -> Command:
 
 
 def running(command: Command) -> Command:
-    """`--jobs` and `--scheduler`, for `executor`; ends the command where items cannot be done elsewhere."""
+    """`--jobs`, for `executor`; ends the command where items cannot be done elsewhere."""
+
+    @wraps(command)
+    def run(**given: object) -> int:
+        try:
+            return command(**given)
+        except RunError as error:
+            raise click.ClickException(str(error)) from error
+
+    return option(
+        "--jobs",
+        group=RUN,
+        type=click.IntRange(min=0),
+        default=0,
+        metavar="N",
+        help="Use at most N processes, when that pays; 0 (default): one for each processor.",
+    )(run)
+
+
+def scheduler(command: Command) -> Command:
+    """`--scheduler`, for `executor`, below `running`; its address is checked."""
 
     @wraps(command)
     def run(*, scheduler: str | None, **others: object) -> int:
         given = click.get_current_context().get_parameter_source("jobs") is not ParameterSource.DEFAULT
         if scheduler is not None and given:
             raise click.UsageError("--jobs is for processes without --scheduler: leave one of them out")
-        try:
-            if scheduler is not None:
-                check_address(scheduler)
-            return command(scheduler=scheduler, **others)
-        except RunError as error:
-            raise click.ClickException(str(error)) from error
+        if scheduler is not None:
+            check_address(scheduler)
+        return command(scheduler=scheduler, **others)
 
-    for add in (
-        option(
-            "--scheduler",
-            group=RUN,
-            metavar="ADDRESS",
-            help="Use the workers of a Dask scheduler: tcp://HOST:PORT or tls://HOST:PORT (needs mudline[cluster]).",
-        ),
-        option(
-            "--jobs",
-            group=RUN,
-            type=click.IntRange(min=0),
-            default=0,
-            metavar="N",
-            help="Use at most N processes, when that pays; 0 (default): one for each processor.",
-        ),
-    ):
-        run = add(run)
-    return run
+    return option(
+        "--scheduler",
+        group=RUN,
+        metavar="ADDRESS",
+        help="Use the workers of a Dask scheduler: tcp://HOST:PORT or tls://HOST:PORT (needs mudline[cluster]).",
+    )(run)
 
 
 units = option(

@@ -19,7 +19,6 @@ from mudline.cli.inputs import Input, Inputs, collect_any_form
 from mudline.cli.lint_run import Settings, checked_settings, rules_named
 from mudline.cli.streams import emit_json, notify, notify_missing, write_text
 from mudline.cli.view import Progress, View, wants_bar
-from mudline.files import is_url
 from mudline.linting.configuration import Given as GivenRules
 from mudline.linting.engine import LintSettings
 from mudline.overwriting import reading
@@ -70,7 +69,6 @@ def command(
     config: str | None,
     isolated: bool,
     jobs: int,
-    scheduler: str | None,
     every_file: bool,
     stdin_name: str,
     units: str | None,
@@ -104,7 +102,7 @@ def command(
         progress.advance()
 
     with (
-        executor(jobs, scheduler) as pool,
+        executor(jobs) as pool,
         progress,
         closing(in_order(pool, make_report, orders, len(inputs.files), crashed)) as made_all,
     ):
@@ -182,7 +180,7 @@ def _orders(
             yield file, None
             continue
         own = settings.of(file)
-        changed = None if file.path is None or is_url(file.path) else file.size_and_date()[1]
+        changed = None if file.path is None else file.size_and_date()[1]
         codes = tuple(rule.code.code for rule in own.rules)
         given = Given(data, file.name, file.folder, changed)
         yield file, Order(file, given, replace(own, rules=()), codes, wanted, date, look)

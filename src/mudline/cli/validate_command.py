@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import sys
 from collections.abc import Generator, Iterable, Iterator
 from contextlib import closing
@@ -58,7 +57,6 @@ def command(
     fail_on: str,
     no_outside: bool,
     jobs: int,
-    scheduler: str | None,
     every_file: bool,
     stdin_name: str,
     units: str | None,
@@ -71,14 +69,14 @@ def command(
     of which not all keywords could be read is legal as far as it was read, and the verdict says how far that is.
 
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that begin
-    as decks do), URLs of either, or - for standard input. Of many decks -q shows the table without the errors.
+    as decks do), or - for standard input. Of many decks -q shows the table without the errors.
     """
-    inputs = collect_any_form(paths, stdin_name, gitignore=not every_file, urls=True)
+    inputs = collect_any_form(paths, stdin_name, gitignore=not every_file)
     listed = view.verbose or output_format == "json"
     total, wanted = Total(), Wanted(inputs, units, no_outside, listed)
     shown = wants_bar(view) and (output_format == "text" or not sys.stdout.isatty())
     progress = Progress(len(inputs.files), view, shown=shown)
-    with executor(jobs, scheduler) as pool, closing(_judged(pool, wanted, total, view, progress)) as judged:
+    with executor(jobs) as pool, closing(_judged(pool, wanted, total, view, progress)) as judged:
         if output_format == "json":
             _print_json(judged, total)
         elif output_format == "csv":
@@ -156,14 +154,13 @@ class Wanted(NamedTuple):
 
 
 class Order(NamedTuple):
-    """What `judge_order` is given, in any process; `here` is the working folder of the command."""
+    """What `judge_order` is given, in any process."""
 
     data: bytes
     file: Input
     units: str | None
     no_outside: bool
     warnings: bool
-    here: str
 
 
 def judge_order(order: Order) -> tuple[Verdict, list[Diagnostic]]:
@@ -173,7 +170,7 @@ def judge_order(order: Order) -> tuple[Verdict, list[Diagnostic]]:
 
 
 def _judge_order(order: Order) -> tuple[Verdict, list[Diagnostic]]:
-    file = order.file.seen_from(order.here)
+    file = order.file
     try:
         deck = load_bytes(order.data, file.name, units=order.units, folder=file.folder)
     except DeckError as error:
@@ -211,7 +208,6 @@ def _orders(
     wanted: Wanted, total: Total, progress: Progress
 ) -> Iterator[tuple[tuple[Input, bytes | None], Order | None]]:
     """Each file with its content, and what is sent of it; None for one that cannot be read."""
-    here = os.getcwd()  # noqa: PTH109 - sent as text
     for file in wanted.inputs.files:
         try:
             data = file.read()
@@ -221,7 +217,7 @@ def _orders(
             wanted.inputs.fail(f"{file.name}: {reason(error)}")
             yield (file, None), None
         else:
-            yield (file, data), Order(data, file, wanted.units, wanted.no_outside, wanted.warnings, here)
+            yield (file, data), Order(data, file, wanted.units, wanted.no_outside, wanted.warnings)
 
 
 # ---------------------------------------------------------------------------------------------------------- output
