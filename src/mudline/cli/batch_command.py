@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import click
+from click.core import ParameterSource
 from pydantic import TypeAdapter
 
 from mudline.cli import DONE, FOUND, evaluate_inputs, options
@@ -29,15 +30,16 @@ from mudline.cli.batch_cases import (
 from mudline.cli.batch_text import print_cases
 from mudline.cli.evaluate_inputs import EvaluateInputs, takes_inputs
 from mudline.cli.inputs import STDIN, Input, Inputs, collect
+from mudline.cli.many_files import many_files
 from mudline.cli.result_files import has_library, is_installed
 from mudline.cli.streams import counted, emit, emit_json, encoded, notify, reason
-from mudline.cli.view import Progress, View, wants_bar
+from mudline.cli.view import Progress, View
 from mudline.files import remove_left, write_atomically
 from mudline.limits import SHOWN_ROWS
 from mudline.overwriting import claim, reading
 from mudline.quantities import CASES, csv_lines
 from mudline.results.cases import CaseSummary, worst_first, write_parquet
-from mudline.running.executors import Crash, executor, in_order
+from mudline.running.executors import check_address
 from mudline.running.remembered import Memory, state
 
 _FORMS = ("csv", "json", "npz", "parquet")
@@ -67,8 +69,13 @@ _MEMORY = ".mudline-batch"
 )
 @options.output_format("text", "json", "csv")
 @evaluate_inputs.fail_on
-@options.running
-@options.scheduler
+@options.jobs
+@options.option(
+    "--scheduler",
+    group=options.RUN,
+    metavar="ADDRESS",
+    help="Use the workers of a Dask scheduler: tcp://HOST:PORT or tls://HOST:PORT (needs mudline[cluster]).",
+)
 @options.option(
     "--no-cache",
     group=options.RUN,
@@ -100,6 +107,7 @@ def command(
     DECKS are files or directories (searched for *.keyx, *.keyxm, *.keyxi, *.das). What is in DIR already and has not
     changed is not evaluated again.
     """
+    _check_scheduler(scheduler)
     if STDIN in decks:
         raise click.UsageError("- is one deck, from standard input: mudline evaluate takes it")
     if summary_only and inputs.positions is None:
@@ -111,30 +119,14 @@ def command(
     found = collect(decks, gitignore=not every_file)
     if not found.files:
         return found.code
-    common, cases = named_cases(_once(found.files), form)
+    found.files = _once(found.files)
+    common, cases = named_cases(found.files, form)
     folder = _made(Path(output))
     for path in (_summary_path(folder), *(path for case in cases for path in results_of(case, folder))):
         claim(path)
-    order = Order(cases[0], b"", inputs, folder, units, summary_only)
     memory = Memory(folder / _MEMORY, repr((inputs, units, form, summary_only)))
-    tasks = _tasks(found, cases, order, memory, fresh=no_cache, far=scheduler is not None)
-    broken: list[Done] = []
-
-    def crashed(task: _Task, crash: Crash) -> None:
-        file = task.order.case.file
-        progress.hide()
-        found.crashed(file, crash, verbose=view.verbose)
-        broken.append(failed(file.name, f"internal error: {crash.summary}"))
-        progress.advance()
-
-    with (
-        _saved(memory, cases, folder),
-        Progress(len(cases), view, shown=wants_bar(view)) as progress,
-        executor(jobs, scheduler) as pool,
-        closing(in_order(pool, evaluate_case, tasks, len(cases), crashed)) as results,
-    ):
-        done, taken = _taken(results, memory, progress)
-    done += broken
+    order = Order(cases[0], b"", inputs, folder, units, summary_only)
+    done, taken = _evaluated(found, cases, order, memory, view, fresh=no_cache, jobs=jobs, scheduler=scheduler)
     ranked = worst_first(one.row for one in done)
     summary = _write_summary(ranked, folder)
     if not view.quiet:
@@ -150,6 +142,14 @@ def command(
         print_cases(ranked, common, {case.file.name: case.inside for case in cases}, view)
     failing = any(row.failed or (row.warnings and fail_on == "warning") for row in ranked)
     return max(found.code, FOUND if failing else DONE)
+
+
+def _check_scheduler(address: str | None) -> None:
+    """Raise click.UsageError where processes are asked for too, RunError for an address that cannot be used."""
+    if address is not None:
+        if click.get_current_context().get_parameter_source("jobs") is not ParameterSource.DEFAULT:
+            raise click.UsageError("--jobs is for processes without --scheduler: leave one of them out")
+        check_address(address)
 
 
 def _once(files: Iterable[Input]) -> list[Input]:
@@ -173,52 +173,60 @@ def _made(folder: Path) -> Path:
 
 
 class _Task(NamedTuple):
-    """The order for a deck, the key of its results, the files that it depends on; `known` is what needs no work."""
+    """A deck, the key of its results, the files that it depends on; `known` is what needs no work."""
 
-    order: Order
+    file: Input
     key: str = ""
     files: Sequence[str] = ()
     known: Done | None = None
 
 
-def _tasks(
-    found: Inputs, cases: Sequence[Case], first: Order, memory: Memory, *, fresh: bool, far: bool
-) -> Iterator[tuple[_Task, Order | None]]:
-    """What is to do for each deck, `far` by a scheduler's workers; one without content or positions has failed."""
-    for case in cases:
-        name, given = case.file.name, first.inputs
-        order = first._replace(case=case)
+def _evaluated(
+    found: Inputs,
+    cases: Sequence[Case],
+    first: Order,
+    memory: Memory,
+    view: View,
+    *,
+    fresh: bool,
+    jobs: int,
+    scheduler: str | None,
+) -> tuple[list[Done], int]:
+    """What each deck gave, and how many were taken over; what is new is remembered.
+
+    A deck that cannot be read, has no positions, or for which the program fails, has failed.
+    """
+    case_of = {case.file: case for case in cases}
+
+    def prepared(file: Input) -> tuple[_Task, tuple[Order] | None]:
+        case, given, data = case_of[file], first.inputs, file.read()
         try:
-            data, positions = case.file.read(), positions_of(case, given.positions)
-            files = [path for path in (positions, given.elements) if path]
-            for path in files:
-                reading(path)
-        except OSError as error:
-            found.fail(f"{name}: {reason(error)}")
-            yield _Task(order, known=failed(name, reason(error))), None
-            continue
+            positions = positions_of(case, given.positions)
         except click.ClickException as error:
-            yield _Task(order, known=failed(name, error.message)), None
-            continue
-        key = memory.key(name, case.result, data, *files)
-        known = None if fresh else _known(memory, key, order)
-        order = order._replace(data=data, inputs=replace(given, positions=positions))
+            return _Task(file, known=failed(file.name, error.message)), None
+        files = [path for path in (positions, given.elements) if path]
+        for path in files:
+            reading(path)
+        key = memory.key(file.name, case.result, data, *files)
+        if not fresh and (known := _known(memory, key, file, first.output)):
+            return _Task(file, known=known), None
+        order = first._replace(case=case, data=data, inputs=replace(given, positions=positions))
         near = [os.path.abspath(path) for path in files]  # noqa: PTH100 - links stay what they are
-        yield _Task(order, key, near, known), None if known else order.from_anywhere() if far else order
+        return _Task(file, key, near), (order if scheduler is None else order.from_anywhere(),)
 
-
-def _taken(results: Iterable[tuple[_Task, Done | None]], memory: Memory, progress: Progress) -> tuple[list[Done], int]:
-    """What each deck gave, and how many were taken over; what is new is remembered."""
-    done: list[Done] = []
+    done: dict[Input, Done] = {}
     taken = 0
-    for task, made in results:
-        one = made or task.known or failed(task.order.case.file.name, "not evaluated")
-        done.append(one)
-        taken += made is None and not one.row.failed
-        if made is not None and not one.row.failed:
-            _remember(memory, task, one)
-        progress.advance()
-    return done, taken
+    results = many_files(found, prepared, evaluate_case, Progress(len(cases), view), jobs=jobs, scheduler=scheduler)
+    with _saved(memory, cases, first.output), closing(results):
+        for task, made in results:
+            if made is not None:
+                done[task.file] = made
+                if not made.row.failed:
+                    _remember(memory, task, made, first.output)
+            elif task.known is not None:
+                done[task.file] = task.known
+                taken += not task.known.row.failed
+    return [done.get(file) or failed(file.name, found.undone[file]) for file in found.files], taken
 
 
 @contextmanager
@@ -237,15 +245,15 @@ def _saved(memory: Memory, cases: Sequence[Case], folder: Path) -> Iterator[None
 # -------------------------------------------------------------------------------------------------------- remembering
 
 
-def _known(memory: Memory, key: str, order: Order) -> Done | None:
+def _known(memory: Memory, key: str, file: Input, output: Path) -> Done | None:
     """What an earlier run gave, if the files of results are still there as they were written."""
     try:
         row, warnings, written = TypeAdapter(_Held).validate_python(memory.get(key))
     except ValueError:  # nothing, or what this program does not write
         return None
-    if row.deck != order.case.file.name or row.failed:
+    if row.deck != file.name or row.failed:
         return None
-    if any(state(str(order.output / name)) != mark for name, mark in written.items()):
+    if any(state(str(output / name)) != mark for name, mark in written.items()):
         return None
     return Done(row, warnings)
 
@@ -258,8 +266,8 @@ class _Held(NamedTuple):
     written: dict[str, str]
 
 
-def _remember(memory: Memory, task: _Task, done: Done) -> None:
-    written = {name: state(str(task.order.output / name)) for name in done.written}
+def _remember(memory: Memory, task: _Task, done: Done, output: Path) -> None:
+    written = {name: state(str(output / name)) for name in done.written}
     held = {"row": done.row.row(), "warnings": done.warnings, "written": written}
     memory.put(task.key, held, [*done.read, *task.files])
 

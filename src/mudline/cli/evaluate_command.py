@@ -16,7 +16,7 @@ from mudline.cli.inputs import GivenDeck, refuses_bad_decks
 from mudline.cli.pictures import Picture
 from mudline.cli.result_files import behind, beside, has_library, line_watch, result_files, write_tables
 from mudline.cli.streams import counted, emit, emit_json, notify
-from mudline.cli.view import Progress, View, wants_bar
+from mudline.cli.view import Progress, View
 from mudline.files import suffix_of
 from mudline.limits import SHOWN_ROWS
 from mudline.quantities import csv_lines
@@ -209,7 +209,7 @@ def _sink(
 
 def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer], view: View, *, bar: bool) -> None:
     """Evaluate a few steps at a time and pass them on, with a bar on a terminal."""
-    with Progress(evaluation.steps, view, shown=bar and wants_bar(view)) as progress:
+    with Progress(evaluation.steps, view, shown=bar) as progress:
         for part in evaluation.parts():
             for consumer in consumers:
                 consumer.take(part)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from contextlib import closing
 from importlib.util import find_spec
 from pathlib import Path
@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING
 import click
 
 from mudline.cli import DONE, WRONG_USAGE, options
-from mudline.cli.inputs import Input, Inputs, collect_any_form
-from mudline.cli.lint_run import SettingsOf, checked_settings
+from mudline.cli.inputs import Input, Inputs, collect, is_in_any_form
+from mudline.cli.lint_run import Settings, checked_settings
+from mudline.cli.many_files import many_files
 from mudline.cli.streams import counted, notify, notify_missing, reason
-from mudline.cli.view import Progress, View, wants_bar
+from mudline.cli.view import Progress, View
 from mudline.linting.configuration import Given
-from mudline.running.executors import Crash, executor, in_order
 
 if TYPE_CHECKING:
     from mudline.archive.updating import Order, Update
@@ -40,7 +40,7 @@ def lacks_libraries(command: str) -> bool:
 @click.option("--prune", is_flag=True, help="Also drop decks outside PATHS whose files are no longer there.")
 @options.config
 @options.isolated
-@options.running
+@options.jobs
 @options.every_file
 @options.units
 @options.common
@@ -66,7 +66,7 @@ def command(
         return WRONG_USAGE
     if "-" in paths:
         raise click.UsageError("standard input cannot be archived: give files or directories")
-    inputs = collect_any_form(paths, "", gitignore=not every_file)
+    inputs = collect(paths, "", is_in_any_form, gitignore=not every_file)
     settings = checked_settings(config, Given(units=units), "none", isolated=isolated, fail_on=None)
     from mudline.archive.store import Archive, ArchiveError  # noqa: PLC0415 - an extra
     from mudline.archive.updating import Update  # noqa: PLC0415 - an extra
@@ -77,7 +77,7 @@ def command(
             update = Update(archive)
             if update.damage:
                 notify(update.damage)
-            _index(inputs, settings.of, update, view, jobs)
+            _index(inputs, settings, update, view, jobs)
             folders = [path for path in paths if os.path.isdir(path)]  # noqa: PTH112 - as in inputs
             update.remove_gone(folders, everywhere=prune)
             update.save()
@@ -90,43 +90,26 @@ def command(
     return max(inputs.code, DONE)
 
 
-def _index(inputs: Inputs, settings_of: SettingsOf, update: Update, view: View, jobs: int) -> None:
-    """Read the decks that have changed; what has been read is written, also when the run is interrupted."""
-    from mudline.archive.updating import read_deck  # noqa: PLC0415 - an extra
+def _index(inputs: Inputs, settings: Settings, update: Update, view: View, jobs: int) -> None:
+    """Read the decks that have changed; what has been read is written, also when the run is interrupted.
 
-    with Progress(len(inputs.files), view, shown=wants_bar(view)) as progress, executor(jobs) as pool:
-        orders = _orders(inputs, settings_of, update, progress)
+    A deck that cannot be opened stays as it was.
+    """
+    from mudline.archive.updating import looked, read_deck  # noqa: PLC0415 - an extra
 
-        def crashed(file: Input, crash: Crash) -> None:
-            progress.hide()
-            inputs.crashed(file, crash, verbose=view.verbose)
-            progress.advance()
+    def prepared(file: Input) -> tuple[Input, tuple[Order] | None]:
+        now = looked(*file.size_and_date())
+        order = update.order(file.path or file.name, now, file.read, settings.of(file))
+        return file, None if order is None else (order,)
 
-        try:
-            with closing(in_order(pool, read_deck, orders, len(inputs.files), crashed)) as found:
-                for _, read in found:
-                    if read is not None:
-                        update.take(read)
-                    progress.advance()
-        except BaseException:
-            update.save()
-            raise
-
-
-def _orders(
-    inputs: Inputs, settings_of: SettingsOf, update: Update, progress: Progress
-) -> Iterator[tuple[Input, Order | None]]:
-    """The decks, those to be read with an order; one that cannot be opened is reported, and stays as it was."""
-    from mudline.archive.updating import looked  # noqa: PLC0415 - an extra
-
-    for file in inputs.files:
-        try:
-            now = looked(*file.size_and_date())
-            yield file, update.order(file.path or file.name, now, file.read, settings_of(file))
-        except OSError as error:
-            progress.hide()
-            inputs.fail(f"{file.name}: {reason(error)}")
-            yield file, None
+    try:
+        with closing(many_files(inputs, prepared, read_deck, Progress(len(inputs.files), view), jobs=jobs)) as results:
+            for _, read in results:
+                if read is not None:
+                    update.take(read)
+    except BaseException:
+        update.save()
+        raise
 
 
 def _notify_counts(update: Update, folder: Path) -> None:

@@ -74,10 +74,14 @@ def _folder(path: str) -> Path:
 
 @dataclass(slots=True, eq=False)
 class Inputs:
-    """The files found, each once, and whether something could not be found or read."""
+    """The files found, each once, and whether something could not be found or read.
+
+    `undone` are those of the files that could not be read, or for which the program failed, with the reasons.
+    """
 
     files: list[Input] = field(default_factory=list)
     code: int = 0
+    undone: dict[Input, str] = field(default_factory=dict)
 
     def contents(self) -> Iterator[tuple[Input, bytes]]:
         """Each file that can be read; the others are reported and set the exit code."""
@@ -91,8 +95,13 @@ class Inputs:
         try:
             return file.read()
         except OSError as error:
-            self.fail(f"{file.name}: {reason(error)}")
+            self.unreadable(file, error)
             return None
+
+    def unreadable(self, file: Input, error: OSError) -> None:
+        """Report a file that cannot be read."""
+        self.undone[file] = reason(error)
+        self.fail(f"{file.name}: {reason(error)}")
 
     def replaced(self, file: Input, read: bytes, content: bytes) -> bool:
         """Whether a file has its new content; if not, that is reported.
@@ -115,6 +124,7 @@ class Inputs:
 
     def crashed(self, file: Input, crash: Crash, *, verbose: bool) -> None:
         """Report that the program itself failed of a file; the exit code says that the file is not done."""
+        self.undone[file] = f"internal error: {crash.summary}"
         self.fail(f"{file.name}: internal error, please report it: {crash.summary}")
         if verbose:
             notify(crash.traceback)
@@ -135,8 +145,22 @@ def is_deck(path: str) -> bool:
 
 
 def is_document(path: str) -> bool:
-    """Whether a file is a deck in JSON or YAML, by the format that its beginning names."""
-    return not is_deck(path) and form_of(path) != "keyword" and _is_deck_in_any_form(path)
+    """Whether a file is a deck in JSON or YAML, by the format that its beginning names.
+
+    One that cannot be opened is taken for it, and reported when it is read.
+    """
+    if is_deck(path) or form_of(path) == "keyword" or not _may_be_file(path):
+        return False
+    try:
+        with Path(path).open("rb") as stream:
+            return MARK.encode() in stream.read(_HEAD)
+    except OSError:
+        return True
+
+
+def is_in_any_form(path: str) -> bool:
+    """Whether a file is a deck by its suffix or its content."""
+    return is_deck(path) or is_document(path)
 
 
 def collect(
@@ -145,13 +169,14 @@ def collect(
     wanted: Wanted = is_deck,
     *,
     gitignore: bool = True,
+    may_be_empty: bool = False,
     skipped: list[str] | None = None,
 ) -> Inputs:
     """Files as given; directories searched for wanted files, in sorted order; `-` for standard input.
 
     What is there and cannot be looked at is taken, and reported when it is read: no deck passes unseen.
-    `gitignore` leaves out of a search what `.gitignore` files hide.
-    `skipped` gets a line, with the reason, for each file of a searched directory that is not taken.
+    `gitignore` leaves out of a search what `.gitignore` files hide. A directory without a deck is a fault unless it
+    `may_be_empty`. `skipped` gets a line, with the reason, for each file of a searched directory that is not taken.
     """
 
     def taken(path: str) -> bool:
@@ -160,15 +185,17 @@ def collect(
             skipped.append(f"{_slashed(path)}: skipped, {_why_skipped(path)}")
         return found
 
-    return _collect(paths, stdin_name, taken, gitignore=gitignore)
-
-
-def collect_any_form(paths: Sequence[str], stdin_name: str, *, gitignore: bool, may_be_empty: bool = False) -> Inputs:
-    """As `collect`, for decks in any form: also JSON and YAML files whose beginning names the format of decks.
-
-    A directory without a deck is a fault unless it `may_be_empty`.
-    """
-    return _collect(paths, stdin_name, _is_deck_in_any_form, gitignore=gitignore, may_be_empty=may_be_empty)
+    found = Inputs()
+    for given in paths:
+        if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
+            _directory(_Search(given, gitignore), found, taken, may_be_empty=may_be_empty)
+        else:
+            found.files.append(_single(given, stdin_name))
+    found.files = list(dict.fromkeys(found.files))
+    for file in found.files:
+        if file.path is not None:
+            reading(file.path)
+    return found
 
 
 def _why_skipped(path: str) -> str:
@@ -187,37 +214,6 @@ def _may_be_file(path: str) -> bool:
         return os.path.islink(path) and not path.rpartition(os.sep)[2].startswith(".")  # noqa: PTH114 - as above
     except OSError:
         return True
-
-
-def _is_deck_in_any_form(path: str) -> bool:
-    """Whether a file is a deck by its suffix or its content; one that cannot be opened is taken, and reported later."""
-    if not is_deck(path) and form_of(path) == "keyword":
-        return False
-    if not _may_be_file(path):
-        return False
-    if is_deck(path):
-        return True
-    try:
-        with Path(path).open("rb") as stream:
-            return MARK.encode() in stream.read(_HEAD)
-    except OSError:
-        return True
-
-
-def _collect(
-    paths: Sequence[str], stdin_name: str, taken: Wanted, *, gitignore: bool, may_be_empty: bool = False
-) -> Inputs:
-    found = Inputs()
-    for given in paths:
-        if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
-            _directory(_Search(given, gitignore), found, taken, may_be_empty=may_be_empty)
-        else:
-            found.files.append(_single(given, stdin_name))
-    found.files = list(dict.fromkeys(found.files))
-    for file in found.files:
-        if file.path is not None:
-            reading(file.path)
-    return found
 
 
 def _single(given: str, stdin_name: str) -> Input:

@@ -77,7 +77,7 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
     "--statistics", group=options.OUTPUT, is_flag=True, help="Count the findings of each rule instead of listing them."
 )
 @options.option("--exit-zero", group=options.OUTPUT, is_flag=True, help="Exit with 0 whatever is found.")
-@options.running
+@options.jobs
 @options.option(
     "--no-cache", "uncached", group=options.RUN, is_flag=True, help="Lint every deck again, without the cache."
 )
@@ -140,9 +140,9 @@ def command(
         report = Report(wanted, view, statistics=statistics, aside=aside, fixing=fix or diff)
         known = None if uncached or fix or diff else known_findings(inputs, given, configured)
         if known is not None and known.all_clean and not (baseline or recording):
-            for number, file in enumerate(inputs.files):
+            for file in inputs.files:
                 report.add(file.name, b"", [], 0, Severity.ERROR)
-                report.coverage.add(known.clean[number])
+                report.coverage.add(known.clean[file])
             report.finish()
             return inputs.code
         from mudline.cli import lint_run  # noqa: PLC0415 - decks that have not changed are not read

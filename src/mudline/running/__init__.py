@@ -1,6 +1,6 @@
 """Many items on the processes of this machine or the workers of a Dask scheduler, and remembered results.
 
-`executors` runs a function over items and gives the results in order, `remembered` keeps results from run to run. What
+`executors` has work done for items and gives the results in order, `remembered` keeps results from run to run. What
 the items are is not known here.
 """
 
