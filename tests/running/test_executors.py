@@ -7,14 +7,14 @@ import os
 import time
 from collections.abc import Iterator
 from concurrent.futures import CancelledError, Future
-from contextlib import ExitStack
+from contextlib import ExitStack, closing
 from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
 
 from mudline.running import executors
-from mudline.running.executors import Crash, Pool, RunError, check_address, executor, many, start_method
+from mudline.running.executors import Crash, Pool, RunError, check_address, many, start_method
 
 
 @pytest.fixture
@@ -63,8 +63,8 @@ def test_results_are_in_order_and_few_are_taken_ahead(monkeypatch: pytest.Monkey
     monkeypatch.setattr(executors, "_TOGETHER", 5)
     taken: list[int] = []
     used = set()
-    with executor(2) as pool:
-        for done, (number, made) in enumerate(many(pool, squared, items(200, taken), 200)):
+    with closing(many(squared, items(200, taken), 200, 2)) as results:
+        for done, (number, made) in enumerate(results):
             assert number == done
             assert not isinstance(made, Crash)
             assert (made is None) == (number % 3 == 2)
@@ -78,35 +78,33 @@ def test_results_are_in_order_and_few_are_taken_ahead(monkeypatch: pytest.Monkey
 
 
 def test_little_work_is_done_here() -> None:
-    with executor(2) as pool:
-        found = [made for _, made in many(pool, squared, items(50, []), 50) if made]
+    found = [made for _, made in many(squared, items(50, []), 50, 2) if made]
     assert {process for _, process in found} == {os.getpid()}
 
 
 @pytest.mark.usefixtures("eager")
 def test_a_process_that_dies_is_reported() -> None:
-    with pytest.raises(RunError, match="a process has ended early, perhaps out of memory"), executor(2) as pool:
-        list(many(pool, end, numbers(20), 20))
+    with pytest.raises(RunError, match="a process has ended early, perhaps out of memory"):
+        list(many(end, numbers(20), 20, 2))
     assert multiprocessing.active_children() == []
 
 
 @pytest.mark.usefixtures("eager")
 def test_what_no_item_is_the_reason_of_ends_all() -> None:
-    with pytest.raises(MemoryError, match=r"[0-9]"), executor(2) as pool:
-        list(many(pool, refuse, numbers(20), 20))
+    with pytest.raises(MemoryError, match=r"[0-9]"):
+        list(many(refuse, numbers(20), 20, 2))
     assert multiprocessing.active_children() == []
 
 
 @pytest.mark.usefixtures("eager")
 def test_a_fault_is_that_of_its_item() -> None:
-    with executor(2) as pool:
-        for number, made in many(pool, fail_of_odd, numbers(20), 20):
-            if number % 2:
-                assert isinstance(made, Crash)
-                assert made.summary.startswith(f"ValueError: {number} (test_executors.py, line ")
-                assert made.traceback.startswith("Traceback (most recent call last)")
-            else:
-                assert made == number
+    for number, made in many(fail_of_odd, numbers(20), 20, 2):
+        if number % 2:
+            assert isinstance(made, Crash)
+            assert made.summary.startswith(f"ValueError: {number} (test_executors.py, line ")
+            assert made.traceback.startswith("Traceback (most recent call last)")
+        else:
+            assert made == number
 
 
 def sleep(seconds: float) -> None:
@@ -117,8 +115,8 @@ def sleep(seconds: float) -> None:
 @pytest.mark.usefixtures("eager")
 def test_processes_end_at_once_with_the_block(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(executors, "_TOGETHER", 1)
-    with pytest.raises(KeyboardInterrupt), executor(2) as pool:  # noqa: PT012 - what is under way is ended
-        results = many(pool, sleep, ((number, (1000.0 * (number > 1),)) for number in range(9)), 9)
+    results = many(sleep, ((number, (1000.0 * (number > 1),)) for number in range(9)), 9, 2)
+    with pytest.raises(KeyboardInterrupt), closing(results):  # noqa: PT012 - what is under way is ended
         for number, _ in results:
             if number == 1:
                 raise KeyboardInterrupt
@@ -134,8 +132,7 @@ def test_no_module_of_the_working_folder_is_imported(
         (tmp_path / f"{name}.py").write_text("from pathlib import Path\nPath('run').touch()\n", encoding="utf-8")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(executors, "start_method", lambda: method)
-    with executor(2) as pool:
-        made = [made for _, made in many(pool, squared, numbers(9), 9)]
+    made = [made for _, made in many(squared, numbers(9), 9, 2)]
     assert len({process for _, process in filter(None, made)}) > 1
     assert not (tmp_path / "run").exists()
 

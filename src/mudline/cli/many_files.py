@@ -11,7 +11,7 @@ from typing import TypeVar, TypeVarTuple
 
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.view import Progress
-from mudline.running.executors import Crash, executor, many
+from mudline.running.executors import Crash, many
 
 _Item = TypeVar("_Item")
 _Given = TypeVarTuple("_Given")
@@ -46,11 +46,7 @@ def many_files(
             else:
                 yield (file, [item]), given
 
-    with (
-        progress,
-        executor(jobs, scheduler) as pool,
-        closing(many(pool, work, items(), len(inputs.files))) as results,
-    ):
+    with progress, closing(many(work, items(), len(inputs.files), jobs, scheduler)) as results:
         for (file, found), made in results:
             if isinstance(made, Crash):
                 progress.hide()

@@ -138,57 +138,53 @@ class Pool:
             raise RunError(f"{self.scheduler}: {what}") from error
 
 
-@contextmanager
-def executor(jobs: int = 0, scheduler: str | None = None) -> Iterator[Pool]:
-    """What `many` has work done on; processes are started, and a scheduler is reached, when that is needed.
-
-    Started processes end with the block, at once where it raises; what a scheduler still has to do is cancelled.
-    """
-    with ExitStack() as stack:
-        yield Pool(jobs, scheduler, stack)
-
-
 def many(
-    pool: Pool,
     work: Callable[[*_Given], _Made],
     items: Iterable[tuple[_Item, tuple[*_Given] | None]],
     count: int,
+    jobs: int = 0,
+    scheduler: str | None = None,
 ) -> Generator[tuple[_Item, _Made | Crash | None], None, None]:
     """Each of about `count` items with what the work makes of it, in order; only so many are taken ahead as needed.
 
     An item comes with what the work is given, which is pickled; with None there is nothing to do and its result is
     None. The work is a function of a module, by whose name others find it. Where it fails of an item, that comes with
     a Crash. Raises RunError, and whatever else is in NO_CRASH.
+
+    Processes are started, and a scheduler is reached, when that is needed. Close what this gives: then processes end
+    at once, and what a scheduler still has to do is cancelled.
     """
     rest = iter(items)
     spent, done, number = 0.0, 0, 0
-    for item, given in rest if pool.scheduler is None else ():
-        seconds, made = _timed(work, [] if given is None else [given])
-        spent, done, number = spent + seconds, done + len(made), number + 1
-        yield item, made[0] if made else None
-        if spent >= TRIED and done and pool.size > 1 and spent / done * (count - number) >= PAYS[start_method()]:
-            break
-    waiting: deque[tuple[list[tuple[_Item, bool]], Future[tuple[float, list[_Made | Crash]]] | None]] = deque()
-    under_way = 0
-    while True:
-        wanted = _SECONDS[pool.scheduler is not None] * done / spent if spent else _FIRST
-        share = (count - number) / (2 * pool.size)
-        part = list(islice(rest, max(1, min(int(wanted), int(share), _TOGETHER))))
-        number += len(part)
-        if part:
-            orders = [given for _, given in part if given is not None]
-            sent = [(item, given is not None) for item, given in part]
-            waiting.append((sent, pool.submit(work, orders) if orders else None))
-            under_way += bool(orders)
-        while waiting and (not part or waiting[0][1] is None or under_way > _AHEAD * pool.size):
-            sent, future = waiting.popleft()
-            seconds, results = (0.0, []) if future is None else pool.result(future)
-            under_way -= future is not None
-            spent, done = spent + seconds, done + len(results)
-            found = iter(results)
-            yield from ((item, next(found) if is_sent else None) for item, is_sent in sent)
-        if not part:
-            return
+    with ExitStack() as stack:
+        pool = Pool(jobs, scheduler, stack)
+        for item, given in rest if scheduler is None else ():
+            seconds, made = _timed(work, [] if given is None else [given])
+            spent, done, number = spent + seconds, done + len(made), number + 1
+            yield item, made[0] if made else None
+            if spent >= TRIED and done and pool.size > 1 and spent / done * (count - number) >= PAYS[start_method()]:
+                break
+        waiting: deque[tuple[list[tuple[_Item, bool]], Future[tuple[float, list[_Made | Crash]]] | None]] = deque()
+        under_way = 0
+        while True:
+            wanted = _SECONDS[scheduler is not None] * done / spent if spent else _FIRST
+            share = (count - number) / (2 * pool.size)
+            part = list(islice(rest, max(1, min(int(wanted), int(share), _TOGETHER))))
+            number += len(part)
+            if part:
+                orders = [given for _, given in part if given is not None]
+                sent = [(item, given is not None) for item, given in part]
+                waiting.append((sent, pool.submit(work, orders) if orders else None))
+                under_way += bool(orders)
+            while waiting and (not part or waiting[0][1] is None or under_way > _AHEAD * pool.size):
+                sent, future = waiting.popleft()
+                seconds, results = (0.0, []) if future is None else pool.result(future)
+                under_way -= future is not None
+                spent, done = spent + seconds, done + len(results)
+                found = iter(results)
+                yield from ((item, next(found) if is_sent else None) for item, is_sent in sent)
+            if not part:
+                return
 
 
 class Crash(NamedTuple):
@@ -213,17 +209,15 @@ NO_CRASH = (RunError, OverwriteError, PluginError, MemoryError, ImportError)
 def _timed(work: Callable[[*_Given], _Made], orders: list[tuple[*_Given]]) -> tuple[float, list[_Made | Crash]]:
     """The seconds that the work takes, and what it makes of each order, or how it fails."""
     start = time.perf_counter()
-    made = [_called(work, given) for given in orders]
+    made: list[_Made | Crash] = []
+    for given in orders:
+        try:
+            made.append(work(*given))
+        except NO_CRASH:
+            raise
+        except Exception as error:  # noqa: BLE001 - a fault of the program, which is reported as one
+            made.append(Crash.of(error))
     return time.perf_counter() - start, made
-
-
-def _called(work: Callable[[*_Given], _Made], given: tuple[*_Given]) -> _Made | Crash:
-    try:
-        return work(*given)
-    except NO_CRASH:
-        raise
-    except Exception as error:  # noqa: BLE001 - a fault of the program, which is reported as one
-        return Crash.of(error)
 
 
 def _done(
