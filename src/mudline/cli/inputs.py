@@ -26,7 +26,6 @@ from mudline.patterns import Pattern, read_pattern
 
 if TYPE_CHECKING:
     from mudline.deck.model import Deck
-    from mudline.running.executors import Crash
 
 STDIN = "-"
 
@@ -121,13 +120,6 @@ class Inputs:
             self.fail(f"{file.name}: cannot be written: {reason(error)}")
             return False
         return True
-
-    def crashed(self, file: Input, crash: Crash, *, verbose: bool) -> None:
-        """Report that the program itself failed of a file; the exit code says that the file is not done."""
-        self.undone[file] = f"internal error: {crash.summary}"
-        self.fail(f"{file.name}: internal error, please report it: {crash.summary}")
-        if verbose:
-            notify(crash.traceback)
 
     def fail(self, message: str) -> None:
         """Report a path that cannot be read or written."""

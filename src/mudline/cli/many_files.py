@@ -10,6 +10,7 @@ from contextlib import closing
 from typing import TypeVar, TypeVarTuple
 
 from mudline.cli.inputs import Input, Inputs
+from mudline.cli.streams import notify
 from mudline.cli.view import Progress
 from mudline.running.executors import Crash, many
 
@@ -50,7 +51,10 @@ def many_files(
         for (file, found), made in results:
             if isinstance(made, Crash):
                 progress.hide()
-                inputs.crashed(file, made, verbose=progress.view.verbose)
+                inputs.undone[file] = f"internal error: {made.summary}"
+                inputs.fail(f"{file.name}: internal error, please report it: {made.summary}")
+                if progress.view.verbose:
+                    notify(made.traceback)
             else:
                 yield from ((item, made) for item in found)
             progress.advance()
