@@ -25,7 +25,6 @@ Report = pytest.CollectReport
 OPTIONAL = (
     "distributed",
     "duckdb",
-    "fsspec",
     "jsonschema",
     "lsprotocol",
     "matplotlib",

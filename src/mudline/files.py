@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import os
-import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
@@ -16,8 +15,6 @@ from mudline.overwriting import reading
 
 PLOT_FORMS = ("png", "svg", "pdf")
 """Suffixes of the file of a plot."""
-
-_URL = re.compile(r"[A-Za-z][A-Za-z0-9+.:-]+://")
 
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0) | getattr(os, "O_NOFOLLOW", 0)
 _NEW = 0o666
@@ -33,11 +30,6 @@ _tidied: set[str] = set()
 """Folders in which this run has looked for what killed runs left."""
 
 _LOOKED_AT: ContextVar[dict[str, None] | None] = ContextVar("looked_at", default=None)
-
-
-def is_url(path: str) -> bool:
-    """Whether a path is a URL."""
-    return _URL.match(path) is not None
 
 
 @contextmanager

@@ -205,7 +205,7 @@ def test_an_archive_lies_outside_of_the_decks(decks: Path, monkeypatch: pytest.M
     assert summary(index(decks, archive=inside)) == "3 decks: 3 unchanged"
 
 
-def test_other_processes_and_urls_give_the_same(
+def test_other_processes_give_the_same(
     decks: Path, archive: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(executors, "PAYS", dict.fromkeys(executors.PAYS, 0.0))
@@ -214,17 +214,6 @@ def test_other_processes_and_urls_give_the_same(
     index(decks, archive=archive)
     assert summary(run("index", decks, "-o", tmp_path / "two", "--isolated", "--jobs", "2")) == "4 decks: 4 new"
     assert contents(tmp_path / "two") == contents(archive)
-    fsspec = pytest.importorskip("fsspec", reason="fsspec is not installed")
-    memory = fsspec.filesystem("memory")
-    for name in ("a", "b"):
-        memory.pipe(f"/indexed/{name}.keyxm", (decks / f"{name}.keyxm").read_bytes())
-    assert summary(index("memory://indexed", archive=tmp_path / "far")) == "2 decks: 2 new"
-    memory.rm("/indexed/b.keyxm")
-    assert summary(index("memory://indexed", archive=tmp_path / "far")) == "1 deck: 1 unchanged, 1 gone"
-    memory.rm("/indexed", recursive=True)
-    assert (
-        "an archive is a folder outside of the decks, and not a URL" in run("index", decks, "-o", "s3://b/archive").err
-    )
 
 
 def test_a_missing_extra_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 import multiprocessing
 import signal
 from collections.abc import Callable
@@ -191,7 +190,6 @@ def test_gitignore_hides_decks(four: str, folder: Path) -> None:
         (["--time-step", "0"], "--time-step is 0.0: it must be greater than 0"),
         (["--summary-only"], "--summary-only is for time steps: give series with --positions"),
         (["-o", "decks/a.keyxm"], "decks/a.keyxm: cannot be created: file exists"),
-        (["-o", "nothing://results"], "nothing://results: cannot be created: "),
         (["--form", "xlsx"], "Invalid value for '--form': 'xlsx' is not one of 'csv', 'json', 'npz', 'parquet'."),
     ],
 )
@@ -390,10 +388,10 @@ def test_output_is_the_same_whatever_the_number_of_processes(four: str, place: P
 def test_interrupted_run_keeps_what_is_done(monkeypatch: pytest.MonkeyPatch) -> None:
     work = batch_cases._evaluated
 
-    def second_is_interrupted(order: Order, near: Path) -> object:
+    def second_is_interrupted(order: Order) -> object:
         if order.case.name == "b":
             signal.raise_signal(signal.SIGINT)
-        return work(order, near)
+        return work(order)
 
     before = signal.signal(signal.SIGINT, signal.default_int_handler)  # it may be ignored in the background
     with monkeypatch.context() as patch:
@@ -403,32 +401,3 @@ def test_interrupted_run_keeps_what_is_done(monkeypatch: pytest.MonkeyPatch) -> 
     assert (outcome.code, outcome.out) == (130, "")
     assert set(files()) == {"a.csv", "a-nodes.csv", "a-summary.csv", MEMORY.name}
     assert taken(again()) == 1
-
-
-# ------------------------------------------------------------------------------------------------------------- URLs
-
-
-def test_decks_positions_and_results_at_urls(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
-    fsspec = pytest.importorskip("fsspec")
-    monkeypatch.setattr("fsspec.implementations.memory.MemoryFileSystem.store", {})
-    memory = fsspec.filesystem("memory")
-    for name, deck in {"a": CLEAN, "b": BAD_NUMBER, "more/c": DEEP}.items():
-        memory.pipe(f"/decks/{name}.keyxm", deck.encode())
-    arguments = ("batch", "memory://decks", "--form", "json", "--jobs", "1", "--output-format", "json")
-    first = run(*arguments, "-o", "memory://results")
-    assert first.code == 1
-    found = {row["deck"]: (row["verdict"], row["result"]) for row in first.json()}
-    assert found == {
-        "memory://decks/b.keyxm": ("failed", None),
-        "memory://decks/more/c.keyxm": ("evaluated", "more/c.json"),
-        "memory://decks/a.keyxm": ("evaluated", "a.json"),
-    }
-    assert_fits(json.loads(memory.cat("/results/more/c.json")), "evaluate")
-    assert memory.exists("/results/summary.parquet") or memory.exists("/results/summary.csv")
-    second = run(*arguments, "-o", "memory://results")
-    assert (taken(second), second.out) == (2, first.out)
-    assert "results of 2 decks -> memory://results" in second.err
-    (folder / "state.csv").write_text(STATE, encoding="utf-8")
-    placed = run(*arguments, "-o", (folder / "near").as_uri(), "--positions", "state.csv").json()
-    assert [row["largest_force"] for row in placed[1:]] == [3500.0] * 2
-    assert Path("near/more/c.json").exists()

@@ -282,11 +282,11 @@ def test_deck_without_elements(place: Place) -> None:
     assert "no elements to evaluate: 2 keywords of it not known, `mudline lint` names them" in outcome.err
 
 
-@pytest.mark.parametrize("decks", [("a.keyxm", "b.keyxm"), (".",), ("file:///a.keyxm",)], ids=["two", "folder", "URL"])
+@pytest.mark.parametrize("decks", [("a.keyxm", "b.keyxm"), (".",)], ids=["two", "folder"])
 def test_several_decks_are_for_batch(decks: tuple[str, ...]) -> None:
     outcome = run("evaluate", *decks)
     assert (outcome.code, outcome.out) == (2, "")
-    assert "evaluate takes one deck: several decks, folders and URLs are for mudline batch\n" in outcome.err
+    assert "evaluate takes one deck: several decks and folders are for mudline batch\n" in outcome.err
 
 
 def test_elements_at_nodes_that_are_not_known(place: Place) -> None:

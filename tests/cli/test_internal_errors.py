@@ -13,13 +13,13 @@ from tests.cli.conftest import Place
 from tests.cli.runner import run
 
 LOOPS: dict[str, tuple[str, str, Callable[..., str], list[str]]] = {
-    "lint": ("lint_run", "lint_one", lambda name, *_: name, ["--output-format", "json"]),
-    "validate": ("validate_command", "judge", lambda context: context.deck.file, ["--output-format", "json"]),
-    "report": ("report_command", "report_on", lambda given, *_: given.name, ["--output-format", "json"]),
+    "lint": ("linting.fixing", "_lint_one", lambda name, *_: name, ["--output-format", "json"]),
+    "validate": ("cli.validate_command", "judge", lambda context: context.deck.file, ["--output-format", "json"]),
+    "report": ("cli.report_command", "report_on", lambda given, *_: given.name, ["--output-format", "json"]),
     "batch": (
-        "batch_cases",
+        "cli.batch_cases",
         "_evaluated",
-        lambda order, _: order.case.file.name,
+        lambda order: order.case.file.name,
         ["--output-format", "json", "-o", "r"],
     ),
 }
@@ -31,14 +31,14 @@ def test_an_internal_error_loses_no_other_deck(
     place: Place, monkeypatch: pytest.MonkeyPatch, command: str, jobs: str
 ) -> None:
     module, function, name_of, options = LOOPS[command]
-    called = getattr(import_module(f"mudline.cli.{module}"), function)
+    called = getattr(import_module(f"mudline.{module}"), function)
 
     def failing(*given: Any) -> Any:  # noqa: ANN401 - as the function
         if name_of(*given).endswith("bad.keyxm"):
             raise IndexError("a\nfault")
         return called(*given)
 
-    monkeypatch.setattr(f"mudline.cli.{module}.{function}", failing)
+    monkeypatch.setattr(f"mudline.{module}.{function}", failing)
     monkeypatch.setattr("mudline.running.executors.PAYS", dict.fromkeys(("fork", "forkserver", "spawn"), 0.0))
     monkeypatch.setattr("mudline.running.executors.TRIED", 0.0)
     monkeypatch.setattr("mudline.running.executors.start_method", lambda: "fork")

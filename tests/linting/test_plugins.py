@@ -14,7 +14,6 @@ from pathlib import Path
 import pytest
 
 import mudline
-from mudline.cli import lint_run
 from mudline.linting import registry
 from mudline.linting.registry import origin, rules
 from mudline.rules import RULES, Rule
@@ -103,7 +102,6 @@ def _here(site: Site, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[...,
 
     def command(name: str, *arguments: str, deck: str = NO_FRICTION) -> Outcome:
         monkeypatch.setattr(registry, "_collected", loaded)
-        lint_run.rules_named.cache_clear()
         (site.folder / "deck.keyxm").write_text(deck)
         return run(name, *arguments)
 
@@ -115,7 +113,6 @@ def _here(site: Site, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[...,
     yield command
     RULES.clear()
     RULES.update(own)
-    lint_run.rules_named.cache_clear()
     for name in sys.modules.keys() - modules:
         if name.startswith(("corp_", "acme_mudline")):
             del sys.modules[name]

@@ -7,14 +7,14 @@ import os
 import time
 from collections.abc import Iterator
 from concurrent.futures import CancelledError, Future
-from contextlib import ExitStack
+from contextlib import ExitStack, closing
 from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
 
 from mudline.running import executors
-from mudline.running.executors import Pool, RunError, check_address, executor, in_order, start_method
+from mudline.running.executors import Crash, Pool, RunError, check_address, many, start_method
 
 
 @pytest.fixture
@@ -38,14 +38,24 @@ def end(number: int) -> int:
 def refuse(number: int) -> int:
     if multiprocessing.parent_process() is None:
         return number
-    raise ValueError(number)
+    raise MemoryError(number)
 
 
-def items(count: int, taken: list[int]) -> Iterator[tuple[int, int | None]]:
+def fail_of_odd(number: int) -> int:
+    if number % 2:
+        raise ValueError(number)
+    return number
+
+
+def numbers(count: int) -> Iterator[tuple[int, tuple[int]]]:
+    return ((number, (number,)) for number in range(count))
+
+
+def items(count: int, taken: list[int]) -> Iterator[tuple[int, tuple[int] | None]]:
     """Numbers, of which every third needs nothing to be done."""
     for number in range(count):
         taken.append(number)
-        yield number, None if number % 3 == 2 else number
+        yield number, None if number % 3 == 2 else (number,)
 
 
 @pytest.mark.usefixtures("eager")
@@ -53,9 +63,10 @@ def test_results_are_in_order_and_few_are_taken_ahead(monkeypatch: pytest.Monkey
     monkeypatch.setattr(executors, "_TOGETHER", 5)
     taken: list[int] = []
     used = set()
-    with executor(2) as pool:
-        for done, (number, made) in enumerate(in_order(pool, squared, items(200, taken), 200)):
+    with closing(many(squared, items(200, taken), 200, 2)) as results:
+        for done, (number, made) in enumerate(results):
             assert number == done
+            assert not isinstance(made, Crash)
             assert (made is None) == (number % 3 == 2)
             if made is not None:
                 assert made[0] == number * number
@@ -67,23 +78,33 @@ def test_results_are_in_order_and_few_are_taken_ahead(monkeypatch: pytest.Monkey
 
 
 def test_little_work_is_done_here() -> None:
-    with executor(2) as pool:
-        found = [made for _, made in in_order(pool, squared, items(50, []), 50) if made]
+    found = [made for _, made in many(squared, items(50, []), 50, 2) if made]
     assert {process for _, process in found} == {os.getpid()}
 
 
 @pytest.mark.usefixtures("eager")
 def test_a_process_that_dies_is_reported() -> None:
-    with pytest.raises(RunError, match="a process has ended early, perhaps out of memory"), executor(2) as pool:
-        list(in_order(pool, end, ((number, number) for number in range(20)), 20))
+    with pytest.raises(RunError, match="a process has ended early, perhaps out of memory"):
+        list(many(end, numbers(20), 20, 2))
     assert multiprocessing.active_children() == []
 
 
 @pytest.mark.usefixtures("eager")
-def test_what_the_function_raises_ends_all() -> None:
-    with pytest.raises(ValueError, match=r"[0-9]"), executor(2) as pool:
-        list(in_order(pool, refuse, ((number, number) for number in range(20)), 20))
+def test_what_no_item_is_the_reason_of_ends_all() -> None:
+    with pytest.raises(MemoryError, match=r"[0-9]"):
+        list(many(refuse, numbers(20), 20, 2))
     assert multiprocessing.active_children() == []
+
+
+@pytest.mark.usefixtures("eager")
+def test_a_fault_is_that_of_its_item() -> None:
+    for number, made in many(fail_of_odd, numbers(20), 20, 2):
+        if number % 2:
+            assert isinstance(made, Crash)
+            assert made.summary.startswith(f"ValueError: {number} (test_executors.py, line ")
+            assert made.traceback.startswith("Traceback (most recent call last)")
+        else:
+            assert made == number
 
 
 def sleep(seconds: float) -> None:
@@ -94,8 +115,8 @@ def sleep(seconds: float) -> None:
 @pytest.mark.usefixtures("eager")
 def test_processes_end_at_once_with_the_block(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(executors, "_TOGETHER", 1)
-    with pytest.raises(KeyboardInterrupt), executor(2) as pool:  # noqa: PT012 - what is under way is ended
-        results = in_order(pool, sleep, ((number, 1000.0 * (number > 1)) for number in range(9)), 9)
+    results = many(sleep, ((number, (1000.0 * (number > 1),)) for number in range(9)), 9, 2)
+    with pytest.raises(KeyboardInterrupt), closing(results):  # noqa: PT012 - what is under way is ended
         for number, _ in results:
             if number == 1:
                 raise KeyboardInterrupt
@@ -111,8 +132,7 @@ def test_no_module_of_the_working_folder_is_imported(
         (tmp_path / f"{name}.py").write_text("from pathlib import Path\nPath('run').touch()\n", encoding="utf-8")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(executors, "start_method", lambda: method)
-    with executor(2) as pool:
-        made = [made for _, made in in_order(pool, squared, ((number, number) for number in range(9)), 9)]
+    made = [made for _, made in many(squared, numbers(9), 9, 2)]
     assert len({process for _, process in filter(None, made)}) > 1
     assert not (tmp_path / "run").exists()
 
@@ -184,4 +204,4 @@ def test_what_goes_wrong_at_a_scheduler_is_named(error: BaseException, why: str)
 
 def test_a_worker_of_another_version_is_named() -> None:
     with pytest.raises(RunError, match=r"a worker has mudline .*, the command 9\.9: install the same version"):
-        executors._done("9.9", squared, [1])
+        executors._done("9.9", squared, [(1,)])

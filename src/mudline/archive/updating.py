@@ -21,8 +21,7 @@ import pyarrow.parquet as pq
 
 from mudline.archive.rows import Rows
 from mudline.archive.tables import TABLES, columns_of
-from mudline.files import is_url, replacement, write_atomically
-from mudline.running import storage
+from mudline.files import replacement, write_atomically
 from mudline.running.remembered import Memory
 
 VIEWS, LOCK, _MEMORY = "archive.duckdb", "mudline.lock", ".known"
@@ -65,13 +64,11 @@ class Archive:
         self._known = {row["file"]: row["key"] for row in self._tables["decks"].select(["file", "key"]).to_pylist()}
 
     def place(self, path: str) -> str:
-        """Return a path from the folder that holds the archive, so that both may be moved; a URL is its own place."""
-        if not is_url(path):
-            path = os.path.abspath(path)  # noqa: PTH100 - links stay what they are called
-            with suppress(ValueError):  # on another drive
-                path = os.path.relpath(path, self._root)
-            path = path.replace(os.sep, "/")
-        return _escaped(path)
+        """Return a path from the folder that holds the archive, so that both may be moved."""
+        path = os.path.abspath(path)  # noqa: PTH100 - links stay what they are called
+        with suppress(ValueError):  # on another drive
+            path = os.path.relpath(path, self._root)
+        return _escaped(path.replace(os.sep, "/"))
 
     def is_new(self, place: str, key: str) -> bool:
         """Return True if a deck is to be read: its rows are not those of this key. It is counted."""
@@ -87,12 +84,10 @@ class Archive:
 
     def remove_gone(self, seen: set[str], folders: Sequence[str], *, everywhere: bool) -> None:
         """Remove the decks not seen below folders, and, `everywhere`, those whose files are gone; raises OSError."""
-        starts = tuple(storage.join(one, "") for one in folders)
+        starts = tuple(os.path.join(one, "") for one in folders)  # noqa: PTH118 - texts
         for place in self._known.keys() - seen:
-            path = place if is_url(place) else os.path.normpath(f"{self._root}/{place}")
-            if path.startswith(starts) or (
-                everywhere and not (storage.exists if is_url(path) else os.path.lexists)(path)
-            ):
+            path = os.path.normpath(f"{self._root}/{place}")
+            if path.startswith(starts) or (everywhere and not os.path.lexists(path)):
                 self._gone.append(place)
         self.counts["gone"] = len(self._gone)
 

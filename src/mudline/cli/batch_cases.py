@@ -9,7 +9,6 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 from string import Formatter
-from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
 import click
@@ -21,13 +20,12 @@ from mudline.cli.streams import UnwrittenError, reason
 from mudline.cli.view import View
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Diagnostic
-from mudline.files import is_url, recording_looks, suffix_of
+from mudline.files import recording_looks, suffix_of
 from mudline.results.cases import CaseSummary, CaseWatch
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import FORMS, ResultConsumer
 from mudline.results.series import SeriesSummary, series_tables
 from mudline.results.warnings import ContactWarning, ContactWatch
-from mudline.running import storage
 
 SUMMARY = "summary"
 """The name, without its suffix, of the file with the rows of all decks."""
@@ -67,8 +65,6 @@ def named_cases(files: Sequence[Input], form: str) -> tuple[str, list[Case]]:
     except ValueError as error:
         raise click.UsageError("the decks have no common folder: run mudline batch for each drive") from error
     inside = [Path(os.path.relpath(path, common)).as_posix() for path in paths]
-    if all(is_url(file.path or "") for file in files):
-        common = os.path.relpath(common, Path.cwd()).replace(os.sep, "/").replace(":/", "://", 1)
     plain = [str(PurePosixPath(name).with_suffix("")) for name in inside]
     counts = Counter(name.casefold() for stem in plain for name in (stem, *_others(stem, form)))
     counts.update([SUMMARY])
@@ -129,31 +125,28 @@ def _in_folder(case: Case, folder: str) -> str:
     raise click.ClickException(f"its positions were not found: {Path(folder, stem).as_posix()} with {ends}")
 
 
-def slashed(path: str) -> str:
-    """A path or URL as it is printed, with `/` between folders on every system."""
-    return path if is_url(path) else Path(path).as_posix()
-
-
 # -------------------------------------------------------------------------------------------------------- evaluated
 
 
 class Order(NamedTuple):
-    """A deck that is to be evaluated: everything that a process needs; `output` is a folder or a URL."""
+    """A deck that is to be evaluated: everything that a process needs; `output` is the folder of all results."""
 
     case: Case
     data: bytes
     inputs: EvaluateInputs
-    output: str
+    output: Path
     units: str | None
     summary_only: bool
-    folder: str
-    """The working folder of the command, from which paths are given."""
 
-    def seen(self, path: str) -> str:
-        """A path for a process that may have another working folder."""
-        if is_url(path) or os.getcwd() == self.folder:  # noqa: PTH109 - compared as text
-            return path
-        return os.path.join(self.folder, path)  # noqa: PTH118 - as above
+    def from_anywhere(self) -> Order:
+        """The same for a worker with another working folder, which sees the files under the same absolute paths."""
+        file, given = self.case.file, self.inputs
+        positions, elements = (path and os.path.abspath(path) for path in (given.positions, given.elements))  # noqa: PTH100 - links stay what they are called
+        return self._replace(
+            case=replace(self.case, file=file._replace(path=os.path.abspath(file.path or file.name))),  # noqa: PTH100 - as above
+            inputs=replace(given, positions=positions, elements=elements),
+            output=self.output.absolute(),
+        )
 
 
 class Done(NamedTuple):
@@ -171,24 +164,23 @@ def evaluate_case(order: Order) -> Done:
     Results that cannot be written leave those of an earlier run.
     """
     name = order.case.file.name
-    with recording_looks() as looked_at, TemporaryDirectory(prefix="mudline-") as near:
+    with recording_looks() as looked_at:
         try:
-            row, warnings, written = _evaluated(order, Path(near))
+            row, warnings, written = _evaluated(order)
         except DeckError as error:
             why = _reason(error.diagnostics, name)
         except UnwrittenError as error:
-            return failed(name, error.message.replace(f"{near}{os.sep}", ""))
+            return failed(name, error.message)
         except click.ClickException as error:
             why = error.message
         except OSError as error:
             why = reason(error)
         else:
-            read = [path for path in looked_at if not Path(path).is_relative_to(near)]
-            return Done(row, [(one.diagnostic.code, str(one)) for one in warnings], read, written)
-    for path in results_of(order.case, order.seen(order.output)):
+            return Done(row, [(one.diagnostic.code, str(one)) for one in warnings], list(looked_at), written)
+    for path in results_of(order.case, order.output):
         with suppress(OSError):
-            storage.remove(path) if is_url(path) else Path(path).unlink()
-    return failed(name, why.replace(f"{near}{os.sep}", ""))
+            path.unlink()
+    return failed(name, why)
 
 
 def failed(name: str, why: str) -> Done:
@@ -196,29 +188,23 @@ def failed(name: str, why: str) -> Done:
     return Done(CaseSummary(name, "failed", why))
 
 
-def results_of(case: Case, output: str) -> list[str]:
-    """The files of results that a deck has below a folder or a URL, in case it does not fail."""
-    path = Path(case.result)
-    return [storage.join(output, one.as_posix()) for one in (path, *beside(path).values())]
+def results_of(case: Case, output: Path) -> list[Path]:
+    """The files of results that a deck has below a folder, in case it does not fail."""
+    path = output / case.result
+    return [path, *beside(path).values()]
 
 
-def _evaluated(order: Order, near: Path) -> tuple[CaseSummary, list[ContactWarning], list[str]]:
-    """The row, the warnings and the files of a deck; `near` is an empty folder.
-
-    Raises DeckError, click.ClickException, OSError.
-    """
-    file, given = order.case.file, order.inputs
-    positions, elements = (path and order.seen(path) for path in (given.positions, given.elements))
-    inputs = replace(given, positions=positions, elements=elements)
-    deck = load_bytes(order.data, file.name, units=order.units, folder=file.seen_from(order.folder).folder)
-    evaluation = inputs.evaluation(deck)
-    output = order.seen(order.output)
-    path = (near if is_url(output) else Path(output)) / order.case.result
+def _evaluated(order: Order) -> tuple[CaseSummary, list[ContactWarning], list[str]]:
+    """The row, the warnings and the files of a deck; raises DeckError, click.ClickException, OSError."""
+    file = order.case.file
+    deck = load_bytes(order.data, file.name, units=order.units, folder=file.folder)
+    evaluation = order.inputs.evaluation(deck)
+    path = order.output / order.case.result
     path.parent.mkdir(parents=True, exist_ok=True)
     row, watch = CaseWatch(evaluation), ContactWatch.of(evaluation)
     if order.summary_only:
         if evaluation.time is None:
-            raise click.ClickException(f"--summary-only is for time steps: {given.positions} is one state")
+            raise click.ClickException(f"--summary-only is for time steps: {order.inputs.positions} is one state")
         series = SeriesSummary(evaluation)
         _run(evaluation, [row, watch, series])
         written = [path, *write_tables(series_tables(series), path).values()]
@@ -229,7 +215,7 @@ def _evaluated(order: Order, near: Path) -> tuple[CaseSummary, list[ContactWarni
             sink.finish(behind(evaluation, watch.warnings(), None, lines))
         written = [path, *beside(path).values()]
     warnings = watch.warnings()
-    names = [_stored(one, near, output) for one in written]
+    names = [one.relative_to(order.output).as_posix() for one in written]
     return row.summary(file.name, warnings, order.case.result), warnings, names
 
 
@@ -237,15 +223,6 @@ def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer]) -> None:
     for part in evaluation.parts():
         for consumer in consumers:
             consumer.take(part)
-
-
-def _stored(path: Path, near: Path, output: str) -> str:
-    """The name of a file of results below the output; one that belongs below a URL is written there. Raises OSError."""
-    if not is_url(output):
-        return path.relative_to(output).as_posix()
-    name = path.relative_to(near).as_posix()
-    storage.write(storage.join(output, name), path.read_bytes())
-    return name
 
 
 def _reason(found: Sequence[Diagnostic], name: str) -> str:

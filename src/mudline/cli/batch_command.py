@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import click
+from click.core import ParameterSource
 from pydantic import TypeAdapter
 
 from mudline.cli import DONE, FOUND, evaluate_inputs, options
@@ -25,22 +26,21 @@ from mudline.cli.batch_cases import (
     named_cases,
     positions_of,
     results_of,
-    slashed,
 )
 from mudline.cli.batch_text import print_cases
 from mudline.cli.evaluate_inputs import EvaluateInputs, takes_inputs
 from mudline.cli.inputs import STDIN, Input, Inputs, collect
+from mudline.cli.many_files import many_files
 from mudline.cli.result_files import has_library, is_installed
 from mudline.cli.streams import counted, emit, emit_json, encoded, notify, reason
-from mudline.cli.view import Progress, View, wants_bar
-from mudline.files import is_url, remove_left, suffix_of, write_atomically
+from mudline.cli.view import Progress, View
+from mudline.files import remove_left, write_atomically
 from mudline.limits import SHOWN_ROWS
 from mudline.overwriting import claim, reading
 from mudline.quantities import CASES, csv_lines
 from mudline.results.cases import CaseSummary, worst_first, write_parquet
-from mudline.running import storage
-from mudline.running.executors import Crash, executor, in_order
-from mudline.running.remembered import Memory, of_working_folder, state
+from mudline.running.executors import check_address
+from mudline.running.remembered import Memory, state
 
 _FORMS = ("csv", "json", "npz", "parquet")
 _MEMORY = ".mudline-batch"
@@ -59,7 +59,7 @@ _MEMORY = ".mudline-batch"
     group=options.OUTPUT,
     required=True,
     metavar="DIR",
-    help="Write a result file for each deck and the rows as summary.parquet into this folder, or below this URL.",
+    help="Write a result file for each deck and the rows as summary.parquet into this folder.",
 )
 @options.option(
     "--form",
@@ -69,7 +69,13 @@ _MEMORY = ".mudline-batch"
 )
 @options.output_format("text", "json", "csv")
 @evaluate_inputs.fail_on
-@options.running
+@options.jobs
+@options.option(
+    "--scheduler",
+    group=options.RUN,
+    metavar="ADDRESS",
+    help="Use the workers of a Dask scheduler: tcp://HOST:PORT or tls://HOST:PORT (needs mudline[cluster]).",
+)
 @options.option(
     "--no-cache",
     group=options.RUN,
@@ -98,9 +104,10 @@ def command(
 ) -> int:
     """Evaluate many decks or load cases: a row for each, those that failed first, then the largest force.
 
-    DECKS are files, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das) and URLs. What is in DIR already and
-    has not changed is not evaluated again.
+    DECKS are files or directories (searched for *.keyx, *.keyxm, *.keyxi, *.das). What is in DIR already and has not
+    changed is not evaluated again.
     """
+    _check_scheduler(scheduler)
     if STDIN in decks:
         raise click.UsageError("- is one deck, from standard input: mudline evaluate takes it")
     if summary_only and inputs.positions is None:
@@ -109,39 +116,23 @@ def command(
     if not has_library(form):
         return FOUND
     check_positions(inputs.positions)
-    found = collect(decks, gitignore=not every_file, urls=True)
+    found = collect(decks, gitignore=not every_file)
     if not found.files:
         return found.code
-    common, cases = named_cases(_once(found.files), form)
-    folder = _made(output)
+    found.files = _once(found.files)
+    common, cases = named_cases(found.files, form)
+    folder = _made(Path(output))
     for path in (_summary_path(folder), *(path for case in cases for path in results_of(case, folder))):
         claim(path)
-    order = Order(cases[0], b"", inputs, folder, units, summary_only, os.getcwd())  # noqa: PTH109 - sent as text
-    memory = _memory(folder, repr((inputs, units, form, summary_only)))
-    tasks = _tasks(found, cases, order, memory, fresh=no_cache)
-    broken: list[Done] = []
-
-    def crashed(task: _Task, crash: Crash) -> None:
-        file = task.order.case.file
-        progress.hide()
-        found.crashed(file, crash, verbose=view.verbose)
-        broken.append(failed(file.name, f"internal error: {crash.summary}"))
-        progress.advance()
-
-    with (
-        _saved(memory, cases, folder),
-        Progress(len(cases), view, shown=wants_bar(view)) as progress,
-        executor(jobs, scheduler) as pool,
-        closing(in_order(pool, evaluate_case, tasks, len(cases), crashed)) as results,
-    ):
-        done, taken = _taken(results, memory, progress)
-    done += broken
+    memory = Memory(folder / _MEMORY, repr((inputs, units, form, summary_only)))
+    order = Order(cases[0], b"", inputs, folder, units, summary_only)
+    done, taken = _evaluated(found, cases, order, memory, view, fresh=no_cache, jobs=jobs, scheduler=scheduler)
     ranked = worst_first(one.row for one in done)
     summary = _write_summary(ranked, folder)
     if not view.quiet:
         _notify_warnings(done)
         evaluated = counted(sum(not row.failed for row in ranked), "deck")
-        notify(f"results of {evaluated} -> {slashed(output)}, {taken} taken over from an earlier run")
+        notify(f"results of {evaluated} -> {folder.as_posix()}, {taken} taken over from an earlier run")
         notify(f"summary -> {summary}")
     if output_format == "json":
         emit_json([row.row() for row in ranked])
@@ -153,6 +144,14 @@ def command(
     return max(found.code, FOUND if failing else DONE)
 
 
+def _check_scheduler(address: str | None) -> None:
+    """Raise click.UsageError where processes are asked for too, RunError for an address that cannot be used."""
+    if address is not None:
+        if click.get_current_context().get_parameter_source("jobs") is not ParameterSource.DEFAULT:
+            raise click.UsageError("--jobs is for processes without --scheduler: leave one of them out")
+        check_address(address)
+
+
 def _once(files: Iterable[Input]) -> list[Input]:
     """Each file once, by whatever names it was given."""
     found: dict[str, Input] = {}
@@ -161,16 +160,12 @@ def _once(files: Iterable[Input]) -> list[Input]:
     return list(found.values())
 
 
-def _made(output: str) -> str:
-    """The folder or the URL of results; ends the command for a folder that cannot be made, and for no such URL."""
+def _made(folder: Path) -> Path:
+    """The folder of results; ends the command for one that cannot be made."""
     try:
-        folder = storage.as_path(output)
-        if is_url(folder):
-            storage.exists(folder)
-        else:
-            Path(folder).mkdir(parents=True, exist_ok=True)
+        folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise click.ClickException(f"{slashed(output)}: cannot be created: {reason(error)}") from error
+        raise click.ClickException(f"{folder.as_posix()}: cannot be created: {reason(error)}") from error
     return folder
 
 
@@ -178,90 +173,87 @@ def _made(output: str) -> str:
 
 
 class _Task(NamedTuple):
-    """The order for a deck, the key of its results, the files that it depends on; `known` is what needs no work."""
+    """A deck, the key of its results, the files that it depends on; `known` is what needs no work."""
 
-    order: Order
+    file: Input
     key: str = ""
     files: Sequence[str] = ()
     known: Done | None = None
 
 
-def _tasks(
-    found: Inputs, cases: Sequence[Case], first: Order, memory: Memory | None, *, fresh: bool
-) -> Iterator[tuple[_Task, Order | None]]:
-    """What is to do for each deck; one that cannot be read, or has no positions, has failed."""
-    for case in cases:
-        name, given = case.file.name, first.inputs
-        order = first._replace(case=case)
-        try:
-            data, positions = case.file.read(), positions_of(case, given.positions)
-            files = [path for path in (positions, given.elements) if path]
-            for path in files:
-                reading(path)
-        except OSError as error:
-            found.fail(f"{name}: {reason(error)}")
-            yield _Task(order, known=failed(name, reason(error))), None
-            continue
-        except click.ClickException as error:
-            yield _Task(order, known=failed(name, error.message)), None
-            continue
-        key = "" if memory is None else memory.key(name, case.result, data, *files)
-        known = None if memory is None or fresh else _known(memory, key, order)
-        order = order._replace(data=data, inputs=replace(given, positions=positions))
-        near = [os.path.abspath(path) for path in files]  # noqa: PTH100 - links stay what they are
-        yield _Task(order, key, near, known), None if known else order
-
-
-def _taken(
-    results: Iterable[tuple[_Task, Done | None]], memory: Memory | None, progress: Progress
+def _evaluated(
+    found: Inputs,
+    cases: Sequence[Case],
+    first: Order,
+    memory: Memory,
+    view: View,
+    *,
+    fresh: bool,
+    jobs: int,
+    scheduler: str | None,
 ) -> tuple[list[Done], int]:
-    """What each deck gave, and how many were taken over; what is new is remembered."""
-    done: list[Done] = []
+    """What each deck gave, and how many were taken over; what is new is remembered.
+
+    A deck that cannot be read, has no positions, or for which the program fails, has failed.
+    """
+    case_of = {case.file: case for case in cases}
+
+    def prepared(file: Input) -> tuple[_Task, tuple[Order] | None]:
+        case, given, data = case_of[file], first.inputs, file.read()
+        try:
+            positions = positions_of(case, given.positions)
+        except click.ClickException as error:
+            return _Task(file, known=failed(file.name, error.message)), None
+        files = [path for path in (positions, given.elements) if path]
+        for path in files:
+            reading(path)
+        key = memory.key(file.name, case.result, data, *files)
+        if not fresh and (known := _known(memory, key, file, first.output)):
+            return _Task(file, known=known), None
+        order = first._replace(case=case, data=data, inputs=replace(given, positions=positions))
+        near = [os.path.abspath(path) for path in files]  # noqa: PTH100 - links stay what they are
+        return _Task(file, key, near), (order if scheduler is None else order.from_anywhere(),)
+
+    done: dict[Input, Done] = {}
     taken = 0
-    for task, made in results:
-        one = made or task.known or failed(task.order.case.file.name, "not evaluated")
-        done.append(one)
-        taken += made is None and not one.row.failed
-        if made is not None and memory is not None and not one.row.failed:
-            _remember(memory, task, one)
-        progress.advance()
-    return done, taken
+    results = many_files(found, prepared, evaluate_case, Progress(len(cases), view), jobs=jobs, scheduler=scheduler)
+    with _saved(memory, cases, first.output), closing(results):
+        for task, made in results:
+            if made is not None:
+                done[task.file] = made
+                if not made.row.failed:
+                    _remember(memory, task, made, first.output)
+            elif task.known is not None:
+                done[task.file] = task.known
+                taken += not task.known.row.failed
+    return [done.get(file) or failed(file.name, found.undone[file]) for file in found.files], taken
 
 
 @contextmanager
-def _saved(memory: Memory | None, cases: Sequence[Case], folder: str) -> Iterator[None]:
+def _saved(memory: Memory, cases: Sequence[Case], folder: Path) -> Iterator[None]:
     """What is done is remembered, also when the run is interrupted; half-written files are removed then."""
     try:
         yield
     except BaseException:
-        if not is_url(folder):
-            for place in {Path(folder, case.result).parent for case in cases}:
-                remove_left(str(place))  # of processes that were ended
+        for place in {(folder / case.result).parent for case in cases}:
+            remove_left(str(place))  # of processes that were ended
         raise
     finally:
-        if memory is not None:
-            memory.save()
+        memory.save()
 
 
 # -------------------------------------------------------------------------------------------------------- remembering
 
 
-def _memory(folder: str, settings: str) -> Memory | None:
-    """What is known of earlier runs: in the folder of results; of those at a URL in the user's folder for caches."""
-    if is_url(folder):
-        return of_working_folder("batch", f"{settings} {folder}")
-    return Memory(Path(folder, _MEMORY), settings)
-
-
-def _known(memory: Memory, key: str, order: Order) -> Done | None:
+def _known(memory: Memory, key: str, file: Input, output: Path) -> Done | None:
     """What an earlier run gave, if the files of results are still there as they were written."""
     try:
         row, warnings, written = TypeAdapter(_Held).validate_python(memory.get(key))
     except ValueError:  # nothing, or what this program does not write
         return None
-    if row.deck != order.case.file.name or row.failed:
+    if row.deck != file.name or row.failed:
         return None
-    if any(_mark(storage.join(order.output, name)) != mark for name, mark in written.items()):
+    if any(state(str(output / name)) != mark for name, mark in written.items()):
         return None
     return Done(row, warnings)
 
@@ -274,43 +266,32 @@ class _Held(NamedTuple):
     written: dict[str, str]
 
 
-def _remember(memory: Memory, task: _Task, done: Done) -> None:
-    written = {name: _mark(storage.join(task.order.output, name)) for name in done.written}
+def _remember(memory: Memory, task: _Task, done: Done, output: Path) -> None:
+    written = {name: state(str(output / name)) for name in done.written}
     held = {"row": done.row.row(), "warnings": done.warnings, "written": written}
     memory.put(task.key, held, [*done.read, *task.files])
-
-
-def _mark(path: str) -> str:
-    """What tells whether a file is still the same; "" where there is none."""
-    try:
-        return repr(storage.size_and_date(path)) if is_url(path) else state(path)
-    except OSError:
-        return ""
 
 
 # ------------------------------------------------------------------------------------------------------------ output
 
 
-def _write_summary(rows: Sequence[CaseSummary], folder: str) -> str:
-    """Write the rows of all decks: in Parquet where that is installed, else as CSV. Returns the path or the URL."""
+def _write_summary(rows: Sequence[CaseSummary], folder: Path) -> str:
+    """Write the rows of all decks: in Parquet where that is installed, else as CSV. Returns the path."""
     stream = io.BytesIO()
     path = _summary_path(folder)
-    if suffix_of(path) == "parquet":
+    if path.suffix == ".parquet":
         write_parquet(rows, stream)
     else:
         stream.writelines(map(encoded, _csv(rows)))
     try:
-        if is_url(path):
-            storage.write(path, stream.getvalue())
-        else:
-            write_atomically(Path(path), stream.getvalue())
+        write_atomically(path, stream.getvalue())
     except OSError as error:
-        raise click.ClickException(f"{slashed(path)}: cannot be written: {reason(error)}") from error
-    return slashed(path)
+        raise click.ClickException(f"{path.as_posix()}: cannot be written: {reason(error)}") from error
+    return path.as_posix()
 
 
-def _summary_path(folder: str) -> str:
-    return storage.join(folder, f"{SUMMARY}.{'parquet' if is_installed('parquet') else 'csv'}")
+def _summary_path(folder: Path) -> Path:
+    return folder / f"{SUMMARY}.{'parquet' if is_installed('parquet') else 'csv'}"
 
 
 def _csv(rows: Sequence[CaseSummary]) -> Iterator[str]:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from mudline.cli.streams import counted
 from mudline.cli.view import View
-from mudline.files import is_url
 from mudline.limits import SHOWN_ROWS
 from mudline.quantities import CASES, headed, shown
 from mudline.results.cases import CaseSummary
@@ -57,8 +56,6 @@ def _print_evaluated(
 
 def _inside(folder: str) -> str:
     """A folder as seen from this one; "" for this one, and for none."""
-    if is_url(folder) or not folder:
-        return folder
     place, here = Path(folder), Path.cwd()
     if place == here:
         return ""

@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 import click
 
 from mudline.cli import DONE, options
-from mudline.cli.inputs import is_deck, is_document
+from mudline.cli.inputs import is_deck, is_document, is_in_any_form
 from mudline.cli.streams import emit, reason
 from mudline.linting.configuration import (
     EXTEND,
@@ -107,7 +107,7 @@ class Configured:
         found = self.of(path)
         include, exclude = found.words("include"), found.words("exclude")
         if not (include or exclude):
-            return is_deck(path) or is_document(path)
+            return is_in_any_form(path)
         relative = found.relative(path)
         taken = is_deck(path) or matches(relative, include) or is_document(path)
         return taken and not matches(relative, exclude)

@@ -17,7 +17,7 @@ import click
 import numpy as np
 
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.inputs import STDIN, GivenDeck, Input, collect_any_form, refuses_bad_decks
+from mudline.cli.inputs import STDIN, GivenDeck, Input, collect, is_in_any_form, refuses_bad_decks
 from mudline.cli.streams import emit, notify_diagnostics
 from mudline.cli.view import View
 from mudline.comparison.comparing import compare
@@ -167,9 +167,8 @@ class _Folders:
 
     def compared(self, *, gitignore: bool) -> Iterator[ComparedDeck]:
         """Each name of a deck in one of the folders, in sorted order; it may be in none. Sets the exit code."""
-        inputs = [
-            collect_any_form([path], "", gitignore=gitignore, may_be_empty=True) for path in (self.before, self.after)
-        ]
+        sides = (self.before, self.after)
+        inputs = [collect([path], "", is_in_any_form, gitignore=gitignore, may_be_empty=True) for path in sides]
         old, new = (
             {file.name.removeprefix(f"{path.replace(os.sep, '/').rstrip('/')}/"): file for file in found.files}
             for path, found in zip((self.before, self.after), inputs, strict=True)

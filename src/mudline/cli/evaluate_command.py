@@ -16,8 +16,8 @@ from mudline.cli.inputs import GivenDeck, refuses_bad_decks
 from mudline.cli.plots import Plot, numbers_of_elements, plot_option
 from mudline.cli.result_files import behind, beside, has_library, line_watch, result_files, write_tables
 from mudline.cli.streams import counted, emit, emit_json, notify
-from mudline.cli.view import Progress, View, wants_bar
-from mudline.files import is_url, suffix_of
+from mudline.cli.view import Progress, View
+from mudline.files import suffix_of
 from mudline.limits import SHOWN_ROWS
 from mudline.quantities import csv_lines
 from mudline.results.against import Comparison, read_reference
@@ -88,10 +88,10 @@ def command(
 
     Forces are per unit length, in the deck's units; reactions are the total force of the seabed on a node.
 
-    DECK is a file, or - for standard input; mudline batch evaluates several decks, folders and URLs.
+    DECK is a file, or - for standard input; mudline batch evaluates several decks and folders.
     """
-    if len(decks) > 1 or is_url(decks[0]) or os.path.isdir(decks[0]):  # noqa: PTH112 - Path raises for a name that is too long
-        raise click.UsageError("evaluate takes one deck: several decks, folders and URLs are for mudline batch")
+    if len(decks) > 1 or os.path.isdir(decks[0]):  # noqa: PTH112 - Path raises for a name that is too long
+        raise click.UsageError("evaluate takes one deck: several decks and folders are for mudline batch")
     if summary_only:
         _check_summary_only(inputs, {"--against": against, "--plot": plot.path, "--plan": plan_only})
     if plot_elements and plot.path is None:
@@ -234,7 +234,7 @@ def _sink(
 
 def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer], view: View, *, bar: bool) -> None:
     """Evaluate a few steps at a time and pass them on, with a bar on a terminal."""
-    with Progress(evaluation.steps, view, shown=bar and wants_bar(view)) as progress:
+    with Progress(evaluation.steps, view, shown=bar) as progress:
         for part in evaluation.parts():
             for consumer in consumers:
                 consumer.take(part)

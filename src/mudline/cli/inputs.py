@@ -20,14 +20,12 @@ from mudline.cli.streams import notify, notify_diagnostics, reason
 from mudline.deck import MARK
 from mudline.deck.forms import SUFFIXES, form_of
 from mudline.diagnostics import DeckError
-from mudline.files import alone_at, is_url, write_atomically
+from mudline.files import alone_at, write_atomically
 from mudline.overwriting import outputs, reading, reading_stdin
 from mudline.patterns import Pattern, read_pattern
-from mudline.running import storage
 
 if TYPE_CHECKING:
     from mudline.deck.model import Deck
-    from mudline.running.executors import Crash
 
 STDIN = "-"
 
@@ -46,29 +44,19 @@ class Input(NamedTuple):
 
     @property
     def folder(self) -> Path | None:
-        """The folder of files that the deck names; None for standard input and for a URL, beside which none is read."""
-        if self.path is None or is_url(self.path):
+        """The folder of files that the deck names; None for standard input, beside which none is read."""
+        if self.path is None:
             return None
         return _folder(os.path.dirname(self.path))  # noqa: PTH120 - asked for many files
 
-    def seen_from(self, here: str) -> Input:
-        """The same file for a process whose working folder may not be `here`."""
-        if self.path is None or is_url(self.path) or os.getcwd() == here:  # noqa: PTH109 - compared as text
-            return self
-        return Input(self.name, os.path.join(here, self.path))  # noqa: PTH118 - as above
-
     def size_and_date(self) -> tuple[int, int]:
-        """Bytes, and the time of the last change in ns since 1970, -1 where that is not known; raises OSError."""
-        if self.path is not None and is_url(self.path):
-            return storage.size_and_date(self.path)
+        """Bytes, and the time of the last change in ns since 1970; raises OSError."""
         found = os.stat(self.path or self.name)  # noqa: PTH116 - asked for many files
         return found.st_size, found.st_mtime_ns
 
     def read(self) -> bytes:
         """The content; raises OSError."""
         if self.path is not None:
-            if is_url(self.path):
-                return storage.read(self.path)
             reading(self.path)
             with open(self.path, "rb", buffering=0) as stream:  # noqa: PTH123 - as above
                 return stream.readall()
@@ -85,10 +73,14 @@ def _folder(path: str) -> Path:
 
 @dataclass(slots=True, eq=False)
 class Inputs:
-    """The files found, each once, and whether something could not be found or read."""
+    """The files found, each once, and whether something could not be found or read.
+
+    `undone` are those of the files that could not be read, or for which the program failed, with the reasons.
+    """
 
     files: list[Input] = field(default_factory=list)
     code: int = 0
+    undone: dict[Input, str] = field(default_factory=dict)
 
     def contents(self) -> Iterator[tuple[Input, bytes]]:
         """Each file that can be read; the others are reported and set the exit code."""
@@ -102,8 +94,13 @@ class Inputs:
         try:
             return file.read()
         except OSError as error:
-            self.fail(f"{file.name}: {reason(error)}")
+            self.unreadable(file, error)
             return None
+
+    def unreadable(self, file: Input, error: OSError) -> None:
+        """Report a file that cannot be read."""
+        self.undone[file] = reason(error)
+        self.fail(f"{file.name}: {reason(error)}")
 
     def replaced(self, file: Input, read: bytes, content: bytes) -> bool:
         """Whether a file has its new content; if not, that is reported.
@@ -124,12 +121,6 @@ class Inputs:
             return False
         return True
 
-    def crashed(self, file: Input, crash: Crash, *, verbose: bool) -> None:
-        """Report that the program itself failed of a file; the exit code says that the file is not done."""
-        self.fail(f"{file.name}: internal error, please report it: {crash.summary}")
-        if verbose:
-            notify(crash.traceback)
-
     def fail(self, message: str) -> None:
         """Report a path that cannot be read or written."""
         notify(message)
@@ -146,8 +137,22 @@ def is_deck(path: str) -> bool:
 
 
 def is_document(path: str) -> bool:
-    """Whether a file is a deck in JSON or YAML, by the format that its beginning names."""
-    return not is_deck(path) and form_of(path) != "keyword" and _is_deck_in_any_form(path)
+    """Whether a file is a deck in JSON or YAML, by the format that its beginning names.
+
+    One that cannot be opened is taken for it, and reported when it is read.
+    """
+    if is_deck(path) or form_of(path) == "keyword" or not _may_be_file(path):
+        return False
+    try:
+        with Path(path).open("rb") as stream:
+            return MARK.encode() in stream.read(_HEAD)
+    except OSError:
+        return True
+
+
+def is_in_any_form(path: str) -> bool:
+    """Whether a file is a deck by its suffix or its content."""
+    return is_deck(path) or is_document(path)
 
 
 def collect(
@@ -156,33 +161,33 @@ def collect(
     wanted: Wanted = is_deck,
     *,
     gitignore: bool = True,
-    urls: bool = False,
+    may_be_empty: bool = False,
     skipped: list[str] | None = None,
 ) -> Inputs:
     """Files as given; directories searched for wanted files, in sorted order; `-` for standard input.
 
     What is there and cannot be looked at is taken, and reported when it is read: no deck passes unseen.
-    `gitignore` leaves out of a search what `.gitignore` files hide. With `urls` those of files and folders are taken.
-    `skipped` gets a line, with the reason, for each file of a searched directory that is not taken.
+    `gitignore` leaves out of a search what `.gitignore` files hide. A directory without a deck is a fault unless it
+    `may_be_empty`. `skipped` gets a line, with the reason, for each file of a searched directory that is not taken.
     """
 
     def taken(path: str) -> bool:
-        found = wanted(path) and (is_url(path) or _may_be_file(path))
+        found = wanted(path) and _may_be_file(path)
         if not found and skipped is not None:
             skipped.append(f"{_slashed(path)}: skipped, {_why_skipped(path)}")
         return found
 
-    return _collect(paths, stdin_name, taken, gitignore=gitignore, urls=urls)
-
-
-def collect_any_form(
-    paths: Sequence[str], stdin_name: str, *, gitignore: bool, urls: bool = False, may_be_empty: bool = False
-) -> Inputs:
-    """As `collect`, for decks in any form: also JSON and YAML files whose beginning names the format of decks.
-
-    A directory without a deck is a fault unless it `may_be_empty`.
-    """
-    return _collect(paths, stdin_name, _is_deck_in_any_form, gitignore=gitignore, urls=urls, may_be_empty=may_be_empty)
+    found = Inputs()
+    for given in paths:
+        if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
+            _directory(_Search(given, gitignore), found, taken, may_be_empty=may_be_empty)
+        else:
+            found.files.append(_single(given, stdin_name))
+    found.files = list(dict.fromkeys(found.files))
+    for file in found.files:
+        if file.path is not None:
+            reading(file.path)
+    return found
 
 
 def _why_skipped(path: str) -> str:
@@ -201,60 +206,6 @@ def _may_be_file(path: str) -> bool:
         return os.path.islink(path) and not path.rpartition(os.sep)[2].startswith(".")  # noqa: PTH114 - as above
     except OSError:
         return True
-
-
-def _is_deck_in_any_form(path: str) -> bool:
-    """Whether a file is a deck by its suffix or its content; one that cannot be opened is taken, and reported later."""
-    if not is_deck(path) and form_of(path) == "keyword":
-        return False
-    if is_url(path):
-        return is_deck(path) or MARK.encode() in storage.read(path, _HEAD)
-    if not _may_be_file(path):
-        return False
-    if is_deck(path):
-        return True
-    try:
-        with Path(path).open("rb") as stream:
-            return MARK.encode() in stream.read(_HEAD)
-    except OSError:
-        return True
-
-
-def _collect(
-    paths: Sequence[str], stdin_name: str, taken: Wanted, *, gitignore: bool, urls: bool, may_be_empty: bool = False
-) -> Inputs:
-    found = Inputs()
-    for path in paths:
-        given = path
-        if urls and is_url(path):
-            try:
-                given = storage.as_path(path)
-                if is_url(given):
-                    _below_url(given, found, taken)
-                    continue
-            except OSError as error:
-                found.fail(f"{path}: {reason(error)}")
-                continue
-        if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
-            _directory(_Search(given, gitignore), found, taken, may_be_empty=may_be_empty)
-        else:
-            found.files.append(_single(given, stdin_name))
-    found.files = list(dict.fromkeys(found.files))
-    for file in found.files:
-        if file.path is not None:
-            reading(file.path)
-    return found
-
-
-def _below_url(url: str, found: Inputs, taken: Wanted) -> None:
-    """The file at a URL, or the wanted ones below a folder; raises OSError."""
-    if not storage.is_folder(url):
-        found.files.append(Input(url, url))
-        return
-    files = [Input(one, one) for one in storage.files_below(url) if taken(one)]
-    if not files:
-        found.fail(f"{url}: no deck in this folder (looked for {', '.join(sorted(SUFFIXES))})")
-    found.files += files
 
 
 def _single(given: str, stdin_name: str) -> Input:

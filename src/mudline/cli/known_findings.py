@@ -18,13 +18,13 @@ from mudline.running.remembered import Memory, of_working_folder
 class KnownFindings:
     """The memory, and what it knows of the decks of a run in which nothing is found.
 
-    `clean` says how much of each of these was read, by its number in the run.
+    `clean` says how much of each of these was read.
     """
 
     memory: Memory
     configured: Configured
     inputs: Inputs
-    clean: dict[int, Coverage] = field(default_factory=dict)
+    clean: dict[Input, Coverage] = field(default_factory=dict)
     _settings: dict[Path | None, str] = field(default_factory=dict)
 
     @property
@@ -58,7 +58,7 @@ class KnownFindings:
 
     def look(self) -> None:
         """Find the decks in which nothing is found."""
-        for number, file in enumerate(self.inputs.files):
+        for file in self.inputs.files:
             if file.path is None:
                 continue
             try:
@@ -67,7 +67,7 @@ class KnownFindings:
                 continue
             known = self.get(self.key(file, data), file)
             if known and not known[0]:
-                self.clean[number] = known[1]
+                self.clean[file] = known[1]
 
 
 def known_findings(inputs: Inputs, given: Given, configured: Configured) -> KnownFindings | None:

@@ -77,7 +77,7 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
     "--statistics", group=options.OUTPUT, is_flag=True, help="Count the findings of each rule instead of listing them."
 )
 @options.option("--exit-zero", group=options.OUTPUT, is_flag=True, help="Exit with 0 whatever is found.")
-@options.running
+@options.jobs
 @options.option(
     "--no-cache", "uncached", group=options.RUN, is_flag=True, help="Lint every deck again, without the cache."
 )
@@ -113,7 +113,6 @@ def command(
     jobs: int,
     uncached: bool,
     watch: bool,
-    scheduler: str | None,
     every_file: bool,
     stdin_name: str,
     units: str | None,
@@ -122,10 +121,8 @@ def command(
     """Find faults in decks: all findings of every file in one run.
 
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that begin
-    as decks do), URLs of either, or - for standard input. With -v the files of directories that are skipped are named.
+    as decks do), or - for standard input. With -v the files of directories that are skipped are named.
     """
-    if scheduler is not None and (fix or diff or watch):
-        raise click.UsageError("--fix, --diff and --watch do not go with --scheduler: leave one of them out")
     given = Given(_words(chosen), _words(ignored), _words(also), dialect, units, no_outside)
     fixing = "none" if not (fix or diff) else "unsafe" if unsafe else "safe"
     wanted = outputs(forms)
@@ -136,26 +133,23 @@ def command(
     def once() -> int:
         configured = Configured(config, isolated)
         skipped: list[str] | None = [] if view.verbose else None
-        searched = {"gitignore": not every_file, "urls": not (fix or diff)}
-        inputs = collect(paths, stdin_name, configured.wanted, skipped=skipped, **searched)
+        inputs = collect(paths, stdin_name, configured.wanted, gitignore=not every_file, skipped=skipped)
         for line in sorted(skipped or ()):
             notify(line)
         aside = diff or (fix and any(file.path is None for file in inputs.files))
         report = Report(wanted, view, statistics=statistics, aside=aside, fixing=fix or diff)
         known = None if uncached or fix or diff else known_findings(inputs, given, configured)
         if known is not None and known.all_clean and not (baseline or recording):
-            for number, file in enumerate(inputs.files):
+            for file in inputs.files:
                 report.add(file.name, b"", [], 0, Severity.ERROR)
-                report.coverage.add(known.clean[number])
+                report.coverage.add(known.clean[file])
             report.finish()
             return inputs.code
         from mudline.cli import lint_run  # noqa: PLC0415 - decks that have not changed are not read
 
         settings = lint_run.checked_settings(config, given, fixing, isolated=isolated, fail_on=fail_on)
         words = {"recording": recording, "diff": diff}
-        failing = lint_run.lint_files(
-            inputs, settings, report, known, baseline, jobs=jobs, scheduler=scheduler, **words
-        )
+        failing = lint_run.lint_files(inputs, settings, report, known, baseline, jobs=jobs, **words)
         return max(inputs.code, FOUND if failing and not exit_zero else DONE)
 
     if watch:

@@ -1,16 +1,15 @@
 """One run of `mudline lint`: the settings of each deck, its findings without the known ones, and fixed decks.
 
-Of many files those that are remembered are not linted again; the rest is linted here, in other processes or by the
-workers of a scheduler, always in the order given.
+Of many files those that are remembered are not linted again; the rest is linted here or in other processes, always in
+the order given.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Generator
 from contextlib import closing
 from dataclasses import dataclass, field, replace
-from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -20,17 +19,16 @@ from mudline.cli.config_command import Configured
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.known_findings import KnownFindings
 from mudline.cli.lint_report import Report
+from mudline.cli.many_files import many_files
 from mudline.cli.streams import counted, emit_deck, notify, reason, write_text
-from mudline.cli.view import View
+from mudline.cli.view import Progress, View
 from mudline.deck.forms import form_of
 from mudline.linting.configuration import Configuration, Given
 from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.fixing import FileReport, lint_one
-from mudline.linting.registry import UnknownRule, code_fault, plugin_files, rules
+from mudline.linting.registry import UnknownRule, code_fault, plugin_files
 from mudline.linting.settings import hidden_codes, merged_settings
 from mudline.linting.suppression import Baseline, BaselineError, read_baseline
-from mudline.rules import Rule
-from mudline.running.executors import Crash, executor, in_order
 
 
 @dataclass
@@ -111,7 +109,6 @@ def lint_files(
     recording: bool,
     diff: bool,
     jobs: int,
-    scheduler: str | None,
 ) -> bool:
     """Lint all files; returns whether there is a reason to fail.
 
@@ -123,7 +120,7 @@ def lint_files(
     differs, documents = False, 0
     if fixing:  # a deck that is fixed may be one that others continue
         jobs = 1
-    with closing(_lint_all(inputs, settings.of, known, jobs, scheduler, report.view)) as results:
+    with closing(_lint_all(inputs, settings, known, jobs, report.view)) as results:
         for file, data, result in results:
             own, content = settings.of(file), data if result.changed is None else result.changed
             if fixing:
@@ -166,22 +163,6 @@ def _deliver(inputs: Inputs, file: Input, data: bytes, content: bytes, view: Vie
 
 # ----------------------------------------------------------------------------------------------------------- many files
 
-SettingsOf = Callable[[Input], LintSettings]
-"""The settings of a file."""
-
-
-class Order(NamedTuple):
-    """A file as it is sent: its settings without rules, whose functions may not be picklable, but with their codes.
-
-    `here` is the working folder, below which files are looked for that the deck names.
-    """
-
-    file: Input
-    data: bytes
-    settings: LintSettings
-    codes: tuple[str, ...]
-    here: str
-
 
 class _Read(NamedTuple):
     """A file; `key` is what its report is remembered under, if at all, and `known` the report if that is remembered."""
@@ -193,27 +174,27 @@ class _Read(NamedTuple):
 
 
 def _lint_all(
-    inputs: Inputs,
-    settings_of: SettingsOf,
-    known: KnownFindings | None,
-    jobs: int,
-    scheduler: str | None,
-    view: View,
+    inputs: Inputs, settings: Settings, known: KnownFindings | None, jobs: int, view: View
 ) -> Generator[tuple[Input, bytes, FileReport], None, None]:
     """Each file that can be read with its content and its report, in the order of the files.
 
-    Files without a finding that are known as such are not read again: their content is given as empty.
+    Reports that are remembered are not made again, but for that of standard input. Files without a finding that are
+    known as such are not read either: their content is given as empty.
     """
     plugins = plugin_files() if known is not None else ()
-    orders = _orders(inputs, settings_of, known)
 
-    def crashed(one: _Read, crash: Crash) -> None:
-        inputs.crashed(one.file, crash, verbose=view.verbose)
+    def prepared(file: Input) -> tuple[_Read, tuple[str, bytes, LintSettings, Path | None] | None]:
+        own = settings.of(file)
+        if known is not None and file in known.clean:
+            return _Read(file, b"", known=FileReport(file.name, (), coverage=known.clean[file])), None
+        data = file.read()
+        key = "" if known is None or file.path is None else known.key(file, data)
+        if known is not None and key and (found := known.get(key, file)) is not None:
+            return _Read(file, data, key, FileReport(file.name, found[0], coverage=found[1])), None
+        return _Read(file, data, key), (file.name, data, own, file.folder)
 
-    with (
-        executor(jobs, scheduler) as pool,
-        closing(in_order(pool, lint_order, orders, len(inputs.files), crashed)) as reports,
-    ):
+    progress = Progress(len(inputs.files), view, shown=False)
+    with closing(many_files(inputs, prepared, lint_one, progress, jobs=jobs)) as reports:
         for one, made in reports:
             report = made or one.known or FileReport(one.file.name, ())
             if known is not None and one.key and one.known is None:
@@ -221,46 +202,3 @@ def _lint_all(
             yield one.file, one.data, report
     if known is not None:
         known.memory.save()
-
-
-def _orders(
-    inputs: Inputs, settings_of: SettingsOf, known: KnownFindings | None
-) -> Iterator[tuple[_Read, Order | None]]:
-    """Each file, and what is sent of it unless its report is remembered; that of standard input is not.
-
-    Settings that many files share are one object, which is sent once.
-    """
-    sendable: dict[int, tuple[LintSettings, LintSettings, tuple[str, ...]]] = {}
-    here = os.getcwd()  # noqa: PTH109 - sent as text
-    for number, file in enumerate(inputs.files):
-        settings = settings_of(file)
-        if known is not None and number in known.clean:
-            yield _Read(file, b"", known=FileReport(file.name, (), coverage=known.clean[number])), None
-            continue
-        data = inputs.content(file)
-        if data is None:
-            continue
-        key = "" if known is None or file.path is None else known.key(file, data)
-        if known is not None and key and (found := known.get(key, file)) is not None:
-            yield _Read(file, data, key, FileReport(file.name, found[0], coverage=found[1])), None
-            continue
-        if id(settings) not in sendable:
-            codes = tuple(rule.code.code for rule in settings.rules)
-            sendable[id(settings)] = (settings, replace(settings, rules=()), codes)
-        _, without_rules, codes = sendable[id(settings)]
-        yield _Read(file, data, key), Order(file, data, without_rules, codes, here)
-
-
-def lint_order(order: Order) -> FileReport:
-    """Lint a file, in any process."""
-    settings = replace(order.settings, rules=rules_named(order.codes))
-    return lint_one(order.file.name, order.data, settings, order.file.seen_from(order.here).folder)
-
-
-@cache
-def rules_named(codes: tuple[str, ...]) -> tuple[Rule, ...]:
-    """The rules of these codes; raises ImportError where a package that has some of them is not installed here."""
-    found = tuple(rule for rule in rules() if rule.code.code in codes)
-    if missing := sorted(set(codes) - {rule.code.code for rule in found}):
-        raise ImportError(f"no rule {', '.join(missing)}")
-    return found

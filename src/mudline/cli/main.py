@@ -20,6 +20,7 @@ from mudline.cli.streams import notify, reason
 from mudline.diagnostics import PluginError
 from mudline.outside import refusing_outside
 from mudline.overwriting import OverwriteError, refusing_overwriting
+from mudline.running.executors import RunError
 from mudline.spelling import nearest
 
 COMPLETION = "_MUDLINE_COMPLETE"
@@ -119,7 +120,7 @@ def run(arguments: Sequence[str]) -> int:
         code = shell_complete(mudline, {}, "mudline", COMPLETION, completing) if completing else _invoke(arguments)
         sys.stdout.flush()
         sys.stderr.flush()
-    except OverwriteError as error:
+    except (OverwriteError, RunError) as error:
         notify(str(error))
         return WRONG_USAGE
     except OSError as error:

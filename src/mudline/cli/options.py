@@ -8,12 +8,10 @@ from functools import partial, wraps
 from typing import Any
 
 import click
-from click.core import ParameterSource
 
 from mudline.cli.view import View
 from mudline.files import suffix_of
 from mudline.overwriting import claim
-from mudline.running.executors import RunError, check_address
 
 Command = Callable[..., int]
 
@@ -79,40 +77,14 @@ def common(command: Command) -> Command:
     return viewed
 
 
-def running(command: Command) -> Command:
-    """`--jobs` and `--scheduler`, for `executor`; ends the command where items cannot be done elsewhere."""
-
-    @wraps(command)
-    def run(*, scheduler: str | None, **others: object) -> int:
-        given = click.get_current_context().get_parameter_source("jobs") is not ParameterSource.DEFAULT
-        if scheduler is not None and given:
-            raise click.UsageError("--jobs is for processes without --scheduler: leave one of them out")
-        try:
-            if scheduler is not None:
-                check_address(scheduler)
-            return command(scheduler=scheduler, **others)
-        except RunError as error:
-            raise click.ClickException(str(error)) from error
-
-    for add in (
-        option(
-            "--scheduler",
-            group=RUN,
-            metavar="ADDRESS",
-            help="Use the workers of a Dask scheduler: tcp://HOST:PORT or tls://HOST:PORT (needs mudline[cluster]).",
-        ),
-        option(
-            "--jobs",
-            group=RUN,
-            type=click.IntRange(min=0),
-            default=0,
-            metavar="N",
-            help="Use at most N processes, when that pays; 0 (default): one for each processor.",
-        ),
-    ):
-        run = add(run)
-    return run
-
+jobs = option(
+    "--jobs",
+    group=RUN,
+    type=click.IntRange(min=0),
+    default=0,
+    metavar="N",
+    help="Use at most N processes, when that pays; 0 (default): one for each processor.",
+)
 
 units = option(
     "--units",

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator
 from contextlib import closing
-from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -15,16 +13,15 @@ import click
 
 from mudline import __version__
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
-from mudline.cli.inputs import Input, Inputs, collect_any_form
-from mudline.cli.lint_run import Settings, checked_settings, rules_named
+from mudline.cli.inputs import Input, collect, is_in_any_form
+from mudline.cli.lint_run import checked_settings
+from mudline.cli.many_files import many_files
 from mudline.cli.streams import emit_json, notify, notify_missing, write_text
-from mudline.cli.view import Progress, View, wants_bar
-from mudline.files import is_url
+from mudline.cli.view import Progress, View
 from mudline.linting.configuration import Given as GivenRules
 from mudline.linting.engine import LintSettings
 from mudline.overwriting import reading
 from mudline.report.content import SECTIONS, Given, Look, Stamp, report_on
-from mudline.running.executors import Crash, executor, in_order
 from mudline.short_repr import counted
 
 _LEGAL = "legal"
@@ -53,7 +50,7 @@ _LEGAL = "legal"
 @options.option("--logo", metavar="FILE.svg|png", help="Put this logo at the head of the page.")
 @options.config
 @options.isolated
-@options.running
+@options.jobs
 @options.every_file
 @options.stdin_name
 @options.units
@@ -70,7 +67,6 @@ def command(
     config: str | None,
     isolated: bool,
     jobs: int,
-    scheduler: str | None,
     every_file: bool,
     stdin_name: str,
     units: str | None,
@@ -82,7 +78,7 @@ def command(
     not be computed. DECKS are files, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML
     files that begin as decks do), or - for standard input.
     """
-    wanted = _sections(sections)
+    names = _sections(sections)
     html = output_format == "html"
     if html and output is None:
         raise click.UsageError("-o OUT.html: give the file of the page, or print the content with --output-format json")
@@ -90,38 +86,30 @@ def command(
         notify_missing("report", missing, "report")
         return WRONG_USAGE
     settings = checked_settings(config, GivenRules((), (), (), None, units), "none", isolated=isolated, fail_on=None)
-    inputs = collect_any_form(decks, stdin_name, gitignore=not every_file)
-    look = _look(template, logo) if html else None
+    inputs = collect(decks, stdin_name, is_in_any_form, gitignore=not every_file)
+    wanted = Wanted(names, date, _look(template, logo) if html else None)
     several = len(inputs.files) > 1 or any(os.path.isdir(each) for each in decks)  # noqa: PTH112 - Path raises for a long name
     target = None if output is None or not html else Target(Path(output), several)
-    progress = Progress(len(inputs.files), view, shown=wants_bar(view))
     rows, contents = [], []
-    orders = _orders(inputs, settings, wanted, date, look)
 
-    def crashed(file: Input, crash: Crash) -> None:
-        progress.hide()
-        inputs.crashed(file, crash, verbose=view.verbose)
-        progress.advance()
+    def prepared(file: Input) -> tuple[Input, tuple[Given, LintSettings, Wanted]]:
+        data, changed = file.read(), None if file.path is None else file.size_and_date()[1]
+        return file, (Given(data, file.name, file.folder, changed), settings.of(file), wanted)
 
-    with (
-        executor(jobs, scheduler) as pool,
-        progress,
-        closing(in_order(pool, make_report, orders, len(inputs.files), crashed)) as made_all,
-    ):
-        for file, made in made_all:
-            if made is not None and made.fault:
-                raise click.ClickException(made.fault)
+    with closing(many_files(inputs, prepared, make_report, Progress(len(inputs.files), view), jobs=jobs)) as results:
+        for file, made in results:
             if made is not None:
+                if made.fault:
+                    raise click.ClickException(made.fault)
                 page = target.page(file.name) if target is not None else None
                 if page is not None and made.html is not None:
                     write_text(page, [made.html])
                 rows.append(_row(made.content, page, target))
                 contents += [] if html else [made.content]
-            progress.advance()
     if not html:
         _print(contents, output)
     elif target is not None and rows:
-        _finish(target, rows, look, view)
+        _finish(target, rows, wanted.look, view)
     return max(inputs.code, FOUND if _illegal(rows) else DONE)
 
 
@@ -138,14 +126,10 @@ def _sections(text: str) -> tuple[str, ...]:
     return tuple(name for name in SECTIONS if name in names)
 
 
-class Order(NamedTuple):
-    """What `make_report` is given, in any process: settings without rules, with their codes; `look` None for JSON."""
+class Wanted(NamedTuple):
+    """The sections of a page, its date, and how it looks; `look` None for JSON."""
 
-    file: Input
-    given: Given
-    settings: LintSettings
-    codes: tuple[str, ...]
-    wanted: tuple[str, ...]
+    sections: tuple[str, ...]
     date: str | None
     look: Look | None
 
@@ -158,34 +142,18 @@ class Made(NamedTuple):
     fault: str = ""
 
 
-def make_report(order: Order) -> Made:
-    """Make the page about a deck."""
-    settings = replace(order.settings, rules=rules_named(order.codes))
-    report = report_on(order.given, settings, order.wanted, Stamp(__version__, order.date))
-    if order.look is None:
+def make_report(given: Given, settings: LintSettings, wanted: Wanted) -> Made:
+    """Make the page about a deck, in any process."""
+    report = report_on(given, settings, wanted.sections, Stamp(__version__, wanted.date))
+    if wanted.look is None:
         return Made(report.json, None)
     from mudline.report.page import LookError, page  # noqa: PLC0415 - needs jinja2
     from mudline.report.pictures import pictures_of  # noqa: PLC0415 - needs matplotlib
 
     try:
-        return Made(report.json, page(report, *pictures_of(report), order.look))
+        return Made(report.json, page(report, *pictures_of(report), wanted.look))
     except LookError as error:
         return Made(report.json, None, str(error))
-
-
-def _orders(
-    inputs: Inputs, settings: Settings, wanted: tuple[str, ...], date: str | None, look: Look | None
-) -> Iterator[tuple[Input, Order | None]]:
-    for file in inputs.files:
-        data = inputs.content(file)
-        if data is None:
-            yield file, None
-            continue
-        own = settings.of(file)
-        changed = None if file.path is None or is_url(file.path) else file.size_and_date()[1]
-        codes = tuple(rule.code.code for rule in own.rules)
-        given = Given(data, file.name, file.folder, changed)
-        yield file, Order(file, given, replace(own, rules=()), codes, wanted, date, look)
 
 
 # --------------------------------------------------------------------------------------------------------------- files

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import json
-import os
 import sys
-from collections.abc import Generator, Iterable, Iterator
+from collections.abc import Generator, Iterable
 from contextlib import closing
 from dataclasses import asdict, dataclass, field, fields
 from textwrap import indent
@@ -14,9 +13,10 @@ from typing import NamedTuple
 import click
 
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.inputs import Input, Inputs, collect_any_form
-from mudline.cli.streams import emit, reason
-from mudline.cli.view import Progress, View, wants_bar
+from mudline.cli.inputs import Input, Inputs, collect, is_in_any_form
+from mudline.cli.many_files import many_files
+from mudline.cli.streams import emit
+from mudline.cli.view import Progress, View
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Coverage, DeckError, Diagnostic
 from mudline.linting.configuration import refuses_outside
@@ -25,7 +25,6 @@ from mudline.linting.output.json import as_object
 from mudline.linting.verdict import Verdict, judge, refused
 from mudline.outside import refusing_outside
 from mudline.quantities import csv_lines
-from mudline.running.executors import Crash, Pool, executor, in_order
 from mudline.short_repr import counted
 from mudline.syntax.source import Source
 
@@ -46,7 +45,7 @@ _FAIL_ON = ("error", "warning", "unread")
     "whole.",
 )
 @options.no_outside
-@options.running
+@options.jobs
 @options.every_file
 @options.stdin_name
 @options.units
@@ -58,7 +57,6 @@ def command(
     fail_on: str,
     no_outside: bool,
     jobs: int,
-    scheduler: str | None,
     every_file: bool,
     stdin_name: str,
     units: str | None,
@@ -71,14 +69,12 @@ def command(
     of which not all keywords could be read is legal as far as it was read, and the verdict says how far that is.
 
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that begin
-    as decks do), URLs of either, or - for standard input. Of many decks -q shows the table without the errors.
+    as decks do), or - for standard input. Of many decks -q shows the table without the errors.
     """
-    inputs = collect_any_form(paths, stdin_name, gitignore=not every_file, urls=True)
-    listed = view.verbose or output_format == "json"
-    total, wanted = Total(), Wanted(inputs, units, no_outside, listed)
-    shown = wants_bar(view) and (output_format == "text" or not sys.stdout.isatty())
-    progress = Progress(len(inputs.files), view, shown=shown)
-    with executor(jobs, scheduler) as pool, closing(_judged(pool, wanted, total, view, progress)) as judged:
+    inputs = collect(paths, stdin_name, is_in_any_form, gitignore=not every_file)
+    total, wanted = Total(), Wanted(units, no_outside, view.verbose or output_format == "json")
+    progress = Progress(len(inputs.files), view, shown=output_format == "text" or not sys.stdout.isatty())
+    with closing(_judged(inputs, wanted, total, progress, jobs)) as judged:
         if output_format == "json":
             _print_json(judged, total)
         elif output_format == "csv":
@@ -140,88 +136,51 @@ class Judged(NamedTuple):
 
 
 class Wanted(NamedTuple):
-    """The decks, and how they are read.
+    """How decks are read.
 
     Attributes:
-        inputs: the decks.
         units: their units, None for those of each file.
         no_outside: they may name no file outside of their project.
         warnings: list their warnings in addition to their errors.
     """
 
-    inputs: Inputs
     units: str | None
     no_outside: bool
     warnings: bool
 
 
-class Order(NamedTuple):
-    """What `judge_order` is given, in any process; `here` is the working folder of the command."""
-
-    data: bytes
-    file: Input
-    units: str | None
-    no_outside: bool
-    warnings: bool
-    here: str
-
-
-def judge_order(order: Order) -> tuple[Verdict, list[Diagnostic]]:
-    """The verdict on a deck and its errors, with its warnings where they are listed."""
-    with refusing_outside(lambda folder: order.no_outside or refuses_outside(folder)):
-        return _judge_order(order)
-
-
-def _judge_order(order: Order) -> tuple[Verdict, list[Diagnostic]]:
-    file = order.file.seen_from(order.here)
-    try:
-        deck = load_bytes(order.data, file.name, units=order.units, folder=file.folder)
-    except DeckError as error:
-        return refused(file.name, error), list(error.diagnostics)
-    verdict, errors, warnings = judge(LintContext(deck))
-    found = sorted([*errors, *warnings], key=lambda one: one.sort_key) if order.warnings else errors
-    return verdict, found
+def judge_file(file: Input, data: bytes, wanted: Wanted) -> tuple[Verdict, list[Diagnostic]]:
+    """The verdict on a deck and its errors, with its warnings where they are listed; in any process."""
+    with refusing_outside(lambda folder: wanted.no_outside or refuses_outside(folder)):
+        try:
+            deck = load_bytes(data, file.name, units=wanted.units, folder=file.folder)
+        except DeckError as error:
+            return refused(file.name, error), list(error.diagnostics)
+        verdict, errors, warnings = judge(LintContext(deck))
+    return verdict, sorted([*errors, *warnings], key=lambda one: one.sort_key) if wanted.warnings else errors
 
 
 # ------------------------------------------------------------------------------------------------------- all files
 
 
-def _judged(pool: Pool, wanted: Wanted, total: Total, view: View, progress: Progress) -> Generator[Judged, None, None]:
+def _judged(
+    inputs: Inputs, wanted: Wanted, total: Total, progress: Progress, jobs: int
+) -> Generator[Judged, None, None]:
     """Each deck that can be read; all are counted. The bar is hidden while a deck with errors is printed."""
-    orders = _orders(wanted, total, progress)
 
-    def crashed(item: tuple[Input, bytes | None], crash: Crash) -> None:
-        total.unreadable += 1
-        progress.hide()
-        wanted.inputs.crashed(item[0], crash, verbose=view.verbose)
-        progress.advance()
+    def prepared(file: Input) -> tuple[bytes, tuple[Input, bytes, Wanted]]:
+        data = file.read()
+        return data, (file, data, wanted)
 
-    with progress, closing(in_order(pool, judge_order, orders, len(wanted.inputs.files), crashed)) as results:
-        for (_, data), made in results:
-            if made is not None and data is not None:
+    with closing(many_files(inputs, prepared, judge_file, progress, jobs=jobs)) as results:
+        for data, made in results:
+            if made is not None:
                 verdict, found = made
                 total.add(verdict)
                 if found:
                     progress.hide()
                 yield Judged(verdict, found, data)
-            progress.advance()
-
-
-def _orders(
-    wanted: Wanted, total: Total, progress: Progress
-) -> Iterator[tuple[tuple[Input, bytes | None], Order | None]]:
-    """Each file with its content, and what is sent of it; None for one that cannot be read."""
-    here = os.getcwd()  # noqa: PTH109 - sent as text
-    for file in wanted.inputs.files:
-        try:
-            data = file.read()
-        except OSError as error:
-            total.unreadable += 1
-            progress.hide()
-            wanted.inputs.fail(f"{file.name}: {reason(error)}")
-            yield (file, None), None
-        else:
-            yield (file, data), Order(data, file, wanted.units, wanted.no_outside, wanted.warnings, here)
+    total.unreadable = len(inputs.undone)
 
 
 # ---------------------------------------------------------------------------------------------------------- output

@@ -43,21 +43,22 @@ class View(NamedTuple):
 # ------------------------------------------------------------------------------------------------ how far a long run is
 
 
-def wants_bar(view: View) -> bool:
-    """Whether a bar may be drawn: not in CI, not where standard error is not a terminal that can erase."""
-    dumb = os.environ.get("TERM", "").lower() in {"dumb", "unknown"}
-    return sys.stderr.isatty() and not (view.quiet or dumb or os.environ.get("CI"))
-
-
 class Progress:
-    """Steps done out of a total, as a bar on standard error. It is hidden while anything else is printed."""
+    """Steps done out of a total, as a bar on standard error. It is hidden while anything else is printed.
 
-    def __init__(self, total: int, view: View, *, shown: bool) -> None:
+    None is drawn in CI, or where standard error is not a terminal that can erase.
+    """
+
+    def __init__(self, total: int, view: View, *, shown: bool = True) -> None:
+        self.view = view
         self._total = total
-        self._view = view
         self._done = 0
         self._bar: Bar | None = None
-        self._due = monotonic() + DELAY if shown and total > 1 else float("inf")
+        self._due = monotonic() + DELAY if shown and total > 1 and self._may_draw() else float("inf")
+
+    def _may_draw(self) -> bool:
+        dumb = os.environ.get("TERM", "").lower() in {"dumb", "unknown"}
+        return sys.stderr.isatty() and not (self.view.quiet or dumb or os.environ.get("CI"))
 
     def __enter__(self) -> Self:
         return self
@@ -71,7 +72,7 @@ class Progress:
         """Count one more step, or several."""
         self._done += steps
         if monotonic() >= self._due:
-            self._bar = self._bar or self._view.bar(self._total)
+            self._bar = self._bar or self.view.bar(self._total)
             self._bar.draw(self._done)
             self._due = monotonic() + _PAUSE
 
@@ -83,7 +84,7 @@ class Progress:
 
 def tracked(items: Sequence[T], view: View) -> Iterator[T]:
     """The items, with a bar of how many are done."""
-    with Progress(len(items), view, shown=wants_bar(view)) as progress:
+    with Progress(len(items), view) as progress:
         for item in items:
             yield item
             progress.advance()

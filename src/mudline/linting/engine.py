@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from enum import StrEnum
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from mudline.codes.lines import SYN009, SYN010
 from mudline.deck.coverage import coverage_of
@@ -59,6 +59,21 @@ class LintSettings:
     fixing: Fixing = Fixing.NONE
     unfixable: frozenset[str] = frozenset()
     no_outside: bool = False
+
+    def __reduce__(self) -> tuple[Callable[..., LintSettings], tuple[object, ...]]:
+        """Rules go by their codes: their functions may not be picklable."""
+        codes = frozenset(rule.code.code for rule in self.rules)
+        return _with_rules, (codes, *(getattr(self, one.name) for one in fields(self)[1:]))
+
+
+def _with_rules(codes: frozenset[str], *others: Any) -> LintSettings:  # noqa: ANN401 - the fields behind the first
+    """Settings with the rules of these codes; raises ImportError where a package that has some of them is missing."""
+    from mudline.linting.registry import rules  # noqa: PLC0415 - it imports the rules, which import this
+
+    found = tuple(rule for rule in rules() if rule.code.code in codes)
+    if len(found) < len(codes):
+        raise ImportError(f"no rule {', '.join(sorted(codes - {rule.code.code for rule in found}))}")
+    return LintSettings(found, *others)
 
 
 def lint_context(context: LintContext, chosen: Sequence[Rule]) -> list[Diagnostic]:

@@ -14,13 +14,13 @@ import time
 import traceback
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
-from contextlib import ExitStack, closing, contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from importlib.util import find_spec
 from ipaddress import ip_address
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar, TypeVarTuple
 
 from mudline import __version__
 from mudline.diagnostics import PluginError
@@ -63,7 +63,7 @@ _ADDRESS = r"(?P<protocol>tcp|tls)://(?P<host>\[[0-9A-Fa-f:.]+\]|[A-Za-z0-9._-]+
 _ENDED = "a process has ended early, perhaps out of memory: give fewer files, or use --jobs 1"
 
 _Item = TypeVar("_Item")
-_Given = TypeVar("_Given")
+_Given = TypeVarTuple("_Given")
 _Made = TypeVar("_Made")
 
 
@@ -96,17 +96,13 @@ class Pool:
             self._counted = time.monotonic()
         return self._threads
 
-    def pays(self, estimate: float) -> bool:
-        """Whether so many seconds of work are worth starting processes."""
-        return self.size > 1 and estimate >= PAYS[start_method()]
-
     def submit(
-        self, function: Callable[[_Given], _Made], given: list[_Given], *, guarded: bool = False
+        self, work: Callable[[*_Given], _Made], orders: list[tuple[*_Given]]
     ) -> Future[tuple[float, list[_Made | Crash]]]:
-        """Have a function called with each of the given; what comes back are seconds and results. Raises RunError."""
+        """Have the work done for each order; what comes back are seconds and results. Raises RunError."""
         if self._executor is None:
             if self.scheduler is None:
-                self._executor = self._stack.enter_context(_processes(self.size, function.__module__))
+                self._executor = self._stack.enter_context(_processes(self.size, work.__module__))
             else:
                 self._client = self._stack.enter_context(_connected(self.scheduler))
                 self._executor = self._client.get_executor(pure=False)
@@ -115,7 +111,7 @@ class Pool:
 
         try:
             with interrupt_deferred():
-                return self._executor.submit(_done, __version__, function, given, guarded)
+                return self._executor.submit(_done, __version__, work, orders)
         except (BrokenProcessPool, EOFError, ConnectionError) as error:  # also of what starts the processes
             raise RunError(_ENDED) from error
 
@@ -142,35 +138,53 @@ class Pool:
             raise RunError(f"{self.scheduler}: {what}") from error
 
 
-@contextmanager
-def executor(jobs: int = 0, scheduler: str | None = None) -> Iterator[Pool]:
-    """What `in_order` runs functions on; processes are started, and a scheduler is reached, when that is needed.
-
-    Started processes end with the block, at once where it raises; what a scheduler still has to do is cancelled.
-    """
-    with ExitStack() as stack:
-        yield Pool(jobs, scheduler, stack)
-
-
-def in_order(
-    pool: Pool,
-    function: Callable[[_Given], _Made],
-    items: Iterable[tuple[_Item, _Given | None]],
+def many(
+    work: Callable[[*_Given], _Made],
+    items: Iterable[tuple[_Item, tuple[*_Given] | None]],
     count: int,
-    crashed: Callable[[_Item, Crash], None] | None = None,
-) -> Generator[tuple[_Item, _Made | None], None, None]:
-    """Each of about `count` items with what the function makes of it, in order; only so many are taken ahead as needed.
+    jobs: int = 0,
+    scheduler: str | None = None,
+) -> Generator[tuple[_Item, _Made | Crash | None], None, None]:
+    """Each of about `count` items with what the work makes of it, in order; only so many are taken ahead as needed.
 
-    An item comes with what the function is given, which is pickled; with None there is nothing to do and its result is
-    None. The function is one of a module, by whose name others find it. An item for which it fails is left out, and
-    `crashed` is called with it; without `crashed`, what the function raises is raised. Raises RunError.
+    An item comes with what the work is given, which is pickled; with None there is nothing to do and its result is
+    None. The work is a function of a module, by whose name others find it. Where it fails of an item, that comes with
+    a Crash. Raises RunError, and whatever else is in NO_CRASH.
+
+    Processes are started, and a scheduler is reached, when that is needed. Close what this gives: then processes end
+    at once, and what a scheduler still has to do is cancelled.
     """
-    with closing(_in_order(pool, function, items, count, guarded=crashed is not None)) as results:
-        for item, made in results:
-            if not isinstance(made, Crash):
-                yield item, made
-            elif crashed is not None:
-                crashed(item, made)
+    rest = iter(items)
+    spent, done, number = 0.0, 0, 0
+    with ExitStack() as stack:
+        pool = Pool(jobs, scheduler, stack)
+        for item, given in rest if scheduler is None else ():
+            seconds, made = _timed(work, [] if given is None else [given])
+            spent, done, number = spent + seconds, done + len(made), number + 1
+            yield item, made[0] if made else None
+            if spent >= TRIED and done and pool.size > 1 and spent / done * (count - number) >= PAYS[start_method()]:
+                break
+        waiting: deque[tuple[list[tuple[_Item, bool]], Future[tuple[float, list[_Made | Crash]]] | None]] = deque()
+        under_way = 0
+        while True:
+            wanted = _SECONDS[scheduler is not None] * done / spent if spent else _FIRST
+            share = (count - number) / (2 * pool.size)
+            part = list(islice(rest, max(1, min(int(wanted), int(share), _TOGETHER))))
+            number += len(part)
+            if part:
+                orders = [given for _, given in part if given is not None]
+                sent = [(item, given is not None) for item, given in part]
+                waiting.append((sent, pool.submit(work, orders) if orders else None))
+                under_way += bool(orders)
+            while waiting and (not part or waiting[0][1] is None or under_way > _AHEAD * pool.size):
+                sent, future = waiting.popleft()
+                seconds, results = (0.0, []) if future is None else pool.result(future)
+                under_way -= future is not None
+                spent, done = spent + seconds, done + len(results)
+                found = iter(results)
+                yield from ((item, next(found) if is_sent else None) for item, is_sent in sent)
+            if not part:
+                return
 
 
 class Crash(NamedTuple):
@@ -192,78 +206,30 @@ NO_CRASH = (RunError, OverwriteError, PluginError, MemoryError, ImportError)
 """Exceptions that end a run, whatever the item."""
 
 
-def _called(function: Callable[[_Given], _Made], given: _Given, *, guarded: bool) -> _Made | Crash:
-    """Call a function; if `guarded`, return a Crash instead of raising what is no reason to end the run."""
-    try:
-        return function(given)
-    except NO_CRASH:
-        raise
-    except Exception as error:
-        if not guarded:
+def _timed(work: Callable[[*_Given], _Made], orders: list[tuple[*_Given]]) -> tuple[float, list[_Made | Crash]]:
+    """The seconds that the work takes, and what it makes of each order, or how it fails."""
+    start = time.perf_counter()
+    made: list[_Made | Crash] = []
+    for given in orders:
+        try:
+            made.append(work(*given))
+        except NO_CRASH:
             raise
-        return Crash.of(error)
-
-
-def _in_order(
-    pool: Pool,
-    function: Callable[[_Given], _Made],
-    items: Iterable[tuple[_Item, _Given | None]],
-    count: int,
-    *,
-    guarded: bool,
-) -> Generator[tuple[_Item, _Made | Crash | None], None, None]:
-    """Yield each item with its result, or, if `guarded`, with what the function has failed of."""
-    rest = iter(items)
-    spent, done, number = 0.0, 0, 0
-    while pool.scheduler is None and not (spent >= TRIED and done and pool.pays(spent / done * (count - number))):
-        taken = next(rest, None)
-        if taken is None:
-            return
-        item, given = taken
-        number += 1
-        start = time.perf_counter()
-        made = None if given is None else _called(function, given, guarded=guarded)
-        if given is not None:
-            spent, done = spent + time.perf_counter() - start, done + 1
-        yield item, made
-    waiting: deque[tuple[list[tuple[_Item, _Given | None]], Future[tuple[float, list[_Made | Crash]]] | None]] = deque()
-    under_way = 0
-    while True:
-        wanted = _SECONDS[pool.scheduler is not None] * done / spent if spent else _FIRST
-        share = (count - number) / (2 * pool.size)
-        part = list(islice(rest, max(1, min(int(wanted), int(share), _TOGETHER))))
-        number += len(part)
-        orders = [given for _, given in part if given is not None]
-        if part:
-            waiting.append((part, pool.submit(function, orders, guarded=guarded) if orders else None))
-            under_way += bool(orders)
-        while waiting and (not part or waiting[0][1] is None or under_way > _AHEAD * pool.size):
-            sent, future = waiting.popleft()
-            seconds, results = (0.0, []) if future is None else pool.result(future)
-            under_way -= future is not None
-            spent, done = spent + seconds, done + len(results)
-            found = iter(results)
-            for item, given in sent:
-                yield item, None if given is None else next(found)
-        if not part:
-            return
+        except Exception as error:  # noqa: BLE001 - a fault of the program, which is reported as one
+            made.append(Crash.of(error))
+    return time.perf_counter() - start, made
 
 
 def _done(
-    version: str,
-    function: Callable[[_Given], _Made],
-    given: list[_Given],
-    guarded: bool = False,  # noqa: FBT001, FBT002 - sent by place
+    version: str, work: Callable[[*_Given], _Made], orders: list[tuple[*_Given]]
 ) -> tuple[float, list[_Made | Crash]]:
     """What a process or a worker does, and the seconds that it took."""
     if version != __version__:
         raise RunError(f"a worker has mudline {__version__}, the command {version}: install the same version")
     from mudline.linting.configuration import refuses_outside  # noqa: PLC0415 - only where there are workers
 
-    start = time.perf_counter()
     with refusing_outside(refuses_outside):
-        made = [_called(function, one, guarded=guarded) for one in given]
-    return time.perf_counter() - start, made
+        return _timed(work, orders)
 
 
 # ---------------------------------------------------------------------------------------------------------- processes
