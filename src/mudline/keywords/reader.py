@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, partial
 from typing import Protocol, cast
 
 from pydantic import ValidationError
@@ -57,6 +57,9 @@ class ReadBlock:
             found = self.found = found()
         return found
 
+    def _found(self) -> Places:
+        return self.own
+
     @property
     def places(self) -> Places:
         """The places in the whole text; worked out when somebody asks."""
@@ -67,7 +70,7 @@ class ReadBlock:
 
     def at(self, text: str, start: int, problems: list[Problem]) -> ReadBlock:
         """The block, with its problems there, in a text in which the piece that was read begins at `start`."""
-        found = self.found if isinstance(self.found, Places) else lambda: self.own
+        found = self.found if isinstance(self.found, Places) else self._found
         return ReadBlock(self.model, found, problems, self.trailing, self.lost, (text, start), self.opaque)
 
 
@@ -86,7 +89,7 @@ def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -
 def _read(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
     """Read a block, whose places are found by reading it again when somebody asks: few blocks are asked for them."""
     read = _Reader(text, raw, declared, last=last).read()
-    read.found = lambda: _places(text, raw, declared, last=last)
+    read.found = partial(_places, text, raw, declared, last=last)
     return read
 
 
