@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,15 +14,19 @@ from mudline.contact import Plan
 from mudline.contact.input import LawKind
 from mudline.contact.lines import LineSummary
 from mudline.contact.result import Part
+from mudline.limits import SHOWN_ROWS
 from mudline.quantities import SLIDING, STATES, UnitNames, headed, shown, unit_names
 from mudline.results.against import Comparison
-from mudline.results.evaluation import Evaluation
+from mudline.results.evaluation import Evaluation, ResultConsumer
+from mudline.results.series import SeriesSummary
 from mudline.results.totals import (
     NOT_KNOWN,
-    LineWatch,
-    StepSummary,
+    First,
     Total,
     acted_on,
+    element_steps,
+    line_steps,
+    node_steps,
     reaction,
     states,
     totals,
@@ -45,47 +50,60 @@ def print_plan(plan: Plan, view: View) -> None:
     view.printer().table(f"Plan, {plan.steps}", columns, rows, left=columns)
 
 
-def print_evaluation(digest: StepSummary, lines: LineWatch, which: str, view: View) -> None:
+class Screen:
+    """Keeps of the results what the terminal shows: the first state, rows of steps and lines, extremes of a series."""
+
+    def __init__(self, evaluation: Evaluation, which: str, view: View) -> None:
+        self.evaluation, self.most = evaluation, None if view.verbose else SHOWN_ROWS
+        self.of_nodes = which == "nodes"
+        self.first = First(lambda part: iter([Part(part.start, part.result.steps(0, 1))]), 1)
+        self.steps = First(partial(node_steps if self.of_nodes else element_steps, evaluation), self.most)
+        self.lines = First(partial(line_steps, evaluation), self.most)
+        self.series = SeriesSummary(evaluation, *([] if evaluation.time is None else ["totals", "summary"]))
+        self.consumers: list[ResultConsumer] = [self.first, self.steps, self.lines, self.series]
+
+
+def print_evaluation(screen: Screen, which: str, view: View) -> None:
     """Print totals and rows of one state; of time steps a line each, as rows are for files.
 
     Where no element has a law, a line says so in their place; `view.verbose` shows them too.
     """
-    printer = view.printer()
-    if _no_law(digest.evaluation):
-        elements = counted(len(digest.evaluation.elements), "element")
-        printer.line(f"{_title(digest.evaluation)}: none of {elements} has a seabed law, so there are no forces")
+    printer, evaluation = view.printer(), screen.evaluation
+    if _no_law(evaluation):
+        elements = counted(len(evaluation.elements), "element")
+        printer.line(f"{_title(evaluation)}: none of {elements} has a seabed law, so there are no forces")
         if not view.verbose:
             return
     if which == "summary":
-        _print_lines(printer, lines)
-        _print_extents(printer, lines)
+        _print_lines(printer, screen)
+    elif evaluation.time is not None:
+        _print_steps(printer, screen)
+        _print_peaks(printer, screen.series)
+    if which == "summary" or evaluation.time is not None:
+        if evaluation.steps > 1:
+            _print_extents(printer, screen.series, screen.most)
         return
-    if digest.evaluation.time is not None:
-        _print_steps(printer, digest)
-        _print_extents(printer, lines)
-        return
-    if digest.first is None:
-        return
-    _print_totals(printer, digest.evaluation, digest.first)
-    _print_lines(printer, lines)
-    _print_states(printer, digest.evaluation, digest.first)
+    first = screen.first.rows[0]
+    _print_totals(printer, evaluation, first)
+    _print_lines(printer, screen)
+    _print_states(printer, evaluation, first)
     rows = _touching_elements if which == "elements" else _touching_nodes
-    columns, cells = rows(digest.evaluation, digest.first)
+    columns, cells = rows(evaluation, first)
     shown_rows = list(cells if view.verbose else _joined(cells))
     if not shown_rows:
         printer.line(f"No {which} in contact")
         return
-    left = len(shown_rows) - len(shown_rows[: digest.most])
+    left = len(shown_rows) - len(shown_rows[: screen.most])
     note = f"{left} more lines: -v shows all, -o writes all" if left else ""
-    printer.table(f"{which.capitalize()} in contact", columns, shown_rows[: digest.most], left=_LEFT, note=note)
+    printer.table(f"{which.capitalize()} in contact", columns, shown_rows[: screen.most], left=_LEFT, note=note)
 
 
-def print_series(digest: StepSummary, lines: LineWatch, view: View) -> None:
+def print_series(series: SeriesSummary, view: View) -> None:
     """Print the largest of all steps, and between which values the figures of the lines were."""
     printer = view.printer()
-    printer.line(f"{_title(digest.evaluation)}, {digest.evaluation.steps} steps")
-    _print_peaks(printer, digest)
-    _print_extents(printer, lines)
+    printer.line(f"{_title(series.evaluation)}, {series.evaluation.steps} steps")
+    _print_peaks(printer, series)
+    _print_extents(printer, series, None if view.verbose else SHOWN_ROWS)
 
 
 def _no_law(evaluation: Evaluation) -> bool:
@@ -149,26 +167,24 @@ def _print_states(printer: Printer, evaluation: Evaluation, part: Part) -> None:
         printer.table("States", ("law", "state", "count"), rows, left=("law", "state"))
 
 
-def _print_steps(printer: Printer, digest: StepSummary) -> None:
+def _print_steps(printer: Printer, screen: Screen) -> None:
     """Print a line for each step: of the elements, or of the nodes."""
-    evaluation = digest.evaluation
+    evaluation, rows = screen.evaluation, screen.steps.rows
     names = unit_names(evaluation.scene.units)
-    which = "node" if digest.of_nodes else "element"
+    which = "node" if screen.of_nodes else "element"
     depth, gap = headed("largest\ndepth", names.length), headed("smallest\ngap", names.length)
     largest, total = headed("largest\non a node", names.force), headed("total\nreaction", names.force)
-    figures = (gap, largest, total) if digest.of_nodes else (depth, total)
-    more = ("nodes\nslipping",) if digest.of_nodes else ("suction\nor hold", "nodes\nslipping")
+    figures = (gap, largest, total) if screen.of_nodes else (depth, total)
+    more = ("nodes\nslipping",) if screen.of_nodes else ("suction\nor hold", "nodes\nslipping")
     columns = (_time(names), "in\ncontact", f"first\n{which}", f"last\n{which}", *figures, *more)
-    left = evaluation.steps - digest.shown
+    left = evaluation.steps - len(rows)
     note = f"{left} more steps: -v shows all, -o writes all" if left else ""
-    rows = digest.nodes if digest.of_nodes else digest.steps
     printer.table(f"{_title(evaluation)}, {evaluation.steps} steps", columns, rows, optional=more, note=note)
-    _print_peaks(printer, digest)
 
 
-def _print_peaks(printer: Printer, digest: StepSummary) -> None:
+def _print_peaks(printer: Printer, series: SeriesSummary) -> None:
     """The largest of all steps, also of those that are not listed."""
-    evaluation, times = digest.evaluation, digest.evaluation.time
+    evaluation, times, peaks = series.evaluation, series.evaluation.time, series.totals()
     names = unit_names(evaluation.scene.units)
     units = {
         "reaction": ("total reaction", names.force),
@@ -179,9 +195,9 @@ def _print_peaks(printer: Printer, digest: StepSummary) -> None:
     }
     rows = []
     for key, (what, unit) in units.items():
-        peak = digest.peaks.get(key)
+        peak = peaks.get(key)
         if peak is not None and times is not None and not (key in {"force", "pull"} and peak.value == 0.0):
-            rows.append((what, peak.value, unit, float(times[peak.step]), peak.element))
+            rows.append((what, peak.value, unit, float(times[peak.step]), series.number(peak)))
     columns = ("largest", "value", "unit", _time(names), "element")
     printer.table("Over all steps", columns, rows, left=("largest", "unit"))
 
@@ -190,12 +206,13 @@ _SHOWN_POINTS = 3
 """Touchdown points that a cell shows."""
 
 
-def _print_lines(printer: Printer, lines: LineWatch) -> None:
+def _print_lines(printer: Printer, screen: Screen) -> None:
     """Print touchdown, largest forces, reaction and weight of lines, a row for each at each step."""
-    names, timed = unit_names(lines.evaluation.scene.units), lines.evaluation.time is not None
-    pulled = any(row.largest_uplift is not None for row in lines.rows)
+    evaluation, lines = screen.evaluation, screen.lines.rows
+    names, timed = unit_names(evaluation.scene.units), evaluation.time is not None
+    pulled = any(row.largest_uplift is not None for row in lines)
     rows = []
-    for row in lines.rows:
+    for row in lines:
         push, pull = row.largest_force, row.largest_uplift
         cells: list[Cell] = [row.time] if timed else []
         cells += [row.line, _span(row.first_element, row.last_element), _touchdown(row), row.contact_length]
@@ -219,7 +236,8 @@ def _print_lines(printer: Printer, lines: LineWatch) -> None:
     )
     if not rows:
         return
-    note = f"{lines.left} more lines: -v shows all, -o writes all" if lines.left else ""
+    left = len(evaluation.lines) * evaluation.steps - len(rows)
+    note = f"{left} more lines: -v shows all, -o writes all" if left else ""
     printer.table("Touchdown", columns, rows, left=("elements",), note=note)
 
 
@@ -228,9 +246,10 @@ def _touchdown(row: LineSummary) -> str:
     return touchdown_words(places, row.contact_length, row.length, _SHOWN_POINTS)
 
 
-def _print_extents(printer: Printer, lines: LineWatch) -> None:
+def _print_extents(printer: Printer, series: SeriesSummary, most: int | None) -> None:
     """Print between which values touchdown, length in contact, forces and reaction of lines were."""
-    names, times = unit_names(lines.evaluation.scene.units), lines.evaluation.time
+    evaluation, times = series.evaluation, series.evaluation.time
+    names, lines = unit_names(evaluation.scene.units), evaluation.lines.tolist()
     figures = {
         "first": ("touchdown point", names.length),
         "last": ("last touchdown point", names.length),
@@ -239,26 +258,30 @@ def _print_extents(printer: Printer, lines: LineWatch) -> None:
         "uplift": ("uplift, negative", names.line_force),
         "reaction": ("total reaction", names.force),
     }
-    if times is None or not lines.extents:
+    found = {
+        (line, name): (extremes.least[at], extremes.least_step[at], extremes.largest[at], extremes.largest_step[at])
+        for at, line in enumerate(lines)
+        for name in figures
+        if (extremes := series.of("summary", name)).least_step[at] >= 0
+    }
+    if times is None or not found:
         return
-    several = len({line for line, _ in lines.extents}) > 1
     rows = []
-    order = {name: place for place, name in enumerate(figures)}
-    for (line, name), extent in sorted(lines.extents.items(), key=lambda each: (each[0][0], order[each[0][1]])):
-        if name == "last" and lines.extents.get((line, "first")) == extent:
+    for (line, name), extent in found.items():
+        if name == "last" and found.get((line, "first")) == extent:
             continue
         what, unit = figures[name]
-        if name == "first" and lines.extents.get((line, "last"), extent) != extent:
+        if name == "first" and found.get((line, "last"), extent) != extent:
             what = f"first {what}"
-        low, high = float(times[extent.least_step]), float(times[extent.largest_step])
-        number = (line + 1,) if several else ()
-        rows.append((*number, what, unit, extent.least, low, extent.largest, high))
+        least, low, largest, high = extent
+        number = (line + 1,) if len(lines) > 1 else ()
+        rows.append((*number, what, unit, float(least), float(times[low]), float(largest), float(times[high])))
     columns: Cells = ("figure", "unit", "least", _time(names), "largest", _time(names))
-    if several:
+    if len(lines) > 1:
         columns = ("line", *columns)
-    left = len(rows) - len(rows[: lines.most])
+    left = len(rows) - len(rows[:most])
     note = f"{left} more rows: -v shows all" if left else ""
-    printer.table("Lines over all steps", columns, rows[: lines.most], left=("figure", "unit"), note=note)
+    printer.table("Lines over all steps", columns, rows[:most], left=("figure", "unit"), note=note)
 
 
 def _time(names: UnitNames) -> str:

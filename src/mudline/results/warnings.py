@@ -103,8 +103,7 @@ def seabed_warnings(scene: Scene) -> list[ContactWarning]:
     try:
         evaluation = evaluate_scene(scene)
         watch = ContactWatch.of(evaluation)
-        for part in evaluation.parts():
-            watch.take(part)
+        evaluation.run([watch])
     except DeckError:
         return []
     return [one for one in watch.warnings() if one.diagnostic.code in wanted]
