@@ -162,7 +162,7 @@ def _evaluate_one(
     if output and not view.quiet:
         _notify_written(evaluation, Path(output), beside(Path(output)))
     if screen is not None:
-        print_evaluation(screen, table, view)
+        print_evaluation(screen, view)
     if comparison is not None and output_format == "text":
         print_comparison(comparison, view)
     return warnings

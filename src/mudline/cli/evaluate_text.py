@@ -14,9 +14,10 @@ from mudline.contact import Plan
 from mudline.contact.input import LawKind
 from mudline.contact.lines import LineSummary
 from mudline.contact.result import Part
+from mudline.display import Cell, DisplayColumn, DisplayTable, number, text
 from mudline.limits import SHOWN_ROWS
-from mudline.quantities import SLIDING, STATES, UnitNames, headed, shown, unit_names
-from mudline.results.against import Comparison
+from mudline.quantities import SLIDING, STATES, UnitNames, shown, time_unit, unit_names
+from mudline.results.against import Comparison, Extreme
 from mudline.results.evaluation import Evaluation, ResultConsumer
 from mudline.results.series import SeriesSummary
 from mudline.results.totals import (
@@ -32,38 +33,40 @@ from mudline.results.totals import (
     totals,
     touchdown_words,
 )
-from mudline.scene.numbering import Floats, Indices
+from mudline.scene.numbering import Floats
 from mudline.short_repr import counted
 
 if TYPE_CHECKING:
-    from mudline.cli.printing import Cell, Printer
+    from mudline.cli.printing import Printer
 
 Cells = tuple[str, ...]
+_MORE_LINES, _MORE_STEPS = (f"more {rows}: -v shows all, -o writes all" for rows in ("lines", "steps"))
 _LEFT = ("law", "state", "axial", "lateral")
-"""Columns of text."""
+"""Columns of text of what is in contact."""
+_SHOWN_POINTS = 3
+"""Touchdown points that a cell shows."""
 
 
 def print_plan(plan: Plan, view: View) -> None:
     """Print the stages, active or not, and why."""
-    rows = [(stage.stage, "yes" if stage.active else "no", stage.why) for stage in plan]
-    columns = ("stage", "active", "why")
-    view.printer().table(f"Plan, {plan.steps}", columns, rows, left=columns)
+    columns = (text("stage", "stage"), text("active", lambda one: "yes" if one.active else "no"), text("why", "why"))
+    view.printer().table(DisplayTable(f"Plan, {plan.steps}", columns, list(plan)))
 
 
 class Screen:
     """Keeps of the results what the terminal shows: the first state, rows of steps and lines, extremes of a series."""
 
     def __init__(self, evaluation: Evaluation, which: str, view: View) -> None:
-        self.evaluation, self.most = evaluation, None if view.verbose else SHOWN_ROWS
-        self.of_nodes = which == "nodes"
+        self.evaluation, self.which = evaluation, which
+        self.most = None if view.verbose else SHOWN_ROWS
         self.first = First(lambda part: iter([Part(part.start, part.result.steps(0, 1))]), 1)
-        self.steps = First(partial(node_steps if self.of_nodes else element_steps, evaluation), self.most)
+        self.steps = First(partial(node_steps if which == "nodes" else element_steps, evaluation), self.most)
         self.lines = First(partial(line_steps, evaluation), self.most)
         self.series = SeriesSummary(evaluation, *([] if evaluation.time is None else ["totals", "summary"]))
         self.consumers: list[ResultConsumer] = [self.first, self.steps, self.lines, self.series]
 
 
-def print_evaluation(screen: Screen, which: str, view: View) -> None:
+def print_evaluation(screen: Screen, view: View) -> None:
     """Print totals and rows of one state; of time steps a line each, as rows are for files.
 
     Where no element has a law, a line says so in their place; `view.verbose` shows them too.
@@ -74,28 +77,15 @@ def print_evaluation(screen: Screen, which: str, view: View) -> None:
         printer.line(f"{_title(evaluation)}: none of {elements} has a seabed law, so there are no forces")
         if not view.verbose:
             return
-    if which == "summary":
+    if screen.which == "summary":
         _print_lines(printer, screen)
-    elif evaluation.time is not None:
+    elif evaluation.time is None:
+        _print_state(printer, screen, screen.first.rows[0])
+    else:
         _print_steps(printer, screen)
         _print_peaks(printer, screen.series)
-    if which == "summary" or evaluation.time is not None:
-        if evaluation.steps > 1:
-            _print_extents(printer, screen.series, screen.most)
-        return
-    first = screen.first.rows[0]
-    _print_totals(printer, evaluation, first)
-    _print_lines(printer, screen)
-    _print_states(printer, evaluation, first)
-    rows = _touching_elements if which == "elements" else _touching_nodes
-    columns, cells = rows(evaluation, first)
-    shown_rows = list(cells if view.verbose else _joined(cells))
-    if not shown_rows:
-        printer.line(f"No {which} in contact")
-        return
-    left = len(shown_rows) - len(shown_rows[: screen.most])
-    note = f"{left} more lines: -v shows all, -o writes all" if left else ""
-    printer.table(f"{which.capitalize()} in contact", columns, shown_rows[: screen.most], left=_LEFT, note=note)
+    if evaluation.steps > 1:
+        _print_extents(printer, screen.series, screen.most)
 
 
 def print_series(series: SeriesSummary, view: View) -> None:
@@ -114,16 +104,64 @@ def _no_law(evaluation: Evaluation) -> bool:
     return bool(lawless.size) and bool(lawless.all()) and not springs
 
 
+def _title(evaluation: Evaluation) -> str:
+    deck = evaluation.scene.deck
+    return f"Contact of {deck.source or deck.file} ({deck.units} units)"
+
+
+# --------------------------------------------------------------------------------------------------------- one state
+
+
+def _print_state(printer: Printer, screen: Screen, first: Part) -> None:
+    """Print totals by law, touchdown, states of laws that have some, and what is in contact."""
+    evaluation, result = screen.evaluation, first.result.step(0)
+    _print_totals(printer, evaluation, first)
+    _print_lines(printer, screen)
+    if found := states(evaluation, result):
+        columns = (text("law", "law"), text("state", "state"), number("count", "number"))
+        printer.table(DisplayTable("States", columns, found))
+    touching = list((_touching_elements if screen.which == "elements" else _touching_nodes)(evaluation, first))
+    rows: Iterable[Cells] = zip(*(cells for *_, cells in touching), strict=True)
+    if rows := list(rows if screen.most is None else _joined(rows)):
+        shape = [number(head, at, unit, left=head in _LEFT) for at, (head, unit, _) in enumerate(touching)]
+        table = DisplayTable(f"{screen.which.capitalize()} in contact", shape, rows)
+        printer.table(table.first(screen.most, _MORE_LINES))
+    else:
+        printer.line(f"No {screen.which} in contact")
+
+
+def _print_totals(printer: Printer, evaluation: Evaluation, part: Part) -> None:
+    names = unit_names(evaluation.scene.units)
+    found = [each if each.touching else each._replace(deepest=None) for each in totals(evaluation, part)]
+    if len(found) > 1 or any(each.law == "nodal" for each in found):
+        elements, touching = (sum(getattr(each, name) for each in found) for name in ("elements", "touching"))
+        deepest = max((each.deepest for each in found if each.deepest is not None), default=None)
+        found.append(Total("total", "", elements, touching, deepest, reaction(evaluation, part.result.step(0))))
+
+    def force(each: Total) -> Cell:
+        return NOT_KNOWN if each.reaction is not None and math.isnan(each.reaction) else each.reaction
+
+    columns = (
+        text("law", "law"),
+        text("set", "set_name"),
+        number("elements", "elements"),
+        number("in\ncontact", "touching"),
+        number("largest\ndepth", "deepest", names.length),
+        number("total\nreaction", force, names.force),
+    )
+    printer.table(DisplayTable(_title(evaluation), columns, found))
+
+
 def _joined(rows: Iterable[Cells]) -> Iterator[Cells]:
     """Rows that show the same, with numbers one after the other, as one row."""
     first = last = 0
     same: Cells | None = None
-    for number, *rest in rows:
-        if same != tuple(rest) or int(number) != last + 1:
+    for own, *rest in rows:
+        if same != tuple(rest) or int(own) != last + 1:
             if same is not None:
                 yield (_span(first, last), *same)
-            first, same = int(number), tuple(rest)
-        last = int(number)
+            first, same = int(own), tuple(rest)
+        last = int(own)
     if same is not None:
         yield (_span(first, last), *same)
 
@@ -132,113 +170,131 @@ def _span(first: int, last: int) -> str:
     return str(first) if first == last else f"{first} to {last}"
 
 
-def _print_totals(printer: Printer, evaluation: Evaluation, part: Part) -> None:
-    names = unit_names(evaluation.scene.units)
-    found = totals(evaluation, part)
-    rows: list[tuple[Cell, ...]] = [
-        (each.law, each.set_name, each.elements, each.touching, _depth(each), each.reaction) for each in found
-    ]
-    if len(found) > 1 or any(each.law == "nodal" for each in found):
-        sums = (sum(each.elements for each in found), sum(each.touching for each in found))
-        deepest = max((each for each in found if each.deepest is not None), key=_by_depth, default=found[0])
-        rows.append(("total", "", *sums, _depth(deepest), _known(reaction(evaluation, part.result.step(0)))))
-    depth, force = headed("largest\ndepth", names.length), headed("total\nreaction", names.force)
-    columns = ("law", "set", "elements", "in\ncontact", depth, force)
-    printer.table(_title(evaluation), columns, rows, left=("law", "set"))
+Found = Iterator[tuple[str, str, list[str]]]
+"""Headings, units and cells of columns."""
 
 
-def _known(reaction: float | None) -> Cell:
-    return NOT_KNOWN if reaction is None or math.isnan(reaction) else reaction
+def _touching_elements(evaluation: Evaluation, part: Part) -> Found:
+    """Elements in contact, or with a force above the seabed, at the first step of a part."""
+    names, result, chosen = unit_names(evaluation.scene.units), part.result.step(0), evaluation.elements
+    held = np.flatnonzero(result.contact[chosen] | (np.nan_to_num(result.force[chosen]) != 0.0))
+    index = chosen[held]
+    law = next(column for column in evaluation.element_table().columns(part) if column.name == "law")
+    yield "element", "", [str(each) for each in evaluation.scene.element_ids[index].tolist()]
+    yield "law", "", [law.names[code] or "" for code in law.cut(0, 1)[0, held].tolist()]
+    yield "depth", names.length, _numbers(result.depth[index])
+    yield "ratio", "", _numbers(result.ratio[index])
+    yield "force", names.line_force, _numbers(result.force[index])
+    yield "stiffness", names.stiffness, _numbers(result.stiffness[index])
+    yield "length", names.length, _numbers(evaluation.length[index])
+    if result.state is not None:
+        yield "state", "", [STATES[code] or "" for code in result.state[index].tolist()]
 
 
-def _by_depth(total: Total) -> float:
-    return -math.inf if total.deepest is None else total.deepest
+def _touching_nodes(evaluation: Evaluation, part: Part) -> Found:
+    """Nodes on which the seabed acts, also by restraining them, at the first step of a part."""
+    names, result = unit_names(evaluation.scene.units), part.result.step(0)
+    index = acted_on(evaluation, result)
+    yield "node", "", [str(each) for each in evaluation.scene.node_ids[index].tolist()]
+    yield "gap", names.length, _numbers(result.gap[index])
+    for axis, column in zip("XYZ", result.reaction[index].T, strict=True):
+        yield f"reaction {axis}", names.force, _numbers(column)
+    directions = ("axial", "lateral")
+    if result.friction is not None:
+        for direction, column in zip(directions, result.friction[index].T, strict=True):
+            yield f"{direction}\nforce", names.force, _numbers(column)
+    if result.friction_state is not None:
+        for direction, codes in zip(directions, result.friction_state[index].T.tolist(), strict=True):
+            yield direction, "", [SLIDING[code] or "" for code in codes]
 
 
-def _depth(total: Total) -> float | None:
-    """The largest depth, where anything is in contact."""
-    return total.deepest if total.touching else None
+def _numbers(values: Floats) -> list[str]:
+    return [shown(value) for value in values.tolist()]
 
 
-def _print_states(printer: Printer, evaluation: Evaluation, part: Part) -> None:
-    """How many elements and nodes are in each state, where a law has states."""
-    rows = states(evaluation, part.result.step(0))
-    if rows:
-        printer.table("States", ("law", "state", "count"), rows, left=("law", "state"))
+# ------------------------------------------------------------------------------------------------------------- steps
 
 
 def _print_steps(printer: Printer, screen: Screen) -> None:
     """Print a line for each step: of the elements, or of the nodes."""
     evaluation, rows = screen.evaluation, screen.steps.rows
-    names = unit_names(evaluation.scene.units)
-    which = "node" if screen.of_nodes else "element"
-    depth, gap = headed("largest\ndepth", names.length), headed("smallest\ngap", names.length)
-    largest, total = headed("largest\non a node", names.force), headed("total\nreaction", names.force)
-    figures = (gap, largest, total) if screen.of_nodes else (depth, total)
-    more = ("nodes\nslipping",) if screen.of_nodes else ("suction\nor hold", "nodes\nslipping")
-    columns = (_time(names), "in\ncontact", f"first\n{which}", f"last\n{which}", *figures, *more)
+    names, of_nodes = unit_names(evaluation.scene.units), screen.which == "nodes"
+    which = "node" if of_nodes else "element"
+    of_elements = [number("largest\ndepth", "deepest", names.length)]
+    gap, largest = number("smallest\ngap", "gap", names.length), number("largest\non a node", "largest", names.force)
+    columns = [
+        _time(evaluation, "time"),
+        number("in\ncontact", "acted_on" if of_nodes else "touching"),
+        number(f"first\n{which}", "first"),
+        number(f"last\n{which}", "last"),
+        *([gap, largest] if of_nodes else of_elements),
+        number("total\nreaction", "reaction", names.force),
+        *([] if of_nodes else [number("suction\nor hold", "sucked", optional=True)]),
+        number("nodes\nslipping", "slipping", optional=True),
+    ]
     left = evaluation.steps - len(rows)
-    note = f"{left} more steps: -v shows all, -o writes all" if left else ""
-    printer.table(f"{_title(evaluation)}, {evaluation.steps} steps", columns, rows, optional=more, note=note)
+    note = f"{left} {_MORE_STEPS}" if left else ""
+    printer.table(DisplayTable(f"{_title(evaluation)}, {evaluation.steps} steps", columns, rows, note))
+
+
+def _time(evaluation: Evaluation, value: str | int) -> DisplayColumn:
+    return number("time", value, time_unit(evaluation.scene.units))
 
 
 def _print_peaks(printer: Printer, series: SeriesSummary) -> None:
     """The largest of all steps, also of those that are not listed."""
     evaluation, times, peaks = series.evaluation, series.evaluation.time, series.totals()
     names = unit_names(evaluation.scene.units)
-    units = {
+    figures = {
         "reaction": ("total reaction", names.force),
         "force": ("force of an element", names.line_force),
         "pull": ("suction force of an element", names.line_force),
         "touching": ("elements in contact", ""),
         "deepest": ("depth", names.length),
     }
-    rows = []
-    for key, (what, unit) in units.items():
-        peak = peaks.get(key)
-        if peak is not None and times is not None and not (key in {"force", "pull"} and peak.value == 0.0):
-            rows.append((what, peak.value, unit, float(times[peak.step]), series.number(peak)))
-    columns = ("largest", "value", "unit", _time(names), "element")
-    printer.table("Over all steps", columns, rows, left=("largest", "unit"))
+    rows = [
+        (what, peak.value, unit, float(times[peak.step]), series.number(peak))
+        for key, (what, unit) in figures.items()
+        if times is not None and (peak := peaks.get(key)) and not (key in {"force", "pull"} and peak.value == 0.0)
+    ]
+    columns = (text("largest", 0), number("value", 1), text("unit", 2), _time(evaluation, 3), number("element", 4))
+    printer.table(DisplayTable("Over all steps", columns, rows))
 
 
-_SHOWN_POINTS = 3
-"""Touchdown points that a cell shows."""
+# ------------------------------------------------------------------------------------------------------------- lines
 
 
 def _print_lines(printer: Printer, screen: Screen) -> None:
     """Print touchdown, largest forces, reaction and weight of lines, a row for each at each step."""
-    evaluation, lines = screen.evaluation, screen.lines.rows
-    names, timed = unit_names(evaluation.scene.units), evaluation.time is not None
-    pulled = any(row.largest_uplift is not None for row in lines)
-    rows = []
-    for row in lines:
-        push, pull = row.largest_force, row.largest_uplift
-        cells: list[Cell] = [row.time] if timed else []
-        cells += [row.line, _span(row.first_element, row.last_element), _touchdown(row), row.contact_length]
-        cells += [None, ""] if push is None else [push.force, push.element]
-        if pulled:
-            cells += [None, ""] if pull is None else [pull.force, pull.element]
-        rows.append((*cells, _known(row.reaction), row.submerged_weight, row.ratio))
-    uplift = (headed("largest\nuplift", names.line_force), "element")
-    columns = (
-        *((_time(names),) if timed else ()),
-        "line",
-        "elements",
-        headed("touchdown\nat", names.length),
-        headed("length in\ncontact", names.length),
-        headed("largest\nforce", names.line_force),
-        "element",
-        *(uplift if pulled else ()),
-        headed("total\nreaction", names.force),
-        headed("submerged\nweight", names.force),
-        "ratio",
-    )
-    if not rows:
-        return
+    evaluation, rows = screen.evaluation, screen.lines.rows
+    names = unit_names(evaluation.scene.units)
+    pulled = any(row.largest_uplift is not None for row in rows)
+    columns = [
+        *([] if evaluation.time is None else [_time(evaluation, "time")]),
+        number("line", "line"),
+        text("elements", lambda row: _span(row.first_element, row.last_element)),
+        number("touchdown\nat", _touchdown, names.length),
+        number("length in\ncontact", "contact_length", names.length),
+        *_largest("force", "largest_force", names),
+        *(_largest("uplift", "largest_uplift", names) if pulled else ()),
+        number("total\nreaction", lambda row: NOT_KNOWN if row.reaction is None else row.reaction, names.force),
+        number("submerged\nweight", "submerged_weight", names.force),
+        number("ratio", "ratio"),
+    ]
     left = len(evaluation.lines) * evaluation.steps - len(rows)
-    note = f"{left} more lines: -v shows all, -o writes all" if left else ""
-    printer.table("Touchdown", columns, rows, left=("elements",), note=note)
+    if rows:
+        printer.table(DisplayTable("Touchdown", columns, rows, f"{left} {_MORE_LINES}" if left else ""))
+
+
+def _largest(what: str, name: str, names: UnitNames) -> Iterator[DisplayColumn]:
+    """A largest force of a line, where there is one, and its element."""
+
+    def part(key: str, row: LineSummary) -> Cell:
+        cell: Cell = getattr(getattr(row, name), key, None)
+        return cell
+
+    yield number(f"largest\n{what}", partial(part, "force"), names.line_force)
+    yield number("element", partial(part, "element"))
 
 
 def _touchdown(row: LineSummary) -> str:
@@ -258,116 +314,51 @@ def _print_extents(printer: Printer, series: SeriesSummary, most: int | None) ->
         "uplift": ("uplift, negative", names.line_force),
         "reaction": ("total reaction", names.force),
     }
-    found = {
-        (line, name): (extremes.least[at], extremes.least_step[at], extremes.largest[at], extremes.largest_step[at])
-        for at, line in enumerate(lines)
-        for name in figures
-        if (extremes := series.of("summary", name)).least_step[at] >= 0
-    }
-    if times is None or not found:
-        return
     rows = []
-    for (line, name), extent in found.items():
-        if name == "last" and found.get((line, "first")) == extent:
-            continue
-        what, unit = figures[name]
-        if name == "first" and found.get((line, "last"), extent) != extent:
-            what = f"first {what}"
-        least, low, largest, high = extent
-        number = (line + 1,) if len(lines) > 1 else ()
-        rows.append((*number, what, unit, float(least), float(times[low]), float(largest), float(times[high])))
-    columns: Cells = ("figure", "unit", "least", _time(names), "largest", _time(names))
-    if len(lines) > 1:
-        columns = ("line", *columns)
-    left = len(rows) - len(rows[:most])
-    note = f"{left} more rows: -v shows all" if left else ""
-    printer.table("Lines over all steps", columns, rows[:most], left=("figure", "unit"), note=note)
-
-
-def _time(names: UnitNames) -> str:
-    return "time\n[s]" if names.length else "time"
-
-
-def _title(evaluation: Evaluation) -> str:
-    deck = evaluation.scene.deck
-    return f"Contact of {deck.source or deck.file} ({deck.units} units)"
-
-
-# ----------------------------------------------------------------------------------------------- rows of one state
-
-
-def _touching_elements(evaluation: Evaluation, part: Part) -> tuple[Cells, Iterator[Cells]]:
-    """Elements in contact, or with a force above the seabed, at the first step of a part."""
-    names = unit_names(evaluation.scene.units)
-    columns: Cells = (
-        "element",
-        "law",
-        headed("depth", names.length),
-        "ratio",
-        headed("force", names.line_force),
-        headed("stiffness", names.stiffness),
-        headed("length", names.length),
-    )
-    result, chosen = part.result.step(0), evaluation.elements
-    held = np.flatnonzero(result.contact[chosen] | (np.nan_to_num(result.force[chosen]) != 0.0))
-    index = chosen[held]
-    law = next(column for column in evaluation.element_table().columns(part) if column.name == "law")
-    cells = [
-        [str(number) for number in evaluation.scene.element_ids[index].tolist()],
-        [law.names[code] or "" for code in law.cut(0, 1)[0, held].tolist()],
-        *(_numbers(column, index) for column in (result.depth, result.ratio, result.force, result.stiffness)),
-        _numbers(evaluation.length, index),
+    for at, line in enumerate(lines):
+        found = {name: extent for name in figures if (extent := series.of("summary", name).extent(at, times))}
+        several = "last" in found and found["last"] != found.get("first")
+        for name, extent in found.items():
+            what, unit = figures[name]
+            if name != "last" or several:
+                rows.append((line + 1, f"first {what}" if name == "first" and several else what, unit, *extent))
+    columns = [
+        *([number("line", 0)] if len(lines) > 1 else []),
+        text("figure", 1),
+        text("unit", 2),
+        number("least", 3),
+        _time(evaluation, 4),
+        number("largest", 5),
+        _time(evaluation, 6),
     ]
-    if result.state is not None:
-        columns = (*columns, "state")
-        cells.append([STATES[code] or "" for code in result.state[index].tolist()])
-    return columns, zip(*cells, strict=True)
+    if rows:
+        table = DisplayTable("Lines over all steps", columns, rows)
+        printer.table(table.first(most, "more rows: -v shows all"))
 
 
-def _touching_nodes(evaluation: Evaluation, part: Part) -> tuple[Cells, Iterator[Cells]]:
-    """Nodes on which the seabed acts, also by restraining them, at the first step of a part."""
-    names = unit_names(evaluation.scene.units)
-    axes = (headed(f"reaction {axis}", names.force) for axis in "XYZ")
-    columns: Cells = ("node", headed("gap", names.length), *axes)
-    result = part.result.step(0)
-    index = acted_on(evaluation, result)
-    cells = [
-        [str(number) for number in evaluation.scene.node_ids[index].tolist()],
-        *(_numbers(column, index) for column in (result.gap, *result.reaction.T)),
-    ]
-    if result.friction is not None:
-        columns = (*columns, headed("axial\nforce", names.force), headed("lateral\nforce", names.force))
-        cells += [_numbers(column, index) for column in result.friction.T]
-    if result.friction_state is not None:
-        columns = (*columns, "axial", "lateral")
-        cells += [[SLIDING[code] or "" for code in column[index].tolist()] for column in result.friction_state.T]
-    return columns, zip(*cells, strict=True)
-
-
-def _numbers(column: Floats, index: Indices) -> list[str]:
-    return [shown(value) for value in column[index].tolist()]
-
-
-# ------------------------------------------------------------------------------------------------------ comparison
+# -------------------------------------------------------------------------------------------------------- comparison
 
 
 def print_comparison(comparison: Comparison, view: View) -> None:
     """Print for each column how many values were compared, the largest differences and where they are."""
-    timed = comparison.timed
-    place = ("at\nelement", "at\ntime") if timed else ("at\nelement",)
-    columns = ("column", "compared", "largest\ndifference", *place, "largest\nrelative", *place, "rms\ndifference")
-    rows = []
-    for found in comparison.differences:
-        row = found.row()
-        absolute = _cells(row["largest_difference"], "difference", timed=timed)
-        relative = _cells(row["largest_relative"], "relative", timed=timed)
-        rows.append((found.column, found.compared, *absolute, *relative, shown(found.rms, 4)))
-    view.printer().table(f"Compared with {comparison.reference.file}", columns, rows, left=("column",))
 
+    def columns_of(heading: str, name: str) -> Iterator[DisplayColumn]:
+        def of(key: str, row: Any) -> Any:  # noqa: ANN401 - a difference, and a cell
+            extreme: Extreme = getattr(row, name)
+            value = getattr(extreme, key)
+            return "" if extreme.element is None else shown(value, 4) if key == "value" else value
 
-def _cells(extreme: dict[str, Any] | None, name: str, *, timed: bool) -> tuple[Cell, ...]:
-    """Value, element and time of a largest difference; nothing where nothing was compared."""
-    if extreme is None:
-        return ("",) * (2 + timed)
-    cells = (shown(extreme[name], 4), extreme["element"])
-    return (*cells, extreme["time"]) if timed else cells
+        yield number(heading, partial(of, "value"))
+        yield number("at\nelement", partial(of, "element"))
+        if comparison.timed:
+            yield number("at\ntime", partial(of, "time"))
+
+    columns = [
+        text("column", "column"),
+        number("compared", "compared"),
+        *columns_of("largest\ndifference", "absolute"),
+        *columns_of("largest\nrelative", "relative"),
+        number("rms\ndifference", lambda row: shown(row.rms, 4)),
+    ]
+    title = f"Compared with {comparison.reference.file}"
+    view.printer().table(DisplayTable(title, columns, comparison.differences))

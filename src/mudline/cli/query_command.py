@@ -17,6 +17,7 @@ from mudline.cli import DONE, WRONG_USAGE, options
 from mudline.cli.index_command import lacks_libraries
 from mudline.cli.streams import counted, emit, encoded, notify, writing
 from mudline.cli.view import View
+from mudline.display import DisplayColumn, DisplayTable
 from mudline.limits import SHOWN_ROWS
 from mudline.quantities import csv_lines
 
@@ -123,17 +124,16 @@ def _values(batch: Arrow) -> list[list[Arrow]]:
 
 def _print_table(database: Database, reader: Arrow, view: View) -> None:
     """Print the first rows, all of them with -v."""
-    columns = tuple(reader.schema.names)
     rows: list[tuple[Arrow, ...]] = []
     count = 0
     for batch in _batches(database, reader):
         count += batch.num_rows
         part = batch if view.verbose else batch.slice(0, max(SHOWN_ROWS - len(rows), 0))
         rows += zip(*_values(part), strict=True)
-    left = [name for name, kind in zip(columns, reader.schema.types, strict=True) if not _is_number(kind)]
+    columns = [DisplayColumn(field.name, at, left=not _is_number(field.type)) for at, field in enumerate(reader.schema)]
     note = f"{counted(count - len(rows), 'more row')}: -v shows all" if count > len(rows) else counted(count, "row")
     cells = [[_cell(value) for value in row] for row in rows]
-    view.printer().table("Answer", columns, cells, left=left, note=note)
+    view.printer().table(DisplayTable("Answer", columns, cells, note))
 
 
 def _is_number(kind: Arrow) -> bool:

@@ -193,6 +193,13 @@ class Extremes:
         found = [peak for peak in (self.lowest(), self.highest()) if peak is not None]
         return min(found, key=lambda peak: (-abs(peak.value), peak.step), default=None)
 
+    def extent(self, column: int, times: Floats | None) -> tuple[float, float, float, float] | None:
+        """Return the least value of a column, its time, the largest value and its time; None without any."""
+        low, high = int(self.least_step[column]), int(self.largest_step[column])
+        if times is None or low < 0:
+            return None
+        return float(self.least[column]), float(times[low]), float(self.largest[column]), float(times[high])
+
 
 def _first(values: Floats, steps: NDArray[np.int64], at: Floats, sign: float) -> Peak | None:
     """The first of the least values times a sign."""
