@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import FORMS, Output, Sink, contents_of, table_path, tables_of
 from mudline.results.forms.text import text_writer
-from mudline.results.totals import First, StepTotal, element_steps
+from mudline.results.totals import First, StepTotal, step_totals
 
 Json: TypeAlias = Any
 
@@ -62,6 +62,6 @@ def arrays_of(evaluation: Evaluation) -> dict[str, NDArray[Any]]:
 
 def steps_of(evaluation: Evaluation, most: int | None = None) -> list[StepTotal]:
     """The figures of the first steps."""
-    first = First(partial(element_steps, evaluation), most)
+    first = First(partial(step_totals, evaluation), most)
     evaluation.run([first])
     return first.rows

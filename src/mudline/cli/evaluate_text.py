@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -11,12 +11,13 @@ import numpy as np
 
 from mudline.cli.view import View
 from mudline.contact import Plan
+from mudline.contact.columns import Column, Table
 from mudline.contact.input import LawKind
 from mudline.contact.lines import LineSummary
 from mudline.contact.result import Part
 from mudline.display import Cell, DisplayColumn, DisplayTable, number, text
 from mudline.limits import SHOWN_ROWS
-from mudline.quantities import SLIDING, STATES, UnitNames, shown, time_unit, unit_names
+from mudline.quantities import UnitNames, shown, time_unit, unit_names
 from mudline.results.against import Comparison, Extreme
 from mudline.results.evaluation import Evaluation, ResultConsumer
 from mudline.results.series import SeriesSummary
@@ -25,15 +26,14 @@ from mudline.results.totals import (
     First,
     Total,
     acted_on,
-    element_steps,
     line_steps,
-    node_steps,
     reaction,
     states,
+    step_totals,
     totals,
     touchdown_words,
 )
-from mudline.scene.numbering import Floats
+from mudline.scene.numbering import Mask
 from mudline.short_repr import counted
 
 if TYPE_CHECKING:
@@ -41,8 +41,6 @@ if TYPE_CHECKING:
 
 Cells = tuple[str, ...]
 _MORE_LINES, _MORE_STEPS = (f"more {rows}: -v shows all, -o writes all" for rows in ("lines", "steps"))
-_LEFT = ("law", "state", "axial", "lateral")
-"""Columns of text of what is in contact."""
 _SHOWN_POINTS = 3
 """Touchdown points that a cell shows."""
 
@@ -60,7 +58,7 @@ class Screen:
         self.evaluation, self.which = evaluation, which
         self.most = None if view.verbose else SHOWN_ROWS
         self.first = First(lambda part: iter([Part(part.start, part.result.steps(0, 1))]), 1)
-        self.steps = First(partial(node_steps if which == "nodes" else element_steps, evaluation), self.most)
+        self.steps = First(partial(step_totals, evaluation, of_nodes=which == "nodes"), self.most)
         self.lines = First(partial(line_steps, evaluation), self.most)
         self.series = SeriesSummary(evaluation, *([] if evaluation.time is None else ["totals", "summary"]))
         self.consumers: list[ResultConsumer] = [self.first, self.steps, self.lines, self.series]
@@ -118,16 +116,50 @@ def _print_state(printer: Printer, screen: Screen, first: Part) -> None:
     _print_totals(printer, evaluation, first)
     _print_lines(printer, screen)
     if found := states(evaluation, result):
-        columns = (text("law", "law"), text("state", "state"), number("count", "number"))
-        printer.table(DisplayTable("States", columns, found))
-    touching = list((_touching_elements if screen.which == "elements" else _touching_nodes)(evaluation, first))
-    rows: Iterable[Cells] = zip(*(cells for *_, cells in touching), strict=True)
+        of_state = (text("law", "law"), text("state", "state"), number("count", "number"))
+        printer.table(DisplayTable("States", of_state, found))
+    if screen.which == "elements":
+        acts = result.contact | (np.nan_to_num(result.force) != 0.0)
+        columns, rows = _touching(evaluation.element_table(), first, acts[evaluation.elements], _OF_ELEMENT)
+    else:
+        acts = np.isin(evaluation.nodes, acted_on(evaluation, result))
+        columns, rows = _touching(evaluation.node_table(), first, acts, _OF_NODE)
     if rows := list(rows if screen.most is None else _joined(rows)):
-        shape = [number(head, at, unit, left=head in _LEFT) for at, (head, unit, _) in enumerate(touching)]
-        table = DisplayTable(f"{screen.which.capitalize()} in contact", shape, rows)
+        table = DisplayTable(f"{screen.which.capitalize()} in contact", columns, rows)
         printer.table(table.first(screen.most, _MORE_LINES))
     else:
         printer.line(f"No {screen.which} in contact")
+
+
+_OF_ELEMENT = {name: name for name in ("element", "law", "depth", "ratio", "force", "stiffness", "length", "state")}
+_OF_NODE = {
+    "node": "node",
+    "gap": "gap",
+    **{f"reaction_{axis.lower()}": f"reaction {axis}" for axis in "XYZ"},
+    **{f"{direction}_force": f"{direction}\nforce" for direction in ("axial", "lateral")},
+    **{f"{direction}_state": direction for direction in ("axial", "lateral")},
+}
+"""Columns of elements and nodes that are shown, with their headings."""
+
+
+def _touching(
+    table: Table, first: Part, acts: Mask, headings: Mapping[str, str]
+) -> tuple[list[DisplayColumn], Iterable[Cells]]:
+    """Columns of the elements or nodes on which the seabed acts, at the first step of a part, and their rows."""
+    lacking = {"state"} if first.result.state is None else set()
+    lacking |= {name for name in headings if "_force" in name and first.result.friction is None}
+    lacking |= {name for name in headings if "_state" in name and first.result.friction_state is None}
+    found = {column.name: column for each in table.columns(first) for column in each.flat()}
+    chosen = [found[name] for name in headings if name not in lacking]
+    columns = [number(headings[one.name], at, one.unit, left=bool(one.names)) for at, one in enumerate(chosen)]
+    return columns, zip(*(_texts(one, acts) for one in chosen), strict=True)
+
+
+def _texts(column: Column, acts: Mask) -> list[str]:
+    values = column.cut(0, 1)[0, acts].tolist()
+    if column.names:
+        return [column.names[code] or "" for code in values]
+    return [str(value) if isinstance(value, int) else shown(value) for value in values]
 
 
 def _print_totals(printer: Printer, evaluation: Evaluation, part: Part) -> None:
@@ -170,48 +202,6 @@ def _span(first: int, last: int) -> str:
     return str(first) if first == last else f"{first} to {last}"
 
 
-Found = Iterator[tuple[str, str, list[str]]]
-"""Headings, units and cells of columns."""
-
-
-def _touching_elements(evaluation: Evaluation, part: Part) -> Found:
-    """Elements in contact, or with a force above the seabed, at the first step of a part."""
-    names, result, chosen = unit_names(evaluation.scene.units), part.result.step(0), evaluation.elements
-    held = np.flatnonzero(result.contact[chosen] | (np.nan_to_num(result.force[chosen]) != 0.0))
-    index = chosen[held]
-    law = next(column for column in evaluation.element_table().columns(part) if column.name == "law")
-    yield "element", "", [str(each) for each in evaluation.scene.element_ids[index].tolist()]
-    yield "law", "", [law.names[code] or "" for code in law.cut(0, 1)[0, held].tolist()]
-    yield "depth", names.length, _numbers(result.depth[index])
-    yield "ratio", "", _numbers(result.ratio[index])
-    yield "force", names.line_force, _numbers(result.force[index])
-    yield "stiffness", names.stiffness, _numbers(result.stiffness[index])
-    yield "length", names.length, _numbers(evaluation.length[index])
-    if result.state is not None:
-        yield "state", "", [STATES[code] or "" for code in result.state[index].tolist()]
-
-
-def _touching_nodes(evaluation: Evaluation, part: Part) -> Found:
-    """Nodes on which the seabed acts, also by restraining them, at the first step of a part."""
-    names, result = unit_names(evaluation.scene.units), part.result.step(0)
-    index = acted_on(evaluation, result)
-    yield "node", "", [str(each) for each in evaluation.scene.node_ids[index].tolist()]
-    yield "gap", names.length, _numbers(result.gap[index])
-    for axis, column in zip("XYZ", result.reaction[index].T, strict=True):
-        yield f"reaction {axis}", names.force, _numbers(column)
-    directions = ("axial", "lateral")
-    if result.friction is not None:
-        for direction, column in zip(directions, result.friction[index].T, strict=True):
-            yield f"{direction}\nforce", names.force, _numbers(column)
-    if result.friction_state is not None:
-        for direction, codes in zip(directions, result.friction_state[index].T.tolist(), strict=True):
-            yield direction, "", [SLIDING[code] or "" for code in codes]
-
-
-def _numbers(values: Floats) -> list[str]:
-    return [shown(value) for value in values.tolist()]
-
-
 # ------------------------------------------------------------------------------------------------------------- steps
 
 
@@ -220,16 +210,15 @@ def _print_steps(printer: Printer, screen: Screen) -> None:
     evaluation, rows = screen.evaluation, screen.steps.rows
     names, of_nodes = unit_names(evaluation.scene.units), screen.which == "nodes"
     which = "node" if of_nodes else "element"
-    of_elements = [number("largest\ndepth", "deepest", names.length)]
-    gap, largest = number("smallest\ngap", "gap", names.length), number("largest\non a node", "largest", names.force)
+    of_gap = [number("smallest\ngap", "gap", names.length), number("largest\non a node", "largest", names.force)]
     columns = [
         _time(evaluation, "time"),
-        number("in\ncontact", "acted_on" if of_nodes else "touching"),
+        number("in\ncontact", "touching"),
         number(f"first\n{which}", "first"),
         number(f"last\n{which}", "last"),
-        *([gap, largest] if of_nodes else of_elements),
+        *(of_gap if of_nodes else [number("largest\ndepth", "deepest", names.length)]),
         number("total\nreaction", "reaction", names.force),
-        *([] if of_nodes else [number("suction\nor hold", "sucked", optional=True)]),
+        number("suction\nor hold", "sucked", optional=True),
         number("nodes\nslipping", "slipping", optional=True),
     ]
     left = evaluation.steps - len(rows)

@@ -54,10 +54,16 @@ def touchdown_words(places: Sequence[float], contact: float | None, length: floa
 
 
 class StepTotal(NamedTuple):
-    """All evaluated elements at one step; `first` and `last` are the elements in contact, in the deck's order.
+    """All evaluated elements or nodes at one step.
 
-    `sucked` counts the elements in the states suction and hold, `slipping` the nodes that slip in a direction; None
-    without such laws.
+    Attributes:
+        touching: how many elements are in contact, or on how many nodes the seabed acts; `first` and `last` are the
+            numbers of those, in the deck's order.
+        deepest: largest depth of an element; None for nodes, and where there is no seabed.
+        sucked: elements in the states suction and hold, None without such a law, and for nodes.
+        slipping: nodes that slip in a direction, None without such a law.
+        gap, largest: smallest distance of a node from the seabed, None where there is none, and largest normal force
+            on a node; None for elements.
     """
 
     time: float
@@ -68,23 +74,8 @@ class StepTotal(NamedTuple):
     reaction: float
     sucked: int | None = None
     slipping: int | None = None
-
-
-class NodeTotal(NamedTuple):
-    """All evaluated nodes at one step; `first` and `last` are those on which the seabed acts, in the deck's order.
-
-    `gap` is the smallest distance from the seabed, None where there is none; `largest` the largest normal force on a
-    node.
-    """
-
-    time: float
-    acted_on: int
-    first: int | None
-    last: int | None
-    gap: float | None
-    largest: float | None
-    reaction: float
-    slipping: int | None = None
+    gap: float | None = None
+    largest: float | None = None
 
 
 def totals(evaluation: Evaluation, part: Part) -> list[Total]:
@@ -114,37 +105,23 @@ def reaction(evaluation: Evaluation, result: ContactResult) -> float:
         return float(total_normal_force(result, evaluation.nodes))
 
 
-def element_steps(evaluation: Evaluation, part: Part) -> Iterator[StepTotal]:
-    """Yield the figures of all evaluated elements at each step of a part with times."""
-    chosen = evaluation.elements
-    ids = evaluation.scene.element_ids[chosen]
-    for time, result in _timed(part):
-        touching = ids[result.contact[chosen]]
-        yield StepTotal(
-            time,
-            len(touching),
-            *_ends(touching),
-            _deepest(result.depth[chosen]),
-            reaction(evaluation, result),
-            None if result.state is None else int(np.isin(result.state, HELD).sum()),
-            _slipping(result),
-        )
-
-
-def node_steps(evaluation: Evaluation, part: Part) -> Iterator[NodeTotal]:
-    """Yield the figures of all evaluated nodes at each step of a part with times."""
-    for time, result in _timed(part):
-        touched = evaluation.scene.node_ids[acted_on(evaluation, result)]
-        deepest = _deepest(-result.gap[evaluation.nodes])
-        yield NodeTotal(
-            time,
-            len(touched),
-            *_ends(touched),
-            None if deepest is None else 0.0 - deepest,
-            _deepest(result.normal_force[evaluation.nodes]),
-            reaction(evaluation, result),
-            _slipping(result),
-        )
+def step_totals(evaluation: Evaluation, part: Part, *, of_nodes: bool = False) -> Iterator[StepTotal]:
+    """Yield the figures of all evaluated elements, or nodes, at each step of a part with times."""
+    elements, nodes, scene = evaluation.elements, evaluation.nodes, evaluation.scene
+    for step, time in enumerate([] if part.result.times is None else part.result.times.tolist()):
+        result = part.result.step(step)
+        slips = result.friction_state
+        slipping = None if slips is None else int((slips == SLIDING.index("slip")).any(axis=-1).sum())
+        total = reaction(evaluation, result)
+        if of_nodes:
+            acts = scene.node_ids[acted_on(evaluation, result)]
+            deepest = _deepest(-result.gap[nodes])
+            gap, largest = None if deepest is None else 0.0 - deepest, _deepest(result.normal_force[nodes])
+            yield StepTotal(time, len(acts), *_ends(acts), None, total, None, slipping, gap, largest)
+        else:
+            acts = scene.element_ids[elements[result.contact[elements]]]
+            sucked = None if result.state is None else int(np.isin(result.state, HELD).sum())
+            yield StepTotal(time, len(acts), *_ends(acts), _deepest(result.depth[elements]), total, sucked, slipping)
 
 
 def line_steps(evaluation: Evaluation, part: Part) -> Iterator[LineSummary]:
@@ -152,18 +129,8 @@ def line_steps(evaluation: Evaluation, part: Part) -> Iterator[LineSummary]:
     return evaluation.touchdown.summaries(part, evaluation.touchdown.series(part))
 
 
-def _timed(part: Part) -> Iterator[tuple[float, ContactResult]]:
-    times = () if part.result.times is None else part.result.times.tolist()
-    return ((time, part.result.step(step)) for step, time in enumerate(times))
-
-
 def _ends(numbers: Ids) -> tuple[int | None, int | None]:
     return (int(numbers[0]), int(numbers[-1])) if numbers.size else (None, None)
-
-
-def _slipping(result: ContactResult) -> int | None:
-    slips = result.friction_state
-    return None if slips is None else int((slips == SLIDING.index("slip")).any(axis=-1).sum())
 
 
 def acted_on(evaluation: Evaluation, result: ContactResult) -> Indices:
