@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 from mudline.quantities import headed
@@ -52,9 +53,8 @@ number = DisplayColumn
 """A column of numbers."""
 
 
-def text(heading: str, value: Value, *, whole: bool = False, optional: bool = False) -> DisplayColumn:
-    """Return a column of texts."""
-    return DisplayColumn(heading, value, left=True, whole=whole, optional=optional)
+text = partial(DisplayColumn, left=True)
+"""A column of texts."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,10 +21,10 @@ from mudline.quantities import UnitNames, shown, time_unit, unit_names
 from mudline.results.against import Comparison, Extreme
 from mudline.results.evaluation import Evaluation, ResultConsumer
 from mudline.results.series import SeriesSummary
+from mudline.results.summary_tables import law_table
 from mudline.results.totals import (
     NOT_KNOWN,
     First,
-    Total,
     acted_on,
     line_steps,
     reaction,
@@ -163,25 +163,15 @@ def _texts(column: Column, acts: Mask) -> list[str]:
 
 
 def _print_totals(printer: Printer, evaluation: Evaluation, part: Part) -> None:
+    rows = [each._asdict() for each in totals(evaluation, part)]
+    if len(rows) > 1 or any(each["law"] == "nodal" for each in rows):
+        total = reaction(evaluation, part.result.step(0))
+        known = NOT_KNOWN if math.isnan(total) else total
+        sums = {name: sum(each[name] for each in rows) for name in ("elements", "touching")}
+        deepest = max((each["deepest"] for each in rows if each["deepest"] is not None), default=None)
+        rows.append({"law": "total", "set_name": "", **sums, "deepest": deepest, "reaction": known})
     names = unit_names(evaluation.scene.units)
-    found = [each if each.touching else each._replace(deepest=None) for each in totals(evaluation, part)]
-    if len(found) > 1 or any(each.law == "nodal" for each in found):
-        elements, touching = (sum(getattr(each, name) for each in found) for name in ("elements", "touching"))
-        deepest = max((each.deepest for each in found if each.deepest is not None), default=None)
-        found.append(Total("total", "", elements, touching, deepest, reaction(evaluation, part.result.step(0))))
-
-    def force(each: Total) -> Cell:
-        return NOT_KNOWN if each.reaction is not None and math.isnan(each.reaction) else each.reaction
-
-    columns = (
-        text("law", "law"),
-        text("set", "set_name"),
-        number("elements", "elements"),
-        number("in\ncontact", "touching"),
-        number("largest\ndepth", "deepest", names.length),
-        number("total\nreaction", force, names.force),
-    )
-    printer.table(DisplayTable(_title(evaluation), columns, found))
+    printer.table(law_table(_title(evaluation), rows, names, "total\nreaction"))
 
 
 def _joined(rows: Iterable[Cells]) -> Iterator[Cells]:

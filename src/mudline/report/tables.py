@@ -9,7 +9,7 @@ from mudline.display import Cell, DisplayTable, number, text
 from mudline.limits import SHOWN_ROWS
 from mudline.quantities import UnitNames, labelled, shown
 from mudline.results.summary import OPEN
-from mudline.results.summary_tables import diameter_table, elements_of, set_table, static_table
+from mudline.results.summary_tables import diameter_table, elements_of, law_table, set_table, static_table
 from mudline.results.totals import NOT_KNOWN, touchdown_words
 from mudline.scene.deck_curves import OF_SEABED
 from mudline.short_repr import counted, cut
@@ -127,15 +127,7 @@ def _contact(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
         words = labelled(f"largest penetration, element {deepest['element']}", names.length)
         figures.append((words, deepest["depth"]))
     yield _on_page(DisplayTable("Equilibrium of the deck's own coordinates", _FIGURES, figures))
-    columns = [
-        text("law", "law"),
-        text("set", "set_name"),
-        number("elements", "elements"),
-        number("in contact", "touching"),
-        number("largest depth", lambda one: one["deepest"] if one["touching"] else None, names.length),
-        number("reaction", "reaction", names.force),
-    ]
-    yield _on_page(DisplayTable("By law and set", columns, found["laws"]), MOST_CURVES)
+    yield _on_page(law_table("By law and set", found["laws"], names, "reaction"), MOST_CURVES)
     columns = [
         number("line", "line"),
         text("elements", lambda one: f"{one['first_element']} to {one['last_element']}"),

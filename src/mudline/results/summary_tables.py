@@ -1,4 +1,4 @@
-"""Tables of the summary of a deck, for a terminal and for a page."""
+"""Tables of the summary of a deck and of its contact, for a terminal and for a page."""
 
 from __future__ import annotations
 
@@ -46,3 +46,16 @@ def static_table(rows: Rows, names: UnitNames, *, first: bool, stiffness: str = 
         number("stiffness", "stiffness", stiffness),
     )
     return DisplayTable("Static embedment", columns, rows)
+
+
+def law_table(title: str, totals: Rows, names: UnitNames, reaction: str) -> DisplayTable:
+    """Return the table of totals by law and set, with a heading for the reaction."""
+    columns = (
+        text("law", "law"),
+        text("set", "set_name"),
+        number("elements", "elements"),
+        number("in\ncontact", "touching"),
+        number("largest\ndepth", lambda row: row["deepest"] if row["touching"] else None, names.length),
+        number(reaction, "reaction", names.force),
+    )
+    return DisplayTable(title, columns, totals)
