@@ -11,8 +11,9 @@ import pytest
 import mudline
 from mudline.contact.result import Part
 from mudline.contact.touchdown import line_summaries
-from mudline.results.cases import CaseSummary, CaseWatch, worst_first, write_parquet
+from mudline.results.cases import CaseSummary, case_summary, worst_first, write_parquet
 from mudline.results.evaluation import Evaluation, evaluate_scene
+from mudline.results.series import SeriesSummary
 from mudline.scene.model import resolve
 from mudline.scene.positions import read_positions
 from tests.builders.decks import CLEAN
@@ -36,12 +37,12 @@ def single_steps(evaluation: Evaluation) -> Iterator[Part]:
 
 def test_row_is_the_worst_of_the_lines() -> None:
     evaluation = heave()
-    watch = CaseWatch(evaluation)
+    watch = SeriesSummary(evaluation, "case")
     lines = []
     for part in evaluation.parts():
         watch.take(part)
         lines += line_summaries(part.result)
-    found = watch.summary("deck", [], None)
+    found = case_summary(watch, "deck", [], None)
     pushes = [(line.largest_force, line.time) for line in lines if line.largest_force is not None]
     force, time = max(pushes, key=lambda each: each[0].force)
     assert (found.largest_force, found.largest_force_element, found.largest_force_time) == (
@@ -63,21 +64,21 @@ def test_a_conductor_in_the_soil_has_no_touchdown() -> None:
     rows = []
     for text in (CLEAN, conductor + "*P-Y\n SET=ALL\n DEPTH=0.0\n 0.0, 0.0\n 4000.0, 0.01\n"):
         evaluation = evaluate_scene(legal_scene(text))
-        watch = CaseWatch(evaluation)
+        watch = SeriesSummary(evaluation, "case")
         for part in evaluation.parts():
             watch.take(part)
-        rows.append(watch.summary("deck", [], None))
+        rows.append(case_summary(watch, "deck", [], None))
     assert rows[1].touchdown_from == rows[0].touchdown_from == pytest.approx(10.0 + 10.008 / 4, rel=1e-4)
     assert rows[1].contact_length == rows[0].contact_length
 
 
 def test_row_does_not_depend_on_how_many_steps_come_at_a_time() -> None:
     evaluation = heave()
-    watches = CaseWatch(evaluation), CaseWatch(evaluation)
+    watches = SeriesSummary(evaluation, "case"), SeriesSummary(evaluation, "case")
     for watch, parts in zip(watches, (evaluation.parts(), single_steps(evaluation)), strict=True):
         for part in parts:
             watch.take(part)
-    found, single = (watch.summary("deck", [], None) for watch in watches)
+    found, single = (case_summary(watch, "deck", [], None) for watch in watches)
     assert found.ratio == pytest.approx(single.ratio, rel=1e-14)  # numpy adds up weights in another order
     assert replace(found, ratio=None) == replace(single, ratio=None)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, TypeAlias
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import FORMS, Output, Sink, contents_of, table_path, tables_of
 from mudline.results.forms.text import text_writer
-from mudline.results.totals import StepSummary, StepTotal
+from mudline.results.totals import First, StepTotal, step_totals
 
 Json: TypeAlias = Any
 
@@ -61,7 +62,6 @@ def arrays_of(evaluation: Evaluation) -> dict[str, NDArray[Any]]:
 
 def steps_of(evaluation: Evaluation, most: int | None = None) -> list[StepTotal]:
     """The figures of the first steps."""
-    digest = StepSummary(evaluation, most)
-    for part in evaluation.parts():
-        digest.take(part)
-    return digest.steps
+    first = First(partial(step_totals, evaluation), most)
+    evaluation.run([first])
+    return first.rows

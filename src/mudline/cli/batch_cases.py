@@ -15,16 +15,15 @@ import click
 
 from mudline.cli.evaluate_inputs import EvaluateInputs
 from mudline.cli.inputs import Input
-from mudline.cli.result_files import behind, beside, line_watch, result_files, write_tables
+from mudline.cli.result_files import all_lines, behind, beside, result_files, write_tables
 from mudline.cli.streams import UnwrittenError, reason
 from mudline.cli.view import View
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Diagnostic
 from mudline.files import recording_looks, suffix_of
-from mudline.results.cases import CaseSummary, CaseWatch
-from mudline.results.evaluation import Evaluation
-from mudline.results.forms import FORMS, ResultConsumer
-from mudline.results.series import SeriesSummary, series_tables
+from mudline.results.cases import CaseSummary, case_summary
+from mudline.results.forms import FORMS
+from mudline.results.series import SeriesSummary, series_summary, series_tables
 from mudline.results.warnings import ContactWarning, ContactWatch
 
 SUMMARY = "summary"
@@ -201,28 +200,22 @@ def _evaluated(order: Order) -> tuple[CaseSummary, list[ContactWarning], list[st
     evaluation = order.inputs.evaluation(deck)
     path = order.output / order.case.result
     path.parent.mkdir(parents=True, exist_ok=True)
-    row, watch = CaseWatch(evaluation), ContactWatch.of(evaluation)
+    watch = ContactWatch.of(evaluation)
     if order.summary_only:
         if evaluation.time is None:
             raise click.ClickException(f"--summary-only is for time steps: {order.inputs.positions} is one state")
-        series = SeriesSummary(evaluation)
-        _run(evaluation, [row, watch, series])
-        written = [path, *write_tables(series_tables(series), path).values()]
+        series = series_summary(evaluation, "case")
+        evaluation.run([series, watch])
+        written = [path, *write_tables(series_tables(series, watch.warnings()), path).values()]
     else:
-        lines = line_watch(evaluation, suffix_of(path), None)
+        series, lines = SeriesSummary(evaluation, "case"), all_lines(evaluation, suffix_of(path))
         with result_files(evaluation, evaluation.element_table(), path, View(quiet=True), synced=False) as sink:
-            _run(evaluation, [row, watch, *([] if lines is None else [lines]), sink])
-            sink.finish(behind(evaluation, watch.warnings(), None, lines))
+            evaluation.run([series, watch, lines, sink])
+            sink.finish(behind(evaluation, watch.warnings(), None, lines.rows))
         written = [path, *beside(path).values()]
     warnings = watch.warnings()
     names = [one.relative_to(order.output).as_posix() for one in written]
-    return row.summary(file.name, warnings, order.case.result), warnings, names
-
-
-def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer]) -> None:
-    for part in evaluation.parts():
-        for consumer in consumers:
-            consumer.take(part)
+    return case_summary(series, file.name, warnings, order.case.result), warnings, names
 
 
 def _reason(found: Sequence[Diagnostic], name: str) -> str:

@@ -12,8 +12,9 @@ from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.plots import Plot, plot_option
 from mudline.cli.streams import emit, emit_json, notify
 from mudline.cli.view import View
+from mudline.display import DisplayTable, number, text
 from mudline.linting.engine import naming_causes
-from mudline.quantities import UnitNames, csv_lines, headed, shown, unit_names
+from mudline.quantities import UnitNames, csv_lines, shown, unit_names
 from mudline.results.curve_rows import curve_rows, curve_units, diameters_on, used_curves
 from mudline.results.summary import followers
 from mudline.scene.deck_curves import OF_SEABED
@@ -115,36 +116,44 @@ def _print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
     """Print a table of segments for each curve, with the values for --at and --weight."""
     printer = view.printer()
     names = unit_names(scene.units)
-    force, slope = headed("force", names.line_force), headed("slope", names.line_force)
-    ends = ("from\nratio", "to\nratio", *(headed(f"{end}\nforce", names.line_force) for end in ("from", "to")))
     for (index, entry, _), row in zip(used_curves(scene), rows, strict=False):
         sizes = diameters_on(scene, index)
         drawn = sizes if view.verbose or len(sizes) <= _SHOWN_DIAMETERS else [sizes[0], sizes[-1]]
-        stiffnesses = (headed(f"stiffness\nD={shown(size)}", names.stiffness) for size in drawn)
         note = "" if drawn == sizes else f"{len(sizes)} diameters follow this curve: -v shows all"
         shown_here = bool(followers(scene, index).any())
         title = _title(row, sizes, embedment=entry.embedment, of_sections=not shown_here)
-        printer.table(title, (*ends, slope, *stiffnesses), _segments(row, drawn), note=note)
-        if row["at"]:
-            values = [[value[key] for key in _AT] for value in row["at"]]
-            printer.table(f"{row['name']} at", ("ratio", force, slope, "segment", "extrapolated"), values)
+        ends = [number(f"{end}\nratio", place) for place, end in enumerate(("from", "to"))]
+        ends += [number(f"{end}\nforce", place, names.line_force) for place, end in enumerate(("from", "to"), 2)]
+        stiffnesses = [
+            number(f"stiffness\nD={shown(size)}", place, names.stiffness) for place, size in enumerate(drawn, 5)
+        ]
+        columns = [*ends, number("slope", 4, names.line_force), *stiffnesses]
+        printer.table(DisplayTable(title, columns, _segments(row, drawn), note))
+        _print_values(printer, row, names.line_force)
         if "static" in row:
             _print_static(printer, row, names)
     for row in rows:
         if row["kind"] != OF_SEABED:
-            _print_other(printer, row)
+            title = f"{row['kind']} {row['name']} (*{row['keyword']}): {len(row['points'])} points"
+            heads = [f"{end}\n{axis}" for axis in row["axes"] for end in ("from", "to")]
+            columns = [number(head, place) for place, head in enumerate([*heads, "slope"])]
+            printer.table(DisplayTable(title, columns, _segments(row, [])))
+            _print_values(printer, row, "")
     printer.line((_GOES_ON, "dim"))
 
 
-def _print_other(printer: Printer, row: dict[str, Any]) -> None:
-    """Print a curve that is none of a seabed: its segments, and the values for --at."""
+def _print_values(printer: Printer, row: dict[str, Any], unit: str) -> None:
+    """Print the values of a curve for --at."""
     over, value = row["axes"]
-    title = f"{row['kind']} {row['name']} (*{row['keyword']}): {len(row['points'])} points"
-    heads = (f"from\n{over}", f"to\n{over}", f"from\n{value}", f"to\n{value}", "slope")
-    printer.table(title, heads, _segments(row, []))
+    columns = [
+        number(over, "ratio"),
+        number(value, "force", unit),
+        number("slope", "slope", unit),
+        number("segment", "segment"),
+        number("extrapolated", "extrapolated"),
+    ]
     if row["at"]:
-        values = [[each[key] for key in _AT] for each in row["at"]]
-        printer.table(f"{row['name']} at", (over, value, "slope", "segment", "extrapolated"), values)
+        printer.table(DisplayTable(f"{row['name']} at", columns, row["at"]))
 
 
 def _title(row: dict[str, Any], sizes: list[float], *, embedment: bool, of_sections: bool) -> str:
@@ -156,26 +165,28 @@ def _title(row: dict[str, Any], sizes: list[float], *, embedment: bool, of_secti
 
 
 def _segments(row: dict[str, Any], sizes: list[float]) -> list[tuple[float, ...]]:
-    forces = [force for _, force in row["points"]]
+    """Both ends of each segment, by their abscissa and by their value, its slope, and its stiffness by diameter."""
+    points = row["points"]
     return [
-        (one["from"], one["to"], forces[i], forces[i + 1], one["slope"], *(one["slope"] / size for size in sizes))
-        for i, one in enumerate(row["segments"])
+        (start, end, first, last, one["slope"], *(one["slope"] / size for size in sizes))
+        for one, (start, first), (end, last) in zip(row["segments"], points, points[1:], strict=False)
     ]
 
 
 def _print_static(printer: Printer, row: dict[str, Any], names: UnitNames) -> None:
-    if not row["static"]:
-        notify(f"curve {row['name']} never carries this weight")
-        return
-    diameter, depth = headed("diameter", names.length), headed("depth", names.length)
-    columns = ("ratio", diameter, depth, headed("stiffness", names.stiffness), "extrapolated", "equilibrium")
-    kinds = ["" if static["stable"] else "unstable" for static in row["static"]]
-    rows = [
-        (static["ratio"], each["diameter"], each["depth"], each["stiffness"], static["extrapolated"], kind)
-        for static, kind in zip(row["static"], kinds, strict=True)
-        for each in static["stiffness"] or [dict.fromkeys(_OF_DIAMETER)]
+    found = [
+        {**static, **each} for static in row["static"] for each in static["stiffness"] or [dict.fromkeys(_OF_DIAMETER)]
     ]
-    note = _SOFTENS if "unstable" in kinds else ""
-    printer.table(
-        f"{row['name']}: static embedment", columns, rows, left=columns[-1:], optional=columns[-1:], note=note
+    columns = (
+        number("ratio", "ratio"),
+        number("diameter", "diameter", names.length),
+        number("depth", "depth", names.length),
+        number("stiffness", "stiffness", names.stiffness),
+        number("extrapolated", "extrapolated"),
+        text("equilibrium", lambda one: "" if one["stable"] else "unstable", optional=True),
     )
+    if found:
+        note = "" if all(one["stable"] for one in found) else _SOFTENS
+        printer.table(DisplayTable(f"{row['name']}: static embedment", columns, found, note))
+    else:
+        notify(f"curve {row['name']} never carries this weight")

@@ -11,22 +11,21 @@ import click
 
 from mudline.cli import DONE, FOUND, evaluate_inputs, options
 from mudline.cli.evaluate_inputs import EvaluateInputs, read_file, takes_inputs
-from mudline.cli.evaluate_text import print_comparison, print_evaluation, print_plan, print_series
+from mudline.cli.evaluate_text import Screen, print_comparison, print_evaluation, print_plan, print_series
 from mudline.cli.inputs import GivenDeck, refuses_bad_decks
 from mudline.cli.plots import Plot, numbers_of_elements, plot_option
-from mudline.cli.result_files import behind, beside, has_library, line_watch, result_files, write_tables
+from mudline.cli.result_files import all_lines, behind, beside, has_library, result_files, write_tables
 from mudline.cli.streams import counted, emit, emit_json, notify
 from mudline.cli.view import Progress, View
 from mudline.files import suffix_of
 from mudline.limits import SHOWN_ROWS
 from mudline.quantities import csv_lines
 from mudline.results.against import Comparison, read_reference
-from mudline.results.evaluation import Evaluation, Prepared
-from mudline.results.forms import FORMS, ResultConsumer, Sink, contents_of, plan_rows, tables_of
+from mudline.results.evaluation import Evaluation, Prepared, ResultConsumer
+from mudline.results.forms import FORMS, Sink, contents_of, plan_rows, tables_of
 from mudline.results.forms.text import text_writer, write_text
 from mudline.results.plot_data import PlotData
-from mudline.results.series import SeriesSummary, series_tables
-from mudline.results.totals import SlowSuction, StepSummary
+from mudline.results.series import SeriesSummary, series_summary, series_tables
 from mudline.results.warnings import ContactWarning, ContactWatch, caption
 from mudline.short_repr import listed_numbers
 
@@ -160,16 +159,15 @@ def _evaluate_one(
     if not view.quiet:
         _notify_before(evaluation, comparison)
     shown = "" if output else output_format
-    most = None if view.verbose else SHOWN_ROWS
-    digest = StepSummary(evaluation, most, table == "nodes") if shown == "text" else None
-    lines = line_watch(evaluation, shown or suffix_of(output or ""), most)
-    slow, watch = SlowSuction(), ContactWatch.of(evaluation)
-    given = (comparison, drawing, digest, lines, slow, watch)
-    consumers: list[ResultConsumer] = [one for one in given if one is not None]
+    screen = Screen(evaluation, table, view) if shown == "text" else None
+    lines = all_lines(evaluation, shown or suffix_of(output or ""))
+    slow, watch = SeriesSummary(evaluation, "suction"), ContactWatch.of(evaluation)
+    consumers: list[ResultConsumer | None] = [comparison, drawing, lines, slow, watch]
+    consumers += [] if screen is None else screen.consumers
     with _sink(evaluation, comparison, output, shown, table, view) as sink:
         _run(evaluation, [*consumers, sink], view, bar=shown in {"", "text"})
         warnings = watch.warnings()
-        sink.finish(behind(evaluation, warnings, comparison, lines))
+        sink.finish(behind(evaluation, warnings, comparison, lines.rows))
     if drawing is not None:
         doubt = caption(warnings)
         plot.write(lambda plots: plots.evaluation_figure(drawing, doubt), view)
@@ -177,11 +175,11 @@ def _evaluate_one(
         _notify_warnings(warnings)
         if note := watch.note():
             notify(note)
-        _notify_slow(evaluation, slow)
+        _notify_slow(slow)
     if output and not view.quiet:
         _notify_written(evaluation, Path(output), beside(Path(output)))
-    if digest is not None and lines is not None:
-        print_evaluation(digest, lines, table, view)
+    if screen is not None:
+        print_evaluation(screen, view)
     if comparison is not None and output_format == "text":
         print_comparison(comparison, view)
     return warnings
@@ -201,20 +199,21 @@ def _evaluate_series(
     """Summarise a series, print or write the summary; returns what is doubtful. Raises what `_evaluate_one` does."""
     if not view.quiet:
         _notify_before(evaluation, None)
-    summary = SeriesSummary(evaluation)
-    _run(evaluation, [summary], view, bar=True)
-    tables, warnings = series_tables(summary), summary.watch.warnings()
+    summary, watch = series_summary(evaluation, "suction"), ContactWatch.of(evaluation)
+    _run(evaluation, [summary, watch], view, bar=True)
+    warnings = watch.warnings()
+    tables = series_tables(summary, warnings)
     if output:
         written = write_tables(tables, Path(output))
     elif output_format != "text":
         write_text(tables, output_format, emit, table)
     if not view.quiet:
         _notify_warnings(warnings)
-        _notify_slow(evaluation, summary.slow)
+        _notify_slow(summary)
     if output and not view.quiet:
         _notify_written(evaluation, Path(output), written)
     if not output and output_format == "text":
-        print_series(summary.totals, summary.line_watch(None if view.verbose else SHOWN_ROWS), view)
+        print_series(summary, view)
     return warnings
 
 
@@ -232,13 +231,10 @@ def _sink(
     return nullcontext(Sink(evaluation, tables, writer))
 
 
-def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer], view: View, *, bar: bool) -> None:
+def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer | None], view: View, *, bar: bool) -> None:
     """Evaluate a few steps at a time and pass them on, with a bar on a terminal."""
     with Progress(evaluation.steps, view, shown=bar) as progress:
-        for part in evaluation.parts():
-            for consumer in consumers:
-                consumer.take(part)
-            progress.advance(part.count)
+        evaluation.run((one for one in consumers if one is not None), progress.advance)
 
 
 # ----------------------------------------------------------------------------------------------------------- notes
@@ -272,11 +268,12 @@ def _notify_written(evaluation: Evaluation, path: Path, others: Mapping[str, Pat
     notify(f"{evaluation.scene.deck.file} -> {path.as_posix()}")
 
 
-def _notify_slow(evaluation: Evaluation, slow: SlowSuction) -> None:
+def _notify_slow(series: SeriesSummary) -> None:
     """Report where suction is less than its power law gives."""
-    if slow.element is not None:
-        number = int(evaluation.scene.element_ids[slow.element])
-        when = f"at {slow.steps} of {counted(evaluation.steps, 'step')}, element {number} first"
+    number = series.number(series.of("suction", "slow").highest())
+    if number is not None:
+        (steps,) = series.counts["suction", "slow_steps"].tolist()
+        when = f"at {steps} of {counted(series.evaluation.steps, 'step')}, element {number} first"
         notify(f"the pull-out velocity is below REGULARISATION= {when}: the suction force there is less than alpha v^n")
 
 

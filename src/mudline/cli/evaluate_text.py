@@ -3,89 +3,95 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from mudline.cli.view import View
 from mudline.contact import Plan
+from mudline.contact.columns import Column, Table
 from mudline.contact.input import LawKind
 from mudline.contact.lines import LineSummary
 from mudline.contact.result import Part
-from mudline.quantities import SLIDING, STATES, UnitNames, headed, shown, unit_names
-from mudline.results.against import Comparison
-from mudline.results.evaluation import Evaluation
+from mudline.display import Cell, DisplayColumn, DisplayTable, number, text
+from mudline.limits import SHOWN_ROWS
+from mudline.quantities import UnitNames, shown, time_unit, unit_names
+from mudline.results.against import Comparison, Extreme
+from mudline.results.evaluation import Evaluation, ResultConsumer
+from mudline.results.series import SeriesSummary
+from mudline.results.summary_tables import law_table
 from mudline.results.totals import (
     NOT_KNOWN,
-    LineWatch,
-    StepSummary,
-    Total,
+    First,
     acted_on,
+    line_steps,
     reaction,
     states,
+    step_totals,
     totals,
     touchdown_words,
 )
-from mudline.scene.numbering import Floats, Indices
+from mudline.scene.numbering import Mask
 from mudline.short_repr import counted
 
 if TYPE_CHECKING:
-    from mudline.cli.printing import Cell, Printer
+    from mudline.cli.printing import Printer
 
 Cells = tuple[str, ...]
-_LEFT = ("law", "state", "axial", "lateral")
-"""Columns of text."""
+_MORE_LINES, _MORE_STEPS = (f"more {rows}: -v shows all, -o writes all" for rows in ("lines", "steps"))
+_SHOWN_POINTS = 3
+"""Touchdown points that a cell shows."""
 
 
 def print_plan(plan: Plan, view: View) -> None:
     """Print the stages, active or not, and why."""
-    rows = [(stage.stage, "yes" if stage.active else "no", stage.why) for stage in plan]
-    columns = ("stage", "active", "why")
-    view.printer().table(f"Plan, {plan.steps}", columns, rows, left=columns)
+    columns = (text("stage", "stage"), text("active", lambda one: "yes" if one.active else "no"), text("why", "why"))
+    view.printer().table(DisplayTable(f"Plan, {plan.steps}", columns, list(plan)))
 
 
-def print_evaluation(digest: StepSummary, lines: LineWatch, which: str, view: View) -> None:
+class Screen:
+    """Keeps of the results what the terminal shows: the first state, rows of steps and lines, extremes of a series."""
+
+    def __init__(self, evaluation: Evaluation, which: str, view: View) -> None:
+        self.evaluation, self.which = evaluation, which
+        self.most = None if view.verbose else SHOWN_ROWS
+        self.first = First(lambda part: iter([Part(part.start, part.result.steps(0, 1))]), 1)
+        self.steps = First(partial(step_totals, evaluation, of_nodes=which == "nodes"), self.most)
+        self.lines = First(partial(line_steps, evaluation), self.most)
+        self.series = SeriesSummary(evaluation, *([] if evaluation.time is None else ["totals", "summary"]))
+        self.consumers: list[ResultConsumer] = [self.first, self.steps, self.lines, self.series]
+
+
+def print_evaluation(screen: Screen, view: View) -> None:
     """Print totals and rows of one state; of time steps a line each, as rows are for files.
 
     Where no element has a law, a line says so in their place; `view.verbose` shows them too.
     """
-    printer = view.printer()
-    if _no_law(digest.evaluation):
-        elements = counted(len(digest.evaluation.elements), "element")
-        printer.line(f"{_title(digest.evaluation)}: none of {elements} has a seabed law, so there are no forces")
+    printer, evaluation = view.printer(), screen.evaluation
+    if _no_law(evaluation):
+        elements = counted(len(evaluation.elements), "element")
+        printer.line(f"{_title(evaluation)}: none of {elements} has a seabed law, so there are no forces")
         if not view.verbose:
             return
-    if which == "summary":
-        _print_lines(printer, lines)
-        _print_extents(printer, lines)
-        return
-    if digest.evaluation.time is not None:
-        _print_steps(printer, digest)
-        _print_extents(printer, lines)
-        return
-    if digest.first is None:
-        return
-    _print_totals(printer, digest.evaluation, digest.first)
-    _print_lines(printer, lines)
-    _print_states(printer, digest.evaluation, digest.first)
-    rows = _touching_elements if which == "elements" else _touching_nodes
-    columns, cells = rows(digest.evaluation, digest.first)
-    shown_rows = list(cells if view.verbose else _joined(cells))
-    if not shown_rows:
-        printer.line(f"No {which} in contact")
-        return
-    left = len(shown_rows) - len(shown_rows[: digest.most])
-    note = f"{left} more lines: -v shows all, -o writes all" if left else ""
-    printer.table(f"{which.capitalize()} in contact", columns, shown_rows[: digest.most], left=_LEFT, note=note)
+    if screen.which == "summary":
+        _print_lines(printer, screen)
+    elif evaluation.time is None:
+        _print_state(printer, screen, screen.first.rows[0])
+    else:
+        _print_steps(printer, screen)
+        _print_peaks(printer, screen.series)
+    if evaluation.steps > 1:
+        _print_extents(printer, screen.series, screen.most)
 
 
-def print_series(digest: StepSummary, lines: LineWatch, view: View) -> None:
+def print_series(series: SeriesSummary, view: View) -> None:
     """Print the largest of all steps, and between which values the figures of the lines were."""
     printer = view.printer()
-    printer.line(f"{_title(digest.evaluation)}, {digest.evaluation.steps} steps")
-    _print_peaks(printer, digest)
-    _print_extents(printer, lines)
+    printer.line(f"{_title(series.evaluation)}, {series.evaluation.steps} steps")
+    _print_peaks(printer, series)
+    _print_extents(printer, series, None if view.verbose else SHOWN_ROWS)
 
 
 def _no_law(evaluation: Evaluation) -> bool:
@@ -96,16 +102,88 @@ def _no_law(evaluation: Evaluation) -> bool:
     return bool(lawless.size) and bool(lawless.all()) and not springs
 
 
+def _title(evaluation: Evaluation) -> str:
+    deck = evaluation.scene.deck
+    return f"Contact of {deck.source or deck.file} ({deck.units} units)"
+
+
+# --------------------------------------------------------------------------------------------------------- one state
+
+
+def _print_state(printer: Printer, screen: Screen, first: Part) -> None:
+    """Print totals by law, touchdown, states of laws that have some, and what is in contact."""
+    evaluation, result = screen.evaluation, first.result.step(0)
+    _print_totals(printer, evaluation, first)
+    _print_lines(printer, screen)
+    if found := states(evaluation, result):
+        of_state = (text("law", "law"), text("state", "state"), number("count", "number"))
+        printer.table(DisplayTable("States", of_state, found))
+    if screen.which == "elements":
+        acts = result.contact | (np.nan_to_num(result.force) != 0.0)
+        columns, rows = _touching(evaluation.element_table(), first, acts[evaluation.elements], _OF_ELEMENT)
+    else:
+        acts = np.isin(evaluation.nodes, acted_on(evaluation, result))
+        columns, rows = _touching(evaluation.node_table(), first, acts, _OF_NODE)
+    if rows := list(rows if screen.most is None else _joined(rows)):
+        table = DisplayTable(f"{screen.which.capitalize()} in contact", columns, rows)
+        printer.table(table.first(screen.most, _MORE_LINES))
+    else:
+        printer.line(f"No {screen.which} in contact")
+
+
+_OF_ELEMENT = {name: name for name in ("element", "law", "depth", "ratio", "force", "stiffness", "length", "state")}
+_OF_NODE = {
+    "node": "node",
+    "gap": "gap",
+    **{f"reaction_{axis.lower()}": f"reaction {axis}" for axis in "XYZ"},
+    **{f"{direction}_force": f"{direction}\nforce" for direction in ("axial", "lateral")},
+    **{f"{direction}_state": direction for direction in ("axial", "lateral")},
+}
+"""Columns of elements and nodes that are shown, with their headings."""
+
+
+def _touching(
+    table: Table, first: Part, acts: Mask, headings: Mapping[str, str]
+) -> tuple[list[DisplayColumn], Iterable[Cells]]:
+    """Columns of the elements or nodes on which the seabed acts, at the first step of a part, and their rows."""
+    lacking = {"state"} if first.result.state is None else set()
+    lacking |= {name for name in headings if "_force" in name and first.result.friction is None}
+    lacking |= {name for name in headings if "_state" in name and first.result.friction_state is None}
+    found = {column.name: column for each in table.columns(first) for column in each.flat()}
+    chosen = [found[name] for name in headings if name not in lacking]
+    columns = [number(headings[one.name], at, one.unit, left=bool(one.names)) for at, one in enumerate(chosen)]
+    return columns, zip(*(_texts(one, acts) for one in chosen), strict=True)
+
+
+def _texts(column: Column, acts: Mask) -> list[str]:
+    values = column.cut(0, 1)[0, acts].tolist()
+    if column.names:
+        return [column.names[code] or "" for code in values]
+    return [str(value) if isinstance(value, int) else shown(value) for value in values]
+
+
+def _print_totals(printer: Printer, evaluation: Evaluation, part: Part) -> None:
+    rows = [each._asdict() for each in totals(evaluation, part)]
+    if len(rows) > 1 or any(each["law"] == "nodal" for each in rows):
+        total = reaction(evaluation, part.result.step(0))
+        known = NOT_KNOWN if math.isnan(total) else total
+        sums = {name: sum(each[name] for each in rows) for name in ("elements", "touching")}
+        deepest = max((each["deepest"] for each in rows if each["deepest"] is not None), default=None)
+        rows.append({"law": "total", "set_name": "", **sums, "deepest": deepest, "reaction": known})
+    names = unit_names(evaluation.scene.units)
+    printer.table(law_table(_title(evaluation), rows, names, "total\nreaction"))
+
+
 def _joined(rows: Iterable[Cells]) -> Iterator[Cells]:
     """Rows that show the same, with numbers one after the other, as one row."""
     first = last = 0
     same: Cells | None = None
-    for number, *rest in rows:
-        if same != tuple(rest) or int(number) != last + 1:
+    for own, *rest in rows:
+        if same != tuple(rest) or int(own) != last + 1:
             if same is not None:
                 yield (_span(first, last), *same)
-            first, same = int(number), tuple(rest)
-        last = int(number)
+            first, same = int(own), tuple(rest)
+        last = int(own)
     if same is not None:
         yield (_span(first, last), *same)
 
@@ -114,113 +192,88 @@ def _span(first: int, last: int) -> str:
     return str(first) if first == last else f"{first} to {last}"
 
 
-def _print_totals(printer: Printer, evaluation: Evaluation, part: Part) -> None:
-    names = unit_names(evaluation.scene.units)
-    found = totals(evaluation, part)
-    rows: list[tuple[Cell, ...]] = [
-        (each.law, each.set_name, each.elements, each.touching, _depth(each), each.reaction) for each in found
-    ]
-    if len(found) > 1 or any(each.law == "nodal" for each in found):
-        sums = (sum(each.elements for each in found), sum(each.touching for each in found))
-        deepest = max((each for each in found if each.deepest is not None), key=_by_depth, default=found[0])
-        rows.append(("total", "", *sums, _depth(deepest), _known(reaction(evaluation, part.result.step(0)))))
-    depth, force = headed("largest\ndepth", names.length), headed("total\nreaction", names.force)
-    columns = ("law", "set", "elements", "in\ncontact", depth, force)
-    printer.table(_title(evaluation), columns, rows, left=("law", "set"))
+# ------------------------------------------------------------------------------------------------------------- steps
 
 
-def _known(reaction: float | None) -> Cell:
-    return NOT_KNOWN if reaction is None or math.isnan(reaction) else reaction
-
-
-def _by_depth(total: Total) -> float:
-    return -math.inf if total.deepest is None else total.deepest
-
-
-def _depth(total: Total) -> float | None:
-    """The largest depth, where anything is in contact."""
-    return total.deepest if total.touching else None
-
-
-def _print_states(printer: Printer, evaluation: Evaluation, part: Part) -> None:
-    """How many elements and nodes are in each state, where a law has states."""
-    rows = states(evaluation, part.result.step(0))
-    if rows:
-        printer.table("States", ("law", "state", "count"), rows, left=("law", "state"))
-
-
-def _print_steps(printer: Printer, digest: StepSummary) -> None:
+def _print_steps(printer: Printer, screen: Screen) -> None:
     """Print a line for each step: of the elements, or of the nodes."""
-    evaluation = digest.evaluation
-    names = unit_names(evaluation.scene.units)
-    which = "node" if digest.of_nodes else "element"
-    depth, gap = headed("largest\ndepth", names.length), headed("smallest\ngap", names.length)
-    largest, total = headed("largest\non a node", names.force), headed("total\nreaction", names.force)
-    figures = (gap, largest, total) if digest.of_nodes else (depth, total)
-    more = ("nodes\nslipping",) if digest.of_nodes else ("suction\nor hold", "nodes\nslipping")
-    columns = (_time(names), "in\ncontact", f"first\n{which}", f"last\n{which}", *figures, *more)
-    left = evaluation.steps - digest.shown
-    note = f"{left} more steps: -v shows all, -o writes all" if left else ""
-    rows = digest.nodes if digest.of_nodes else digest.steps
-    printer.table(f"{_title(evaluation)}, {evaluation.steps} steps", columns, rows, optional=more, note=note)
-    _print_peaks(printer, digest)
+    evaluation, rows = screen.evaluation, screen.steps.rows
+    names, of_nodes = unit_names(evaluation.scene.units), screen.which == "nodes"
+    which = "node" if of_nodes else "element"
+    of_gap = [number("smallest\ngap", "gap", names.length), number("largest\non a node", "largest", names.force)]
+    columns = [
+        _time(evaluation, "time"),
+        number("in\ncontact", "touching"),
+        number(f"first\n{which}", "first"),
+        number(f"last\n{which}", "last"),
+        *(of_gap if of_nodes else [number("largest\ndepth", "deepest", names.length)]),
+        number("total\nreaction", "reaction", names.force),
+        number("suction\nor hold", "sucked", optional=True),
+        number("nodes\nslipping", "slipping", optional=True),
+    ]
+    left = evaluation.steps - len(rows)
+    note = f"{left} {_MORE_STEPS}" if left else ""
+    printer.table(DisplayTable(f"{_title(evaluation)}, {evaluation.steps} steps", columns, rows, note))
 
 
-def _print_peaks(printer: Printer, digest: StepSummary) -> None:
+def _time(evaluation: Evaluation, value: str | int) -> DisplayColumn:
+    return number("time", value, time_unit(evaluation.scene.units))
+
+
+def _print_peaks(printer: Printer, series: SeriesSummary) -> None:
     """The largest of all steps, also of those that are not listed."""
-    evaluation, times = digest.evaluation, digest.evaluation.time
+    evaluation, times, peaks = series.evaluation, series.evaluation.time, series.totals()
     names = unit_names(evaluation.scene.units)
-    units = {
+    figures = {
         "reaction": ("total reaction", names.force),
         "force": ("force of an element", names.line_force),
         "pull": ("suction force of an element", names.line_force),
         "touching": ("elements in contact", ""),
         "deepest": ("depth", names.length),
     }
-    rows = []
-    for key, (what, unit) in units.items():
-        peak = digest.peaks.get(key)
-        if peak is not None and times is not None and not (key in {"force", "pull"} and peak.value == 0.0):
-            rows.append((what, peak.value, unit, float(times[peak.step]), peak.element))
-    columns = ("largest", "value", "unit", _time(names), "element")
-    printer.table("Over all steps", columns, rows, left=("largest", "unit"))
+    rows = [
+        (what, peak.value, unit, float(times[peak.step]), series.number(peak))
+        for key, (what, unit) in figures.items()
+        if times is not None and (peak := peaks.get(key)) and not (key in {"force", "pull"} and peak.value == 0.0)
+    ]
+    columns = (text("largest", 0), number("value", 1), text("unit", 2), _time(evaluation, 3), number("element", 4))
+    printer.table(DisplayTable("Over all steps", columns, rows))
 
 
-_SHOWN_POINTS = 3
-"""Touchdown points that a cell shows."""
+# ------------------------------------------------------------------------------------------------------------- lines
 
 
-def _print_lines(printer: Printer, lines: LineWatch) -> None:
+def _print_lines(printer: Printer, screen: Screen) -> None:
     """Print touchdown, largest forces, reaction and weight of lines, a row for each at each step."""
-    names, timed = unit_names(lines.evaluation.scene.units), lines.evaluation.time is not None
-    pulled = any(row.largest_uplift is not None for row in lines.rows)
-    rows = []
-    for row in lines.rows:
-        push, pull = row.largest_force, row.largest_uplift
-        cells: list[Cell] = [row.time] if timed else []
-        cells += [row.line, _span(row.first_element, row.last_element), _touchdown(row), row.contact_length]
-        cells += [None, ""] if push is None else [push.force, push.element]
-        if pulled:
-            cells += [None, ""] if pull is None else [pull.force, pull.element]
-        rows.append((*cells, _known(row.reaction), row.submerged_weight, row.ratio))
-    uplift = (headed("largest\nuplift", names.line_force), "element")
-    columns = (
-        *((_time(names),) if timed else ()),
-        "line",
-        "elements",
-        headed("touchdown\nat", names.length),
-        headed("length in\ncontact", names.length),
-        headed("largest\nforce", names.line_force),
-        "element",
-        *(uplift if pulled else ()),
-        headed("total\nreaction", names.force),
-        headed("submerged\nweight", names.force),
-        "ratio",
-    )
-    if not rows:
-        return
-    note = f"{lines.left} more lines: -v shows all, -o writes all" if lines.left else ""
-    printer.table("Touchdown", columns, rows, left=("elements",), note=note)
+    evaluation, rows = screen.evaluation, screen.lines.rows
+    names = unit_names(evaluation.scene.units)
+    pulled = any(row.largest_uplift is not None for row in rows)
+    columns = [
+        *([] if evaluation.time is None else [_time(evaluation, "time")]),
+        number("line", "line"),
+        text("elements", lambda row: _span(row.first_element, row.last_element)),
+        number("touchdown\nat", _touchdown, names.length),
+        number("length in\ncontact", "contact_length", names.length),
+        *_largest("force", "largest_force", names),
+        *(_largest("uplift", "largest_uplift", names) if pulled else ()),
+        number("total\nreaction", lambda row: NOT_KNOWN if row.reaction is None else row.reaction, names.force),
+        number("submerged\nweight", "submerged_weight", names.force),
+        number("ratio", "ratio"),
+    ]
+    left = len(evaluation.lines) * evaluation.steps - len(rows)
+    if rows:
+        printer.table(DisplayTable("Touchdown", columns, rows, f"{left} {_MORE_LINES}" if left else ""))
+
+
+def _largest(what: str, name: str, names: UnitNames) -> Iterator[DisplayColumn]:
+    """A largest force of a line, where there is one, and its element."""
+
+    def part(key: str, row: LineSummary) -> Cell:
+        cell: Cell = getattr(getattr(row, name), key, None)
+        return cell
+
+    yield number(f"largest\n{what}", partial(part, "force"), names.line_force)
+    yield number("element", partial(part, "element"))
 
 
 def _touchdown(row: LineSummary) -> str:
@@ -228,9 +281,10 @@ def _touchdown(row: LineSummary) -> str:
     return touchdown_words(places, row.contact_length, row.length, _SHOWN_POINTS)
 
 
-def _print_extents(printer: Printer, lines: LineWatch) -> None:
+def _print_extents(printer: Printer, series: SeriesSummary, most: int | None) -> None:
     """Print between which values touchdown, length in contact, forces and reaction of lines were."""
-    names, times = unit_names(lines.evaluation.scene.units), lines.evaluation.time
+    evaluation, times = series.evaluation, series.evaluation.time
+    names, lines = unit_names(evaluation.scene.units), evaluation.lines.tolist()
     figures = {
         "first": ("touchdown point", names.length),
         "last": ("last touchdown point", names.length),
@@ -239,112 +293,51 @@ def _print_extents(printer: Printer, lines: LineWatch) -> None:
         "uplift": ("uplift, negative", names.line_force),
         "reaction": ("total reaction", names.force),
     }
-    if times is None or not lines.extents:
-        return
-    several = len({line for line, _ in lines.extents}) > 1
     rows = []
-    order = {name: place for place, name in enumerate(figures)}
-    for (line, name), extent in sorted(lines.extents.items(), key=lambda each: (each[0][0], order[each[0][1]])):
-        if name == "last" and lines.extents.get((line, "first")) == extent:
-            continue
-        what, unit = figures[name]
-        if name == "first" and lines.extents.get((line, "last"), extent) != extent:
-            what = f"first {what}"
-        low, high = float(times[extent.least_step]), float(times[extent.largest_step])
-        number = (line + 1,) if several else ()
-        rows.append((*number, what, unit, extent.least, low, extent.largest, high))
-    columns: Cells = ("figure", "unit", "least", _time(names), "largest", _time(names))
-    if several:
-        columns = ("line", *columns)
-    left = len(rows) - len(rows[: lines.most])
-    note = f"{left} more rows: -v shows all" if left else ""
-    printer.table("Lines over all steps", columns, rows[: lines.most], left=("figure", "unit"), note=note)
-
-
-def _time(names: UnitNames) -> str:
-    return "time\n[s]" if names.length else "time"
-
-
-def _title(evaluation: Evaluation) -> str:
-    deck = evaluation.scene.deck
-    return f"Contact of {deck.source or deck.file} ({deck.units} units)"
-
-
-# ----------------------------------------------------------------------------------------------- rows of one state
-
-
-def _touching_elements(evaluation: Evaluation, part: Part) -> tuple[Cells, Iterator[Cells]]:
-    """Elements in contact, or with a force above the seabed, at the first step of a part."""
-    names = unit_names(evaluation.scene.units)
-    columns: Cells = (
-        "element",
-        "law",
-        headed("depth", names.length),
-        "ratio",
-        headed("force", names.line_force),
-        headed("stiffness", names.stiffness),
-        headed("length", names.length),
-    )
-    result, chosen = part.result.step(0), evaluation.elements
-    held = np.flatnonzero(result.contact[chosen] | (np.nan_to_num(result.force[chosen]) != 0.0))
-    index = chosen[held]
-    law = next(column for column in evaluation.element_table().columns(part) if column.name == "law")
-    cells = [
-        [str(number) for number in evaluation.scene.element_ids[index].tolist()],
-        [law.names[code] or "" for code in law.cut(0, 1)[0, held].tolist()],
-        *(_numbers(column, index) for column in (result.depth, result.ratio, result.force, result.stiffness)),
-        _numbers(evaluation.length, index),
+    for at, line in enumerate(lines):
+        found = {name: extent for name in figures if (extent := series.of("summary", name).extent(at, times))}
+        several = "last" in found and found["last"] != found.get("first")
+        for name, extent in found.items():
+            what, unit = figures[name]
+            if name != "last" or several:
+                rows.append((line + 1, f"first {what}" if name == "first" and several else what, unit, *extent))
+    columns = [
+        *([number("line", 0)] if len(lines) > 1 else []),
+        text("figure", 1),
+        text("unit", 2),
+        number("least", 3),
+        _time(evaluation, 4),
+        number("largest", 5),
+        _time(evaluation, 6),
     ]
-    if result.state is not None:
-        columns = (*columns, "state")
-        cells.append([STATES[code] or "" for code in result.state[index].tolist()])
-    return columns, zip(*cells, strict=True)
+    if rows:
+        table = DisplayTable("Lines over all steps", columns, rows)
+        printer.table(table.first(most, "more rows: -v shows all"))
 
 
-def _touching_nodes(evaluation: Evaluation, part: Part) -> tuple[Cells, Iterator[Cells]]:
-    """Nodes on which the seabed acts, also by restraining them, at the first step of a part."""
-    names = unit_names(evaluation.scene.units)
-    axes = (headed(f"reaction {axis}", names.force) for axis in "XYZ")
-    columns: Cells = ("node", headed("gap", names.length), *axes)
-    result = part.result.step(0)
-    index = acted_on(evaluation, result)
-    cells = [
-        [str(number) for number in evaluation.scene.node_ids[index].tolist()],
-        *(_numbers(column, index) for column in (result.gap, *result.reaction.T)),
-    ]
-    if result.friction is not None:
-        columns = (*columns, headed("axial\nforce", names.force), headed("lateral\nforce", names.force))
-        cells += [_numbers(column, index) for column in result.friction.T]
-    if result.friction_state is not None:
-        columns = (*columns, "axial", "lateral")
-        cells += [[SLIDING[code] or "" for code in column[index].tolist()] for column in result.friction_state.T]
-    return columns, zip(*cells, strict=True)
-
-
-def _numbers(column: Floats, index: Indices) -> list[str]:
-    return [shown(value) for value in column[index].tolist()]
-
-
-# ------------------------------------------------------------------------------------------------------ comparison
+# -------------------------------------------------------------------------------------------------------- comparison
 
 
 def print_comparison(comparison: Comparison, view: View) -> None:
     """Print for each column how many values were compared, the largest differences and where they are."""
-    timed = comparison.timed
-    place = ("at\nelement", "at\ntime") if timed else ("at\nelement",)
-    columns = ("column", "compared", "largest\ndifference", *place, "largest\nrelative", *place, "rms\ndifference")
-    rows = []
-    for found in comparison.differences:
-        row = found.row()
-        absolute = _cells(row["largest_difference"], "difference", timed=timed)
-        relative = _cells(row["largest_relative"], "relative", timed=timed)
-        rows.append((found.column, found.compared, *absolute, *relative, shown(found.rms, 4)))
-    view.printer().table(f"Compared with {comparison.reference.file}", columns, rows, left=("column",))
 
+    def columns_of(heading: str, name: str) -> Iterator[DisplayColumn]:
+        def of(key: str, row: Any) -> Any:  # noqa: ANN401 - a difference, and a cell
+            extreme: Extreme = getattr(row, name)
+            value = getattr(extreme, key)
+            return "" if extreme.element is None else shown(value, 4) if key == "value" else value
 
-def _cells(extreme: dict[str, Any] | None, name: str, *, timed: bool) -> tuple[Cell, ...]:
-    """Value, element and time of a largest difference; nothing where nothing was compared."""
-    if extreme is None:
-        return ("",) * (2 + timed)
-    cells = (shown(extreme[name], 4), extreme["element"])
-    return (*cells, extreme["time"]) if timed else cells
+        yield number(heading, partial(of, "value"))
+        yield number("at\nelement", partial(of, "element"))
+        if comparison.timed:
+            yield number("at\ntime", partial(of, "time"))
+
+    columns = [
+        text("column", "column"),
+        number("compared", "compared"),
+        *columns_of("largest\ndifference", "absolute"),
+        *columns_of("largest\nrelative", "relative"),
+        number("rms\ndifference", lambda row: shown(row.rms, 4)),
+    ]
+    title = f"Compared with {comparison.reference.file}"
+    view.printer().table(DisplayTable(title, columns, comparison.differences))

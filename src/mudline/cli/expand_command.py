@@ -11,12 +11,17 @@ from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.streams import emit, notify, reason, write_bytes, write_text
 from mudline.cli.view import View
+from mudline.display import DisplayTable, text
 from mudline.limits import SHOWN_ROWS
 from mudline.short_repr import counted
 from mudline.variations.files import MANIFEST, ExpansionPlan, PlannedDeck, conflicts, lacking, manifest_text
 from mudline.variations.planning import plan
 
-_COLUMNS = ("file", "case", "values")
+_COLUMNS = (
+    text("file", "path"),
+    text("case", "description"),
+    text("values", lambda deck: ", ".join(f"{name}={value}" for name, value in deck.values.items())),
+)
 _NOT_COPIED = "{}: the deck names it and it is not copied: put it beside the new decks"
 
 
@@ -82,10 +87,6 @@ def _make_folder(path: Path) -> None:
 
 def _print_decks(decks: Sequence[PlannedDeck], view: View) -> None:
     """Print a row for each deck: its file, its case, the values of its parameters; then how many there are."""
-    rows = [
-        [deck.path, deck.description, ", ".join(f"{name}={text}" for name, text in deck.values.items())]
-        for deck in decks
-    ]
     printer = view.printer()
-    printer.table("Decks", _COLUMNS, rows, left=_COLUMNS)
+    printer.table(DisplayTable("Decks", _COLUMNS, decks))
     printer.line(counted(len(decks), "deck"))

@@ -13,6 +13,7 @@ from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDeck, takes_deck
 from mudline.cli.streams import emit_json, notify, write_text
 from mudline.cli.view import View
+from mudline.display import DisplayColumn, DisplayTable
 from mudline.export.line_model import build
 from mudline.linting.engine import naming_causes
 from mudline.scene.model import resolve
@@ -66,10 +67,10 @@ def _print(report: Report, view: View) -> None:
     printer = view.printer()
     rows = report.rows()
     carried = len(report.entries) - len(report.lost)
-    columns = ("keyword", "line", "status", "in the target", "effect")
+    heads = ("keyword", "line", "status", "in the target", "effect")
+    columns = [DisplayColumn(one, at, left=one != "line", whole=one == "status") for at, one in enumerate(heads)]
     note = f"{carried} carried; JSON lists them too"
     if rows:
-        left = ("keyword", "status", "in the target", "effect")
-        printer.table("What does not carry over", columns, rows, left=left, whole=("status",), note=note)
+        printer.table(DisplayTable("What does not carry over", columns, rows, note))
     else:
         printer.line(f"All carries over: {note}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import zip_longest
 from types import MappingProxyType
 from typing import ClassVar, NamedTuple
@@ -14,6 +14,7 @@ from rich.console import Console
 from rich.text import Text
 
 from mudline.diagnostics import Diagnostic, Severity, Span
+from mudline.display import Cell, DisplayTable
 from mudline.linting.output import visible
 from mudline.quantities import shown
 from mudline.syntax.source import Source
@@ -32,8 +33,6 @@ _NARROWEST = 12
 
 Part = str | tuple[str, str]
 """A piece of a line: a text, or a text and its style."""
-Cell = str | int | float | tuple[str, str] | None
-"""What a table shows: a text, a text and its style, a number, nothing."""
 
 
 class _Console(Console):
@@ -95,38 +94,26 @@ class Printer:
         """Print how many findings there are in so many files."""
         self._console.print(summary(found, files))
 
-    def table(
-        self,
-        title: str,
-        columns: Sequence[str],
-        rows: Iterable[Sequence[Cell]],
-        *,
-        left: Collection[str] = (),
-        whole: Collection[str] = (),
-        optional: Collection[str] = (),
-        note: str = "",
-    ) -> None:
-        """Print cells under their headings, with a blank line behind. None is an empty cell; a cell may have a style.
+    def table(self, table: DisplayTable) -> None:
+        """Print cells under their headings, with a blank line behind.
 
-        Numbers are aligned right, the columns of text named in `left` left; long texts are folded, so the longest
-        belongs into the last column. Numbers and the columns of text named in `whole`, such as paths, are never cut:
-        rather than that, a table is wider than the screen. Columns named in `optional` are left out where they are
-        empty. A heading may have several lines; `note` comes below.
+        Long texts are folded, so the longest belongs into the last column. Rather than cut a number or what is to stay
+        whole, a table is wider than the screen.
         """
-        cells = [[self._cell(cell) for cell in row] for row in rows]
-        filled = [i for i, name in enumerate(columns) if name not in optional or any(row[i][0] for row in cells)]
-        cells = [[row[i] for i in filled] for row in cells]
-        names = [columns[i] for i in filled]
-        depth = max(name.count("\n") for name in names)
-        padded = (("\n" * (depth - name.count("\n")) + name).split("\n") for name in names)
+        cells = [[self._cell(cell) for cell in row] for row in table.cells()]
+        kept = [i for i, one in enumerate(table.columns) if not one.optional or any(row[i][0] for row in cells)]
+        cells = [[row[i] for i in kept] for row in cells]
+        columns = [table.columns[i] for i in kept]
+        depth = max(one.head.count("\n") for one in columns)
+        padded = (("\n" * (depth - one.head.count("\n")) + one.head).split("\n") for one in columns)
         heads = list(zip(*([self.visible(line) for line in lines] for lines in padded), strict=True))
         texts = ([text for text, _ in row] for row in cells)
         widths = [max(map(cell_len, column)) for column in zip(*heads, *texts, strict=True)]
-        to_left = [name in left for name in names]
-        foldable = [name in left and name not in whole for name in names]
+        to_left = [one.left for one in columns]
+        foldable = [one.left and not one.whole for one in columns]
         layout = _layout(widths, foldable, to_left, self.width)
-        if title:
-            self.line((self.visible(title), "bold"))
+        if table.title:
+            self.line((self.visible(table.title), "bold"))
         lines: list[Iterable[_Styled]] = [layout.line([(text, "") for text in head]) for head in heads]
         lines.append([(self._rule * layout.width, "dim")])
         lines += (layout.line(part) for row in cells for part in layout.folded(row, self._console))
@@ -135,8 +122,8 @@ class Printer:
                 self._console.print(_stripped(Text.assemble(*line)), soft_wrap=True)
         else:
             self._console.file.writelines("".join(text for text, _ in line).rstrip() + "\n" for line in lines)
-        if note:
-            self.line((self.visible(note), "dim"))
+        if table.note:
+            self.line((self.visible(table.note), "dim"))
         self._console.print()
 
     def _cell(self, cell: Cell) -> _Styled:

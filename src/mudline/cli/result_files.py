@@ -12,6 +12,7 @@ import click
 from mudline.cli.streams import notify_missing, writing
 from mudline.cli.view import View, tracked
 from mudline.contact.columns import ElementTable
+from mudline.contact.lines import LineSummary
 from mudline.files import suffix_of
 from mudline.results.against import Comparison
 from mudline.results.evaluation import Evaluation
@@ -28,7 +29,7 @@ from mudline.results.forms import (
     table_path,
     tables_of,
 )
-from mudline.results.totals import LineWatch
+from mudline.results.totals import First, line_steps
 from mudline.results.warnings import ContactWarning
 
 
@@ -93,22 +94,20 @@ def _opened(path: Path, others: Sequence[Path], contents: Contents, view: View, 
         yield writer
 
 
-def line_watch(evaluation: Evaluation, form: str, most: int | None) -> LineWatch | None:
-    """What keeps the rows of lines: all for JSON, the first ones for text; other forms have a table of them."""
-    if form == "json":
-        return LineWatch(evaluation, None)
-    return LineWatch(evaluation, most) if form == "text" else None
+def all_lines(evaluation: Evaluation, form: str) -> First[LineSummary]:
+    """What keeps the rows of lines at all steps for JSON, which has them behind; other forms have a table of them."""
+    return First(partial(line_steps, evaluation), None if form == "json" else 0)
 
 
 def behind(
     evaluation: Evaluation,
     warnings: Sequence[ContactWarning],
     comparison: Comparison | None,
-    lines: LineWatch | None,
+    lines: Sequence[LineSummary],
 ) -> dict[str, object]:
     """What JSON has behind the results."""
     found: dict[str, object] = {
-        "summary": [] if lines is None else [row.row() for row in lines.rows],
+        "summary": [row.row() for row in lines],
         "positions": "deck" if evaluation.own_positions else "file",
         "warnings": [one.row() for one in warnings],
     }

@@ -11,6 +11,8 @@ import click
 from mudline.cli import DONE, options
 from mudline.cli.streams import emit_json
 from mudline.cli.view import View
+from mudline.display import DisplayTable
+from mudline.display import text as text_column
 from mudline.linting.output import visible_lines
 from mudline.linting.registry import UnknownRule, origin, rules, select
 from mudline.rules import Rule
@@ -20,7 +22,6 @@ if TYPE_CHECKING:
 
 _PAGE = 100
 """Columns of the page of a rule."""
-_COLUMNS = ("code", "severity", "name", "finds")
 
 
 @options.command("rules")
@@ -58,8 +59,13 @@ def _object(rule: Rule) -> dict[str, Any]:
 def _print_rules(rules: Sequence[Rule], view: View) -> None:
     """Print a row for each rule: code, severity, name, what it finds."""
     printer = view.printer()
-    rows = [(rule.code.code, _severity(rule, printer), rule.code.slug, _finds(rule)) for rule in rules]
-    printer.table(f"{len(rows)} rules", _COLUMNS, rows, left=_COLUMNS)
+    columns = (
+        text_column("code", lambda rule: rule.code.code),
+        text_column("severity", lambda rule: _severity(rule, printer)),
+        text_column("name", lambda rule: rule.code.slug),
+        text_column("finds", _finds),
+    )
+    printer.table(DisplayTable(f"{len(rules)} rules", columns, rules))
 
 
 def _severity(rule: Rule, printer: Printer) -> tuple[str, str]:

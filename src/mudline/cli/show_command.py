@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
@@ -11,14 +14,16 @@ from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.streams import emit_json, notify
 from mudline.cli.view import View
 from mudline.diagnostics import Coverage
+from mudline.display import DisplayTable, number, text
 from mudline.keywords import catalogue
 from mudline.keywords.values import SUBJECTS
 from mudline.limits import SHOWN_ROWS
 from mudline.linting.context import LintContext
 from mudline.linting.engine import of_base
 from mudline.linting.verdict import all_findings, errors_of
-from mudline.quantities import UnitNames, headed, shown, unit_names
-from mudline.results.summary import OPEN, summarise
+from mudline.quantities import UnitNames, shown, unit_names
+from mudline.results.summary import summarise
+from mudline.results.summary_tables import Rows, diameter_table, elements_of, set_table, static_table
 from mudline.short_repr import counted
 
 if TYPE_CHECKING:
@@ -54,40 +59,19 @@ def _print_summary(summary: dict[str, Any], view: View) -> None:
     most = None if view.verbose else SHOWN_ROWS
     names = unit_names(summary["units"])
     _print_head(printer, summary, names)
-    _print_sets(printer, summary["sets"], names)
-    if summary["curves"]:
-        _print_curves(printer, summary["curves"], names)
-    if summary["diameters"]:
-        rows = [(shown(entry["diameter"]) or "none", entry["elements"]) for entry in summary["diameters"]]
-        left = len(rows) - len(rows[:most])
-        note = f"{left} more diameters: -v shows all" if left else ""
-        printer.table("External diameters", (headed("diameter", names.length), "elements"), rows[:most], note=note)
-    if summary["laws"]:
-        _print_laws(printer, summary["laws"], names)
-    if summary["bed"]:
-        _print_bed(printer, summary["bed"], names)
-    if summary["extensions"]:
-        blocks = [(f"*{row['keyword']}", row["set"], row["elements"]) for row in summary["extensions"]]
-        printer.table("Extensions", ("keyword", "set", "elements"), blocks, left=("keyword", "set"))
-    if summary["static_embedment"]:
-        _print_static(printer, summary["static_embedment"], names)
-
-
-def _print_static(printer: Printer, rows: list[dict[str, Any]], names: UnitNames) -> None:
-    alike = len({(row["set"], row["law"]) for row in rows}) < len(rows)
-    columns = {
-        "set": "set",
-        **({"element": "first\nelement"} if alike else {}),
-        "law": "law",
-        "weight": headed("weight", names.line_force),
-        "ratio": "ratio",
-        "penetration": headed("penetration", names.length),
-        "stiffness": "stiffness",
-        "extrapolated": "extrapolated",
+    printer.table(set_table(summary["sets"], names))
+    tables: dict[str, Callable[[Rows, UnitNames], DisplayTable]] = {
+        "curves": _curves,
+        "diameters": partial(diameter_table, none="none"),
+        "laws": _laws,
+        "bed": _resistance,
+        "extensions": _extensions,
+        "static_embedment": _static,
     }
-    cells = [[row[key] for key in columns] for row in rows]
-    text = ("set", "law", "extrapolated")
-    printer.table("Static embedment", list(columns.values()), cells, left=text, optional=text[-1:])
+    for key, table in tables.items():
+        if rows := summary[key]:
+            found = table(rows, names)
+            printer.table(found.first(most, "more diameters: -v shows all") if key == "diameters" else found)
 
 
 def _print_head(printer: Printer, summary: dict[str, Any], names: UnitNames) -> None:
@@ -160,63 +144,55 @@ def _print_folded(printer: Printer, text: str, indent: str) -> None:
         printer.line(line)
 
 
-def _print_sets(printer: Printer, sets: list[dict[str, Any]], names: UnitNames) -> None:
-    rows = [(entry["name"], f"{entry['elements']}{'+' * entry['open']}", entry["length"]) for entry in sets]
-    note = OPEN if any(entry["open"] for entry in sets) else ""
-    columns = ("set", "elements", headed("length", names.length))
-    printer.table("Element sets", columns, rows, left=("set",), note=note)
+def _curves(curves: Rows, names: UnitNames) -> DisplayTable:
+    columns = (
+        text("curve", "name"),
+        text("keyword", _keyword),
+        number("points", "points"),
+        number("ratio", lambda row: _range(row["ratios"])),
+        number("force", lambda row: _range(row["forces"]), names.line_force),
+        number("elements", elements_of),
+    )
+    return DisplayTable("Force-embedment curves", columns, curves)
 
 
-def _print_curves(printer: Printer, curves: list[dict[str, Any]], names: UnitNames) -> None:
-    columns = ("curve", "keyword", "points", "ratio", headed("force", names.line_force), "elements")
-    rows = [
-        (
-            entry["name"],
-            f"*{entry['keyword']}",
-            entry["points"],
-            _range(entry["ratios"]),
-            _range(entry["forces"]),
-            f"{entry['elements']}{'+' * entry['open']}",
-        )
-        for entry in curves
-    ]
-    printer.table("Force-embedment curves", columns, rows, left=("curve", "keyword"))
+def _keyword(row: dict[str, Any]) -> str:
+    return f"*{row['keyword']}"
 
 
 def _range(ends: list[float] | None) -> str:
     return "" if ends is None else f"{shown(ends[0])} to {shown(ends[1])}"
 
 
-def _print_bed(printer: Printer, bed: list[dict[str, Any]], names: UnitNames) -> None:
+def _laws(laws: Rows, names: UnitNames) -> DisplayTable:
+    stiffness = number("stiffness", "stiffness", names.stiffness, optional=True)
+    columns = (text("law", "law"), text("set", "set"), number("elements", "elements"), stiffness)
+    return DisplayTable("Normal laws", columns, laws)
+
+
+def _resistance(blocks: Rows, names: UnitNames) -> DisplayTable:
     columns = (
-        "friction\ncoefficients",
-        headed("mobilisation\nlengths", names.length),
-        headed("lateral\nstiffness", names.stiffness),
-        headed("suction\nstiffness", names.stiffness),
-        headed("suction\nzone", names.length),
+        text("set", "set"),
+        number("elements", "elements"),
+        number("friction\ncoefficients", lambda row: _pair(row["friction"]), optional=True),
+        number("mobilisation\nlengths", lambda row: _pair(row["mobilisation"]), names.length, optional=True),
+        number("lateral\nstiffness", "lateral", names.stiffness, optional=True),
+        number("suction\nstiffness", "suction", names.stiffness, optional=True),
+        number("suction\nzone", "extent", names.length, optional=True),
     )
-    rows = [
-        (
-            row["set"],
-            row["elements"],
-            _pair(row["friction"]),
-            _pair(row["mobilisation"]),
-            row["lateral"],
-            row["suction"],
-            row["extent"],
-        )
-        for row in bed
-    ]
-    title = "Friction, lateral resistance, suction"
-    printer.table(title, ("set", "elements", *columns), rows, left=("set",), optional=columns)
+    return DisplayTable("Friction, lateral resistance, suction", columns, blocks)
 
 
 def _pair(values: list[float | None]) -> str:
     return ", ".join(shown(value) or "-" for value in values) if values != [None, None] else ""
 
 
-def _print_laws(printer: Printer, laws: list[dict[str, Any]], names: UnitNames) -> None:
-    stiffness = headed("stiffness", names.stiffness)
-    rows = [[entry[key] for key in ("law", "set", "elements", "stiffness")] for entry in laws]
-    columns = ("law", "set", "elements", stiffness)
-    printer.table("Normal laws", columns, rows, left=("law", "set"), optional=(stiffness,))
+def _extensions(blocks: Rows, _: UnitNames) -> DisplayTable:
+    columns = (text("keyword", _keyword), text("set", "set"), number("elements", "elements"))
+    return DisplayTable("Extensions", columns, blocks)
+
+
+def _static(rows: Rows, names: UnitNames) -> DisplayTable:
+    alike = len({(row["set"], row["law"]) for row in rows}) < len(rows)
+    found = static_table(rows, names, first=alike)
+    return replace(found, columns=[*found.columns, text("extrapolated", "extrapolated", optional=True)])

@@ -16,6 +16,7 @@ from mudline.cli.inputs import GivenDeck, refuses_bad_decks
 from mudline.cli.plots import Plot, plot_option
 from mudline.cli.streams import emit, emit_json, notify, write_text
 from mudline.cli.view import View, tracked
+from mudline.display import DisplayColumn, DisplayTable
 from mudline.files import suffix_of
 from mudline.linting.engine import naming_causes
 from mudline.quantities import csv_lines
@@ -127,7 +128,8 @@ def _paragraph(printer: Printer, text: str, style: str = "", indent: str = "") -
 
 def _print_table(table: ScreenTable | None, printer: Printer) -> None:
     if table is not None:
-        printer.table(table.title, table.heads, table.rows, left=table.left, note=table.note)
+        columns = [DisplayColumn(head, at, left=head in table.left) for at, head in enumerate(table.heads)]
+        printer.table(DisplayTable(table.title, columns, table.rows, table.note))
 
 
 def _print_notes(found: Study, part: str, printer: Printer) -> None:

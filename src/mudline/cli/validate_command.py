@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Generator, Iterable
+from collections.abc import Generator, Iterable, Iterator
 from contextlib import closing
 from dataclasses import asdict, dataclass, field, fields
 from textwrap import indent
@@ -19,6 +19,7 @@ from mudline.cli.streams import emit
 from mudline.cli.view import Progress, View
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Coverage, DeckError, Diagnostic
+from mudline.display import DisplayTable, number, text
 from mudline.linting.configuration import refuses_outside
 from mudline.linting.context import LintContext
 from mudline.linting.output.json import as_object
@@ -28,8 +29,16 @@ from mudline.quantities import csv_lines
 from mudline.short_repr import counted
 from mudline.syntax.source import Source
 
-_COUNTS = ("errors", "warnings", "sections", "keywords", "curves", "elements")
-_HEADINGS = ("errors", "warn-\nings", "sec-\ntions", "keywords\nread", "curves", "ele-\nments")
+_COLUMNS = (
+    text("verdict", lambda one: (one.short, _style(good=one.legal))),
+    number("errors", "errors"),
+    number("warn-\nings", "warnings"),
+    number("sec-\ntions", "sections"),
+    number("keywords\nread", lambda one: _read(one.keywords)),
+    number("curves", "curves"),
+    number("ele-\nments", "elements"),
+    text("file", "file", whole=True),
+)
 _FAIL_ON = ("error", "warning", "unread")
 
 
@@ -78,9 +87,7 @@ def command(
         if output_format == "json":
             _print_json(judged, total)
         elif output_format == "csv":
-            emit(csv_lines([_columns()]))
-            for one in judged:
-                emit(csv_lines([_cells(one.verdict)]))
+            emit(csv_lines(_csv(one.verdict for one in judged)))
         else:
             _print_text(judged, total, view)
     failing = {"error": False, "warning": total.warnings > 0, "unread": not total.keywords.whole}[fail_on]
@@ -206,36 +213,26 @@ def _print_text(judged: Iterable[Judged], total: Total, view: View) -> None:
             view.printer().findings(found, Source.from_bytes(data, verdict.file), following=view.verbose)
     if verdicts:
         printer = view.printer()
-        rows = [
-            [(each.short, _style(good=each.legal)), *(_shown(getattr(each, name)) for name in _COUNTS), each.file]
-            for each in verdicts
-        ]
-        printer.table("Decks", ("verdict", *_HEADINGS, "file"), rows, left=("verdict", "file"), whole=("file",))
+        printer.table(DisplayTable("Decks", _COLUMNS, verdicts))
         printer.line((str(total), _style(good=total.legal == total.decks and not total.unreadable)))
         if not total.keywords.whole:
             printer.line(printer.visible(total.keywords.sentence()))
 
 
-def _shown(count: int | Coverage) -> int | str:
-    """A count; of the keywords how many were read."""
-    if isinstance(count, int):
-        return count
-    return count.total if count.whole else f"{count.read} of {count.total}"
+def _read(words: Coverage) -> int | str:
+    """How many keywords were read."""
+    return words.total if words.whole else f"{words.read} of {words.total}"
 
 
-def _columns() -> list[str]:
-    """The headings of a table without nesting."""
+def _csv(verdicts: Iterable[Verdict]) -> Iterator[list[object]]:
+    """The headings of a table without nesting, and its rows; of the keywords they have numbers."""
     names = [one.name for one in fields(Verdict)]
     at = names.index("keywords") + 1
-    return [*names[:at], "read", "partly", "unread", *names[at:]]
-
-
-def _cells(verdict: Verdict) -> list[object]:
-    """The values under `_columns`; of the keywords they are numbers."""
-    words = verdict.keywords
-    counts = (words.total, words.read, sum(words.partly.values()), sum(words.unread.values()))
-    values = ((one.name, getattr(verdict, one.name)) for one in fields(Verdict))
-    return [cell for name, value in values for cell in (counts if name == "keywords" else (value,))]
+    yield [*names[:at], "read", "partly", "unread", *names[at:]]
+    for verdict in verdicts:
+        words, values = verdict.keywords, [getattr(verdict, name) for name in names]
+        counts = (words.total, words.read, sum(words.partly.values()), sum(words.unread.values()))
+        yield [*values[: at - 1], *counts, *values[at:]]
 
 
 def _style(*, good: bool) -> str:

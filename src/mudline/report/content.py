@@ -34,7 +34,7 @@ from mudline.results.evaluation import Tension, evaluate_scene, prepare
 from mudline.results.forms import plan_rows
 from mudline.results.plot_data import PlotData
 from mudline.results.summary import summarise
-from mudline.results.totals import LineWatch, reaction, states, totals
+from mudline.results.totals import line_steps, reaction, states, totals
 from mudline.results.warnings import ContactWatch, caption
 from mudline.scene.model import Scene, resolve
 from mudline.scene.numbering import Mask
@@ -281,9 +281,9 @@ def _contact(scene: Scene, made: Report) -> dict[str, Any]:
     """The contact of the deck's own coordinates."""
     evaluation = evaluate_scene(scene, tension=_tension(scene))
     made.drawn = PlotData.of_evaluation(evaluation)
-    lines, watch = LineWatch(evaluation, None), ContactWatch.of(evaluation)
+    watch = ContactWatch.of(evaluation)
     (part,) = evaluation.parts()
-    for one in (made.drawn, lines, watch):
+    for one in (made.drawn, watch):
         one.take(part)
     warnings = watch.warnings()
     made.doubt = caption(warnings)
@@ -299,7 +299,7 @@ def _contact(scene: Scene, made: Report) -> dict[str, Any]:
         "weight": None if watch.balance is None else finite(watch.balance.weight),
         "ratio": None if watch.balance is None else finite(watch.balance.ratio),
         "deepest": {"depth": float(depth[deepest]), "element": int(scene.element_ids[deepest])} if touches else None,
-        "lines": [row.row() for row in lines.rows],
+        "lines": [row.row() for row in line_steps(evaluation, part)],
         "states": [{"law": law, "state": state, "count": count} for law, state, count in states(evaluation, result)],
         "warnings": [one.row() for one in warnings],
     }

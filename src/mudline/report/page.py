@@ -16,7 +16,7 @@ from mudline.linting.output import visible
 from mudline.quantities import shown, unit_names
 from mudline.report.content import Look, Report
 from mudline.report.pictures import Picture
-from mudline.report.tables import LONGEST, TABLES, Cell, study_tables
+from mudline.report.tables import LONGEST, TABLES, study_tables
 from mudline.short_repr import counted, cut
 from mudline.study.screen import extremes_sentences
 
@@ -88,7 +88,7 @@ def _finalized(value: object) -> object:
     return visible(value) if type(value) is str else "" if value is None else value
 
 
-def _number(value: Cell) -> str:
+def _number(value: str | float | None) -> str:
     return value if isinstance(value, str) else shown(value)
 
 

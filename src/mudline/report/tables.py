@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from typing import Any, NamedTuple
 
+from mudline.display import Cell, DisplayTable, number, text
 from mudline.limits import SHOWN_ROWS
-from mudline.quantities import UnitNames, headed, labelled, shown
+from mudline.quantities import UnitNames, labelled, shown
 from mudline.results.summary import OPEN
+from mudline.results.summary_tables import diameter_table, elements_of, law_table, set_table, static_table
 from mudline.results.totals import NOT_KNOWN, touchdown_words
 from mudline.scene.deck_curves import OF_SEABED
 from mudline.short_repr import counted, cut
@@ -20,13 +22,11 @@ _MOST_TOUCHDOWNS = 5
 LONGEST, LONGEST_NAME = 600, 80
 """Characters of a message and of a name that a page shows."""
 
-Cell = str | float | None
-
 
 class Table(NamedTuple):
-    """A table: its caption, heads and rows; what it says of rows that are left out; anchors of its rows and its own.
+    """A table on a page: its caption, heads and rows; what it says of rows that are left out; anchors.
 
-    `numeric` columns are set to the right also where their cells are texts.
+    Columns of which `numeric` has the place are set to the right also where their cells are texts.
     """
 
     caption: str
@@ -35,27 +35,22 @@ class Table(NamedTuple):
     note: str = ""
     anchors: Sequence[str] = ()
     anchor: str = ""
-    numeric: frozenset[int] = frozenset()
+    numeric: Collection[int] = ()
 
 
-def _table(
-    caption: str,
-    heads: Sequence[str],
-    rows: Iterable[Sequence[Cell]],
+def _on_page(
+    table: DisplayTable,
     most: int = SHOWN_ROWS,
-    anchor: str = "",
+    anchors: str = "",
     longest: int = LONGEST_NAME,
+    numeric: Collection[int] = (),
 ) -> Table:
-    found = [[cut(cell, longest) if isinstance(cell, str) else cell for cell in row] for row in rows]
-    anchors = [f"{anchor}-{number}" for number in range(1, len(found[:most]) + 1)] if anchor else []
-    note = _more(len(found) - most, "row")
-    words = [head.replace("\n", " ") for head in heads]
-    return Table(caption, words, found[:most], note, anchors)
-
-
-def _elements(one: dict[str, Any]) -> str | int:
-    """The elements of a set, with a plus where it may have more."""
-    return f"{one['elements']}+" if one["open"] else one["elements"]
+    """A table of at most so many rows, of which each has an anchor if wanted; longer texts are cut."""
+    rows = [[cut(cell, longest) if isinstance(cell, str) else cell for cell in row] for row in table.cells()]
+    note = " ".join(filter(None, (_more(len(rows) - most, "row"), table.note)))
+    names = [f"{anchors}-{row}" for row in range(1, len(rows[:most]) + 1)] if anchors else []
+    heads = [one.head.replace("\n", " ") for one in table.columns]
+    return Table(table.title, heads, rows[:most], note, names, numeric=numeric)
 
 
 def _more(count: int, what: str) -> str:
@@ -66,58 +61,47 @@ def _model(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
     more = "+" if found["sets"][0]["open"] else ""  # of ALL, which comes first
     counts = [(name, f"{found[name]}{more}") for name in ("nodes", "elements")]
     counts += [("seabed", found["floor"]["kind"]), (labelled("length of line", names.length), found["length"])]
-    yield _table("Size", ("what", "value"), counts)._replace(numeric=frozenset({1}))
-    sets = [(one["name"], _elements(one), one["length"]) for one in found["sets"]]
-    heads: tuple[str, ...] = ("set", "elements", headed("length", names.length))
-    yield _counting(_table("Element sets", heads, sets, MOST_CURVES), 1, found["sets"])
-    sizes = [(one["diameter"], one["elements"]) for one in found["diameters"]]
-    yield _table("External diameters", (headed("diameter", names.length), "elements"), sizes)
-    heads = ("set", "law", headed("weight", names.line_force), "ratio", headed("penetration", names.length))
-    rows = [
-        [one[key] for key in ("set", "law", "weight", "ratio", "penetration", "stiffness")]
-        for one in found["static_embedment"]
-    ]
-    yield _table("Static embedment", (*heads, headed("stiffness", names.stiffness)), rows)
-    keywords = [
-        (f"${section['name']}", f"*{one['keyword']}", _extent(one))
-        for section in found["keywords"]
-        for one in section["keywords"]
-    ]
-    yield _table("Keywords", ("section", "keyword", "lines"), keywords, 4 * SHOWN_ROWS)
+    yield _on_page(DisplayTable("Size", _FIGURES, counts), numeric={1})
+    yield _on_page(set_table(found["sets"], names), MOST_CURVES, numeric={1})
+    yield _on_page(diameter_table(found["diameters"], names))
+    yield _on_page(static_table(found["static_embedment"], names, first=False, stiffness=names.stiffness))
+    keywords = [(section["name"], one) for section in found["keywords"] for one in section["keywords"]]
+    columns = (
+        text("section", lambda row: f"${row[0]}"),
+        text("keyword", lambda row: f"*{row[1]['keyword']}"),
+        text("lines", lambda row: _extent(row[1])),
+    )
+    yield _on_page(DisplayTable("Keywords", columns, keywords), 4 * SHOWN_ROWS)
+
+
+_FIGURES = (text("what", 0), number("value", 1))
 
 
 def _extent(keyword: dict[str, Any]) -> str:
     return "read in part" if keyword["partly"] else "read" if keyword["read"] else "not read"
 
 
-def _counting(table: Table, column: int, sets: Sequence[dict[str, Any]]) -> Table:
-    """A table with the counts of `_elements` in a column, and with what a plus means, if there is one."""
-    note = " ".join(filter(None, (table.note, OPEN if any(one["open"] for one in sets) else "")))
-    return table._replace(numeric=frozenset({column}), note=note)
-
-
 def _curves(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
-    rows = [
-        (*_named(one), _elements(one), _values(one["values"]), f"line {one['line']} of {one['file']}")
-        for one in found["laws"]
-    ]
-    heads = ("law", "set", "elements", "values", "deck line")
-    table = _table("Laws and resistance by set", heads, rows, MOST_CURVES, "law", longest=LONGEST)
-    yield _counting(table, 2, found["laws"])
-    for number, row in enumerate(found["curves"][:MOST_CURVES], 1):
+    columns = (
+        text("law", lambda one: cut(one["law"], LONGEST_NAME)),
+        text("set", lambda one: cut(one["set"], LONGEST_NAME)),
+        number("elements", elements_of),
+        text("values", lambda one: _values(one["values"])),
+        text("deck line", lambda one: f"line {one['line']} of {one['file']}"),
+    )
+    note = OPEN if any(one["open"] for one in found["laws"]) else ""
+    laws = DisplayTable("Laws and resistance by set", columns, found["laws"], note)
+    yield _on_page(laws, MOST_CURVES, "law", LONGEST, numeric={2})
+    for place, row in enumerate(found["curves"][:MOST_CURVES], 1):
         over, value = row["axes"]
         slopes = [one["slope"] for one in row["segments"]]
         points = [(x, y, slope) for (x, y), slope in zip(row["points"], [*slopes, None], strict=True)]
         caption = f"{row['kind']} {cut(row['name'], LONGEST_NAME)} (*{row['keyword']}): {counted(len(points), 'point')}"
         ends = f"; slope {shown(slopes[0])} below the first, {shown(slopes[-1])} above the last" if slopes else ""
         unit = names.line_force if row["kind"] == OF_SEABED else ""
-        columns = (over, headed(value, unit), headed("slope to the next", unit))
-        yield _table(caption + ends, columns, points)._replace(anchor=f"curve-{number}")
+        of_points = (number(over, 0), number(value, 1, unit), number("slope to the next", 2, unit))
+        yield _on_page(DisplayTable(caption + ends, of_points, points))._replace(anchor=f"curve-{place}")
     yield Table("", (), (), _more(len(found["curves"]) - MOST_CURVES, "curve"))
-
-
-def _named(law: dict[str, Any]) -> tuple[str, str]:
-    return cut(law["law"], LONGEST_NAME), cut(law["set"], LONGEST_NAME)
 
 
 def _values(values: dict[str, Any]) -> str:
@@ -142,33 +126,23 @@ def _contact(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
     if deepest := found["deepest"]:
         words = labelled(f"largest penetration, element {deepest['element']}", names.length)
         figures.append((words, deepest["depth"]))
-    yield _table("Equilibrium of the deck's own coordinates", ("what", "value"), figures)
-    rows = [
-        [one[key] for key in ("law", "set_name", "elements", "touching")]
-        + [one["deepest"] if one["touching"] else None, one["reaction"]]
-        for one in found["laws"]
+    yield _on_page(DisplayTable("Equilibrium of the deck's own coordinates", _FIGURES, figures))
+    yield _on_page(law_table("By law and set", found["laws"], names, "reaction"), MOST_CURVES)
+    columns = [
+        number("line", "line"),
+        text("elements", lambda one: f"{one['first_element']} to {one['last_element']}"),
+        number("touchdown at arc length", _touchdown, names.length),
+        number("length in contact", "contact_length", names.length),
+        number("largest force", lambda one: (one["largest_force"] or {}).get("force"), names.line_force),
+        number("reaction", lambda one: _known(one["reaction"]), names.force),
+        number("over weight", "ratio"),
     ]
-    heads = ("law", "set", "elements", "in contact", headed("largest depth", names.length))
-    yield _table("By law and set", (*heads, headed("reaction", names.force)), rows, MOST_CURVES)
-    lines = [
-        (
-            one["line"],
-            f"{one['first_element']} to {one['last_element']}",
-            _touchdown(one),
-            one["contact_length"],
-            (one["largest_force"] or {}).get("force"),
-            _known(one["reaction"]),
-            one["ratio"],
-        )
-        for one in found["lines"]
-    ]
-    where = (headed("touchdown at arc length", names.length), headed("length in contact", names.length))
-    forces = (headed("largest force", names.line_force), headed("reaction", names.force))
-    yield _table("Touchdown", ("line", "elements", *where, *forces, "over weight"), lines)
-    states = [(one["law"], one["state"], one["count"]) for one in found["states"]]
-    yield _table("States", ("law", "state", "count"), states)
-    warnings = [(one["code"], one["line"], cut(one["message"], LONGEST)) for one in found["warnings"]]
-    yield Table("Warnings about these results", ("code", "deck line", "message"), warnings[:SHOWN_ROWS])
+    yield _on_page(DisplayTable("Touchdown", columns, found["lines"]))
+    columns = [text("law", "law"), text("state", "state"), number("count", "count")]
+    yield _on_page(DisplayTable("States", columns, found["states"]))
+    columns = [text("code", "code"), number("deck line", "line"), text("message", "message")]
+    warnings = found["warnings"][:SHOWN_ROWS]
+    yield _on_page(DisplayTable("Warnings about these results", columns, warnings), longest=LONGEST)
 
 
 def _known(reaction: float | None) -> float | str:
@@ -189,15 +163,17 @@ def study_tables(found: Study) -> list[Table]:
             [head.replace("\n", " ") for head in screen.heads],
             screen.rows,
             screen.note,
-            numeric=frozenset(at for at, head in enumerate(screen.heads) if head not in screen.left),
+            numeric=[at for at, head in enumerate(screen.heads) if head not in screen.left],
         )
         for screen in screens
     ]
 
 
 def _plan(found: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
-    rows = [(one["stage"], "in" if one["active"] else "left out", one["why"]) for one in found["stages"]]
-    yield Table(f"Stages of the evaluation, {found['steps']}", ("stage", "in or out", "why"), rows)
+    stages = found["stages"]
+    columns = (text("stage", "stage"), text("in or out", lambda one: "in" if one["active"] else "left out"))
+    table = DisplayTable(f"Stages of the evaluation, {found['steps']}", [*columns, text("why", "why")], stages)
+    yield _on_page(table, len(stages), longest=LONGEST)
 
 
 TABLES: dict[str, Callable[[dict[str, Any], UnitNames], Iterator[Table]]] = {

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal
+from typing import Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ from mudline.codes.lines import SYN009
 from mudline.contact import ContactModel, ElementError, PositionError
 from mudline.contact.columns import ElementTable, NodeTable, Others
 from mudline.contact.result import Part
-from mudline.contact.touchdown import LineTable
+from mudline.contact.touchdown import LineTable, Touchdown
 from mudline.scene.deck_values import unread_makers
 from mudline.scene.mesh import distances
 from mudline.scene.model import Scene
@@ -26,6 +26,13 @@ from mudline.short_repr import counted, cut, outline, short_repr
 Tension = Literal["keep", "cut"]
 
 _HISTORY = "this deck has laws whose result depends on the steps before, which need times that rise"
+
+
+class ResultConsumer(Protocol):
+    """Takes the results of a few steps at a time."""
+
+    def take(self, part: Part) -> None:
+        """Take some steps."""
 
 
 @dataclass(frozen=True)
@@ -81,10 +88,20 @@ class Evaluation:
         """Indices of the nodes that have a position."""
         return np.flatnonzero(self.present)
 
+    @cached_property
+    def lines(self) -> Indices:
+        """Indices of the lines with an evaluated element."""
+        return np.unique(self.model.input.lines.of_element[self.elements])
+
     @property
     def skipped(self) -> int:
         """Elements without a position of both nodes."""
         return len(self.scene.element_ids) - len(self.elements)
+
+    @cached_property
+    def touchdown(self) -> Touchdown:
+        """Finds the touchdown of the lines in the results of some steps."""
+        return Touchdown(self.model.input)
 
     def element_table(self, others: Others | None = None) -> ElementTable:
         """The rows of the elements that are evaluated, with further columns."""
@@ -97,6 +114,17 @@ class Evaluation:
     def line_table(self) -> LineTable:
         """The rows of the lines: touchdown, largest forces, reaction and weight."""
         return LineTable(self.model.input, self.elements)
+
+    def run(self, consumers: Iterable[ResultConsumer], done: Callable[[int], None] = lambda _: None) -> None:
+        """Evaluate all steps once and pass the results on; `done` is given the number of steps of each piece.
+
+        Raises what `parts` and the consumers do.
+        """
+        takers = list(consumers)
+        for part in self.parts():
+            for consumer in takers:
+                consumer.take(part)
+            done(part.count)
 
     def parts(self) -> Iterator[Part]:
         """Evaluate a few steps at a time; memory does not grow with the number of steps.

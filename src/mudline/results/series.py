@@ -1,38 +1,157 @@
-"""What is kept of a long series, as tables too: extremes of elements, nodes and lines, counts, the largest totals.
+"""Figures that are followed over the steps of an evaluation, and the tables of a long series.
 
-Memory does not grow with the number of steps.
+Of each figure the extremes are kept, with the steps where they first were; of a condition the number of steps. Memory
+does not grow with the number of steps.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mudline.contact.columns import NO_ELEMENT, Column, ElementTable, NodeTable, Values, kept
-from mudline.contact.result import ContactResult, Part
-from mudline.contact.touchdown import LineTable, Touchdown
+from mudline.contact.input import LawKind
+from mudline.contact.result import Part
+from mudline.contact.touchdown import LineSeries, LineTable
 from mudline.quantities import ELEMENTS, LINES, NODES, SLIDING, STEPS, Quantity, time_unit
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import Tables, plan_rows
-from mudline.results.totals import FOLLOWED, HELD, Extent, LineWatch, Peak, SlowSuction, StepSummary
-from mudline.results.warnings import ContactWatch
-from mudline.scene.numbering import Floats, Indices
+from mudline.results.totals import HELD, traces
+from mudline.results.warnings import ContactWarning
+from mudline.scene.numbering import Floats, Mask
 
-FIGURES = {
-    "elements": ("force", "depth", "stiffness"),
-    "nodes": ("gap", "normal_force", "axial_force", "lateral_force"),
-    "summary": FOLLOWED,
+_NO_STEP = -1
+
+
+class Followed(NamedTuple):
+    """Values (steps, k) of some steps: numbers, NaN for none, or a condition, whose steps are counted.
+
+    `at` (steps, k) goes with the numbers, as the index of the element that a number is of.
+    """
+
+    values: NDArray[np.floating] | NDArray[np.bool_]
+    at: Values | None = None
+
+
+Figures = Mapping[str, Followed]
+
+
+def _of_elements(evaluation: Evaluation, part: Part) -> Figures:
+    result, chosen = part.result, evaluation.elements
+    held = np.zeros((1, len(chosen)), np.bool_)
+    if result.state is not None:
+        held = np.isin(kept(result.state, chosen), HELD)
+    return {
+        **{name: Followed(kept(getattr(result, name), chosen)) for name in ("force", "depth", "stiffness")},
+        "contact_steps": Followed(kept(result.contact, chosen)),
+        "suction_steps": Followed(held),
+    }
+
+
+def _of_nodes(evaluation: Evaluation, part: Part) -> Figures:
+    result, chosen = part.result, evaluation.nodes
+    gap = kept(result.gap, chosen)
+    touches = gap < 0.0
+    if result.restrained is not None:
+        touches |= kept(result.restrained, chosen)
+    friction = np.zeros((1, len(chosen), 2))  # as in the results without friction
+    if result.friction is not None:
+        friction = kept(result.friction, chosen)
+    slips = np.zeros((1, len(chosen)), np.bool_)
+    if result.friction_state is not None:
+        slips = kept((result.friction_state == SLIDING.index("slip")).any(axis=-1), chosen)
+    return {
+        "gap": Followed(gap),
+        "normal_force": Followed(kept(result.normal_force, chosen)),
+        "axial_force": Followed(friction[..., 0]),
+        "lateral_force": Followed(friction[..., 1]),
+        "contact_steps": Followed(touches),
+        "slip_steps": Followed(slips),
+    }
+
+
+LINE_FIGURES = ("first", "last", "contact_length", "force", "uplift", "reaction")
+"""Figures of `LineSeries` that are followed."""
+
+
+def _of_lines(evaluation: Evaluation, part: Part) -> Figures:
+    found = evaluation.touchdown.series(part)
+    values = {name: Followed(_side_by_side(found, name, part)) for name in LINE_FIGURES}
+    return values | {
+        "contact_steps": Followed(values["contact_length"].values > 0.0),
+        "touchdown_steps": Followed(_side_by_side(found, "points", part) > 0),
+    }
+
+
+def _side_by_side(lines: Sequence[LineSeries], name: str, part: Part) -> Values:
+    return np.stack([getattr(line, name) for line in lines], axis=1) if lines else np.zeros((part.count, 0))
+
+
+def _of_all(_: Evaluation, part: Part) -> Figures:
+    """The figures of `STEPS`."""
+    return {
+        name: Followed(values[:, np.newaxis], None if at is None else at[:, np.newaxis])
+        for name, (values, at) in traces(part).items()
+    }
+
+
+def _of_case(evaluation: Evaluation, part: Part) -> Figures:
+    """The figures of `CASES`: over all lines that may lie on the seabed, or all lines if none may."""
+    law = evaluation.model.input.law
+    found = evaluation.touchdown.series(part)
+    lying = [line for line in found if (law[evaluation.touchdown.lines.elements[line.number]] != LawKind.NONE).any()]
+    lines = lying or found  # others may be held in soil
+    touching = np.count_nonzero(part.result.contact[:, evaluation.elements], axis=1)
+    figures = {"in_contact": Followed(touching.astype(np.float64)[:, np.newaxis])}
+    if not lines:
+        return figures
+    with np.errstate(over="ignore", invalid="ignore"):
+        length, reaction, weight = (
+            _side_by_side(lines, name, part).sum(axis=1, keepdims=True)
+            for name in ("contact_length", "reaction", "weight")
+        )
+    return figures | {
+        "touchdown_from": Followed(_side_by_side(lines, "first", part)),
+        "touchdown_to": Followed(_side_by_side(lines, "last", part)),
+        "contact_length": Followed(length),
+        "largest_force": Followed(_side_by_side(lines, "force", part), _side_by_side(lines, "force_at", part)),
+        "largest_uplift": Followed(_side_by_side(lines, "uplift", part), _side_by_side(lines, "uplift_at", part)),
+        "reaction": Followed(np.where(np.isnan(reaction), np.inf, reaction), weight),  # one that is not known stays so
+    }
+
+
+def _of_suction(_: Evaluation, part: Part) -> Figures:
+    """Where suction is pulled at velocities below REGULARISATION."""
+    slow = part.result.regularised
+    if slow is None:
+        return {}
+    some: Mask = np.logical_or.reduce(slow, axis=1, keepdims=True)
+    return {
+        "slow": Followed(np.where(some, 1.0, np.nan), slow.argmax(axis=1, keepdims=True)),
+        "slow_steps": Followed(some),
+    }
+
+
+FIGURES: Mapping[str, Callable[[Evaluation, Part], Figures]] = {
+    "elements": _of_elements,
+    "nodes": _of_nodes,
+    "summary": _of_lines,
+    "totals": _of_all,
+    "case": _of_case,
+    "suction": _of_suction,
 }
-"""Figures whose extremes are kept, by table."""
-COUNTS = {
-    "elements": ("contact_steps", "suction_steps"),
-    "nodes": ("contact_steps", "slip_steps"),
-    "summary": ("contact_steps", "touchdown_steps"),
-}
-"""Numbers of steps that are counted, by table."""
+"""What gives the figures of some steps, by table; one column for each row of the table."""
+
+
+class Peak(NamedTuple):
+    """A least or largest value over all steps, the step where it first was, and what went with it."""
+
+    value: float
+    step: int
+    at: float | None = None
 
 
 class Extremes:
@@ -43,102 +162,93 @@ class Extremes:
 
     def __init__(self, columns: int) -> None:
         self.least, self.largest = np.full(columns, np.inf), np.full(columns, -np.inf)
-        self.least_step, self.largest_step = (np.full(columns, -1, np.int64) for _ in range(2))
+        self.least_step, self.largest_step = (np.full(columns, _NO_STEP, np.int64) for _ in range(2))
+        self._least_at, self._largest_at = np.full(columns, np.nan), np.full(columns, np.nan)
 
-    def take(self, start: int, values: Floats) -> None:
-        """Look at the values (steps, k) of the steps `start` and on; NaN is none."""
+    def take(self, start: int, found: Followed) -> None:
+        """Look at the values of the steps `start` and on."""
+        values = found.values
         low, high = np.fmin.reduce(values, axis=0), np.fmax.reduce(values, axis=0)
-        for found, better, value, step in (
-            (low, low < self.least, self.least, self.least_step),
-            (high, high > self.largest, self.largest, self.largest_step),
+        for best, better, value, step, at in (
+            (low, low < self.least, self.least, self.least_step, self._least_at),
+            (high, high > self.largest, self.largest, self.largest_step, self._largest_at),
         ):
             column = np.flatnonzero(better)
             if column.size:
-                row = (values[:, column] == found[column]).argmax(axis=0)
+                row = (values[:, column] == best[column]).argmax(axis=0)
                 value[column], step[column] = values[row, column], start + row
+                if found.at is not None:
+                    at[column] = found.at[row, column]
+
+    def lowest(self) -> Peak | None:
+        """Return the least value of all columns; None without any."""
+        return _first(self.least, self.least_step, self._least_at, 1.0)
+
+    def highest(self) -> Peak | None:
+        """Return the largest value of all columns; None without any."""
+        return _first(self.largest, self.largest_step, self._largest_at, -1.0)
+
+    def farthest(self) -> Peak | None:
+        """Return the value with the largest magnitude; None without any."""
+        found = [peak for peak in (self.lowest(), self.highest()) if peak is not None]
+        return min(found, key=lambda peak: (-abs(peak.value), peak.step), default=None)
+
+    def extent(self, column: int, times: Floats | None) -> tuple[float, float, float, float] | None:
+        """Return the least value of a column, its time, the largest value and its time; None without any."""
+        low, high = int(self.least_step[column]), int(self.largest_step[column])
+        if times is None or low < 0:
+            return None
+        return float(self.least[column]), float(times[low]), float(self.largest[column]), float(times[high])
+
+
+def _first(values: Floats, steps: NDArray[np.int64], at: Floats, sign: float) -> Peak | None:
+    """The first of the least values times a sign."""
+    known = np.flatnonzero(steps >= 0)
+    if not known.size:
+        return None
+    column = known[np.lexsort((steps[known], sign * values[known]))[0]]
+    return Peak(float(values[column]), int(steps[column]), None if np.isnan(at[column]) else float(at[column]))
 
 
 class SeriesSummary:
-    """Takes the steps of an evaluation a few at a time, and keeps their extremes.
+    """Takes the steps of an evaluation a few at a time, and keeps the extremes and counts of the figures of tables.
 
     Attributes:
-        elements, nodes, lines: indices of what the rows of the tables are about.
-        extremes: by table and figure. counts: numbers of steps, by table and name.
-        totals: the largest of each figure of `STEPS`.
-        watch: what the warnings need. slow: where suction is pulled slower than its law resolves.
+        extremes: by table and figure. counts: numbers of steps, by table and condition.
     """
 
-    def __init__(self, evaluation: Evaluation) -> None:
-        given = evaluation.model.input
+    def __init__(self, evaluation: Evaluation, *tables: str) -> None:
         self.evaluation = evaluation
-        self.elements, self.nodes = evaluation.elements, evaluation.nodes
-        self.lines: Indices = np.unique(given.lines.of_element[self.elements])
-        rows = {"elements": len(self.elements), "nodes": len(self.nodes), "summary": len(self.lines)}
-        self.extremes = {(table, each): Extremes(rows[table]) for table, names in FIGURES.items() for each in names}
-        self.counts = {
-            (table, each): np.zeros(rows[table], np.int64) for table, names in COUNTS.items() for each in names
-        }
-        self.totals = StepSummary(evaluation, 0)
-        self.watch, self.slow = ContactWatch.of(evaluation), SlowSuction()
-        self._finder = Touchdown(given)
+        self._tables = tables
+        self.extremes: dict[tuple[str, str], Extremes] = {}
+        self.counts: dict[tuple[str, str], NDArray[np.int64]] = {}
 
     def take(self, part: Part) -> None:
         """Look at some steps."""
-        result = part.result
-        for name in FIGURES["elements"]:
-            self.extremes["elements", name].take(part.start, kept(getattr(result, name), self.elements))
-        self._count("elements", "contact_steps", kept(result.contact, self.elements))
-        if result.state is not None:
-            self._count("elements", "suction_steps", np.isin(kept(result.state, self.elements), HELD))
-        self._take_nodes(part.start, result)
-        self._take_lines(part)
-        self.totals.take(part)
-        self.watch.take(part)
-        self.slow.take(part)
+        for table in self._tables:
+            for name, found in FIGURES[table](self.evaluation, part).items():
+                columns, key = found.values.shape[1], (table, name)
+                if found.values.dtype == np.bool_:
+                    before = self.counts.setdefault(key, np.zeros(columns, np.int64))
+                    before += np.count_nonzero(found.values, axis=0)
+                else:
+                    self.extremes.setdefault(key, Extremes(columns)).take(part.start, found)
 
-    def _take_nodes(self, start: int, result: ContactResult) -> None:
-        gap = kept(result.gap, self.nodes)
-        self.extremes["nodes", "gap"].take(start, gap)
-        self.extremes["nodes", "normal_force"].take(start, kept(result.normal_force, self.nodes))
-        touches = gap < 0.0
-        if result.restrained is not None:
-            touches |= kept(result.restrained, self.nodes)
-        self._count("nodes", "contact_steps", touches)
-        for side, name in enumerate(("axial_force", "lateral_force")):
-            found = np.zeros((1, len(self.nodes)))  # as in the results without friction
-            if result.friction is not None:
-                found = kept(result.friction[..., side], self.nodes)
-            self.extremes["nodes", name].take(start, found)
-        if result.friction_state is not None:
-            slips = (result.friction_state == SLIDING.index("slip")).any(axis=-1)
-            self._count("nodes", "slip_steps", kept(slips, self.nodes))
+    def of(self, table: str, figure: str) -> Extremes:
+        """Return the extremes of a figure; those of nothing if no step has it."""
+        return self.extremes.get((table, figure), Extremes(0))
 
-    def _take_lines(self, part: Part) -> None:
-        found = self._finder.series(part)
-        if not found:
-            return
-        for name in FOLLOWED:
-            values = np.stack([getattr(line, name) for line in found], axis=1)
-            self.extremes["summary", name].take(part.start, values)
-        self._count("summary", "contact_steps", np.stack([line.contact_length > 0.0 for line in found], axis=1))
-        self._count("summary", "touchdown_steps", np.stack([line.points > 0 for line in found], axis=1))
+    def totals(self) -> dict[str, Peak]:
+        """Return the largest value of each figure of `STEPS` that has one; of `force` by its magnitude."""
+        found = {name: self.of("totals", name) for name in STEPS}
+        peaks = {name: each.farthest() if name == "force" else each.highest() for name, each in found.items()}
+        return {name: peak for name, peak in peaks.items() if peak is not None}
 
-    def _count(self, table: str, name: str, holds: NDArray[np.bool_]) -> None:
-        self.counts[table, name] += np.count_nonzero(holds, axis=0)
-
-    def line_watch(self, most: int | None) -> LineWatch:
-        """The extents of the figures of lines, as the terminal shows them; at most so many rows."""
-        extents = {
-            (line, name): Extent(*(array[row].item() for array in _sides(self.extremes["summary", name])))
-            for name in FOLLOWED
-            for row, line in enumerate(self.lines.tolist())
-            if self.extremes["summary", name].least_step[row] >= 0
-        }
-        return LineWatch(self.evaluation, most, extents=extents)
-
-
-def _sides(extremes: Extremes) -> tuple[NDArray[Any], ...]:
-    return extremes.least, extremes.least_step, extremes.largest, extremes.largest_step
+    def number(self, peak: Peak | None) -> int | None:
+        """Return the number of the element of a peak; None without one."""
+        if peak is None or peak.at is None or peak.at < 0:
+            return None
+        return int(self.evaluation.scene.element_ids[int(peak.at)])
 
 
 # --------------------------------------------------------------------------------------------------------------- tables
@@ -153,25 +263,29 @@ _OF_LINES = {
     "uplift": "largest_uplift",
 }
 """The quantities of `LINES` whose names are not those of the figures of a line."""
-_NO_STEP = -1
 
 
-def series_tables(summary: SeriesSummary) -> Tables:
+def series_summary(evaluation: Evaluation, *more: str) -> SeriesSummary:
+    """Return what follows the figures of `series_tables`, and those of more tables."""
+    return SeriesSummary(evaluation, "elements", "nodes", "summary", "totals", *more)
+
+
+def series_tables(summary: SeriesSummary, warnings: Sequence[ContactWarning]) -> Tables:
     """The tables of a summary, with what JSON has besides them."""
     evaluation = summary.evaluation
     given, times = evaluation.model.input, evaluation.time
     facts = {
-        "elements": ElementTable(given, summary.elements).facts(),
-        "nodes": NodeTable(given, summary.nodes).facts(),
-        "summary": LineTable(given, summary.elements).facts(),
+        "elements": ElementTable(given, evaluation.elements).facts(),
+        "nodes": NodeTable(given, evaluation.nodes).facts(),
+        "summary": LineTable(given, evaluation.elements).facts(),
     }
-    tables = {table: [*facts[table], *_extremes(summary, table, times), *_counts(summary, table)] for table in FIGURES}
+    tables = {table: [*facts[table], *_extremes(summary, table, times), *_counts(summary, table)] for table in facts}
     tables["totals"] = _totals(summary, times)
     more = {
         "steps": evaluation.steps,
         "plan": plan_rows(evaluation.model.plan),
         "positions": "file",
-        "warnings": [one.row() for one in summary.watch.warnings()],
+        "warnings": [one.row() for one in warnings],
     }
     return Tables(tables, SERIES_FORMAT, given.units, more)
 
@@ -185,8 +299,8 @@ def _quantity(table: str, figure: str) -> Quantity:
 def _extremes(summary: SeriesSummary, table: str, times: Floats | None) -> Iterator[Column]:
     """Of each figure the least and the largest value, its step and its time."""
     units = summary.evaluation.scene.units
-    for figure in FIGURES[table]:
-        quantity, found = _quantity(table, figure), summary.extremes[table, figure]
+    for figure, found in [(name, each) for (of, name), each in summary.extremes.items() if of == table]:
+        quantity = _quantity(table, figure)
         for side in ("least", "largest"):
             yield from _timed(f"{quantity.name}_{side}", *_side(found, side), times, quantity, units)
 
@@ -206,15 +320,16 @@ def _timed(
 
 
 def _counts(summary: SeriesSummary, table: str) -> Iterator[Column]:
-    return (_column(name, summary.counts[table, name]) for name in COUNTS[table])
+    return (_column(name, counts) for (of, name), counts in summary.counts.items() if of == table)
 
 
 def _totals(summary: SeriesSummary, times: Floats | None) -> list[Column]:
     """A row for each figure of `STEPS`: its largest value over all steps."""
-    none = Peak(np.nan, _NO_STEP, None)
-    found = [summary.totals.peaks.get(name, none) for name in STEPS]
+    peaks = summary.totals()
+    found = [peaks.get(name, Peak(np.nan, _NO_STEP)) for name in STEPS]
+    numbers = [summary.number(peak) for peak in found]
     steps = np.array([peak.step for peak in found], np.int64)
-    elements = np.array([NO_ELEMENT if peak.element is None else peak.element for peak in found], np.int64)
+    elements = np.array([NO_ELEMENT if number is None else number for number in numbers], np.int64)
     columns = [
         Column("figure", np.arange(len(STEPS)), (*STEPS, None), over_steps=False),
         _column("largest", np.array([peak.value for peak in found])),

@@ -1,13 +1,10 @@
-"""What is kept of an evaluation whose steps come and go: totals by law and set, by step, by line, the largest of all.
-
-Memory does not grow with the number of steps, but for the figures of the steps themselves.
-"""
+"""Totals of an evaluation: by law and set, by state, by step and by line at each step."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
-from typing import NamedTuple
+from collections.abc import Callable, Iterator, Sequence
+from itertools import islice
+from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,10 +12,11 @@ from numpy.typing import NDArray
 from mudline.contact import ContactResult
 from mudline.contact.lines import LineSummary
 from mudline.contact.result import Part, total_normal_force
-from mudline.contact.touchdown import LineSeries, Touchdown
 from mudline.quantities import SLIDING, STATES, Names, finite, shown
 from mudline.results.evaluation import Evaluation
-from mudline.scene.numbering import Floats, Indices, Mask
+from mudline.scene.numbering import Floats, Ids, Indices, Mask
+
+Row = TypeVar("Row")
 
 
 class Total(NamedTuple):
@@ -56,10 +54,16 @@ def touchdown_words(places: Sequence[float], contact: float | None, length: floa
 
 
 class StepTotal(NamedTuple):
-    """All evaluated elements at one step; `first` and `last` are the elements in contact, in the deck's order.
+    """All evaluated elements or nodes at one step.
 
-    `sucked` counts the elements in the states suction and hold, `slipping` the nodes that slip in a direction; None
-    without such laws.
+    Attributes:
+        touching: how many elements are in contact, or on how many nodes the seabed acts; `first` and `last` are the
+            numbers of those, in the deck's order.
+        deepest: largest depth of an element; None for nodes, and where there is no seabed.
+        sucked: elements in the states suction and hold, None without such a law, and for nodes.
+        slipping: nodes that slip in a direction, None without such a law.
+        gap, largest: smallest distance of a node from the seabed, None where there is none, and largest normal force
+            on a node; None for elements.
     """
 
     time: float
@@ -70,23 +74,8 @@ class StepTotal(NamedTuple):
     reaction: float
     sucked: int | None = None
     slipping: int | None = None
-
-
-class NodeTotal(NamedTuple):
-    """All evaluated nodes at one step; `first` and `last` are those on which the seabed acts, in the deck's order.
-
-    `gap` is the smallest distance from the seabed, None where there is none; `largest` the largest normal force on a
-    node.
-    """
-
-    time: float
-    acted_on: int
-    first: int | None
-    last: int | None
-    gap: float | None
-    largest: float | None
-    reaction: float
-    slipping: int | None = None
+    gap: float | None = None
+    largest: float | None = None
 
 
 def totals(evaluation: Evaluation, part: Part) -> list[Total]:
@@ -116,42 +105,32 @@ def reaction(evaluation: Evaluation, result: ContactResult) -> float:
         return float(total_normal_force(result, evaluation.nodes))
 
 
-def _step(evaluation: Evaluation, time: float, result: ContactResult) -> StepTotal:
-    chosen = evaluation.elements
-    ids = evaluation.scene.element_ids[chosen]
-    touching = np.flatnonzero(result.contact[chosen])
-    first, last = (int(ids[touching[end]]) if touching.size else None for end in (0, -1))
-    return StepTotal(
-        time,
-        len(touching),
-        first,
-        last,
-        _deepest(result.depth[chosen]),
-        reaction(evaluation, result),
-        None if result.state is None else int(np.isin(result.state, HELD).sum()),
-        _slipping(result),
-    )
+def step_totals(evaluation: Evaluation, part: Part, *, of_nodes: bool = False) -> Iterator[StepTotal]:
+    """Yield the figures of all evaluated elements, or nodes, at each step of a part with times."""
+    elements, nodes, scene = evaluation.elements, evaluation.nodes, evaluation.scene
+    for step, time in enumerate([] if part.result.times is None else part.result.times.tolist()):
+        result = part.result.step(step)
+        slips = result.friction_state
+        slipping = None if slips is None else int((slips == SLIDING.index("slip")).any(axis=-1).sum())
+        total = reaction(evaluation, result)
+        if of_nodes:
+            acts = scene.node_ids[acted_on(evaluation, result)]
+            deepest = _deepest(-result.gap[nodes])
+            gap, largest = None if deepest is None else 0.0 - deepest, _deepest(result.normal_force[nodes])
+            yield StepTotal(time, len(acts), *_ends(acts), None, total, None, slipping, gap, largest)
+        else:
+            acts = scene.element_ids[elements[result.contact[elements]]]
+            sucked = None if result.state is None else int(np.isin(result.state, HELD).sum())
+            yield StepTotal(time, len(acts), *_ends(acts), _deepest(result.depth[elements]), total, sucked, slipping)
 
 
-def _slipping(result: ContactResult) -> int | None:
-    slips = result.friction_state
-    return None if slips is None else int((slips == SLIDING.index("slip")).any(axis=-1).sum())
+def line_steps(evaluation: Evaluation, part: Part) -> Iterator[LineSummary]:
+    """Yield every line at each step of a part."""
+    return evaluation.touchdown.summaries(part, evaluation.touchdown.series(part))
 
 
-def _node_step(evaluation: Evaluation, time: float, result: ContactResult) -> NodeTotal:
-    touched = evaluation.scene.node_ids[acted_on(evaluation, result)]
-    first, last = (int(touched[end]) if touched.size else None for end in (0, -1))
-    deepest = _deepest(-result.gap[evaluation.nodes])
-    return NodeTotal(
-        time,
-        len(touched),
-        first,
-        last,
-        None if deepest is None else 0.0 - deepest,
-        _deepest(result.normal_force[evaluation.nodes]),
-        reaction(evaluation, result),
-        _slipping(result),
-    )
+def _ends(numbers: Ids) -> tuple[int | None, int | None]:
+    return (int(numbers[0]), int(numbers[-1])) if numbers.size else (None, None)
 
 
 def acted_on(evaluation: Evaluation, result: ContactResult) -> Indices:
@@ -241,129 +220,15 @@ def _largest(values: Floats, chosen: Indices, *, by_size: bool) -> Trace:
     return Trace(found, np.where(np.isnan(found), -1, chosen[column]))
 
 
-class Peak(NamedTuple):
-    """A largest value over all steps, when it first was, and at which element; None for all elements."""
+class First(Generic[Row]):
+    """Takes the first `most` rows (None: all) of those that `make` gives for some steps."""
 
-    value: float
-    step: int
-    element: int | None
-
-
-@dataclass
-class StepSummary:
-    """The first step, the figures of the first `most` steps (None: of all), and the largest of all steps.
-
-    The figures are those of elements, or `of_nodes`.
-    `peaks` have the names of `STEPS`. A single state without a time has neither steps nor peaks.
-    """
-
-    evaluation: Evaluation
-    most: int | None
-    of_nodes: bool = False
-    first: Part | None = None
-    steps: list[StepTotal] = field(default_factory=list)
-    nodes: list[NodeTotal] = field(default_factory=list)
-    peaks: dict[str, Peak] = field(default_factory=dict)
-
-    @property
-    def shown(self) -> int:
-        """The number of steps that have figures."""
-        return len(self.steps) + len(self.nodes)
+    def __init__(self, make: Callable[[Part], Iterator[Row]], most: int | None) -> None:
+        self._make, self._most = make, most
+        self.rows: list[Row] = []
 
     def take(self, part: Part) -> None:
-        """Look at some steps."""
-        if self.first is None:
-            self.first = Part(part.start, part.result.steps(0, 1))
-        times = self.evaluation.time
-        if times is None:
-            return
-        left = part.count if self.most is None else min(part.count, self.most - self.shown)
-        for step in range(left):
-            time, result = float(times[part.start + step]), part.result.step(step)
-            if self.of_nodes:
-                self.nodes.append(_node_step(self.evaluation, time, result))
-            else:
-                self.steps.append(_step(self.evaluation, time, result))
-        for name, (values, elements) in traces(part).items():
-            sizes = np.abs(values) if name == "force" else values
-            if np.isnan(sizes).all():
-                continue
-            step = int(np.nanargmax(sizes))
-            before = self.peaks.get(name)
-            if before is None or sizes[step] > (abs(before.value) if name == "force" else before.value):
-                element = None if elements is None else int(self.evaluation.scene.element_ids[elements[step]])
-                self.peaks[name] = Peak(float(values[step]), part.start + step, element)
-
-
-class SlowSuction:
-    """Counts the steps at which suction is pulled at velocities below REGULARISATION."""
-
-    def __init__(self) -> None:
-        self.steps = 0
-        self.element: int | None = None
-        """The index of the first element."""
-
-    def take(self, part: Part) -> None:
-        """Look at some steps."""
-        slow = part.result.regularised
-        if slow is None or not slow.any():
-            return
-        self.steps += int(slow.any(axis=1).sum())
-        if self.element is None:
-            self.element = int(np.argwhere(slow)[0, 1])
-
-
-# --------------------------------------------------------------------------------------------------------------- lines
-
-
-class Extent(NamedTuple):
-    """The least and the largest value of a figure of a line over all steps, and the steps where they were first."""
-
-    least: float
-    least_step: int
-    largest: float
-    largest_step: int
-
-
-FOLLOWED = ("first", "last", "contact_length", "force", "uplift", "reaction")
-"""Figures of `LineSeries` whose extents are kept."""
-
-
-@dataclass
-class LineWatch:
-    """The first `most` rows of lines at steps (None: all), and the extents of their figures by line and name."""
-
-    evaluation: Evaluation
-    most: int | None
-    rows: list[LineSummary] = field(default_factory=list)
-    extents: dict[tuple[int, str], Extent] = field(default_factory=dict)
-    left: int = 0
-    """Rows that are not kept."""
-
-    def __post_init__(self) -> None:
-        self._finder = Touchdown(self.evaluation.model.input)
-
-    def take(self, part: Part) -> None:
-        """Look at some steps."""
-        found = self._finder.series(part)
-        total = part.count * len(found)
-        kept = total if self.most is None else min(total, max(self.most - len(self.rows), 0))
-        if kept:
-            rows = self._finder.summaries(part, found)
-            self.rows += [row for row, _ in zip(rows, range(kept), strict=False)]
-        self.left += total - kept
-        if self.evaluation.steps > 1:
-            for line in found:
-                self._extend(line, part.start)
-
-    def _extend(self, line: LineSeries, start: int) -> None:
-        for name in FOLLOWED:
-            values: Floats = getattr(line, name)
-            if np.isnan(values).all():
-                continue
-            low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
-            here = Extent(float(values[low]), start + low, float(values[high]), start + high)
-            before = self.extents.get((line.number, name), here)
-            least = before[:2] if before.least <= here.least else here[:2]
-            largest = before[2:] if before.largest >= here.largest else here[2:]
-            self.extents[line.number, name] = Extent(*least, *largest)
+        """Make the rows of some steps that are still wanted."""
+        left = None if self._most is None else self._most - len(self.rows)
+        if left != 0:
+            self.rows += islice(self._make(part), left)

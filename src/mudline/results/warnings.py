@@ -103,8 +103,7 @@ def seabed_warnings(scene: Scene) -> list[ContactWarning]:
     try:
         evaluation = evaluate_scene(scene)
         watch = ContactWatch.of(evaluation)
-        for part in evaluation.parts():
-            watch.take(part)
+        evaluation.run([watch])
     except DeckError:
         return []
     return [one for one in watch.warnings() if one.diagnostic.code in wanted]
@@ -152,8 +151,7 @@ class ContactWatch:
         self._elements = np.flatnonzero(evaluated)
         self._nodes = np.unique(scene.element_nodes[self._elements])
         self._columns: Indices | slice = self._nodes if len(self._nodes) < len(scene.nodes) else slice(None)
-        free = evaluated & (scene.law == LawKind.NONE)
-        self._waiting = np.flatnonzero(free | (evaluated & (scene.submerged_weight < 0.0)))
+        self._judged = bool((evaluated & ((scene.law == LawKind.NONE) | (scene.submerged_weight < 0.0))).any())
         self._touched = np.zeros(len(evaluated), dtype=np.bool_)
         self._restrained = np.zeros(len(scene.nodes), dtype=np.bool_)
         self._sprung = bool(scene.nodal.any()) or "SEABED SUCTION" in scene.extensions
@@ -178,15 +176,12 @@ class ContactWatch:
     def look(self, start: int, result: ContactResult) -> None:
         """Look at the steps `start` and on, or at a single state."""
         contact = np.atleast_2d(result.contact)
-        touches = (bool(self._waiting.size) or not self._acts) and bool(contact.any())
-        if touches and self._waiting.size:
-            touched = np.logical_or.reduce(contact, axis=0)[self._waiting]
-            self._touched[self._waiting[touched]] = True
-            self._waiting = self._waiting[~touched]
+        if self._judged or not self._acts:
+            self._touched |= contact.any(axis=0)
         if result.restrained is not None:
             self._restrained |= np.atleast_2d(result.restrained).any(axis=0)
         if not self._acts:
-            self._acts = touches or self._is_held(result)
+            self._acts = bool(self._touched.any()) or self._is_held(result)
             if not self._acts:
                 self._measure(start, np.atleast_2d(result.gap)[:, self._columns])
         if self._own and start == 0:

@@ -123,13 +123,6 @@ class Writer(Protocol):
         """Write what is known only after the last step."""
 
 
-class ResultConsumer(Protocol):
-    """Takes the results of a few steps at a time."""
-
-    def take(self, part: Part) -> None:
-        """Take some steps."""
-
-
 @dataclass(frozen=True, slots=True)
 class Sink:
     """Passes the results of an evaluation on to a writer, as the columns of tables; to nothing without tables."""
