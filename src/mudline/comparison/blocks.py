@@ -11,7 +11,7 @@ from mudline.comparison.model import Difference, Pair, Side, Value, plain
 from mudline.deck.model import Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Where
-from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Record, Rows, columns_of, record_schema
+from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Record, Rows, record_schema
 from mudline.keywords.table import Cell, Table
 from mudline.keywords.values import Kind, Names
 from mudline.keywords.writer import field_text, joined
@@ -168,7 +168,7 @@ class _Flattening:
 
 def _table(table: Table, slot: FieldSpec, where: Where, path: str) -> Iterator[tuple[str, Entry]]:
     """The rows of a table; points in ascending order."""
-    rows = [(cells, index) for index, cells in enumerate(table.rows(columns_of(slot)))]
+    rows = [(cells, index) for index, cells in enumerate(table.rows(slot.columns))]
     if isinstance(slot.about, Rows) and slot.about.unordered:
         rows.sort(
             key=lambda item: [

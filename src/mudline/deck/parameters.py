@@ -15,7 +15,7 @@ from mudline.codes.fields import SYN002, SYN006, SYN017
 from mudline.codes.references import REF013, REF014
 from mudline.deck.model import Deck
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
-from mudline.keywords.model import FieldSpec, ListRow, Part, columns_of, record_schema
+from mudline.keywords.model import FieldSpec, ListRow, Part, record_schema
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown, suggestion
 from mudline.keywords.unknown import UNKNOWN, is_unknown
@@ -403,7 +403,7 @@ class _Evaluator:
         return nothing
 
     def _table(self, table: Table, slot: FieldSpec, where: Where) -> Table:
-        columns = columns_of(slot)
+        columns = slot.columns
         values = table.values.copy()
         words = dict(table.words)
         for (row, column), word in table.words.items():

@@ -6,7 +6,9 @@ from typing import Annotated, Literal, Self
 
 from pydantic import model_validator
 
-from mudline.keywords.model import Block, Record, Row, about, require_one, rows, setting
+from mudline.keywords.common import require_one
+from mudline.keywords.fields import about, setting
+from mudline.keywords.model import Block, Record, Row, rows
 from mudline.keywords.table import Table
 from mudline.keywords.values import Contents, Name, Names, Real
 from mudline.keywords.vessels import Body

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from mudline.keywords.model import Record, Row, about, setting
+from mudline.keywords.fields import about, setting
+from mudline.keywords.model import Part, Record, Row, record_schema
+from mudline.keywords.table import Table
 from mudline.keywords.values import Name, Real
 
 CONSTANT_FRICTION = (
@@ -48,3 +50,16 @@ class AdditionalSets(Record):
         list[Name],
         setting("ADDITIONAL", "more element sets that hold this section", inferred="the line may be repeated"),
     ]
+
+
+def require_one(part: Part, *names: str) -> None:
+    """Raise ValueError unless a part has a value in exactly one of some fields."""
+    slots = [slot for slot in record_schema(type(part)).slots if slot.name in names]
+    given = [slot.label for slot in slots if not _is_empty(getattr(part, slot.name))]
+    if len(given) != 1:
+        wanted = " or ".join(slot.label for slot in slots)
+        raise ValueError(f"{' and '.join(given) or 'nothing'} is given: expected {wanted}")
+
+
+def _is_empty(value: object) -> bool:
+    return value is None or (isinstance(value, list | Table) and not len(value))

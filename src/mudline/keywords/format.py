@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from mudline.keywords.model import Block, FieldInfo, FieldSpec, Part, RecordSchema, Rows, Setting, record_schema
+from mudline.keywords.fields import FieldInfo, Setting
+from mudline.keywords.model import Block, FieldSpec, Part, RecordSchema, Rows, record_schema
 from mudline.keywords.table import row_format
 from mudline.keywords.values import Kind
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from mudline.keywords.model import ListRow, Record, about, setting
+from mudline.keywords.fields import about, setting
+from mudline.keywords.model import ListRow, Record
 from mudline.keywords.values import Ident, Names, Whole
 
 Node = Annotated[Ident, about("node number, or its label", names=Names.NODE)]

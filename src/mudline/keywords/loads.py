@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from mudline.keywords.model import about
+from mudline.keywords.fields import about
 from mudline.keywords.values import Real
 
 Direction = Annotated[Real | None, about("direction, anticlockwise from the global Y axis", unit="deg", default="0")]

@@ -6,7 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from mudline.keywords.model import Record, Row, about, require_one, rows, setting
+from mudline.keywords.common import require_one
+from mudline.keywords.fields import about, setting
+from mudline.keywords.model import Record, Row, rows
 from mudline.keywords.table import Table
 from mudline.keywords.values import Contents, Name, Names, Real
 from mudline.keywords.vessels import Body

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from functools import cache, cached_property
-from typing import Any, ClassVar, NamedTuple, cast
+from typing import Any, ClassVar, NamedTuple
 
 from pydantic import (
     BaseModel,
@@ -21,6 +21,7 @@ from pydantic import (
 from pydantic_core import CoreSchema, core_schema
 
 from mudline.keywords.annotations import choices_of, is_list, kind_of, metadata_of, parts_of
+from mudline.keywords.fields import AS_TEXT, FieldInfo, Setting
 from mudline.keywords.json_schema import cell_schema, with_limits
 from mudline.keywords.table import (
     AS_TABLES,
@@ -35,81 +36,9 @@ from mudline.keywords.table import (
     row_format,
 )
 from mudline.keywords.unknown import is_unknown
-from mudline.keywords.values import Contents, Count, Facts, Kind, Names, Subject, Text
+from mudline.keywords.values import Count, Facts, Kind, Subject, Text
 from mudline.limits import MOST_KEYS
 from mudline.short_repr import counted, with_fields
-
-
-@dataclass(frozen=True, slots=True)
-class FieldInfo:
-    """What a field means. Units in F (force), L, M, T, deg; "-" is dimensionless. `inferred` names our deduction.
-
-    `names` says what the field is the name or number of, `defines` of what it gives a new thing its own. `also`
-    is another name by which `mudline set` finds it, `heading` that of its column in a table of the manual. Behind a
-    setting with one of the values `opaque`, or with a value that is not known, lines stand whose form is not public:
-    they are kept in a record that can keep lines. None: what stands behind it has one form.
-    """
-
-    meaning: str
-    unit: str = ""
-    default: str = ""
-    at_least: float | None = None
-    above: float | None = None
-    at_most: float | None = None
-    inferred: str = ""
-    names: Names | None = None
-    also: str = ""
-    defines: Names | None = None
-    holds: Contents | None = None
-    heading: str = ""
-    opaque: tuple[str, ...] | None = None
-
-    def fault(self, value: float) -> str:
-        """What is wrong with a number, or nothing; NaN stands for one that could not be read."""
-        if self.at_least is not None and value < self.at_least:
-            return f"it must not be less than {self.at_least:g}"
-        if self.above is not None and value <= self.above:
-            return f"it must be greater than {self.above:g}"
-        if self.at_most is not None and value > self.at_most:
-            return f"it must not be more than {self.at_most:g}"
-        return ""
-
-    @property
-    def limits(self) -> dict[str, float]:
-        """The range as JSON Schema says it."""
-        given = {"minimum": self.at_least, "exclusiveMinimum": self.above, "maximum": self.at_most}
-        return {key: limit for key, limit in given.items() if limit is not None}
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        schema = handler(source)
-        return core_schema.with_info_after_validator_function(self._in_range, schema) if self.limits else schema
-
-    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        return with_limits(handler(schema), self.limits)
-
-    def _in_range(self, value: object, info: ValidationInfo) -> object:
-        """Refuse a number out of range; the text of a deck is read as it is, and its values are reported by checks."""
-        numeric = isinstance(value, int | float) and info.context != AS_TEXT
-        if numeric and (fault := self.fault(cast("float", value))):
-            raise ValueError(f"{value!r} is out of range: {fault}")
-        return value
-
-
-AS_TEXT = "text of a deck"
-"""The context in which the values of a text are validated."""
-
-
-@dataclass(frozen=True, slots=True)
-class Setting(FieldInfo):
-    """A field written `KEY=value`; `inline` ones follow on the line of the setting before them.
-
-    `behind` names the only setting whose line an inline one may follow on; without that it has a line of its own.
-    """
-
-    key: str = ""
-    inline: bool = False
-    behind: str = ""
-
 
 FEWEST_POINTS = 2
 """Points of a curve."""
@@ -183,16 +112,6 @@ class Rows(FieldInfo):
                 {"type": "string", "description": "the same rows as text, one a line, fields separated by commas"},
             ],
         }
-
-
-def about(meaning: str, **details: Any) -> FieldInfo:
-    """A positional field."""
-    return FieldInfo(meaning, **details)
-
-
-def setting(key: str, meaning: str, **details: Any) -> Setting:
-    """A field written `KEY=value`."""
-    return Setting(meaning, key=key, **details)
 
 
 def rows(row: type[Row], meaning: str, *, unordered: bool = False, inferred: str = "") -> Rows:
@@ -405,6 +324,11 @@ class FieldSpec:
         return not self.row and (self.kind in _OF_TEXT or (self.kind is None and bool(self.choices)))
 
     @property
+    def columns(self) -> list[Column]:
+        """The columns of a field that is a table; of others none."""
+        return self.about.columns() if isinstance(self.about, Rows) else []
+
+    @property
     def label(self) -> str:
         """The field's name for a reader."""
         return self.key + "=" if self.key else self.json.replace("_", " ")
@@ -442,7 +366,9 @@ def record_schema(part: type[Part]) -> RecordSchema:
     found = RecordSchema()
     for order, (name, info) in enumerate(part.model_fields.items()):
         meta = next((item for item in metadata_of(info) if isinstance(item, FieldInfo)), None)
-        records = _records(info.annotation)
+        classes = [piece for piece in parts_of(info.annotation) if isinstance(piece, type)]
+        records = [piece for piece in classes if issubclass(piece, Record)]
+        rows = [piece for piece in classes if issubclass(piece, Row)]
         if meta is None and not records:
             continue
         slot = FieldSpec(
@@ -451,7 +377,7 @@ def record_schema(part: type[Part]) -> RecordSchema:
             about=meta or FieldInfo(""),
             kind=kind_of(info),
             choices=choices_of(info.annotation),
-            row=meta.row if isinstance(meta, Rows) else _row(info.annotation),
+            row=meta.row if isinstance(meta, Rows) else next(iter(rows), None),
             record={record.rule: record for record in records},
             required=info.is_required(),
             many=is_list(info.annotation),
@@ -521,34 +447,7 @@ def _cell(field: FieldSpec | None, table: Table, path: Path) -> tuple[FieldSpec 
     return columns[column], float(table.values[row, column]) if inside else None
 
 
-def _is_empty(value: object) -> bool:
-    return value is None or (isinstance(value, list | Table) and not len(value))
-
-
-def columns_of(slot: FieldSpec) -> list[Column]:
-    """The columns of a field that is a table."""
-    return slot.about.columns() if isinstance(slot.about, Rows) else []
-
-
 @cache
 def table_columns(row: type[Row]) -> list[Column]:
     """The columns of a table whose rows are `row`."""
     return [Column(slot.label, slot.kind or Kind.REAL, slot.required) for slot in record_schema(row).columns]
-
-
-def _records(annotation: Any) -> list[type[Record]]:
-    return [piece for piece in parts_of(annotation) if isinstance(piece, type) and issubclass(piece, Record)]
-
-
-def _row(annotation: Any) -> type[Row] | None:
-    found = (piece for piece in parts_of(annotation) if isinstance(piece, type) and issubclass(piece, Row))
-    return next(found, None)
-
-
-def require_one(part: Part, *names: str) -> None:
-    """Raise ValueError unless a part has a value in exactly one of some fields."""
-    slots = [slot for slot in record_schema(type(part)).slots if slot.name in names]
-    given = [slot.label for slot in slots if not _is_empty(getattr(part, slot.name))]
-    if len(given) != 1:
-        wanted = " or ".join(slot.label for slot in slots)
-        raise ValueError(f"{' and '.join(given) or 'nothing'} is given: expected {wanted}")

@@ -15,10 +15,11 @@ from mudline.keywords import grammar
 from mudline.keywords.attaching import Between, attach
 from mudline.keywords.builder import Builder
 from mudline.keywords.constructing import construct, lose
+from mudline.keywords.fields import AS_TEXT
 from mudline.keywords.grammar import END, ROW, Content, Mismatch
 from mudline.keywords.keeping import is_choice, opened
 from mudline.keywords.kept_lines import doubtful, of_other_form
-from mudline.keywords.model import AS_TEXT, Block, Part, RecordSchema, record_schema
+from mudline.keywords.model import Block, Part, RecordSchema, record_schema
 from mudline.keywords.parsed import ParsedRecord
 from mudline.keywords.places import Places
 from mudline.keywords.text import hint, instead, merge_per_line, shown, suggestion

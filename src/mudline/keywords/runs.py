@@ -8,7 +8,7 @@ import numpy as np
 
 from mudline.codes.fields import SYN002, SYN003, SYN016
 from mudline.diagnostics import Problem, Span
-from mudline.keywords.model import FieldSpec, columns_of
+from mudline.keywords.model import FieldSpec
 from mudline.keywords.numbers import not_a_number
 from mudline.keywords.table import Column, Table, from_rows, row_format
 from mudline.keywords.text import decimal_comma, in_braces, maybe_label, semicolons
@@ -35,7 +35,7 @@ class TableBuilder:
 
     def __init__(self, builder: BlockReading, slot: FieldSpec) -> None:
         self.builder = builder
-        self.columns: list[Column] = columns_of(slot)
+        self.columns: list[Column] = slot.columns
         self.runs: list[tuple[int, Span]] = []
         self.parts: list[Table] = []
         self.count = 0

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated
 
+from mudline.keywords.fields import about, setting
 from mudline.keywords.keeping import OpenRecord
-from mudline.keywords.model import Row, about, curve_points, setting
+from mudline.keywords.model import Row, curve_points
 from mudline.keywords.table import Table
 from mudline.keywords.values import Ident, Name, Names, Real
 

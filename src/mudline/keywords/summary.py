@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.model import Block, Row, about, setting
+from mudline.keywords.fields import about, setting
+from mudline.keywords.model import Block, Row
 from mudline.keywords.values import Name, Real, Title, Whole
 
 LOCATION = "place on the section, of outputs that have one"

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Annotated
 
 from mudline.keywords.common import CONSTANT_FRICTION
-from mudline.keywords.model import Block, Row, about, rows
+from mudline.keywords.fields import about
+from mudline.keywords.model import Block, Row, rows
 from mudline.keywords.table import Table
 from mudline.keywords.values import Real, Successor
 

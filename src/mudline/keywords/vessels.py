@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from mudline.keywords.model import Row, about, setting
+from mudline.keywords.fields import about, setting
+from mudline.keywords.model import Row
 from mudline.keywords.values import Name, Names, Real
 
 Vessel = Annotated[Name, setting("VESSEL", "vessel of *VESSEL or *VESSEL,INTEGRATED", names=Names.VESSEL)]

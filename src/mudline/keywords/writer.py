@@ -9,7 +9,8 @@ from typing import Any, Protocol
 
 from pydantic_core import to_json
 
-from mudline.keywords.model import Block, Comment, FieldSpec, Part, Record, Rows, Setting, columns_of, record_schema
+from mudline.keywords.fields import Setting
+from mudline.keywords.model import Block, Comment, FieldSpec, Part, Record, Rows, record_schema
 from mudline.keywords.table import Cell, Listing, Table
 
 
@@ -112,7 +113,7 @@ def _joins(setting: Setting, line: str) -> bool:
 
 def table_lines(table: Table, slot: FieldSpec) -> Iterator[list[str]]:
     """The rows of a table, one a line, some thousand at a time."""
-    for piece in Listing(table, columns_of(slot)).lines(joined):
+    for piece in Listing(table, slot.columns).lines(joined):
         yield f" {piece}".replace("\n", "\n ").split("\n")
 
 

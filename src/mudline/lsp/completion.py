@@ -12,7 +12,8 @@ from lsprotocol import types
 from mudline.diagnostics import Span
 from mudline.expression.evaluation import FORMS, FUNCTIONS
 from mudline.keywords import catalogue
-from mudline.keywords.model import Block, FieldSpec, Setting, record_schema
+from mudline.keywords.fields import Setting
+from mudline.keywords.model import Block, FieldSpec, record_schema
 from mudline.keywords.reader import all_keys
 from mudline.keywords.values import Names
 from mudline.limits import MOST_OFFERED

@@ -14,7 +14,8 @@ import numpy as np
 from mudline.codes.fields import CRV001, CRV003, CRV011
 from mudline.deck.model import Deck, Opaque
 from mudline.diagnostics import Blocks, Problem, Where
-from mudline.keywords.model import Block, FieldSpec, Part, Row, Rows, Setting, record_schema
+from mudline.keywords.fields import Setting
+from mudline.keywords.model import Block, FieldSpec, Part, Row, Rows, record_schema
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
 from mudline.keywords.writer import field_text

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from functools import cache
 
 from mudline.keywords import catalogue
-from mudline.keywords.model import Block, FieldSpec, Record, Rows, Setting, record_schema
+from mudline.keywords.fields import Setting
+from mudline.keywords.model import Block, FieldSpec, Record, Rows, record_schema
 from mudline.keywords.values import Kind, Names
 
 _NOT_LETTERS = re.compile(r"[\W_]+")

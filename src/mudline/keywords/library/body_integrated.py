@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.model import Block, Record, Row, about, setting
+from mudline.keywords.fields import about, setting
+from mudline.keywords.model import Block, Record, Row
 from mudline.keywords.values import Ident, Name, Names, Real
 from mudline.keywords.vessels import Dimensions
 

@@ -7,8 +7,9 @@ from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field
 
+from mudline.keywords.fields import about, setting
 from mudline.keywords.keeping import OpenRecord
-from mudline.keywords.model import Block, ListRow, Record, about, setting
+from mudline.keywords.model import Block, ListRow, Record
 from mudline.keywords.table import LARGEST_WHOLE
 from mudline.keywords.values import Count, Equation, Finite, Ident, Kind, Names, Other, Real, Whole, WholeOrLabel
 

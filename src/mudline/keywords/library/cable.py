@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
+from mudline.keywords.fields import about
 from mudline.keywords.keeping import OpenBlock, OpenRecord
-from mudline.keywords.model import about
 from mudline.keywords.values import Ident, Names, Real, Whole
 
 _LINE = "one line with these four data in this order, as the page names the data and not the line; others are kept"

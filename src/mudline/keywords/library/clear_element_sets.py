@@ -6,7 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import model_validator
 
-from mudline.keywords.model import Block, Record, about
+from mudline.keywords.fields import about
+from mudline.keywords.model import Block, Record
 from mudline.keywords.values import Ident, Names, Real
 
 _GROUPS = 2

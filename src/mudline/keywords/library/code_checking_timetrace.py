@@ -6,8 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from mudline.keywords.fields import about, setting
 from mudline.keywords.lists import Element
-from mudline.keywords.model import Block, Record, about, setting
+from mudline.keywords.model import Block, Record
 from mudline.keywords.values import Name, Names, Whole
 
 

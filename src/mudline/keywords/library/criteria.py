@@ -6,7 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import model_validator
 
-from mudline.keywords.model import Block, Record, require_one, setting
+from mudline.keywords.common import require_one
+from mudline.keywords.fields import setting
+from mudline.keywords.model import Block, Record
 from mudline.keywords.values import Name, Names, Real, Whole
 
 

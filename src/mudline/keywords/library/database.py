@@ -6,7 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import model_validator
 
-from mudline.keywords.model import Block, about, setting
+from mudline.keywords.fields import about, setting
+from mudline.keywords.model import Block
 from mudline.keywords.values import Real
 
 

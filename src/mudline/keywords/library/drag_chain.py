@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
+from mudline.keywords.fields import about, setting
 from mudline.keywords.lists import Node
-from mudline.keywords.model import Block, ListRow, Record, about, setting
+from mudline.keywords.model import Block, ListRow, Record
 from mudline.keywords.values import Ident, Names, Real, Whole
 
 

@@ -6,8 +6,10 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from mudline.keywords.common import require_one
+from mudline.keywords.fields import about, setting
 from mudline.keywords.lists import Freedom
-from mudline.keywords.model import Block, Record, Row, about, require_one, setting
+from mudline.keywords.model import Block, Record, Row
 from mudline.keywords.values import Contents, Name, Names, Real
 from mudline.keywords.vessels import Vessel
 

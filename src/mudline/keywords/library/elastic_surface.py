@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from mudline.keywords.common import SUCTION_STIFFNESS
-from mudline.keywords.model import Row, about
+from mudline.keywords.fields import about
+from mudline.keywords.model import Row
 from mudline.keywords.surfaces import SURFACE_SUCCESSORS, FrictionCoefficients, FrictionLengths, Surface
 from mudline.keywords.values import Facts, Real
 

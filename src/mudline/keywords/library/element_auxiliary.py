@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.model import Block, Row, about, rows
+from mudline.keywords.fields import about
+from mudline.keywords.model import Block, Row, rows
 from mudline.keywords.table import Table
 from mudline.keywords.values import Whole
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.model import Block, ListRow, Record, about, setting
+from mudline.keywords.fields import about, setting
+from mudline.keywords.model import Block, ListRow, Record
 from mudline.keywords.values import Facts, Ident, Name, Names, Whole
 
 

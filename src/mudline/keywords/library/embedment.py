@@ -7,7 +7,8 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from mudline.keywords.common import NO_SET, POINTS, CurvePoint
-from mudline.keywords.model import Block, Record, curve_points, setting
+from mudline.keywords.fields import setting
+from mudline.keywords.model import Block, Record, curve_points
 from mudline.keywords.table import Table
 from mudline.keywords.values import Facts, Name, Names, Successor
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
+from mudline.keywords.fields import about
 from mudline.keywords.keeping import OpenBlock
-from mudline.keywords.model import about
 from mudline.keywords.values import Real
 
 _NEEDS = "; a direction whose coefficient is 0 stays free"

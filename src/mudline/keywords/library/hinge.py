@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
+from mudline.keywords.fields import setting
 from mudline.keywords.lists import Element
-from mudline.keywords.model import Block, Record, setting
+from mudline.keywords.model import Block, Record
 from mudline.keywords.values import Facts, Real
 
 

@@ -6,8 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from mudline.keywords.fields import about, setting
 from mudline.keywords.keeping import OpenBlock, OpenRecord
-from mudline.keywords.model import Row, about, setting
+from mudline.keywords.model import Row
 from mudline.keywords.values import Facts, Name, Names, Other, Real, RealOrName
 
 _ORDER = "the order, which is that of decks of a related program: the manual page of the keyword was not seen"

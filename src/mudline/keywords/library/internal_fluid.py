@@ -6,7 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.keywords.model import Block, Record, about, setting
+from mudline.keywords.fields import about, setting
+from mudline.keywords.model import Block, Record
 from mudline.keywords.values import Name, Names, Real
 
 _ONE_LINE = "the manual prints the line over several: it is one"

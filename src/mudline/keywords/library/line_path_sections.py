@@ -7,7 +7,8 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from mudline.keywords.common import AdditionalSets
-from mudline.keywords.model import Block, Record, Row, about, setting
+from mudline.keywords.fields import about, setting
+from mudline.keywords.model import Block, Record, Row
 from mudline.keywords.values import Facts, Name, Real
 
 _DISTANCE = "; a negative one counts back from the end of the line, bend radii do not count"

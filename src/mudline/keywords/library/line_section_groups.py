@@ -7,7 +7,8 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from mudline.keywords.common import AdditionalSets
-from mudline.keywords.model import Block, Record, Row, about, setting
+from mudline.keywords.fields import about, setting
+from mudline.keywords.model import Block, Record, Row
 from mudline.keywords.values import Facts, Name, Real
 
 _RANGE = "it is not negative; the manual gives no range"

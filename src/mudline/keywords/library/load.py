@@ -6,8 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from mudline.keywords.fields import setting
 from mudline.keywords.keeping import OpenRecord
-from mudline.keywords.model import Block, setting
+from mudline.keywords.model import Block
 from mudline.keywords.values import Other
 
 _LINES = (

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.model import Block, Record, Row, about, curve_points, setting
+from mudline.keywords.fields import about, setting
+from mudline.keywords.model import Block, Record, Row, curve_points
 from mudline.keywords.table import Table
 from mudline.keywords.values import Name, Names, Real
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.model import Block, about
+from mudline.keywords.fields import about
+from mudline.keywords.model import Block
 from mudline.keywords.values import Real
 
 

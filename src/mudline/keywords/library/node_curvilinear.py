@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.model import Block, ListRow, Record, Row, about, rows, setting
+from mudline.keywords.fields import about, setting
+from mudline.keywords.model import Block, ListRow, Record, Row, rows
 from mudline.keywords.table import Table
 from mudline.keywords.values import Facts, Ident, Names, Real, Whole
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
+from mudline.keywords.fields import about
 from mudline.keywords.lists import Freedom, Node
-from mudline.keywords.model import Block, Record, about
+from mudline.keywords.model import Block, Record
 from mudline.keywords.values import Real
 
 

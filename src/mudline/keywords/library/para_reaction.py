@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.model import setting
+from mudline.keywords.fields import setting
 from mudline.keywords.summary import AXIS, SummaryRequest
 from mudline.keywords.values import Ident, Name, Names, Whole
 

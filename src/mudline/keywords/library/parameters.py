@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.model import Block, Record, about
+from mudline.keywords.fields import about
+from mudline.keywords.model import Block, Record
 from mudline.keywords.values import Facts, Name, Names, RealOrName
 
 

@@ -6,8 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from mudline.keywords.fields import about, setting
 from mudline.keywords.lists import Node
-from mudline.keywords.model import Block, ListRow, Record, about, setting
+from mudline.keywords.model import Block, ListRow, Record
 from mudline.keywords.values import Ident, Name, Names, Real, Whole
 
 _CURVES = "the curve is one of *PIP STIFFNESS, as of *LINES PIP"

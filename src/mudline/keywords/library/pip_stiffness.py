@@ -6,7 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from mudline.keywords.model import Block, Record, Row, about, curve_points, require_one, setting
+from mudline.keywords.common import require_one
+from mudline.keywords.fields import about, setting
+from mudline.keywords.model import Block, Record, Row, curve_points
 from mudline.keywords.table import Table
 from mudline.keywords.values import Name, Names, Real
 

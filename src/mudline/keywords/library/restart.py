@@ -6,8 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from mudline.keywords.fields import setting
 from mudline.keywords.keeping import OpenBlock
-from mudline.keywords.model import setting
 from mudline.keywords.values import Name, Names
 
 _WORDS = "the words of the manual are taken as they are, and not checked"

@@ -6,7 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from mudline.keywords.model import Block, setting
+from mudline.keywords.fields import setting
+from mudline.keywords.model import Block
 from mudline.keywords.values import Facts, Name, Names, Real
 
 _SETTINGS = ("INTERPOLATION", "SLOPE", "FILE")

@@ -7,7 +7,8 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from mudline.keywords.common import CONSTANT_FRICTION, NO_SET, SUCTION_STIFFNESS
-from mudline.keywords.model import Block, Record, Row, about, setting
+from mudline.keywords.fields import about, setting
+from mudline.keywords.model import Block, Record, Row
 from mudline.keywords.values import Facts, Name, Names, Real, RealOrName
 
 _RANGE = "it is above 0, as friction divides by it; the manual gives no range"

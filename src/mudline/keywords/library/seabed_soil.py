@@ -6,7 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.keywords.model import Block, Record, Row, about, setting
+from mudline.keywords.fields import about, setting
+from mudline.keywords.model import Block, Record, Row
 from mudline.keywords.values import Facts, Name, Names, Real
 
 

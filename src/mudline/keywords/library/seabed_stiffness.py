@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from mudline.keywords.common import POINTS, CurvePoint
-from mudline.keywords.model import Block, Record, curve_points, setting
+from mudline.keywords.fields import setting
+from mudline.keywords.model import Block, Record, curve_points
 from mudline.keywords.table import Table
 from mudline.keywords.values import Facts, Name, Names
 

@@ -6,7 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field, ValidationInfo, field_validator
 
-from mudline.keywords.model import Block, Record, Row, about, rows, setting
+from mudline.keywords.fields import about, setting
+from mudline.keywords.model import Block, Record, Row, rows
 from mudline.keywords.table import Table
 from mudline.keywords.values import Facts, Name, Names, Real
 

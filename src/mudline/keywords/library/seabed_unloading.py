@@ -6,7 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.keywords.model import Block, Record, setting
+from mudline.keywords.fields import setting
+from mudline.keywords.model import Block, Record
 from mudline.keywords.values import Facts, Name, Names, Real
 
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.model import Block, setting
+from mudline.keywords.fields import setting
+from mudline.keywords.model import Block
 
 
 class SourceType(Block):

@@ -6,8 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from mudline.keywords.fields import setting
 from mudline.keywords.keeping import OpenBlock, OpenRecord
-from mudline.keywords.model import setting
 from mudline.keywords.soil_springs import CurvesFile, SoilCurves
 from mudline.keywords.values import Facts, Name, Names
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.model import Block, about, setting
+from mudline.keywords.fields import about, setting
+from mudline.keywords.model import Block
 from mudline.keywords.values import Real, Whole
 
 _SECTION = "the name of the section, from the name of the page"

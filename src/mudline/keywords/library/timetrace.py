@@ -6,8 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from mudline.keywords.fields import setting
 from mudline.keywords.keeping import OpenBlock
-from mudline.keywords.model import setting
 from mudline.keywords.values import Other
 
 _PAGE = "no page of the manual was found: one type is named by a page on theory, all lines are passed through unchanged"

@@ -6,7 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import model_validator
 
-from mudline.keywords.model import Block, ListRow, Record, about, setting
+from mudline.keywords.fields import about, setting
+from mudline.keywords.model import Block, ListRow, Record
 from mudline.keywords.values import Facts, Name, Names, Real
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
+from mudline.keywords.fields import setting
 from mudline.keywords.keeping import OpenBlock, OpenRecord
-from mudline.keywords.model import setting
 from mudline.keywords.values import Contents, Name, Names
 from mudline.keywords.vessels import Dimensions, LocalDistance, Position
 

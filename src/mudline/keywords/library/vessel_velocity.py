@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.model import Block, Record, about, setting
+from mudline.keywords.fields import about, setting
+from mudline.keywords.model import Block, Record
 from mudline.keywords.values import Real
 from mudline.keywords.vessels import Vessel
 

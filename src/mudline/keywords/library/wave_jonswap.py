@@ -6,9 +6,11 @@ from typing import Annotated, Literal
 
 from pydantic import model_validator
 
+from mudline.keywords.common import require_one
+from mudline.keywords.fields import about, setting
 from mudline.keywords.keeping import OpenBlock, OpenRecord
 from mudline.keywords.loads import Direction
-from mudline.keywords.model import Row, about, require_one, setting
+from mudline.keywords.model import Row
 from mudline.keywords.values import Other, Real, Whole
 
 _MORE = "more forms follow on the page, which were not seen: their lines are passed through unchanged"

@@ -6,8 +6,10 @@ from typing import Annotated, Literal
 
 from pydantic import model_validator
 
+from mudline.keywords.common import require_one
+from mudline.keywords.fields import about, setting
 from mudline.keywords.loads import Direction
-from mudline.keywords.model import Block, Record, Row, about, require_one, setting
+from mudline.keywords.model import Block, Record, Row
 from mudline.keywords.values import Real, Whole
 
 _AMPLITUDE = about("wave amplitude, half of its height", unit="L", at_least=0)

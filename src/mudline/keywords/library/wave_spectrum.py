@@ -6,7 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.keywords.model import Block, setting
+from mudline.keywords.fields import setting
+from mudline.keywords.model import Block
 
 
 class WaveSpectrum(Block):

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
+from mudline.keywords.fields import about, setting
 from mudline.keywords.loads import Direction
-from mudline.keywords.model import Block, about, setting
+from mudline.keywords.model import Block
 from mudline.keywords.values import Contents, Name, Names, Real, Whole
 
 

@@ -16,8 +16,9 @@ from mudline.codes.references import REF007
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Problem, Severity, Span
 from mudline.keywords import catalogue
+from mudline.keywords.fields import Setting
 from mudline.keywords.keeping import is_choice, opened
-from mudline.keywords.model import Block, Setting, record_schema
+from mudline.keywords.model import Block, record_schema
 from mudline.keywords.naming import kinds_of, repeated_set
 from mudline.keywords.reader import ReadBlock, all_keys, reads, schemas_of
 from mudline.keywords.values import Facts, Names
