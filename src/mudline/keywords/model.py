@@ -156,11 +156,6 @@ Wanted = Callable[["FieldSpec"], bool]
 """Tells of a field whether its values are wanted; one function of a module, as what it tells is remembered."""
 
 
-def every_field(_field: FieldSpec) -> bool:
-    """Return True: all values are wanted."""
-    return True
-
-
 class Part(BaseModel):
     """Anything with declared fields."""
 
@@ -172,8 +167,8 @@ class Part(BaseModel):
 
     __str__ = __repr__
 
-    def walk(self, wanted: Wanted = every_field) -> Iterator[Value]:
-        """Yield the values of the part, and of the parts inside it, whose field is wanted, in the order of the fields.
+    def walk(self, wanted: Wanted | None = None) -> Iterator[Value]:
+        """Yield the values of the part, and of the parts inside it, whose field is wanted: of all if nothing tells.
 
         What is left out (None) is none.
         """
@@ -402,7 +397,7 @@ def is_part(kind: type[BaseModel]) -> bool:
     return issubclass(kind, Part)
 
 
-def _walk(part: Part, prefix: Path, wanted: Wanted) -> Iterator[Value]:
+def _walk(part: Part, prefix: Path, wanted: Wanted | None) -> Iterator[Value]:
     for slot, own in _leading(type(part), wanted):
         value = getattr(part, slot.name, None)
         if isinstance(value, list):
@@ -412,7 +407,7 @@ def _walk(part: Part, prefix: Path, wanted: Wanted) -> Iterator[Value]:
             yield from _item((*prefix, slot.json), slot, value, wanted, own=own)
 
 
-def _item(path: Path, slot: FieldSpec, item: Any, wanted: Wanted, *, own: bool) -> Iterator[Value]:
+def _item(path: Path, slot: FieldSpec, item: Any, wanted: Wanted | None, *, own: bool) -> Iterator[Value]:
     if own:
         yield Value(path, slot, item)
     kind: type[BaseModel] = type(item)
@@ -421,9 +416,9 @@ def _item(path: Path, slot: FieldSpec, item: Any, wanted: Wanted, *, own: bool) 
 
 
 @cache
-def _leading(part: type[Part], wanted: Wanted) -> tuple[tuple[FieldSpec, bool], ...]:
+def _leading(part: type[Part], wanted: Wanted | None) -> tuple[tuple[FieldSpec, bool], ...]:
     """The fields of a part that are wanted (True), or hold parts with such fields alone (False)."""
-    found = ((slot, wanted(slot)) for slot in record_schema(part).slots)
+    found = ((slot, wanted is None or wanted(slot)) for slot in record_schema(part).slots)
     return tuple((slot, own) for slot, own in found if own or any(_leading(one, wanted) for one in slot.parts))
 
 
