@@ -270,7 +270,7 @@ def _notify_written(evaluation: Evaluation, path: Path, others: Mapping[str, Pat
 
 def _notify_slow(series: SeriesSummary) -> None:
     """Report where suction is less than its power law gives."""
-    number = series.number(series.of("suction", "slow").highest())
+    number = series.number(series.of("suction", "slow").largest.peak())
     if number is not None:
         (steps,) = series.counts["suction", "slow_steps"].tolist()
         when = f"at {steps} of {counted(series.evaluation.steps, 'step')}, element {number} first"

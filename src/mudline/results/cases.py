@@ -68,9 +68,8 @@ def case_summary(
 ) -> CaseSummary:
     """Return the row of a deck, called `deck`, whose results are in the file `result`, from its table "case"."""
     evaluation, times = series.evaluation, series.evaluation.time
-    pushed, pulled = series.of("case", "largest_force").highest(), series.of("case", "largest_uplift").lowest()
-    reaction = series.of("case", "reaction").highest()
-    weight = None if reaction is None else reaction.at
+    pushed, pulled = series.of("case", "largest_force").largest.peak(), series.of("case", "largest_uplift").least.peak()
+    reaction = series.of("case", "reaction").largest.peak()
     return CaseSummary(
         deck=deck,
         verdict="evaluated",
@@ -78,10 +77,10 @@ def case_summary(
         positions="deck" if evaluation.own_positions else "file",
         steps=evaluation.steps,
         elements=len(evaluation.elements),
-        in_contact=int(_value(series.of("case", "in_contact").highest()) or 0),
-        touchdown_from=_value(series.of("case", "touchdown_from").lowest()),
-        touchdown_to=_value(series.of("case", "touchdown_to").highest()),
-        contact_length=_value(series.of("case", "contact_length").highest() or Peak(0.0, 0)),
+        in_contact=int(_value(series.of("case", "in_contact").largest.peak()) or 0),
+        touchdown_from=_value(series.of("case", "touchdown_from").least.peak()),
+        touchdown_to=_value(series.of("case", "touchdown_to").largest.peak()),
+        contact_length=_value(series.of("case", "contact_length").largest.peak() or Peak(0.0, 0)),
         largest_force=_value(pushed),
         largest_force_element=series.number(pushed),
         largest_force_time=None if pushed is None or times is None else float(times[pushed.step]),
@@ -89,7 +88,7 @@ def case_summary(
         largest_uplift_element=series.number(pulled),
         largest_uplift_time=None if pulled is None or times is None else float(times[pulled.step]),
         reaction=_value(reaction),
-        ratio=finite(reaction.value / weight) if reaction is not None and weight is not None and weight > 0.0 else None,
+        ratio=finite(reaction.value / reaction.at) if reaction is not None and reaction.at > 0.0 else None,
         warnings=len(warnings),
         warning_codes=" ".join(sorted({one.diagnostic.code for one in warnings})),
         result=result,

@@ -151,63 +151,69 @@ class Peak(NamedTuple):
 
     value: float
     step: int
-    at: float | None = None
+    at: float = np.nan
 
 
-class Extremes:
-    """The least and the largest value of columns (k,) over steps, and the steps where they were first.
+class Best:
+    """The least (`sign` 1) or the largest (-1) values of columns (k,) over steps.
 
-    Infinite values and the step -1 stand for none.
+    Attributes:
+        values: the values; infinite for none.
+        steps: where each of them first was, -1 for none.
+        at: what went with each of them, NaN for nothing.
     """
 
-    def __init__(self, columns: int) -> None:
-        self.least, self.largest = np.full(columns, np.inf), np.full(columns, -np.inf)
-        self.least_step, self.largest_step = (np.full(columns, _NO_STEP, np.int64) for _ in range(2))
-        self._least_at, self._largest_at = np.full(columns, np.nan), np.full(columns, np.nan)
+    def __init__(self, columns: int, sign: float) -> None:
+        self._sign = sign
+        self.values, self.at = np.full(columns, sign * np.inf), np.full(columns, np.nan)
+        self.steps = np.full(columns, _NO_STEP, np.int64)
 
     def take(self, start: int, found: Followed) -> None:
         """Look at the values of the steps `start` and on."""
-        values = found.values
-        low, high = np.fmin.reduce(values, axis=0), np.fmax.reduce(values, axis=0)
-        for best, better, value, step, at in (
-            (low, low < self.least, self.least, self.least_step, self._least_at),
-            (high, high > self.largest, self.largest, self.largest_step, self._largest_at),
-        ):
-            column = np.flatnonzero(better)
-            if column.size:
-                row = (values[:, column] == best[column]).argmax(axis=0)
-                value[column], step[column] = values[row, column], start + row
-                if found.at is not None:
-                    at[column] = found.at[row, column]
+        best = (np.fmin if self._sign > 0.0 else np.fmax).reduce(found.values, axis=0)
+        column = np.flatnonzero(best * self._sign < self.values * self._sign)
+        if column.size:
+            row = (found.values[:, column] == best[column]).argmax(axis=0)
+            self.values[column], self.steps[column] = found.values[row, column], start + row
+            if found.at is not None:
+                self.at[column] = found.at[row, column]
 
-    def lowest(self) -> Peak | None:
-        """Return the least value of all columns; None without any."""
-        return _first(self.least, self.least_step, self._least_at, 1.0)
+    def peak(self) -> Peak | None:
+        """Return the best of all columns, the first of several; None without any."""
+        known = np.flatnonzero(self.steps >= 0)
+        if not known.size:
+            return None
+        at = known[np.lexsort((self.steps[known], self._sign * self.values[known]))[0]]
+        return Peak(float(self.values[at]), int(self.steps[at]), float(self.at[at]))
 
-    def highest(self) -> Peak | None:
-        """Return the largest value of all columns; None without any."""
-        return _first(self.largest, self.largest_step, self._largest_at, -1.0)
+
+class Extremes:
+    """The least and the largest values of columns over steps."""
+
+    def __init__(self, columns: int) -> None:
+        self.least, self.largest = Best(columns, 1.0), Best(columns, -1.0)
+
+    def take(self, start: int, found: Followed) -> None:
+        """Look at the values of the steps `start` and on."""
+        self.least.take(start, found)
+        self.largest.take(start, found)
 
     def farthest(self) -> Peak | None:
         """Return the value with the largest magnitude; None without any."""
-        found = [peak for peak in (self.lowest(), self.highest()) if peak is not None]
+        found = [peak for peak in (self.least.peak(), self.largest.peak()) if peak is not None]
         return min(found, key=lambda peak: (-abs(peak.value), peak.step), default=None)
 
     def extent(self, column: int, times: Floats | None) -> tuple[float, float, float, float] | None:
         """Return the least value of a column, its time, the largest value and its time; None without any."""
-        low, high = int(self.least_step[column]), int(self.largest_step[column])
-        if times is None or low < 0:
+        if times is None or self.least.steps[column] < 0:
             return None
-        return float(self.least[column]), float(times[low]), float(self.largest[column]), float(times[high])
-
-
-def _first(values: Floats, steps: NDArray[np.int64], at: Floats, sign: float) -> Peak | None:
-    """The first of the least values times a sign."""
-    known = np.flatnonzero(steps >= 0)
-    if not known.size:
-        return None
-    column = known[np.lexsort((steps[known], sign * values[known]))[0]]
-    return Peak(float(values[column]), int(steps[column]), None if np.isnan(at[column]) else float(at[column]))
+        low, high = self.least, self.largest
+        return (
+            float(low.values[column]),
+            float(times[low.steps[column]]),
+            float(high.values[column]),
+            float(times[high.steps[column]]),
+        )
 
 
 class SeriesSummary:
@@ -241,12 +247,12 @@ class SeriesSummary:
     def totals(self) -> dict[str, Peak]:
         """Return the largest value of each figure of `STEPS` that has one; of `force` by its magnitude."""
         found = {name: self.of("totals", name) for name in STEPS}
-        peaks = {name: each.farthest() if name == "force" else each.highest() for name, each in found.items()}
+        peaks = {name: each.farthest() if name == "force" else each.largest.peak() for name, each in found.items()}
         return {name: peak for name, peak in peaks.items() if peak is not None}
 
     def number(self, peak: Peak | None) -> int | None:
         """Return the number of the element of a peak; None without one."""
-        if peak is None or peak.at is None or peak.at < 0:
+        if peak is None or not peak.at >= 0:
             return None
         return int(self.evaluation.scene.element_ids[int(peak.at)])
 
@@ -301,13 +307,9 @@ def _extremes(summary: SeriesSummary, table: str, times: Floats | None) -> Itera
     units = summary.evaluation.scene.units
     for figure, found in [(name, each) for (of, name), each in summary.extremes.items() if of == table]:
         quantity = _quantity(table, figure)
-        for side in ("least", "largest"):
-            yield from _timed(f"{quantity.name}_{side}", *_side(found, side), times, quantity, units)
-
-
-def _side(found: Extremes, side: str) -> tuple[Floats, NDArray[np.int64]]:
-    value, step = getattr(found, side), getattr(found, f"{side}_step")
-    return np.where(step >= 0, value, np.nan), step
+        for side, best in (("least", found.least), ("largest", found.largest)):
+            values = np.where(best.steps >= 0, best.values, np.nan)
+            yield from _timed(f"{quantity.name}_{side}", values, best.steps, times, quantity, units)
 
 
 def _timed(
