@@ -91,10 +91,10 @@ import os, signal, sys
 from mudline.__main__ import main
 from mudline.cli import index_command
 plain = index_command.read_deck
-def read_deck(order):
-    if order.file.name.endswith("d.keyxm"):
+def read_deck(data, name, *others):
+    if name.endswith("d.keyxm"):
         os.kill(os.getpid(), signal.SIGINT)
-    return plain(order)
+    return plain(data, name, *others)
 index_command.read_deck = read_deck
 sys.exit(main(sys.argv[1:]))
 """

@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from importlib import import_module
 from types import ModuleType
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, SupportsIndex
 
 import numpy as np
 
@@ -167,6 +167,10 @@ class Law:
     source: str = ""
 
     __repr__ = short_repr
+
+    def __reduce_ex__(self, protocol: SupportsIndex) -> str | tuple[Any, ...]:
+        """Pickle a law of this package by its name, as some of its functions have none."""
+        return (law_named, (self.name,)) if self.name in BUILT_IN else object.__reduce_ex__(self, protocol)
 
 
 def _never(*parameters: Value) -> Value:
