@@ -262,9 +262,10 @@ def test_deck_without_a_seabed_is_legal_with_a_warning(place: Place) -> None:
     outcome = run("validate", *names, "--output-format", "json")
     assert outcome.code == 0
     assert_fits(outcome.json(), "validate")
-    rows = [(row["verdict"], row["warnings"], row["findings"]) for row in outcome.json()["decks"]]
+    decks = outcome.json()["decks"]
+    rows = [(row["verdict"], row["warnings"], [one["code"] for one in row["findings"]]) for row in decks]
     read = "6 of 7 keywords; not read: *SEABED PROPERTEIS"
-    assert rows == [(f"legal as far as read, 1 warning: {read}", 1, []), ("legal", 0, [])]
+    assert rows == [(f"legal as far as read, 1 warning: {read}", 1, ["SYN009"]), ("legal", 0, [])]
     assert outcome.json()["total"]["warnings"] == 1
     assert run("validate", *names).out.splitlines()[4].startswith("as far as read, 1 warning ")
 

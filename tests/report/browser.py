@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import shutil
 import tempfile
+from contextlib import chdir
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, NamedTuple
@@ -60,10 +61,10 @@ def take_pictures() -> None:
     """Write the pictures of the documentation."""
     from playwright.sync_api import sync_playwright  # noqa: PLC0415 - where it is installed
 
-    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
+    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright, chdir(SAMPLES.parent):
         target = Path(folder) / "scr-vessel.html"
         words = ("-o", str(target), "--sections", "verdict,findings,model,contact")
-        run("report", str(SAMPLES / "scr-vessel.keyxm"), *words)
+        run("report", f"{SAMPLES.name}/scr-vessel.keyxm", *words)
         browser = playwright.chromium.launch(executable_path=program(), args=["--no-sandbox"])
         sizes: tuple[tuple[Scheme, int, int], ...] = (("light", 900, 1500), ("dark", 360, 900))
         for scheme, width, height in sizes:
