@@ -94,7 +94,7 @@ class Scene:
     def _repr_html_(self) -> str:
         """Counts, laws, curves and sets, for notebooks."""
         from mudline.html_repr import html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
-        from mudline.results.summary import OPEN  # noqa: PLC0415 - as above
+        from mudline.results.summary_tables import OPEN  # noqa: PLC0415 - as above
 
         sets = [
             (one.name, _members(len(one.elements), is_open=one.open)) for one in self._resolved.set_table.named.values()

@@ -8,8 +8,7 @@ from typing import Any, NamedTuple
 from mudline.display import Cell, DisplayTable, number, text
 from mudline.limits import SHOWN_ROWS
 from mudline.quantities import UnitNames, labelled, shown
-from mudline.results.summary import OPEN
-from mudline.results.summary_tables import diameter_table, elements_of, law_table, set_table, static_table
+from mudline.results.summary_tables import OPEN, diameter_table, elements_of, law_table, set_table, static_table
 from mudline.results.totals import NOT_KNOWN, touchdown_words
 from mudline.scene.deck_curves import OF_SEABED
 from mudline.short_repr import counted, cut

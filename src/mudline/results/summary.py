@@ -26,10 +26,6 @@ CURVE_SIDES = {-1: "below", 0: None, 1: "above"}
 """Where a value lies beyond the points of its curve."""
 
 
-OPEN = "+ a block that is not read may add elements to this set"
-"""What a plus behind the number of elements of a set means."""
-
-
 def summarise(scene: Scene) -> dict[str, Any]:
     """Sections, keywords, counts, sets, curves, diameters and laws of a deck."""
     deck = scene.deck

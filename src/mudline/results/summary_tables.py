@@ -7,7 +7,9 @@ from typing import Any
 
 from mudline.display import Cell, DisplayTable, number, text
 from mudline.quantities import UnitNames
-from mudline.results.summary import OPEN
+
+OPEN = "+ a block that is not read may add elements to this set"
+"""What a plus behind the number of elements of a set means."""
 
 Rows = Sequence[dict[str, Any]]
 """Rows as JSON has them."""
