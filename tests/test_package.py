@@ -20,7 +20,7 @@ from tests.processes import TIMEOUT
 
 ROOT = Path(__file__).parents[1]
 GRAMMAR = sorted(path.name for path in (ROOT / "grammar").glob("*.lark"))
-TABLES = ("deck.tables", "blocks.tables")
+TABLES = ("deck.tables", "blocks.tables", "expression.tables")
 LONGEST_FILE = 450
 
 
