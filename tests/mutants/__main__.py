@@ -60,14 +60,8 @@ PACKAGES = {
     ),
     "migration": (("migration",), ["tests/migration"]),
     "keywords": (
-        ("keywords/recovery", "keywords/unknown", "linting/joining"),
-        [
-            *(
-                f"tests/keywords/test_{name}.py"
-                for name in ("unknown", "recovery", "plain_blocks", "kept_parts", "seabed_keywords", "line_keywords")
-            ),
-            *(f"tests/linting/test_{name}.py" for name in ("joining", *_RECOVERY)),
-        ],
+        ("keywords/builder", "keywords/unknown", "linting/recovery", "linting/joining"),
+        ["tests/keywords", *(f"tests/linting/test_{name}.py" for name in ("joining", *_RECOVERY))],
     ),
 }
 """Of each package its modules, folders or files of `src/mudline`, and its tests."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from types import FunctionType
 
-from tests.mutants.__main__ import PACKAGES, codes, forked, modules_of, named
+from tests.mutants.__main__ import PACKAGES, SOURCE, codes, forked, modules_of, named
 from tests.mutants.operators import mutants
 
 TEXT = "def total(rows, *, limit=2):\n    share = limit\n    return [row + share for row in rows]\n"
@@ -33,9 +33,9 @@ def test_what_a_process_of_its_own_gives() -> None:
 
 
 def test_every_package_has_modules_and_tests() -> None:
-    for name in PACKAGES:
-        files, tests = modules_of(name)
-        assert files
-        assert tests
+    for parts, tests in PACKAGES.values():
+        for part in parts:
+            assert (SOURCE / part).is_dir() or (SOURCE / f"{part}.py").is_file()
+        assert all((SOURCE.parents[1] / test).exists() for test in tests)
     (path,), _ = modules_of("curves/search")
     assert path.name == "search.py"
