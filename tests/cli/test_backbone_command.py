@@ -106,6 +106,13 @@ def test_wrong_usage(given: tuple[str, ...], says: str) -> None:
     assert says in outcome.err
 
 
+def test_a_first_point_that_is_too_near_to_zero_is_refused() -> None:
+    soil = ("--diameter", "0.5", "--strength", "1e300", "--extend", "--depth", "1e9", "--tolerance", "1e-5")
+    outcome = run("backbone", "aubeny", *soil)
+    assert (outcome.code, outcome.out) == (2, "")
+    assert "the curve is too steep for a float64 from z/D = 0 on" in outcome.err
+
+
 def test_models_that_cannot_have_it(monkeypatch: pytest.MonkeyPatch) -> None:
     weighed = run("backbone", "aubeny", *CLAY, "--weight", "6000")
     assert weighed.code == 2

@@ -117,7 +117,10 @@ def command(
     with np.errstate(all="ignore"):
         if not 0.0 < backbone.largest(wanted.depth) < math.inf:
             raise click.UsageError("the force is too large or too small for a float64: check the units of the numbers")
-        points = backbone.points(wanted.depth, wanted.tolerance)
+        try:
+            points = backbone.points(wanted.depth, wanted.tolerance)
+        except OverflowError as error:
+            raise click.UsageError(f"{error}: check the units of the numbers, --depth and --tolerance") from error
     text = _text(backbone, wanted, points)
     plot.write(lambda plots: plots.curves_figure(_rows(backbone, wanted, points), "user"))
     emit([text])

@@ -199,7 +199,8 @@ class Backbone:
 
         Linear interpolation between them differs from the model by at most `tolerance` times its largest force. From
         each point the next is the farthest that holds the tolerance; for a curve that bends to one side only, no other
-        points on it are fewer.
+        points on it are fewer. Raises OverflowError where the first chord that holds the tolerance is steeper than a
+        float64 can say.
         """
         allowed = _MARGIN * tolerance * self.largest(depth)
         ratios = [0.0]
@@ -224,9 +225,10 @@ class Backbone:
         if self._chord(start, depth) <= allowed:
             return depth
         low, high = start, depth
-        while high - low > 1e-9 * high:
-            middle = 0.5 * (low + high)
+        while high - low > 1e-9 * high and low < (middle := 0.5 * (low + high)):
             low, high = (middle, high) if self._chord(start, middle) <= allowed else (low, middle)
+        if not np.isfinite(np.diff(self.force(np.array([start, low]))) / (low - start)).all():
+            raise OverflowError(f"the curve is too steep for a float64 from z/D = {start:g} on")
         return low
 
     def _chord(self, start: float, end: float) -> float:
