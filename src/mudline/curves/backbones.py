@@ -225,7 +225,7 @@ class Backbone:
         if self._chord(start, depth) <= allowed:
             return depth
         low, high = start, depth
-        while high - low > 1e-9 * high and low < (middle := 0.5 * (low + high)):
+        while high - low > 1e-9 * high and low < (middle := 0.5 * (low + high)) < high:
             low, high = (middle, high) if self._chord(start, middle) <= allowed else (low, middle)
         if not np.isfinite(np.diff(self.force(np.array([start, low]))) / (low - start)).all():
             raise OverflowError(f"the curve is too steep for a float64 from z/D = {start:g} on")
