@@ -70,10 +70,10 @@ test-lowest: $(LOWEST)/.installed ## the tests but the slow ones, with the oldes
 	$(LOWEST)/bin/python -m pytest --numprocesses auto -m "not slow and not untraced" -W ignore::DeprecationWarning $(ARGS)
 
 # The oldest libraries were built for Python 3.11 and 3.12.
-$(LOWEST)/.installed: pyproject.toml tests/lowest.py
+$(LOWEST)/.installed: pyproject.toml tests/helpers/lowest.py
 	$(PYTHON) -m venv $(LOWEST)
 	$(LOWEST)/bin/python -m pip --disable-pip-version-check --quiet install "pip>=25.1"
-	$(LOWEST)/bin/python tests/lowest.py > $(LOWEST)/constraints.txt
+	$(LOWEST)/bin/python tests/helpers/lowest.py > $(LOWEST)/constraints.txt
 	$(LOWEST)/bin/python -m pip --disable-pip-version-check --quiet install \
 		--constraint $(LOWEST)/constraints.txt --group test --editable ".[all,archive]"
 	@touch $@
@@ -91,7 +91,7 @@ format: $(VENV)/.developer ## put the code into its canonical layout
 	$(BIN)/ruff format .
 
 index: $(VENV)/.developer ## the index of the keywords' declarations again, after one is added
-	$(BIN)/python -m tests.keywords.index
+	$(BIN)/python -m tests.language.keywords.index
 
 docs: index ## regenerate what docs/ takes from the program
 	$(BIN)/python -m tests.docs.make
@@ -101,7 +101,7 @@ tutorials: $(VENV)/.developer ## execute the notebooks of docs/tutorials again
 
 pictures: $(VENV)/.developer ## redraw the pictures of docs/images
 	$(BIN)/python -m tests.docs.pictures
-	$(BIN)/python -m tests.report.browser
+	$(BIN)/python -m tests.tools.reporting.browser
 
 studies: $(VENV)/.developer ## measure the tables and pictures of docs/studies/ again (3 minutes)
 	$(BIN)/python -m tests.benchmarks.studies $(ARGS)

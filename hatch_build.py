@@ -17,8 +17,8 @@ class TablesHook(BuildHookInterface[Any]):
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:  # noqa: ARG002 - hatchling's signature
         """Make the tables."""
         sys.path.insert(0, str(Path(self.root, "src")))
-        from mudline.expression.parsing import MAKES  # noqa: PLC0415 - of this source, not of an installed one
-        from mudline.syntax.grammars import save_tables  # noqa: PLC0415 - as above
+        from mudline.language.expression.parsing import MAKES  # noqa: PLC0415 - of this source, not of an installed one
+        from mudline.language.syntax.grammars import save_tables  # noqa: PLC0415 - as above
 
         save_tables("deck")
         save_tables("blocks")

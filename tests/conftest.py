@@ -10,7 +10,7 @@ from importlib.util import find_spec
 import pytest
 from hypothesis import HealthCheck, settings
 
-from tests import tracing
+from tests.helpers import tracing
 
 # Before numpy is imported: the workers share the processors, on which threads of small matrix products only wait.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")

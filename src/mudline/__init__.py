@@ -23,10 +23,10 @@ if TYPE_CHECKING:
         read,
         read_positions,
     )
-    from mudline.contact import ContactModel, ContactResult, ContactState, Plan, PositionError
-    from mudline.curves import CurveError, ForceCurve
-    from mudline.diagnostics import DeckError, Diagnostic, Severity
-    from mudline.results.warnings import ContactWarning
+    from mudline.language.diagnostics import DeckError, Diagnostic, Severity
+    from mudline.model.contact import ContactModel, ContactResult, ContactState, Plan, PositionError
+    from mudline.model.curves import CurveError, ForceCurve
+    from mudline.model.results.warnings import ContactWarning
 
 __version__ = "0.1.0"
 
@@ -68,10 +68,10 @@ _HOMES = {
             "read",
             "read_positions",
         ],
-        "contact": ["ContactModel", "ContactResult", "ContactState", "Plan", "PositionError"],
-        "curves": ["CurveError", "ForceCurve"],
-        "diagnostics": ["DeckError", "Diagnostic", "Severity"],
-        "results.warnings": ["ContactWarning"],
+        "model.contact": ["ContactModel", "ContactResult", "ContactState", "Plan", "PositionError"],
+        "model.curves": ["CurveError", "ForceCurve"],
+        "language.diagnostics": ["DeckError", "Diagnostic", "Severity"],
+        "model.results.warnings": ["ContactWarning"],
     }.items()
     for name in names
 }

@@ -10,25 +10,25 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from mudline.arguments import ArgumentKindError, expect, expect_word, read_only, several
-from mudline.deck import model
-from mudline.deck.forms import KEYWORD
-from mudline.deck.loading import dump, load_bytes, load_path
-from mudline.diagnostics import Diagnostic, Where
-from mudline.linting.engine import lint_bytes
-from mudline.linting.registry import select as _chosen
-from mudline.quantities import checked_units
-from mudline.scene import model as scenes
+from mudline.basics.arguments import ArgumentKindError, expect, expect_word, read_only, several
+from mudline.basics.quantities import checked_units
+from mudline.checks.engine import lint_bytes
+from mudline.checks.registry import select as _chosen
+from mudline.language.deck import model
+from mudline.language.deck.forms import KEYWORD
+from mudline.language.deck.loading import dump, load_bytes, load_path
+from mudline.language.diagnostics import Diagnostic, Where
+from mudline.model.scene import model as scenes
 
 if TYPE_CHECKING:
-    from mudline.contact import ContactModel, ContactResult
-    from mudline.contact.plan import Backend
-    from mudline.curves import ForceCurve
-    from mudline.deck.parameters import EvaluatedDeck
-    from mudline.results.warnings import ContactWarning
-    from mudline.scene.numbering import Floats, Ids, Indices
-    from mudline.scene.positions import Positions
-    from mudline.scene.resolved import ByName
+    from mudline.language.deck.parameters import EvaluatedDeck
+    from mudline.model.contact import ContactModel, ContactResult
+    from mudline.model.contact.plan import Backend
+    from mudline.model.curves import ForceCurve
+    from mudline.model.results.warnings import ContactWarning
+    from mudline.model.scene.numbering import Floats, Ids, Indices
+    from mudline.model.scene.positions import Positions
+    from mudline.model.scene.resolved import ByName
 
 _KEYWORD = re.compile(r"\s*[$*][A-Z][A-Z &/-]*\s*", re.IGNORECASE)
 _SECTION = re.compile(r"^\s*\$[A-Z]", re.IGNORECASE | re.MULTILINE)
@@ -93,8 +93,8 @@ class Scene:
 
     def _repr_html_(self) -> str:
         """Counts, laws, curves and sets, for notebooks."""
-        from mudline.html_repr import html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
-        from mudline.results.summary_tables import OPEN  # noqa: PLC0415 - as above
+        from mudline.basics.html_repr import html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
+        from mudline.model.results.summary_tables import OPEN  # noqa: PLC0415 - as above
 
         sets = [
             (one.name, _members(len(one.elements), is_open=one.open)) for one in self._resolved.set_table.named.values()
@@ -201,7 +201,7 @@ class Scene:
         """
         expect_word(tension, "tension", ("keep", "cut"), "'keep' or 'cut'")
         if not len(self.element_ids):
-            from mudline.results.evaluation import require_elements  # noqa: PLC0415 - few scenes need it
+            from mudline.model.results.evaluation import require_elements  # noqa: PLC0415 - few scenes need it
 
             require_elements(self._resolved.require_evaluable(tension))
         return self._resolved.contact(tension, backend=backend)
@@ -239,7 +239,7 @@ def read_positions(path: str | os.PathLike[str], scene: Scene) -> Positions:
         OSError: the file cannot be read.
         DeckError: it has faults, or nodes that the scene lacks.
     """
-    from mudline.scene import positions  # noqa: PLC0415 - decks alone do without it
+    from mudline.model.scene import positions  # noqa: PLC0415 - decks alone do without it
 
     expect(scene, "scene", Scene, "a Scene")
     return positions.read_positions(_path(path), scene._resolved.nodes)  # noqa: SLF001 - a class of this module
@@ -253,8 +253,8 @@ def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | No
 
     Raises ValueError where result or positions are not those of the scene.
     """
-    from mudline.contact.result import ContactResult as Result  # noqa: PLC0415 - decks alone do without it
-    from mudline.results import warnings  # noqa: PLC0415 - as above
+    from mudline.model.contact.result import ContactResult as Result  # noqa: PLC0415 - decks alone do without it
+    from mudline.model.results import warnings  # noqa: PLC0415 - as above
 
     expect(scene, "scene", Scene, "a Scene")
     expect(result, "result", Result, "a ContactResult")

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
-from mudline.linting.context import LintContext
-from mudline.rules import rule
+from mudline.checks.context import LintContext
+from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span, Where
+from mudline.language.rules import rule
 
 __all__ = ["Code", "LintContext", "Problem", "Repair", "Severity", "Span", "Where", "rule"]

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 
 import mudline
-from mudline.deck.loading import load_path
-from tests.builders.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED, UNUSED
+from mudline.language.deck.loading import load_path
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED, UNUSED
 
 EMPTY = '{"format": "mudline-deck/1", "source": "", "units": "user", "sections": []}'
 NAMES = [name for name in mudline.__all__ if name != "__version__"]

@@ -14,10 +14,10 @@ import numpy as np
 import pytest
 
 import mudline
-from mudline.contact.input import ContactInput
-from mudline.contact.plan import Backend
-from tests.builders.contact import all_laws, everything, journey
-from tests.builders.decks import CLEAN
+from mudline.model.contact.input import ContactInput
+from mudline.model.contact.plan import Backend
+from tests.helpers.builders.contact import all_laws, everything, journey
+from tests.helpers.builders.decks import CLEAN
 
 Wrong: TypeAlias = Any
 Call = Callable[[Any], object]

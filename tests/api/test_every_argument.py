@@ -14,7 +14,7 @@ import pytest
 
 import mudline
 from tests.api.test_arguments import CURVE, DECK, MODEL, RESULT, SCENE, SERIES, STATE, WHERE, Wrong
-from tests.builders.decks import CLEAN
+from tests.helpers.builders.decks import CLEAN
 
 DT = {"positions": WHERE, "velocities": np.zeros_like(WHERE), "state": STATE, "dt": 0.1}
 STEPS: dict[str, Any] = {"positions": WHERE, "present": np.ones(3, np.bool_), "velocities": np.zeros_like(WHERE)}

@@ -11,10 +11,10 @@ import yaml
 from pydantic_core import from_json
 
 import mudline
-from mudline.deck.loading import load_bytes, load_path
+from mudline.language.deck.loading import load_bytes, load_path
 from tests.api.test_pickles import DECKS
-from tests.builders.decks import CLEAN
 from tests.cli.runner import SAMPLES, Json, no_constant, run
+from tests.helpers.builders.decks import CLEAN
 
 TRICKY = [
     *(

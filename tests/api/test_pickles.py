@@ -10,15 +10,15 @@ import numpy as np
 import pytest
 
 import mudline
-from mudline.contact.plan import Backend
-from mudline.deck.loading import load_path
-from mudline.linting.engine import LintSettings
-from mudline.linting.fixing import lint_one
-from mudline.linting.registry import rules
-from mudline.scene.model import resolve
+from mudline.checks.engine import LintSettings
+from mudline.checks.fixing import lint_one
+from mudline.checks.registry import rules
+from mudline.language.deck.loading import load_path
+from mudline.model.contact.plan import Backend
+from mudline.model.scene.model import resolve
 from tests.api.test_arguments import arrays_of
-from tests.builders.contact import everything, journey
 from tests.cli.runner import SAMPLES
+from tests.helpers.builders.contact import everything, journey
 
 Thing = TypeVar("Thing")
 

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 import mudline
-from mudline.contact.seabed import SlopingSeabed
-from mudline.results.evaluation import evaluate_scene
-from mudline.scene.model import resolve
-from tests.builders.decks import BAD_NUMBER, CLEAN
+from mudline.model.contact.seabed import SlopingSeabed
+from mudline.model.results.evaluation import evaluate_scene
+from mudline.model.scene.model import resolve
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
 
 SAMPLES = Path(__file__).parents[2] / "samples"
 

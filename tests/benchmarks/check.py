@@ -18,8 +18,8 @@ from functools import partial
 from itertools import count
 from pathlib import Path
 
-from mudline.linting import registry
-from mudline.linting.engine import lint_bytes
+from mudline.checks import registry
+from mudline.checks.engine import lint_bytes
 from tests.benchmarks import decks, reading, start
 from tests.benchmarks.bench import Bench
 from tests.benchmarks.contact import Work, all_laws, by_hand, one_curve, series, stepping, streaming

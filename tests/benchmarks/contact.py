@@ -29,11 +29,11 @@ from pathlib import Path
 
 import numpy as np
 
-from mudline.contact import ContactInput, ContactModel, LawAssignment
-from mudline.contact.arrays import FloatArray, IndexArray
-from mudline.contact.plan import Backend
-from mudline.contact.seabed import PlanesSeabed, SlopingSeabed
-from tests.builders.contact import ALONG_Y, CLAY, FRICTION, bridge_law, line, on, renumbered, suction
+from mudline.model.contact import ContactInput, ContactModel, LawAssignment
+from mudline.model.contact.arrays import FloatArray, IndexArray
+from mudline.model.contact.plan import Backend
+from mudline.model.contact.seabed import PlanesSeabed, SlopingSeabed
+from tests.helpers.builders.contact import ALONG_Y, CLAY, FRICTION, bridge_law, line, on, renumbered, suction
 
 Work = Callable[[], object]
 Clock = Callable[[], float]
@@ -43,7 +43,7 @@ _NODE_STEPS = 400_000
 _FIRST = """
 import time
 from tests.benchmarks.contact import all_laws, series
-from mudline.contact import ContactModel
+from mudline.model.contact import ContactModel
 import numba
 inputs = all_laws(1000)
 positions, times = series(inputs, 4), [0.0, 0.1, 0.2, 0.3]

@@ -21,7 +21,7 @@ from tests.benchmarks.decks import ALIKE
 from tests.benchmarks.runner import ROOT, Job, cpu, figure
 
 if TYPE_CHECKING:
-    from tests.lsp.raw import RawClient
+    from tests.tools.lsp.raw import RawClient
 
 LINES = (240, 20_000)
 LONG = 10**6
@@ -74,7 +74,7 @@ def _seconds(bench: Bench, text: str, changes: int, rounds: int) -> list[float]:
 
 def waits(path: Path, changes: int) -> list[float]:
     """Seconds from each change to its findings: digits are written behind the first number with a fraction."""
-    from tests.lsp.raw import raw_client  # noqa: PLC0415 - what compares figures needs no library of the server
+    from tests.tools.lsp.raw import raw_client  # noqa: PLC0415 - what compares figures needs no library of the server
 
     text, uri = path.read_text(encoding="utf-8"), path.absolute().as_uri()
     found = re.search(r"^ .*?\d\.\d", text, re.MULTILINE)

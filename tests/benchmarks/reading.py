@@ -17,7 +17,9 @@ SIZES = tuple(10**power for power in range(2, 8))
 
 _OURS = Work("import mudline", "return mudline.read(path)")
 LINT = Work("import mudline", "return mudline.lint(path)")
-_ARRAYS = "import mudline\nfrom mudline.diagnostics import Span\nfrom mudline.syntax.rows import read_rows"
+_ARRAYS = (
+    "import mudline\nfrom mudline.language.diagnostics import Span\nfrom mudline.language.syntax.rows import read_rows"
+)
 
 
 def run(bench: Bench) -> None:

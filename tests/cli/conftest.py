@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.builders.decks import CLEAN
+from tests.helpers.builders.decks import CLEAN
 
 Place = Callable[..., str]
 

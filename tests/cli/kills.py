@@ -23,9 +23,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
-from mudline import files
 from mudline.__main__ import main
-from tests.builders.decks import CLEAN
+from mudline.basics import files
+from tests.helpers.builders.decks import CLEAN
 
 DECK = (
     CLEAN.partition("*SEABED PROPERTIES")[0].replace("100.0", "{depth}")

@@ -15,7 +15,7 @@ from unittest.mock import patch
 import pytest
 
 from mudline.__main__ import main
-from tests.processes import TIMEOUT
+from tests.helpers.processes import TIMEOUT
 
 ROOT = Path(__file__).parents[2]
 SAMPLES = ROOT / "samples"

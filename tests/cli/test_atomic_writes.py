@@ -10,8 +10,8 @@ from unittest.mock import Mock
 
 import pytest
 
-from mudline import files
-from mudline.files import write_atomically
+from mudline.basics import files
+from mudline.basics.files import write_atomically
 from tests.cli.conftest import Place
 from tests.cli.kills import COMMANDS, NEW, OLD, written
 from tests.cli.runner import run

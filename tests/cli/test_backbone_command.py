@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import mudline
-from mudline.curves.backbones import MODELS, Backbone, Soil
+from mudline.model.curves.backbones import MODELS, Backbone, Soil
 from tests.cli.runner import run
 
 CLAY = ("--diameter", "0.3", "--strength", "5000,1500")

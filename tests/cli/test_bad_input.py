@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.builders.decks import CLEAN
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Outcome, assert_fits, run
+from tests.helpers.builders.decks import CLEAN
 
 EVERY = [
     ("lint",),

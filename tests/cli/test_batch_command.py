@@ -12,14 +12,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mudline.basics.quantities import CASES
 from mudline.cli import batch_cases, batch_command
 from mudline.cli.batch_cases import Order, named_cases
 from mudline.cli.inputs import Input
-from mudline.quantities import CASES
-from mudline.running import executors, remembered
-from tests.builders.decks import BAD_NUMBER, CLEAN, PULLING
+from mudline.tools.running import executors, remembered
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Json, Outcome, assert_fits, run
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, PULLING
 
 DEEP = CLEAN.replace("-0.1,", "-0.2,")
 """Twice as deep as CLEAN: twice the force."""

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from mudline.deck.loading import load_bytes, load_path
-from tests.builders.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED
+from mudline.language.deck.loading import load_bytes, load_path
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, process, run
-from tests.samples import FAULTY
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED
+from tests.helpers.samples import FAULTY
 
 LEGIBLE = sorted(path.name for path in SAMPLES.glob("*.key*") if path.name not in FAULTY)
 

@@ -12,11 +12,11 @@ import pytest
 from openpyxl import Workbook
 
 import mudline
-from mudline.quantities import ELEMENTS, LINES
-from mudline.results.forms import xlsx
-from tests.builders.decks import CLEAN, CLEAN_WARNING
+from mudline.basics.quantities import ELEMENTS, LINES
+from mudline.model.results.forms import xlsx
 from tests.cli.conftest import Place
 from tests.cli.runner import run
+from tests.helpers.builders.decks import CLEAN, CLEAN_WARNING
 
 Rows = Sequence[Sequence[object]]
 UNCALCULATED = "a formula that was never calculated: open the workbook in a spreadsheet program and save it"
@@ -209,7 +209,7 @@ def test_a_name_twice_and_two_systems() -> None:
 
 
 def test_a_workbook_that_unpacks_to_too_much(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mudline.scene.workbook.LARGEST_FILE", 1000)
+    monkeypatch.setattr("mudline.model.scene.workbook.LARGEST_FILE", 1000)
     Workbook().save(folder / "large.xlsx")
     outcome = run("convert", folder / "large.xlsx", "-o", folder / "o.keyxm")
     assert outcome.code == 1

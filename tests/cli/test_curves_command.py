@@ -10,9 +10,9 @@ from xml.parsers import expat
 
 import pytest
 
-from tests.builders.decks import CLEAN, LINEAR, UNSORTED, UNUSED
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, assert_fits, run
+from tests.helpers.builders.decks import CLEAN, LINEAR, UNSORTED, UNUSED
 
 TEXT = """\
 curve Clay: 3 points

@@ -10,9 +10,9 @@ import pytest
 
 from mudline.cli import diff_command
 from mudline.cli.diff_command import code, fenced
-from tests.builders.decks import BAD_NUMBER, CLEAN, LINEAR
 from tests.cli.conftest import Place
 from tests.cli.runner import assert_fits, run
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, LINEAR
 
 BARE = CLEAN.partition("*SEABED")[0]
 OLD = BARE + "*ELASTIC SURFACE\n 20000.0, 0.3, 0.6\n"

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.runner import ROOT
-from tests.processes import TIMEOUT
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
+from tests.helpers.processes import TIMEOUT
 
 pytestmark = [
     pytest.mark.skipif(shutil.which("git") is None, reason="git is missing"),

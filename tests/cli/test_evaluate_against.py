@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mudline.contact import numpy_driver
-from mudline.contact.result import Part
-from mudline.results.against import Comparison
-from tests.builders.decks import CLEAN_WARNING
+from mudline.model.contact import numpy_driver
+from mudline.model.contact.result import Part
+from mudline.model.results.against import Comparison
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, assert_fits, run
 from tests.cli.test_evaluate_files import STEPS
+from tests.helpers.builders.decks import CLEAN_WARNING
 
 THEIRS = "element,force,stiffness\n1,1400.0,10000.0\n2,,0.0\n7,1,1\n"
 

@@ -6,9 +6,9 @@ import csv
 
 import pytest
 
-from tests.builders.decks import CLEAN, CLEAN_WARNING, LINEAR, PULLING
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Json, assert_fits, run
+from tests.helpers.builders.decks import CLEAN, CLEAN_WARNING, LINEAR, PULLING
 
 RIGID = CLEAN.partition("*SEABED PROPERTIES")[0] + "*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n"
 FRICTION = CLEAN.replace(" STIFFNESS=Clay\n", " STIFFNESS=Clay\n FRICTION=0.3, 0.5\n")

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mudline.cli.evaluate_inputs import read_headings
-from mudline.results.forms import FORMS
+from mudline.model.results.forms import FORMS
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Json, Outcome, assert_fits, run
 

@@ -8,7 +8,7 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 
-from mudline.results.forms import parquet
+from mudline.model.results.forms import parquet
 from tests.cli.conftest import Place
 from tests.cli.runner import run
 
@@ -36,7 +36,7 @@ def test_parquet_has_groups_of_rows(place: Place, long: str, folder: Path, monke
 
 
 def test_without_pyarrow(place: Place, folder: Path) -> None:
-    with patch.dict("sys.modules", {"mudline.results.forms.parquet": None}):
+    with patch.dict("sys.modules", {"mudline.model.results.forms.parquet": None}):
         outcome = run("evaluate", place(), "-o", "out.parquet")
     assert (outcome.code, outcome.out) == (1, "")
     assert outcome.err == "mudline: .parquet needs pyarrow: pip install 'mudline[parquet]'\n"

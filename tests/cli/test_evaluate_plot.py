@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from tests.builders.decks import CLEAN, CLEAN_WARNING
 from tests.cli.conftest import Place
 from tests.cli.runner import run
 from tests.cli.test_evaluate_files import STEPS
+from tests.helpers.builders.decks import CLEAN, CLEAN_WARNING
 
 pytest.importorskip("matplotlib")
 

@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mudline.results.forms import FORMS
-from tests.builders.decks import CLEAN
+from mudline.model.results.forms import FORMS
 from tests.cli.conftest import Place
 from tests.cli.runner import assert_fits, run
 from tests.cli.test_evaluate_states import BOTH, RIGID
+from tests.helpers.builders.decks import CLEAN
 
 STEPS = 700
 DECKS = {"without history": CLEAN, "with history": BOTH, "rigid": RIGID}

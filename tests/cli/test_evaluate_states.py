@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mudline.contact import ContactModel
-from mudline.scene.positions import StepFile
-from tests.builders.decks import CLEAN
+from mudline.model.contact import ContactModel
+from mudline.model.scene.positions import StepFile
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, assert_fits, run
+from tests.helpers.builders.decks import CLEAN
 
 UPLIFT = CLEAN + "*SEABED SUCTION\n SET=Pipe\n COHESION=4000.0\n"
 SLIDING = CLEAN + "*SEABED FRICTION\n SET=Pipe\n COEFFICIENTS=0.5, 0.5\n STIFFNESS=1.0E5\n"

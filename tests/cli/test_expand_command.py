@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from mudline.deck.loading import load_bytes
-from mudline.deck.parameters import Parameters
-from tests.builders.decks import CLEAN
+from mudline.language.deck.loading import load_bytes
+from mudline.language.deck.parameters import Parameters
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, assert_fits, run
+from tests.helpers.builders.decks import CLEAN
 
 STUDY = f"""\
 $PREPROCESSOR

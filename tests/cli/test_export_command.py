@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.runner import SAMPLES, assert_fits, run
-from tests.export.decks import ELASTIC, text
+from tests.tools.exporting.decks import ELASTIC, text
 
 PLAIN = text(bed=ELASTIC.replace(" FRICTION=0.3, 0.5, 0.01, 0.02\n", ""))
 

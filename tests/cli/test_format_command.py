@@ -12,13 +12,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.cli.changes import unified_diff
-from mudline.formatting import document
-from mudline.formatting.document import formatted
-from tests.builders.decks import BAD_NUMBER, CLEAN
+from mudline.editing.formatting import document
+from mudline.editing.formatting.document import formatted
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, run
-from tests.growth import FOURFOLD, growth
-from tests.samples import FAULTY
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
+from tests.helpers.growth import FOURFOLD, growth
+from tests.helpers.samples import FAULTY
 
 UGLY = "$model\n*ocean\n100 1025\t9.81\nC note  \n\n\n*NODE\n1,0,0\n10,0,100.5\n"
 PRETTY = "$MODEL\n*OCEAN\n 100, 1025, 9.81\nC note\n\n*NODE\n  1, 0,   0\n 10, 0, 100.5\n"

@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 
 from mudline.cli.inputs import Input, collect
-from tests.builders.decks import BAD_NUMBER, CLEAN, CLEAN_WARNING
 from tests.cli.conftest import Place
 from tests.cli.runner import run
-from tests.processes import TIMEOUT
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, CLEAN_WARNING
+from tests.helpers.processes import TIMEOUT
 
 CONCISE = ("--output-format", "concise")
 NAMING = "$LOAD CASE\n*RESTART\n LAST=deck\n$MODEL\n*SEABED PROFILE\n FILE=named.csv\n"

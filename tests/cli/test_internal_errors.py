@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
-from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.conftest import Place
 from tests.cli.runner import run
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
 
 LOOPS: dict[str, tuple[str, str, Callable[..., str], list[str]]] = {
     "lint": ("linting.fixing", "_lint_one", lambda name, *_: name, ["--output-format", "json"]),
@@ -39,9 +39,9 @@ def test_an_internal_error_loses_no_other_deck(
         return called(*given)
 
     monkeypatch.setattr(f"mudline.{module}.{function}", failing)
-    monkeypatch.setattr("mudline.running.executors.PAYS", dict.fromkeys(("fork", "forkserver", "spawn"), 0.0))
-    monkeypatch.setattr("mudline.running.executors.TRIED", 0.0)
-    monkeypatch.setattr("mudline.running.executors.start_method", lambda: "fork")
+    monkeypatch.setattr("mudline.tools.running.executors.PAYS", dict.fromkeys(("fork", "forkserver", "spawn"), 0.0))
+    monkeypatch.setattr("mudline.tools.running.executors.TRIED", 0.0)
+    monkeypatch.setattr("mudline.tools.running.executors.start_method", lambda: "fork")
     for name, text in (("a", CLEAN), ("bad", CLEAN), ("c", BAD_NUMBER), ("d", BAD_NUMBER)):
         place(text, f"decks/{name}.keyxm")
     verbose = ["-v"] if jobs == "2" else []

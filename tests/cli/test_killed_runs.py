@@ -13,7 +13,7 @@ from mudline.cli import DONE, WRONG_USAGE
 from mudline.cli.inputs import Input
 from tests.cli.kills import DECK
 from tests.cli.runner import ROOT, run
-from tests.processes import TIMEOUT
+from tests.helpers.processes import TIMEOUT
 
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="there are no such signals")
 

@@ -8,9 +8,9 @@ import sys
 
 import pytest
 
-from tests.builders.decks import BAD_NUMBER
 from tests.cli.conftest import Place
-from tests.processes import TIMEOUT
+from tests.helpers.builders.decks import BAD_NUMBER
+from tests.helpers.processes import TIMEOUT
 
 HEAVY = frozenset({"click", "lark", "matplotlib", "numpy", "pydantic", "rich", "yaml", "numba", "scipy", "pyarrow"})
 PROGRAM = """\
@@ -42,7 +42,9 @@ def test_version_needs_nothing() -> None:
 def test_help_needs_no_command() -> None:
     names = modules("--help")
     assert heavy(names) == {"click"}
-    assert not any(name.startswith(("mudline.deck", "mudline.scene", "mudline.keywords")) for name in names)
+    assert not any(
+        name.startswith(("mudline.language.deck", "mudline.model.scene", "mudline.language.keywords")) for name in names
+    )
 
 
 def test_import_of_the_package_needs_nothing() -> None:
@@ -64,16 +66,16 @@ def test_findings_for_programs_need_no_rich(place: Place) -> None:
 @pytest.mark.parametrize("other", ["", "*COATINGS\n SET=ALL\n 0.05, 900.0\n"])
 def test_keywords_that_a_deck_lacks_are_not_loaded(place: Place, other: str) -> None:
     names = modules("lint", place(f"$MODEL\n*OCEAN\n 100.0, 1025.0, 9.81\n{other}"), "--output-format", "json")
-    assert {name for name in names if name.startswith("mudline.keywords.library.")} == {
-        "mudline.keywords.library.ocean"
+    assert {name for name in names if name.startswith("mudline.language.keywords.library.")} == {
+        "mudline.language.keywords.library.ocean"
     }
 
 
 def test_evaluation_loads_only_what_the_deck_needs(place: Place) -> None:
     names = modules("evaluate", place(), "--output-format", "json")
     assert not names & {"rich", "matplotlib", "yaml", "scipy", "numba", "multiprocessing", "pyarrow"}
-    assert "mudline.contact.laws.curve" in names
-    assert "mudline.contact.laws.linear" not in names
+    assert "mudline.model.contact.laws.curve" in names
+    assert "mudline.model.contact.laws.linear" not in names
 
 
 def test_curves_draw_nothing_unasked(place: Place) -> None:

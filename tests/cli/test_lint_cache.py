@@ -13,20 +13,20 @@ from typing import Any
 
 import pytest
 
-from mudline import cache_folder
+from mudline.basics import cache_folder
+from mudline.checks.configuration import Given
+from mudline.checks.engine import LintSettings
+from mudline.checks.fixing import FileReport, lint_one
+from mudline.checks.registry import rules
 from mudline.cli import lint_run
 from mudline.cli.config_command import Configured
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.known_findings import known_findings
-from mudline.diagnostics import Coverage, Diagnostic, Severity
-from mudline.linting.configuration import Given
-from mudline.linting.engine import LintSettings
-from mudline.linting.fixing import FileReport, lint_one
-from mudline.linting.registry import rules
-from mudline.running import remembered
-from tests.builders.decks import BAD_NUMBER, CLEAN, UNSORTED
+from mudline.language.diagnostics import Coverage, Diagnostic, Severity
+from mudline.tools.running import remembered
 from tests.cli.conftest import Place
 from tests.cli.runner import Json, run
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, UNSORTED
 
 Linted = list[str]
 
@@ -129,7 +129,7 @@ def test_a_deck_is_linted_again_when_its_profile_has_changed(folder: Path, place
 LIBRARIES = """
 import sys
 from mudline.__main__ import main
-from mudline.running import remembered
+from mudline.tools.running import remembered
 
 remembered._COARSE = 0.0
 print(main(["lint", *sys.argv[1:]]), sorted({"lark", "numpy", "pydantic"} & sys.modules.keys()))

@@ -8,16 +8,16 @@ from pathlib import Path
 
 import pytest
 
-from mudline import cache_folder
-from mudline.diagnostics import Diagnostic
-from mudline.linting.engine import lint_bytes
-from mudline.linting.registry import rules
-from mudline.running import executors
-from tests.builders.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED
-from tests.builders.decks import UNUSED as SOFT
+from mudline.basics import cache_folder
+from mudline.checks.engine import lint_bytes
+from mudline.checks.registry import rules
+from mudline.language.diagnostics import Diagnostic
+from mudline.tools.running import executors
+from tests.checks.test_recovery import changed
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Outcome, assert_fits, run
-from tests.linting.test_recovery import changed
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED
+from tests.helpers.builders.decks import UNUSED as SOFT
 
 UNUSED = SOFT.replace(" 0.1, 1.0\n", " 0.1, 100.0\n")
 """A REF003 (warning), and nothing else."""

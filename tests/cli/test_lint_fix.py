@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.conftest import Place
 from tests.cli.runner import assert_fits, run
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
 
 IDLE = CLEAN.replace(" CURVE=Clay", "C mudline: ignore CRV005\n CURVE=Clay")
 """A STY010 (warning) with a safe fix at 24:19, and nothing else."""

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from tests.builders.decks import CLEAN
 from tests.cli.conftest import Place
 from tests.cli.runner import run
+from tests.helpers.builders.decks import CLEAN
 
 
 def test_decks_in_json_and_yaml_are_taken_from_a_folder(place: Place) -> None:

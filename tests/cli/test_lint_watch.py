@@ -12,9 +12,9 @@ from types import SimpleNamespace
 import pytest
 
 from mudline.cli import lint_watch
-from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.conftest import Place
 from tests.cli.runner import Outcome, run
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
 
 Steps = list[tuple[str, str | None]]
 

@@ -16,10 +16,10 @@ import mudline
 from mudline.__main__ import main
 from mudline.cli.inputs import Input
 from mudline.cli.main import COMMANDS
-from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.conftest import Place
 from tests.cli.runner import Stream, process, run
-from tests.processes import TIMEOUT
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
+from tests.helpers.processes import TIMEOUT
 
 EVERY = sorted(COMMANDS)
 

@@ -7,12 +7,12 @@ from unittest.mock import patch
 
 import pytest
 
-from mudline.deck.loading import load_bytes, load_path
-from mudline.migration.migrating import Difference, Verdict
-from tests.builders.decks import CLEAN
+from mudline.editing.migration.migrating import Difference, Verdict
+from mudline.language.deck.loading import load_bytes, load_path
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, run
-from tests.migration.test_migrating import MIGRATED, SAMPLE
+from tests.editing.migration.test_migrating import MIGRATED, SAMPLE
+from tests.helpers.builders.decks import CLEAN
 
 PROFILE = CLEAN.partition("*SEABED")[0] + "*RIGID SURFACE\n 0.3\n 0, 0\n 10, 1\n"
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.builders.decks import CLEAN, ILLEGAL, UNUSED
 from tests.cli.runner import run
+from tests.helpers.builders.decks import CLEAN, ILLEGAL, UNUSED
 
 COMMANDS = (
     ("lint", "--fail-on", "error"),

@@ -14,13 +14,13 @@ from unittest.mock import Mock
 
 import pytest
 
-from mudline import files
+from mudline.basics import files
+from mudline.basics.files import replacement, write_atomically
 from mudline.cli.inputs import collect
-from mudline.files import replacement, write_atomically
-from tests.builders.decks import CLEAN
 from tests.cli.conftest import Place
 from tests.cli.runner import process, run
-from tests.processes import TIMEOUT, started
+from tests.helpers.builders.decks import CLEAN
+from tests.helpers.processes import TIMEOUT, started
 
 
 def mode(path: Path) -> int:
@@ -122,7 +122,7 @@ import sys, time
 from pathlib import Path
 from mudline.__main__ import main
 from mudline.cli import main as command_line
-from mudline.files import replacement
+from mudline.basics.files import replacement
 
 def held(arguments):
     with replacement(Path("out.json")) as stream:

@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from tests.builders.decks import BAD_NUMBER
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, process, run
 from tests.cli.test_expand_command import STUDY, files
-from tests.processes import TIMEOUT, started
+from tests.helpers.builders.decks import BAD_NUMBER
+from tests.helpers.processes import TIMEOUT, started
 
 PIPED = {
     "lint": ["lint", str(SAMPLES / "broken.keyxm")],

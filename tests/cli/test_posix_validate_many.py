@@ -13,9 +13,9 @@ import pytest
 from mudline.__main__ import main
 from mudline.cli import view
 from mudline.cli.inputs import Input
-from tests.builders.decks import CLEAN, ILLEGAL
 from tests.cli.conftest import Place
 from tests.cli.runner import Outcome, Stream, assert_fits, run
+from tests.helpers.builders.decks import CLEAN, ILLEGAL
 
 TOTAL = "3 of 7 decks legal: 2 illegal, 2 empty, 2 errors, 2 warnings, 1 file unreadable"
 

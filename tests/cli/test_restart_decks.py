@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.builders.decks import CLEAN, ILLEGAL
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, run
+from tests.helpers.builders.decks import CLEAN, ILLEGAL
 
 DYNAMIC = "$LOAD CASE\n*RESTART\n LAST=static\n$MODEL\n*ELEMENT SETS\n SET=First\n SUBSET=Pipe\n"
 

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from mudline.linting.registry import rules
-from tests.builders.decks import CLEAN
+from mudline.checks.registry import rules
 from tests.cli.runner import SAMPLES, assert_fits, run
-from tests.samples import FAULTY
+from tests.helpers.builders.decks import CLEAN
+from tests.helpers.samples import FAULTY
 
 CODES = [rule.code.code for rule in rules()]
 
@@ -141,5 +141,5 @@ def test_without_its_library_it_names_the_extra(monkeypatch: pytest.MonkeyPatch)
 
 def test_the_library_is_imported_when_it_serves(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("pygls")
-    monkeypatch.setattr("mudline.lsp.serving.serve", lambda: 0)
+    monkeypatch.setattr("mudline.tools.lsp.serving.serve", lambda: 0)
     assert run("lsp").code == 0

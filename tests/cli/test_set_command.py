@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.conftest import Place
 from tests.cli.runner import run
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
 
 DEEP = CLEAN.replace(" 100.0,", " 150.5,")
 EQUATION = CLEAN.replace(" 100.0,", " =[90+10],")

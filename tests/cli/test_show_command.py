@@ -6,9 +6,9 @@ import re
 
 import pytest
 
-from tests.builders.decks import CLEAN, ILLEGAL, LINEAR
 from tests.cli.conftest import Place
 from tests.cli.runner import assert_fits, run
+from tests.helpers.builders.decks import CLEAN, ILLEGAL, LINEAR
 
 TEXT = """\
 deck.keyxm: metric units, 3 nodes, 2 elements, 20.008 m long, elastic seabed

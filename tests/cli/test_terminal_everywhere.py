@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.archive.trial import deck
 from tests.cli.conftest import Place
 from tests.cli.runner import Outcome, run
+from tests.tools.archive.trial import deck
 
 HOSTILE = "\x1b[31m\x9b31m\x07\x08\x7f\u202e\u2066\u2028"
 """Escape and control sequences, a bell, a backspace, overrides of the direction of a text, a line separator."""

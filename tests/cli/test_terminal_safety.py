@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.builders.decks import UNUSED
 from tests.cli.runner import Outcome, run
+from tests.helpers.builders.decks import UNUSED
 
 HOSTILE = {
     "escape": "\x1b[31m\x1b]0;gone\x07\x1b[2J",

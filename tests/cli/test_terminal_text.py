@@ -8,14 +8,14 @@ import re
 import pytest
 from rich.cells import cell_len
 
+from mudline.basics.limits import LONGEST_MESSAGE
+from mudline.checks.output import form, visible, visible_lines
 from mudline.cli.printing import excerpt
-from mudline.diagnostics import Diagnostic, Edit, Fix, Severity
-from mudline.limits import LONGEST_MESSAGE
-from mudline.linting.output import form, visible, visible_lines
-from mudline.syntax.source import Source
-from tests.builders.decks import BAD_NUMBER, CLEAN, UNUSED
+from mudline.language.diagnostics import Diagnostic, Edit, Fix, Severity
+from mudline.language.syntax.source import Source
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Outcome, assert_fits, process, run
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN, UNUSED
 
 ESCAPE = re.compile(r"\x1b\[[0-9;]*m")
 COMMANDS = [("lint",), ("validate",), ("show",), ("curves",), ("evaluate",)]

@@ -6,9 +6,9 @@ import csv
 
 import pytest
 
-from tests.builders.decks import CLEAN, ILLEGAL, UNUSED
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, assert_fits, run
+from tests.helpers.builders.decks import CLEAN, ILLEGAL, UNUSED
 
 COLUMNS = ["file", "sections", "keywords", "curves", "elements", "errors", "warnings", "verdict"]
 READ = {"total": 7, "read": 7, "partly": {}, "unread": {}}

@@ -17,14 +17,19 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
-from mudline import files
 from mudline.__main__ import main
-from tests.archive.trial import deck, write
-from tests.builders.decks import CLEAN
+from mudline.basics import files
+from tests.helpers.builders.decks import CLEAN
+from tests.tools.archive.trial import deck, write
 
 UNTIDY = CLEAN.replace(" 0.1, 1000.0\n", " 0.1 1.0D3\n").replace(" 1, 1, 2\n", "\t1, 1, 2\n")
 """A deck that `lint --fix` changes."""
-IMPORTED = ("mudline.cli.lint_run", "mudline.linting.fixing", "mudline.scene.rules", "mudline.archive.updating")
+IMPORTED = (
+    "mudline.cli.lint_run",
+    "mudline.checks.fixing",
+    "mudline.model.scene.rules",
+    "mudline.tools.archive.updating",
+)
 """What the copies need, none of which reads a grammar yet."""
 CACHE = "../cache"
 
@@ -103,7 +108,7 @@ def indexed(decks: int) -> Iterator[str]:
     """Two runs that bring decks into one archive: others, and the same."""
     if not (find_spec("duckdb") and find_spec("pyarrow")):
         return
-    from tests.archive.trial import contents  # noqa: PLC0415 - an extra
+    from tests.tools.archive.trial import contents  # noqa: PLC0415 - an extra
 
     for half in ("decks/a", "decks/b"):
         write(Path(half), **{f"d{number}": deck(half, depth=100.0 + number) for number in range(decks // 2)})
@@ -124,7 +129,7 @@ def run_all(decks: int, rounds: int) -> bool:
     """Whether nothing was wrong, which is printed."""
     wrong = []
     for name in IMPORTED:
-        if name != "mudline.archive.updating" or find_spec("duckdb"):
+        if name != "mudline.tools.archive.updating" or find_spec("duckdb"):
             import_module(name)
     for _ in range(rounds):
         for scenario in (fixed, cached, indexed):

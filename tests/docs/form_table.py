@@ -6,10 +6,10 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
-from mudline.archive.tables import TABLES, columns_of
-from mudline.linting.output import TEXT, TEXT_SUMMARY, form_module, form_names
-from mudline.quantities import CASES, ELEMENTS, LINES, NODES, Quantity
-from mudline.results.forms import FORMS
+from mudline.basics.quantities import CASES, ELEMENTS, LINES, NODES, Quantity
+from mudline.checks.output import TEXT, TEXT_SUMMARY, form_module, form_names
+from mudline.model.results.forms import FORMS
+from mudline.tools.archive.tables import TABLES, columns_of
 from tests.docs.marking import marked
 
 _ROOT = Path(__file__).parents[2]

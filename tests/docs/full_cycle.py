@@ -11,10 +11,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import mudline
-from mudline.results.plot_data import Cycle
-from mudline.results.plots.curves import draw_path
-from mudline.scene.model import resolve
-from mudline.scene.positions import read_positions
+from mudline.model.results.plot_data import Cycle
+from mudline.model.results.plots.curves import draw_path
+from mudline.model.scene.model import resolve
+from mudline.model.scene.positions import read_positions
 
 _ELEMENT = 0
 

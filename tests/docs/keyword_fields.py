@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from mudline.keywords.fields import FieldInfo
-from mudline.keywords.format import TAKES, range_text, unit_text
-from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Row, Rows, record_schema
+from mudline.language.keywords.fields import FieldInfo
+from mudline.language.keywords.format import TAKES, range_text, unit_text
+from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Row, Rows, record_schema
 from tests.docs.marking import marked
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from mudline.keywords import catalogue
-from mudline.keywords.names_only import NAMES
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.names_only import NAMES
 from tests.docs.keyword_page import models, page_name, sections_of, title
 from tests.docs.keyword_rules import Declared
 from tests.docs.marking import MADE, marked

@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from mudline.keywords import catalogue
-from mudline.keywords.format import format_lines
-from mudline.keywords.model import Block
-from mudline.keywords.values import OpaqueKeyword
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.format import format_lines
+from mudline.language.keywords.model import Block
+from mudline.language.keywords.values import OpaqueKeyword
 from tests.docs.keyword_fields import inferences, tables
 from tests.docs.keyword_rules import Declared, keyword_of, rules_of
 from tests.docs.marking import MADE, marked

@@ -11,12 +11,12 @@ import re
 from collections.abc import Iterator
 from functools import cache
 
-from mudline.keywords import catalogue
-from mudline.keywords.model import Block
-from mudline.keywords.values import OpaqueKeyword
-from mudline.linting.engine import lint_bytes
-from mudline.linting.registry import rules
-from mudline.rules import Rule
+from mudline.checks.engine import lint_bytes
+from mudline.checks.registry import rules
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.model import Block
+from mudline.language.keywords.values import OpaqueKeyword
+from mudline.language.rules import Rule
 
 Declared = type[Block] | OpaqueKeyword
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import isnan
 
-from mudline.contact.laws import BUILT_IN, Law, Parameter, law_named
+from mudline.model.contact.laws import BUILT_IN, Law, Parameter, law_named
 
 _HEAD = """\
 # The contact laws

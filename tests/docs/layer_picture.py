@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import tomllib
 from collections.abc import Collection, Iterator
 from functools import cache
 from graphlib import TopologicalSorter
@@ -12,8 +11,11 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2] / "src" / "mudline"
 
-BASE = "diagnostics, files, ..."
+ROOMS = ("language", "model", "editing", "tools")
+"""The rooms whose packages have a box each; the others are a box."""
+BASE = "codes, diagnostics, rules"
 API = ("api", "plugins")
+_ROOM_COLOURS = {"language": "#e8f0f7", "model": "#e6f4e6", "editing": "#fdf1d8", "tools": "#f3e8f5", "": "#f2f2f2"}
 
 _WIDTH, _ROW, _BOX = 880, 74, (118, 34)
 _GAP, _CROSSING = 10, 16
@@ -23,41 +25,36 @@ _STYLE = "font-family:sans-serif;font-size:13px"
 Graph = dict[str, set[str]]
 
 
-def upwards() -> set[tuple[str, str]]:
-    """The packages of imports that the order of the layers leaves out, as its contract in pyproject.toml lists them."""
-    settings = tomllib.loads((ROOT.parents[1] / "pyproject.toml").read_text(encoding="utf-8"))
-    (layers,) = (one for one in settings["tool"]["importlinter"]["contracts"] if one["id"] == "layers")
-    pairs = (one.split(" -> ") for one in layers.get("ignore_imports", ()))
-    return {(importer.split(".")[1], imported.split(".")[1]) for importer, imported in pairs}
-
-
 def packages() -> Graph:
-    """Return for each package the packages that it imports; the small modules beside them are one.
-
-    The imports `upwards` are left out.
-    """
-    left_out = upwards()
-    folders = {path.parent.name for path in ROOT.glob("*/__init__.py")}
-    small = {path.stem for path in ROOT.glob("*.py")} - {"__init__", "__main__", *API} | {"codes"}
-    names = {name: name for name in folders} | dict.fromkeys(small, BASE) | dict.fromkeys(API, ", ".join(API))
-    graph: Graph = {name: set() for name in names.values()}
+    """Return for each package of a room the packages that it imports; small modules beside each other are one."""
+    graph: Graph = {}
     for path in ROOT.rglob("*.py"):
-        inside = path.relative_to(ROOT)
-        importer = names.get(inside.parts[0].removesuffix(".py"))
-        for imported in _imported(path):
-            target = names.get(imported)
-            if importer and target and importer != target and (importer, target) not in left_out:
-                graph[importer].add(target)
+        importer = _package(path.relative_to(ROOT).with_suffix("").parts)
+        if importer:
+            imported = {_package(parts) for parts in _imported(path)} - {importer, ""}
+            graph.setdefault(importer, set()).update(imported)
     return graph
 
 
-def _imported(path: Path) -> Iterator[str]:
-    """The packages or modules of the top level that a module imports, types and lazy imports included."""
+def _package(parts: tuple[str, ...]) -> str:
+    """The box that a module belongs to, by the parts of its path; "" for the package mudline itself."""
+    if parts[0] in API:
+        return ", ".join(API)
+    if parts[0] not in ROOMS:
+        return "" if parts[0] in {"__init__", "__main__"} else parts[0]
+    name = parts[1] if len(parts) > 1 else "__init__"
+    return "" if name == "__init__" else BASE if name in BASE.split(", ") else name
+
+
+def _imported(path: Path) -> Iterator[tuple[str, ...]]:
+    """The modules of mudline that a module imports, types and lazy imports included."""
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.ImportFrom) and node.module == "mudline":
-            yield from (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom) and node.module and node.module.startswith("mudline."):
-            yield node.module.split(".")[1]
+        if isinstance(node, ast.ImportFrom) and node.module and node.module.partition(".")[0] == "mudline":
+            parts = tuple(node.module.split(".")[1:])
+            if not parts or parts in {(room,) for room in ROOMS}:
+                yield from ((*parts, alias.name) for alias in node.names if alias.name != "__version__")
+            else:
+                yield parts
 
 
 def direct(graph: Graph) -> Graph:
@@ -131,10 +128,16 @@ def _box_width(name: str) -> int:
     return max(_BOX[0], 8 * len(name) + 12)
 
 
+def _room(name: str) -> str:
+    """The room of a box, "" for one that is a room of its own."""
+    found = (room for room in ROOMS if (ROOT / room / name.split(", ")[0]).with_suffix(".py").exists())
+    return next(found, next((room for room in ROOMS if (ROOT / room / name).is_dir()), ""))
+
+
 def _box(name: str, x: float, y: float) -> str:
     width, height = _box_width(name), _BOX[1]
     return (
         f'<rect x="{x - width / 2:.0f}" y="{y - height / 2:.0f}" width="{width}" height="{height}" rx="4"'
-        ' fill="#e8f0f7" stroke="#36648b"/>'
+        f' fill="{_ROOM_COLOURS[_room(name)]}" stroke="#36648b"/>'
         f'<text x="{x:.0f}" y="{y + 4.5:.0f}" text-anchor="middle" style="{_STYLE}">{name}</text>\n'
     )

@@ -1,4 +1,4 @@
-"""The page of limits, made from `mudline.limits`: each with its value and its reason."""
+"""The page of limits, made from `mudline.basics.limits`: each with its value and its reason."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from inspect import getsource
 from itertools import pairwise
 
-from mudline import limits
+from mudline.basics import limits
 
 _HEAD = """# Limits
 

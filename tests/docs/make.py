@@ -9,7 +9,7 @@ from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from mudline.linting.registry import rules
+from mudline.checks.registry import rules
 from tests.docs.commands import output
 from tests.docs.form_table import pages_with_tables
 from tests.docs.keyword_index import keyword_index
@@ -19,10 +19,10 @@ from tests.docs.layer_picture import layer_picture
 from tests.docs.limits_page import limits_page
 from tests.docs.refresh import copy_of_files, refreshed
 from tests.docs.rule_pages import rule_index, rule_page
-from tests.editors.textmate import GRAMMAR, grammar_text
-from tests.editors.words import WORDS, words_text
 from tests.faults import report
 from tests.faults.rates import run
+from tests.project.editors.textmate import GRAMMAR, grammar_text
+from tests.project.editors.words import WORDS, words_text
 
 ROOT = Path(__file__).parents[2]
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
-from mudline.diagnostics import Diagnostic
-from mudline.linting.engine import lint_bytes
-from mudline.rules import Rule
+from mudline.checks.engine import lint_bytes
+from mudline.language.diagnostics import Diagnostic
+from mudline.language.rules import Rule
 from tests.docs.marking import MADE, marked
 
 _INDEX = """{made}

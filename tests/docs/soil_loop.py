@@ -10,9 +10,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import mudline
-from mudline.contact.arrays import FloatArray
-from mudline.scene.model import resolve
-from mudline.scene.positions import read_positions
+from mudline.model.contact.arrays import FloatArray
+from mudline.model.scene.model import resolve
+from mudline.model.scene.positions import read_positions
 
 ELEMENT = 14
 _FINER = 20

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from mudline.checks.configuration import KEYS, ConfigurationError, read_configuration
 from mudline.cli.schema_command import MEANINGS, configuration_schema
-from mudline.linting.configuration import KEYS, ConfigurationError, read_configuration
 from tests.docs.blocks import Page
 from tests.docs.commands import output
 from tests.docs.make import CONFIG_SCHEMA, ROOT

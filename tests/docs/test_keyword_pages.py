@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from mudline.keywords import catalogue
-from mudline.keywords.values import OpaqueKeyword
-from mudline.linting.engine import lint_bytes
-from mudline.linting.registry import rules
+from mudline.checks.engine import lint_bytes
+from mudline.checks.registry import rules
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.values import OpaqueKeyword
 from tests.docs.blocks import Page
 from tests.docs.keyword_fields import inferences
 from tests.docs.keyword_index import keyword_index

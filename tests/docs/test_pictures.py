@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mudline.contact.laws.suction import SuctionState
-from mudline.results.plot_data import Cycle
+from mudline.model.contact.laws.suction import SuctionState
+from mudline.model.results.plot_data import Cycle
 from tests.docs import soil_loop
 from tests.docs.full_cycle import cycle
 from tests.docs.layer_picture import layer_picture

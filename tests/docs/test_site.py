@@ -18,7 +18,7 @@ from urllib.parse import unquote
 import pytest
 
 from tests.docs.make import ROOT
-from tests.processes import TIMEOUT
+from tests.helpers.processes import TIMEOUT
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import asinh, cosh
 
-from tests.builders.decks import IMPERIAL, METRIC, Units
+from tests.helpers.builders.decks import IMPERIAL, METRIC, Units
 
 KILO = Units(1.0, 1000.0, "keyx")
 """User units: metre, tonne, second, so that forces are in kN."""

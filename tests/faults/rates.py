@@ -10,9 +10,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from zlib import crc32
 
-from mudline.diagnostics import Diagnostic, Severity
-from mudline.linting.engine import lint_bytes
-from mudline.linting.registry import select
+from mudline.checks.engine import lint_bytes
+from mudline.checks.registry import select
+from mudline.language.diagnostics import Diagnostic, Severity
 from tests.faults.draft import Draft, NotHere
 from tests.faults.kind import Kind
 from tests.faults.kinds_copies import COPIES, NUMBERS

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
-from mudline.diagnostics import Severity
+from mudline.language.diagnostics import Severity
 from tests.faults.known import BURIED, MISSED
 from tests.faults.rates import KINDS, Outcome, Run
 

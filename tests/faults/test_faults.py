@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from mudline.diagnostics import Severity
+from mudline.language.diagnostics import Severity
 from tests.faults import report
 from tests.faults.known import BURIED, MISSED
 from tests.faults.rates import KINDS, Outcome, Run, run

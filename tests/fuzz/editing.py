@@ -19,12 +19,12 @@ from typing import Any
 
 from pygls.io_ import run_async
 
-from mudline.linting.configuration import Configuration, Given
-from mudline.linting.engine import lint_bytes
-from mudline.linting.settings import merged_settings
-from mudline.lsp.documents import Document
-from mudline.lsp.server import DeckServer
-from mudline.lsp.serving import quiet_logs, register
+from mudline.checks.configuration import Configuration, Given
+from mudline.checks.engine import lint_bytes
+from mudline.checks.settings import merged_settings
+from mudline.tools.lsp.documents import Document
+from mudline.tools.lsp.server import DeckServer
+from mudline.tools.lsp.serving import quiet_logs, register
 
 _PATIENCE = 60.0
 """Seconds of a session: an answer that never comes would be waited for without end."""

@@ -12,23 +12,23 @@ from pathlib import Path
 from typing import NamedTuple
 from zlib import crc32
 
-from mudline.deck.forms.json import to_json
-from mudline.deck.forms.keyword import to_keyword
-from mudline.deck.loading import load_bytes
-from mudline.deck.meaning import same_meaning
-from mudline.diagnostics import DeckError, Severity
-from mudline.formatting.document import FormatError, formatted
-from mudline.keywords.values import Contents
-from mudline.linting.configuration import Configuration, ConfigurationError, Given, read_configuration
-from mudline.linting.engine import Fixing, LintSettings, lint_bytes
-from mudline.linting.fixing import fix_bytes
-from mudline.linting.registry import UnknownRule, rules
-from mudline.linting.settings import merged_settings
-from mudline.scene.data_files import fault_of, has_uneven_times
-from mudline.scene.seabed import read_profile
-from mudline.syntax.source import Source
+from mudline.checks.configuration import Configuration, ConfigurationError, Given, read_configuration
+from mudline.checks.engine import Fixing, LintSettings, lint_bytes
+from mudline.checks.fixing import fix_bytes
+from mudline.checks.registry import UnknownRule, rules
+from mudline.checks.settings import merged_settings
+from mudline.editing.formatting.document import FormatError, formatted
+from mudline.language.deck.forms.json import to_json
+from mudline.language.deck.forms.keyword import to_keyword
+from mudline.language.deck.loading import load_bytes
+from mudline.language.deck.meaning import same_meaning
+from mudline.language.diagnostics import DeckError, Severity
+from mudline.language.keywords.values import Contents
+from mudline.language.syntax.source import Source
+from mudline.model.scene.data_files import fault_of, has_uneven_times
+from mudline.model.scene.seabed import read_profile
 from tests.cli.runner import Outcome, run
-from tests.samples import SAMPLES
+from tests.helpers.samples import SAMPLES
 
 ROOT = Path(__file__).parents[2]
 NAME = "deck.keyxm"
@@ -50,7 +50,7 @@ def decks() -> list[bytes]:
     """Samples and the corpus."""
     paths = [
         *SAMPLES.glob("*.key*"),
-        *(ROOT / "tests" / "corpus").rglob("*.key*"),
+        *(ROOT / "tests" / "data" / "corpus").rglob("*.key*"),
         *Path(__file__).parent.glob("found/*"),
     ]
     return [path.read_bytes() for path in sorted(paths)]

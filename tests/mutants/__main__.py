@@ -52,16 +52,16 @@ _LAWS = (
 )
 _RECOVERY = ("recovery", "recovery_rows", "engine")
 PACKAGES = {
-    "curves": (("curves",), ["tests/curves"]),
-    "contact/laws": (("contact/laws",), [f"tests/contact/{name}" for name in _LAWS]),
-    "linting/fixing": (
-        ("linting/fixing",),
-        [f"tests/linting/test_{name}.py" for name in ("fixing", "repairs", *_RECOVERY)],
+    "model/curves": (("model/curves",), ["tests/model/curves"]),
+    "model/contact/laws": (("model/contact/laws",), [f"tests/model/contact/{name}" for name in _LAWS]),
+    "checks/fixing": (
+        ("checks/fixing",),
+        [f"tests/checks/test_{name}.py" for name in ("fixing", "repairs", *_RECOVERY)],
     ),
-    "migration": (("migration",), ["tests/migration"]),
+    "editing/migration": (("editing/migration",), ["tests/editing/migration"]),
     "keywords": (
-        ("keywords/builder", "keywords/unknown", "linting/recovery", "linting/joining"),
-        ["tests/keywords", *(f"tests/linting/test_{name}.py" for name in ("joining", *_RECOVERY))],
+        ("language/keywords/builder", "language/keywords/unknown", "checks/recovery", "checks/joining"),
+        ["tests/language/keywords", *(f"tests/checks/test_{name}.py" for name in ("joining", *_RECOVERY))],
     ),
 }
 """Of each package its modules, folders or files of `src/mudline`, and its tests."""

@@ -8,21 +8,21 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 import numpy as np
 
+from mudline.basics.quantities import shown
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.plots import Plot, plot_option
 from mudline.cli.streams import emit, notify
-from mudline.curves import CurveError, ForceCurve
-from mudline.curves.backbones import MODELS, Backbone, Model, Soil
-from mudline.deck.loading import load_bytes
-from mudline.keywords.library.embedment import Embedment
-from mudline.keywords.library.seabed_stiffness import SeabedStiffness, StiffnessCurve
-from mudline.keywords.model import Block, Comment
-from mudline.keywords.writer import block_lines
-from mudline.quantities import shown
-from mudline.scene.deck_curves import OF_SEABED
+from mudline.language.deck.loading import load_bytes
+from mudline.language.keywords.library.embedment import Embedment
+from mudline.language.keywords.library.seabed_stiffness import SeabedStiffness, StiffnessCurve
+from mudline.language.keywords.model import Block, Comment
+from mudline.language.keywords.writer import block_lines
+from mudline.model.curves import CurveError, ForceCurve
+from mudline.model.curves.backbones import MODELS, Backbone, Model, Soil
+from mudline.model.scene.deck_curves import OF_SEABED
 
 if TYPE_CHECKING:
-    from mudline.curves.points import FloatArray
+    from mudline.model.curves.points import FloatArray
 
 _FINEST = 1e-5
 _DRAWN = 400

@@ -13,18 +13,18 @@ from typing import NamedTuple
 
 import click
 
+from mudline.basics.files import recording_looks, suffix_of
 from mudline.cli.evaluate_inputs import EvaluateInputs
 from mudline.cli.inputs import Input
 from mudline.cli.result_files import all_lines, behind, beside, result_files, write_tables
 from mudline.cli.streams import UnwrittenError, reason
 from mudline.cli.view import View
-from mudline.deck.loading import load_bytes
-from mudline.diagnostics import DeckError, Diagnostic
-from mudline.files import recording_looks, suffix_of
-from mudline.results.cases import CaseSummary, case_summary
-from mudline.results.forms import FORMS
-from mudline.results.series import SeriesSummary, series_summary, series_tables
-from mudline.results.warnings import ContactWarning, ContactWatch
+from mudline.language.deck.loading import load_bytes
+from mudline.language.diagnostics import DeckError, Diagnostic
+from mudline.model.results.cases import CaseSummary, case_summary
+from mudline.model.results.forms import FORMS
+from mudline.model.results.series import SeriesSummary, series_summary, series_tables
+from mudline.model.results.warnings import ContactWarning, ContactWatch
 
 SUMMARY = "summary"
 """The name, without its suffix, of the file with the rows of all decks."""

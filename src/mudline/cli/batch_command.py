@@ -14,6 +14,10 @@ import click
 from click.core import ParameterSource
 from pydantic import TypeAdapter
 
+from mudline.basics.files import remove_left, write_atomically
+from mudline.basics.limits import SHOWN_ROWS
+from mudline.basics.overwriting import claim, reading
+from mudline.basics.quantities import CASES, csv_lines
 from mudline.cli import DONE, FOUND, evaluate_inputs, options
 from mudline.cli.batch_cases import (
     SUMMARY,
@@ -34,13 +38,9 @@ from mudline.cli.many_files import many_files
 from mudline.cli.result_files import has_library, is_installed
 from mudline.cli.streams import counted, emit, emit_json, encoded, notify, reason
 from mudline.cli.view import Progress, View
-from mudline.files import remove_left, write_atomically
-from mudline.limits import SHOWN_ROWS
-from mudline.overwriting import claim, reading
-from mudline.quantities import CASES, csv_lines
-from mudline.results.cases import CaseSummary, worst_first, write_parquet
-from mudline.running.executors import check_address
-from mudline.running.remembered import Memory, state
+from mudline.model.results.cases import CaseSummary, worst_first, write_parquet
+from mudline.tools.running.executors import check_address
+from mudline.tools.running.remembered import Memory, state
 
 _FORMS = ("csv", "json", "npz", "parquet")
 _MEMORY = ".mudline-batch"

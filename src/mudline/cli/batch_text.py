@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
+from mudline.basics.display import Cell, DisplayColumn, DisplayTable, Value, number, text
+from mudline.basics.limits import SHOWN_ROWS
+from mudline.basics.quantities import CASES, shown
 from mudline.cli.streams import counted
 from mudline.cli.view import View
-from mudline.display import Cell, DisplayColumn, DisplayTable, Value, number, text
-from mudline.limits import SHOWN_ROWS
-from mudline.quantities import CASES, shown
-from mudline.results.cases import CaseSummary
+from mudline.model.results.cases import CaseSummary
 
 _DIGITS = 5
 _LARGE = 1e7

@@ -6,10 +6,10 @@ import sys
 from collections.abc import Iterator, Sequence
 from difflib import Match, SequenceMatcher
 
+from mudline.checks.output import visible, visible_lines
 from mudline.cli.streams import emit
 from mudline.cli.view import View
-from mudline.linting.output import visible, visible_lines
-from mudline.syntax.source import Source
+from mudline.language.syntax.source import Source
 
 _LONG = 2000
 """Lines from which on those of texts with equally many are compared in pairs, as looking for moved ones takes long."""

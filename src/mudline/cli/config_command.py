@@ -11,10 +11,8 @@ from typing import Any, TypeVar
 
 import click
 
-from mudline.cli import DONE, options
-from mudline.cli.inputs import is_deck, is_document, is_in_any_form
-from mudline.cli.streams import emit, reason
-from mudline.linting.configuration import (
+from mudline.basics.patterns import matches
+from mudline.checks.configuration import (
     EXTEND,
     KEYS,
     NO_OUTSIDE,
@@ -25,8 +23,10 @@ from mudline.linting.configuration import (
     Search,
     read_configuration,
 )
-from mudline.linting.output import visible
-from mudline.patterns import matches
+from mudline.checks.output import visible
+from mudline.cli import DONE, options
+from mudline.cli.inputs import is_deck, is_document, is_in_any_form
+from mudline.cli.streams import emit, reason
 
 T = TypeVar("T")
 
@@ -41,7 +41,7 @@ _DEFAULTS = {EXTEND: "", "fail-on": "warning", "dialect": "mudline", NO_OUTSIDE:
 @options.common
 def command(*, path: str, config: str | None, isolated: bool, output_format: str) -> int:
     """Show the configuration of a deck, or of the decks in a directory, and where each value comes from."""
-    from mudline.linting.registry import code_fault  # noqa: PLC0415 - of the commands, lint alone needs all rules
+    from mudline.checks.registry import code_fault  # noqa: PLC0415 - of the commands, lint alone needs all rules
 
     inside = str(Path(path) / "-") if os.path.isdir(path) else path  # noqa: PTH112 - Path raises for a long name
     rows = list(_rows(Configured(config, isolated, code_fault).of(inside)))

@@ -13,13 +13,13 @@ from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDeck, takes_deck
 from mudline.cli.streams import emit, notify, notify_missing, write_text
 from mudline.cli.view import View
-from mudline.deck.forms import SUFFIXES, form_names, form_of
-from mudline.deck.loading import dump
-from mudline.deck.model import Deck
-from mudline.diagnostics import DeckError, Severity
-from mudline.keywords.model import Block, Comment
-from mudline.keywords.ranges import is_refused
-from mudline.keywords.table import Table
+from mudline.language.deck.forms import SUFFIXES, form_names, form_of
+from mudline.language.deck.loading import dump
+from mudline.language.deck.model import Deck
+from mudline.language.diagnostics import DeckError, Severity
+from mudline.language.keywords.model import Block, Comment
+from mudline.language.keywords.ranges import is_refused
+from mudline.language.keywords.table import Table
 
 _FORMS = click.Choice(form_names())
 _TABLES = {".xlsx": "xlsx", ".xlsm": "xlsx", ".csv": "csv"}
@@ -121,8 +121,8 @@ def _bed(
             notify_missing(f"a seabed ({form})", library, extra)
             return FOUND
     from mudline.cli.evaluate_inputs import read_file  # noqa: PLC0415 - only a seabed needs it
-    from mudline.deck.loading import load_bytes  # noqa: PLC0415 - as above
-    from mudline.export.bathymetry import bed_deck  # noqa: PLC0415 - as above
+    from mudline.language.deck.loading import load_bytes  # noqa: PLC0415 - as above
+    from mudline.tools.exporting.bathymetry import bed_deck  # noqa: PLC0415 - as above
 
     path = Path(output).with_suffix(".xyz")
     bed = read_file(deck.path, lambda file: bed_deck(file, form, path.name, within, origin))
@@ -154,8 +154,8 @@ def _tables(deck: GivenDeck, form: str) -> Deck | None:
     if form == "xlsx" and find_spec("openpyxl") is None:
         notify_missing(".xlsx", "openpyxl", "excel")
         return None
-    from mudline.scene.keyword_tables import read_tables  # noqa: PLC0415 - only tables need it
-    from mudline.scene.workbook import csv_sheet, workbook_sheets  # noqa: PLC0415 - as above
+    from mudline.model.scene.keyword_tables import read_tables  # noqa: PLC0415 - only tables need it
+    from mudline.model.scene.workbook import csv_sheet, workbook_sheets  # noqa: PLC0415 - as above
 
     data, name = deck.content()
     found = read_tables(workbook_sheets(data, name) if form == "xlsx" else [csv_sheet(data, name)], name, deck.units)
@@ -169,9 +169,9 @@ def _require_values(deck: Deck) -> None:
     blocks = (block for section in deck.sections for block in section.blocks)
     if not any(isinstance(block, Block) and is_refused(block) for block in blocks):
         return
-    from mudline.linting.context import LintContext  # noqa: PLC0415 - as above
-    from mudline.linting.engine import joined_problems  # noqa: PLC0415 - only a faulty deck is checked
-    from mudline.linting.registry import rules  # noqa: PLC0415 - as above
+    from mudline.checks.context import LintContext  # noqa: PLC0415 - as above
+    from mudline.checks.engine import joined_problems  # noqa: PLC0415 - only a faulty deck is checked
+    from mudline.checks.registry import rules  # noqa: PLC0415 - as above
 
     found = joined_problems(LintContext(deck), rules(), suppress=False)
     raise DeckError(deck.diagnose([one for one in found if one.weight is Severity.ERROR]))

@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from mudline.basics.display import DisplayTable, number, text
+from mudline.basics.quantities import UnitNames, csv_lines, shown, unit_names
+from mudline.checks.engine import naming_causes
 from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.plots import Plot, plot_option
 from mudline.cli.streams import emit, emit_json, notify
 from mudline.cli.view import View
-from mudline.display import DisplayTable, number, text
-from mudline.linting.engine import naming_causes
-from mudline.quantities import UnitNames, csv_lines, shown, unit_names
-from mudline.results.curve_rows import curve_rows, curve_units, diameters_on, used_curves
-from mudline.results.summary import followers
-from mudline.scene.deck_curves import OF_SEABED
-from mudline.scene.model import Scene, resolve
+from mudline.model.results.curve_rows import curve_rows, curve_units, diameters_on, used_curves
+from mudline.model.results.summary import followers
+from mudline.model.scene.deck_curves import OF_SEABED
+from mudline.model.scene.model import Scene, resolve
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer

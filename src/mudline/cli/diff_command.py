@@ -16,20 +16,20 @@ from typing import NamedTuple
 import click
 import numpy as np
 
+from mudline.basics.limits import SHOWN_ROWS
+from mudline.basics.short_repr import counted
+from mudline.checks.output import visible
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDeck, Input, collect, is_in_any_form, refuses_bad_decks
 from mudline.cli.streams import emit, notify_diagnostics
 from mudline.cli.view import View
-from mudline.comparison.comparing import compare
-from mudline.comparison.model import Difference, Value, spans_of, text_of
-from mudline.comparison.superseded import Comparison, without_spelling
-from mudline.deck.loading import load_bytes
-from mudline.deck.model import Deck
-from mudline.diagnostics import DeckError
-from mudline.limits import SHOWN_ROWS
-from mudline.linting.output import visible
-from mudline.scene.model import resolve
-from mudline.short_repr import counted
+from mudline.editing.comparison.comparing import compare
+from mudline.editing.comparison.model import Difference, Value, spans_of, text_of
+from mudline.editing.comparison.superseded import Comparison, without_spelling
+from mudline.language.deck.loading import load_bytes
+from mudline.language.deck.model import Deck
+from mudline.language.diagnostics import DeckError
+from mudline.model.scene.model import resolve
 
 FORMAT = "mudline-diff/1"
 FOLDER_FORMAT = "mudline-diff-folders/1"

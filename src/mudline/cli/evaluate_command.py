@@ -9,6 +9,10 @@ from pathlib import Path
 
 import click
 
+from mudline.basics.files import suffix_of
+from mudline.basics.limits import SHOWN_ROWS
+from mudline.basics.quantities import csv_lines
+from mudline.basics.short_repr import listed_numbers
 from mudline.cli import DONE, FOUND, evaluate_inputs, options
 from mudline.cli.evaluate_inputs import EvaluateInputs, read_file, takes_inputs
 from mudline.cli.evaluate_text import Screen, print_comparison, print_evaluation, print_plan, print_series
@@ -17,17 +21,13 @@ from mudline.cli.plots import Plot, numbers_of_elements, plot_option
 from mudline.cli.result_files import all_lines, behind, beside, has_library, result_files, write_tables
 from mudline.cli.streams import counted, emit, emit_json, notify
 from mudline.cli.view import Progress, View
-from mudline.files import suffix_of
-from mudline.limits import SHOWN_ROWS
-from mudline.quantities import csv_lines
-from mudline.results.against import Comparison, read_reference
-from mudline.results.evaluation import Evaluation, Prepared, ResultConsumer
-from mudline.results.forms import FORMS, Sink, contents_of, plan_rows, tables_of
-from mudline.results.forms.text import text_writer, write_text
-from mudline.results.plot_data import PlotData
-from mudline.results.series import SeriesSummary, series_summary, series_tables
-from mudline.results.warnings import ContactWarning, ContactWatch, caption
-from mudline.short_repr import listed_numbers
+from mudline.model.results.against import Comparison, read_reference
+from mudline.model.results.evaluation import Evaluation, Prepared, ResultConsumer
+from mudline.model.results.forms import FORMS, Sink, contents_of, plan_rows, tables_of
+from mudline.model.results.forms.text import text_writer, write_text
+from mudline.model.results.plot_data import PlotData
+from mudline.model.results.series import SeriesSummary, series_summary, series_tables
+from mudline.model.results.warnings import ContactWarning, ContactWatch, caption
 
 
 @options.command("evaluate")

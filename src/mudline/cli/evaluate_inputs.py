@@ -12,15 +12,15 @@ from typing import TypeVar, cast
 
 import click
 
+from mudline.basics.overwriting import reading
+from mudline.checks.engine import naming_causes
 from mudline.cli.options import INPUT, Command, option
 from mudline.cli.streams import reason
-from mudline.deck.model import Deck
-from mudline.linting.engine import naming_causes
-from mudline.overwriting import reading
-from mudline.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
-from mudline.scene.csv_file import read_external
-from mudline.scene.model import Scene, resolve
-from mudline.scene.positions import COLUMNS, Positions, read_positions
+from mudline.language.deck.model import Deck
+from mudline.model.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
+from mudline.model.scene.csv_file import read_external
+from mudline.model.scene.model import Scene, resolve
+from mudline.model.scene.positions import COLUMNS, Positions, read_positions
 
 _MAPPING = re.compile(r"""\s*(\w+)\s*=\s*("[^"]*"|.*?)\s*(?:,(?=\s*\w+\s*=)|,?\s*$)""", re.DOTALL)
 """NAME=HEADING up to a comma with another name behind it: a comma may be in a heading."""
@@ -62,7 +62,7 @@ class EvaluateInputs:
     def _read(self, path: Path, scene: Scene) -> Positions:
         """Positions from a file in our form, or in that of another program, known by its headings."""
         if not self.headings and path.suffix.lower() not in {".npz", ".npy"}:
-            from mudline.export.returned import read_returned  # noqa: PLC0415 - needs the shape of the lines
+            from mudline.tools.exporting.returned import read_returned  # noqa: PLC0415 - needs the shape of the lines
 
             if (found := read_returned(path, scene)) is not None:
                 return found

@@ -9,20 +9,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mudline.basics.display import Cell, DisplayColumn, DisplayTable, number, text
+from mudline.basics.limits import SHOWN_ROWS
+from mudline.basics.quantities import UnitNames, shown, time_unit, unit_names
+from mudline.basics.short_repr import counted
 from mudline.cli.view import View
-from mudline.contact import Plan
-from mudline.contact.columns import Column, Table
-from mudline.contact.input import LawKind
-from mudline.contact.lines import LineSummary
-from mudline.contact.result import Part
-from mudline.display import Cell, DisplayColumn, DisplayTable, number, text
-from mudline.limits import SHOWN_ROWS
-from mudline.quantities import UnitNames, shown, time_unit, unit_names
-from mudline.results.against import Comparison, Extreme
-from mudline.results.evaluation import Evaluation, ResultConsumer
-from mudline.results.series import SeriesSummary
-from mudline.results.summary_tables import law_table
-from mudline.results.totals import (
+from mudline.model.contact import Plan
+from mudline.model.contact.columns import Column, Table
+from mudline.model.contact.input import LawKind
+from mudline.model.contact.lines import LineSummary
+from mudline.model.contact.result import Part
+from mudline.model.results.against import Comparison, Extreme
+from mudline.model.results.evaluation import Evaluation, ResultConsumer
+from mudline.model.results.series import SeriesSummary
+from mudline.model.results.summary_tables import law_table
+from mudline.model.results.totals import (
     NOT_KNOWN,
     First,
     acted_on,
@@ -33,8 +34,7 @@ from mudline.results.totals import (
     totals,
     touchdown_words,
 )
-from mudline.scene.numbering import Mask
-from mudline.short_repr import counted
+from mudline.model.scene.numbering import Mask
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer

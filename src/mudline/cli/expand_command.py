@@ -7,15 +7,15 @@ from pathlib import Path
 
 import click
 
+from mudline.basics.display import DisplayTable, text
+from mudline.basics.limits import SHOWN_ROWS
+from mudline.basics.short_repr import counted
 from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.streams import emit, notify, reason, write_bytes, write_text
 from mudline.cli.view import View
-from mudline.display import DisplayTable, text
-from mudline.limits import SHOWN_ROWS
-from mudline.short_repr import counted
-from mudline.variations.files import MANIFEST, ExpansionPlan, PlannedDeck, conflicts, lacking, manifest_text
-from mudline.variations.planning import plan
+from mudline.editing.variations.files import MANIFEST, ExpansionPlan, PlannedDeck, conflicts, lacking, manifest_text
+from mudline.editing.variations.planning import plan
 
 _COLUMNS = (
     text("file", "path"),

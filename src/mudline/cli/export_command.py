@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING
 
 import click
 
+from mudline.basics.display import DisplayColumn, DisplayTable
+from mudline.checks.engine import naming_causes
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDeck, takes_deck
 from mudline.cli.streams import emit_json, notify, write_text
 from mudline.cli.view import View
-from mudline.display import DisplayColumn, DisplayTable
-from mudline.export.line_model import build
-from mudline.linting.engine import naming_causes
-from mudline.scene.model import resolve
+from mudline.model.scene.model import resolve
+from mudline.tools.exporting.line_model import build
 
 if TYPE_CHECKING:
-    from mudline.export.report import Report
+    from mudline.tools.exporting.report import Report
 
 _TARGETS = ("moordyn", "orcaflex")
 
@@ -46,7 +46,7 @@ def command(*, deck: GivenDeck, target: str, output: str, strict: bool, output_f
     with naming_causes(read):
         scene = resolve(read).require_evaluable()
     model = build(scene)
-    files = import_module(f"mudline.export.{target}").write(model, path.name)
+    files = import_module(f"mudline.tools.exporting.{target}").write(model, path.name)
     for name, text in files.items():
         write_text(path.with_name(name), [text])
     if not view.quiet:

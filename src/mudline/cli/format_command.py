@@ -6,14 +6,14 @@ from collections import Counter
 
 import click
 
+from mudline.basics.short_repr import counted
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_changes
 from mudline.cli.inputs import Input, Inputs, collect
 from mudline.cli.streams import emit, emit_deck, notify, notify_diagnostics
 from mudline.cli.view import View
-from mudline.diagnostics import DeckError
-from mudline.formatting.document import FormatError, formatted
-from mudline.short_repr import counted
+from mudline.editing.formatting.document import FormatError, formatted
+from mudline.language.diagnostics import DeckError
 
 _CHANGED, _SAME, _FAILED = "reformatted", "left unchanged", "not formatted"
 

@@ -12,20 +12,20 @@ from typing import TYPE_CHECKING
 
 import click
 
-from mudline.archive.rows import Rows, rows_of
+from mudline.basics.files import alone_at, recording_looks
+from mudline.checks.configuration import Given
+from mudline.checks.engine import LintSettings
+from mudline.checks.registry import plugin_files
 from mudline.cli import DONE, WRONG_USAGE, options
 from mudline.cli.inputs import Input, Inputs, collect, is_in_any_form
 from mudline.cli.lint_run import Settings, checked_settings
 from mudline.cli.many_files import many_files
 from mudline.cli.streams import counted, notify, notify_missing, reason
 from mudline.cli.view import Progress, View
-from mudline.files import alone_at, recording_looks
-from mudline.linting.configuration import Given
-from mudline.linting.engine import LintSettings
-from mudline.linting.registry import plugin_files
+from mudline.tools.archive.rows import Rows, rows_of
 
 if TYPE_CHECKING:
-    from mudline.archive.updating import Archive
+    from mudline.tools.archive.updating import Archive
 
 
 @options.command("index")
@@ -63,7 +63,7 @@ def command(
         raise click.UsageError("standard input cannot be archived: give files or directories")
     settings = checked_settings(config, Given(units=units), "none", isolated=isolated, fail_on=None)
     inputs = collect(paths, "", is_in_any_form, gitignore=not every_file)
-    from mudline.archive.updating import LOCK, Archive, ArchiveError, check_folder  # noqa: PLC0415 - an extra
+    from mudline.tools.archive.updating import LOCK, Archive, ArchiveError, check_folder  # noqa: PLC0415 - an extra
 
     try:
         folder = Path(output)

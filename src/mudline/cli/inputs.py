@@ -15,17 +15,17 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
+from mudline.basics.files import alone_at, write_atomically
+from mudline.basics.overwriting import outputs, reading, reading_stdin
+from mudline.basics.patterns import Pattern, read_pattern
 from mudline.cli import FOUND, WRONG_USAGE, options
 from mudline.cli.streams import notify, notify_diagnostics, reason
-from mudline.deck import MARK
-from mudline.deck.forms import SUFFIXES, form_of
-from mudline.diagnostics import DeckError
-from mudline.files import alone_at, write_atomically
-from mudline.overwriting import outputs, reading, reading_stdin
-from mudline.patterns import Pattern, read_pattern
+from mudline.language.deck import MARK
+from mudline.language.deck.forms import SUFFIXES, form_of
+from mudline.language.diagnostics import DeckError
 
 if TYPE_CHECKING:
-    from mudline.deck.model import Deck
+    from mudline.language.deck.model import Deck
 
 STDIN = "-"
 
@@ -333,7 +333,7 @@ class GivenDeck(NamedTuple):
         """Read the deck; ends the command when the path cannot be read. Raises DeckError."""
         file = self._file()
         data = self._bytes(file)
-        from mudline.deck.loading import load_bytes  # noqa: PLC0415 - what only looks for files reads no deck
+        from mudline.language.deck.loading import load_bytes  # noqa: PLC0415 - what only looks for files reads no deck
 
         deck = load_bytes(data, file.name, form=form, units=self.units, folder=file.folder)
         reading_named_files(deck)
@@ -354,8 +354,8 @@ class GivenDeck(NamedTuple):
 def reading_named_files(deck: Deck) -> None:
     """Note the files that a deck names as read, also where the command does not open them; raises OverwriteError."""
     if outputs():
-        from mudline.scene.deck_values import missing_files  # noqa: PLC0415 - most commands write no file
-        from mudline.scene.restart import decks_before  # noqa: PLC0415 - as above
+        from mudline.model.scene.deck_values import missing_files  # noqa: PLC0415 - most commands write no file
+        from mudline.model.scene.restart import decks_before  # noqa: PLC0415 - as above
 
         deque(missing_files(deck), 0)  # what is looked for is noted
         decks_before(deck)

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from mudline.checks.configuration import Given
 from mudline.cli.config_command import Configured
 from mudline.cli.inputs import Input, Inputs
-from mudline.diagnostics import Coverage, Diagnostic, Edit, Fix, Severity
-from mudline.linting.configuration import Given
-from mudline.running.remembered import Memory, of_working_folder
+from mudline.language.diagnostics import Coverage, Diagnostic, Edit, Fix, Severity
+from mudline.tools.running.remembered import Memory, of_working_folder
 
 
 @dataclass(eq=False)

@@ -6,6 +6,9 @@ from functools import partial
 
 import click
 
+from mudline.basics.overwriting import claim
+from mudline.checks.configuration import Given
+from mudline.checks.output import TEXT, form_names
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.config_command import Configured
 from mudline.cli.inputs import collect
@@ -13,10 +16,7 @@ from mudline.cli.known_findings import known_findings
 from mudline.cli.lint_report import Report, complete, outputs
 from mudline.cli.streams import notify
 from mudline.cli.view import View
-from mudline.diagnostics import Severity
-from mudline.linting.configuration import Given
-from mudline.linting.output import TEXT, form_names
-from mudline.overwriting import claim
+from mudline.language.diagnostics import Severity
 
 _RULES, _FIXES, _KNOWN = "Rules", "Fixes", "Known findings"
 

@@ -11,12 +11,12 @@ from typing import NamedTuple
 import click
 
 from mudline import __version__
+from mudline.basics.overwriting import claim
+from mudline.checks.output import TEXT, form, form_names, visible
 from mudline.cli.streams import counted, emit, notify, write_text
 from mudline.cli.view import View
-from mudline.diagnostics import Coverage, Diagnostic, Severity
-from mudline.linting.output import TEXT, form, form_names, visible
-from mudline.overwriting import claim
-from mudline.syntax.source import Source
+from mudline.language.diagnostics import Coverage, Diagnostic, Severity
+from mudline.language.syntax.source import Source
 
 
 def complete(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:

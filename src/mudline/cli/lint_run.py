@@ -15,6 +15,12 @@ from typing import NamedTuple
 
 import click
 
+from mudline.checks.configuration import Configuration, Given
+from mudline.checks.engine import Fixing, LintSettings
+from mudline.checks.fixing import FileReport, lint_one
+from mudline.checks.registry import UnknownRule, code_fault, plugin_files
+from mudline.checks.settings import hidden_codes, merged_settings
+from mudline.checks.suppression import Baseline, BaselineError, read_baseline
 from mudline.cli.config_command import Configured
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.known_findings import KnownFindings
@@ -22,13 +28,7 @@ from mudline.cli.lint_report import Report
 from mudline.cli.many_files import many_files
 from mudline.cli.streams import counted, emit_deck, notify, reason, write_text
 from mudline.cli.view import Progress, View
-from mudline.deck.forms import form_of
-from mudline.linting.configuration import Configuration, Given
-from mudline.linting.engine import Fixing, LintSettings
-from mudline.linting.fixing import FileReport, lint_one
-from mudline.linting.registry import UnknownRule, code_fault, plugin_files
-from mudline.linting.settings import hidden_codes, merged_settings
-from mudline.linting.suppression import Baseline, BaselineError, read_baseline
+from mudline.language.deck.forms import form_of
 
 
 @dataclass

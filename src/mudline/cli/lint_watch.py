@@ -11,10 +11,10 @@ from typing import NoReturn
 
 import click
 
+from mudline.checks.output import TEXT
 from mudline.cli.inputs import STDIN, is_deck
 from mudline.cli.streams import notify
 from mudline.cli.view import View
-from mudline.linting.output import TEXT
 
 WAIT = 0.3
 """Seconds between two looks."""

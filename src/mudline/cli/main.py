@@ -15,13 +15,13 @@ import click
 from click.shell_completion import shell_complete
 
 from mudline import __version__
+from mudline.basics.outside import refusing_outside
+from mudline.basics.overwriting import OverwriteError, refusing_overwriting
+from mudline.basics.spelling import nearest
 from mudline.cli import CLOSED_PIPE, DONE, FOUND, WRONG_USAGE, options, streams
 from mudline.cli.streams import notify, reason
-from mudline.diagnostics import PluginError
-from mudline.outside import refusing_outside
-from mudline.overwriting import OverwriteError, refusing_overwriting
-from mudline.running.executors import RunError
-from mudline.spelling import nearest
+from mudline.language.diagnostics import PluginError
+from mudline.tools.running.executors import RunError
 
 COMPLETION = "_MUDLINE_COMPLETE"
 """The variable by which a shell asks for completions, as click describes."""
@@ -111,7 +111,7 @@ def run(arguments: Sequence[str]) -> int:
     """Run a command line; returns its exit code. A closed pipe ends quietly."""
     streams.prepare()
     if sys.flags.optimize > 1:  # helps are docstrings too
-        from mudline.linting.registry import STRIPPED  # noqa: PLC0415 - most runs have them
+        from mudline.checks.registry import STRIPPED  # noqa: PLC0415 - most runs have them
 
         notify(STRIPPED)
         return WRONG_USAGE
@@ -155,7 +155,7 @@ def _invoke(arguments: Sequence[str]) -> int:
 
 
 def _refuses_outside(folder: Path) -> bool:
-    from mudline.linting.configuration import refuses_outside  # noqa: PLC0415 - only for decks that name files outside
+    from mudline.checks.configuration import refuses_outside  # noqa: PLC0415 - only for decks that name files outside
 
     return refuses_outside(folder)
 

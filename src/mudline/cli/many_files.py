@@ -12,7 +12,7 @@ from typing import TypeVar, TypeVarTuple
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.streams import notify
 from mudline.cli.view import Progress
-from mudline.running.executors import Crash, many
+from mudline.tools.running.executors import Crash, many
 
 _Item = TypeVar("_Item")
 _Given = TypeVarTuple("_Given")

@@ -6,19 +6,19 @@ from pathlib import Path
 
 import click
 
+from mudline.basics.limits import SHOWN_ROWS
+from mudline.basics.short_repr import counted
+from mudline.checks.engine import naming_causes
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
 from mudline.cli.changes import print_changes
 from mudline.cli.inputs import Input, Inputs, collect, reading_named_files
 from mudline.cli.streams import emit_deck, notify, notify_diagnostics, write_bytes
 from mudline.cli.view import View
-from mudline.deck.forms import form_of
-from mudline.deck.loading import dump, load_bytes
-from mudline.diagnostics import DeckError
-from mudline.limits import SHOWN_ROWS
-from mudline.linting.engine import naming_causes
-from mudline.migration.migrating import Migration, Verdict, legacy_blocks, migrate, verify
-from mudline.migration.refusals import Continuations, misspelt
-from mudline.short_repr import counted
+from mudline.editing.migration.migrating import Migration, Verdict, legacy_blocks, migrate, verify
+from mudline.editing.migration.refusals import Continuations, misspelt
+from mudline.language.deck.forms import form_of
+from mudline.language.deck.loading import dump, load_bytes
+from mudline.language.diagnostics import DeckError
 
 
 @options.command("migrate")

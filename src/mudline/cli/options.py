@@ -9,9 +9,9 @@ from typing import Any
 
 import click
 
+from mudline.basics.files import suffix_of
+from mudline.basics.overwriting import claim
 from mudline.cli.view import View
-from mudline.files import suffix_of
-from mudline.overwriting import claim
 
 Command = Callable[..., int]
 
@@ -105,8 +105,8 @@ paths = click.argument("paths", nargs=-1, required=True, metavar="PATHS...", she
 
 def complete_rules(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:
     """What a shell completes where rules are named: codes and slugs, also behind others and a comma."""
-    from mudline.diagnostics import PluginError  # noqa: PLC0415 - only completion needs it
-    from mudline.linting.registry import rules  # noqa: PLC0415 - as above
+    from mudline.checks.registry import rules  # noqa: PLC0415 - as above
+    from mudline.language.diagnostics import PluginError  # noqa: PLC0415 - only completion needs it
 
     before, comma, word = incomplete.rpartition(",")
     try:

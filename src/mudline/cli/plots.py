@@ -11,11 +11,11 @@ from typing import Any
 
 import click
 
+from mudline.basics.files import PLOT_FORMS, suffix_of
 from mudline.cli import FOUND
 from mudline.cli.options import OUTPUT_FILE, OWN, Command, form_of_file, option
 from mudline.cli.streams import notify, notify_missing, writing
 from mudline.cli.view import View
-from mudline.files import PLOT_FORMS, suffix_of
 
 
 def plot_option(what: str, group: str = OWN) -> Callable[[Command], Command]:
@@ -40,7 +40,7 @@ class Plot:
     def write(self, draw: Callable[[Any], Any], view: View | None = None) -> None:
         """Write the figure that `draw` makes with the module of plots, if a plot is asked for; report it to a view."""
         if self.path is not None:
-            plots = import_module("mudline.results.plots")
+            plots = import_module("mudline.model.results.plots")
             figure = draw(plots)
             with writing(self.path) as stream:
                 plots.save(figure, suffix_of(self.path), stream)

@@ -13,11 +13,11 @@ from rich.cells import cell_len
 from rich.console import Console
 from rich.text import Text
 
-from mudline.diagnostics import Diagnostic, Severity, Span
-from mudline.display import Cell, DisplayTable
-from mudline.linting.output import visible
-from mudline.quantities import shown
-from mudline.syntax.source import Source
+from mudline.basics.display import Cell, DisplayTable
+from mudline.basics.quantities import shown
+from mudline.checks.output import visible
+from mudline.language.diagnostics import Diagnostic, Severity, Span
+from mudline.language.syntax.source import Source
 
 WIDTH = 100
 """Columns of a table where no terminal sets a limit."""

@@ -12,17 +12,17 @@ from typing import Any, NamedTuple
 import click
 
 from mudline import __version__
+from mudline.basics.overwriting import reading
+from mudline.basics.short_repr import counted
+from mudline.checks.configuration import Given as GivenRules
+from mudline.checks.engine import LintSettings
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
 from mudline.cli.inputs import Input, collect, is_in_any_form
 from mudline.cli.lint_run import checked_settings
 from mudline.cli.many_files import many_files
 from mudline.cli.streams import emit_json, notify, notify_missing, write_text
 from mudline.cli.view import Progress, View
-from mudline.linting.configuration import Given as GivenRules
-from mudline.linting.engine import LintSettings
-from mudline.overwriting import reading
-from mudline.report.content import SECTIONS, Given, Look, Stamp, report_on
-from mudline.short_repr import counted
+from mudline.tools.reporting.content import SECTIONS, Given, Look, Stamp, report_on
 
 _LEGAL = "legal"
 
@@ -147,8 +147,8 @@ def make_report(given: Given, settings: LintSettings, wanted: Wanted) -> Made:
     report = report_on(given, settings, wanted.sections, Stamp(__version__, wanted.date))
     if wanted.look is None:
         return Made(report.json, None)
-    from mudline.report.page import LookError, page  # noqa: PLC0415 - needs jinja2
-    from mudline.report.pictures import pictures_of  # noqa: PLC0415 - needs matplotlib
+    from mudline.tools.reporting.page import LookError, page  # noqa: PLC0415 - needs jinja2
+    from mudline.tools.reporting.pictures import pictures_of  # noqa: PLC0415 - needs matplotlib
 
     try:
         return Made(report.json, page(report, *pictures_of(report), wanted.look))
@@ -200,7 +200,7 @@ def _illegal(rows: list[dict[str, Any]]) -> int:
 
 def _finish(target: Target, rows: list[dict[str, Any]], look: Look | None, view: View) -> None:
     if target.folder is not None and look is not None:
-        from mudline.report.page import index_page  # noqa: PLC0415 - needs jinja2
+        from mudline.tools.reporting.page import index_page  # noqa: PLC0415 - needs jinja2
 
         write_text(target.index, [index_page(rows, __version__, look)])
     if not view.quiet:

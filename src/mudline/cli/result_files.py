@@ -9,14 +9,14 @@ from pathlib import Path
 
 import click
 
+from mudline.basics.files import suffix_of
 from mudline.cli.streams import notify_missing, writing
 from mudline.cli.view import View, tracked
-from mudline.contact.columns import ElementTable
-from mudline.contact.lines import LineSummary
-from mudline.files import suffix_of
-from mudline.results.against import Comparison
-from mudline.results.evaluation import Evaluation
-from mudline.results.forms import (
+from mudline.model.contact.columns import ElementTable
+from mudline.model.contact.lines import LineSummary
+from mudline.model.results.against import Comparison
+from mudline.model.results.evaluation import Evaluation
+from mudline.model.results.forms import (
     FORMS,
     Contents,
     FormError,
@@ -29,8 +29,8 @@ from mudline.results.forms import (
     table_path,
     tables_of,
 )
-from mudline.results.totals import First, line_steps
-from mudline.results.warnings import ContactWarning
+from mudline.model.results.totals import First, line_steps
+from mudline.model.results.warnings import ContactWarning
 
 
 def is_installed(form: str) -> bool:

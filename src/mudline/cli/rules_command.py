@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from mudline.basics.display import DisplayTable
+from mudline.basics.display import text as text_column
+from mudline.checks.output import visible_lines
+from mudline.checks.registry import UnknownRule, origin, rules, select
 from mudline.cli import DONE, options
 from mudline.cli.streams import emit_json
 from mudline.cli.view import View
-from mudline.display import DisplayTable
-from mudline.display import text as text_column
-from mudline.linting.output import visible_lines
-from mudline.linting.registry import UnknownRule, origin, rules, select
-from mudline.rules import Rule
+from mudline.language.rules import Rule
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer

@@ -9,19 +9,19 @@ from dataclasses import dataclass, field
 
 import click
 
-from mudline.assignment.assigning import Assigned, AssignmentError, assigned
-from mudline.assignment.fields import ConditionError, DeckCondition, Target, target_of
-from mudline.assignment.paths import Assignment, Operand, PathError, parse_assignment, parse_condition
+from mudline.basics.short_repr import counted
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_changes
 from mudline.cli.inputs import CHANGED, Input, Inputs, collect
 from mudline.cli.streams import emit, emit_deck, notify, notify_diagnostics
 from mudline.cli.view import View
-from mudline.deck.forms import KEYWORD, form_of
-from mudline.deck.loading import load_bytes
-from mudline.short_repr import counted
-from mudline.syntax.edits import TextEdit, edited_bytes
-from mudline.syntax.source import Source
+from mudline.editing.assignment.assigning import Assigned, AssignmentError, assigned
+from mudline.editing.assignment.fields import ConditionError, DeckCondition, Target, target_of
+from mudline.editing.assignment.paths import Assignment, Operand, PathError, parse_assignment, parse_condition
+from mudline.language.deck.forms import KEYWORD, form_of
+from mudline.language.deck.loading import load_bytes
+from mudline.language.syntax.edits import TextEdit, edited_bytes
+from mudline.language.syntax.source import Source
 
 _CHANGED, _SAME, _WITHOUT, _UNMET, _REFUSED = "changed", "the same already", "without it", "not selected", "refused"
 _UNWRITTEN = "not written"

@@ -9,22 +9,22 @@ from functools import partial
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
+from mudline.basics.display import DisplayTable, number, text
+from mudline.basics.limits import SHOWN_ROWS
+from mudline.basics.quantities import UnitNames, shown, unit_names
+from mudline.basics.short_repr import counted
+from mudline.checks.context import LintContext
+from mudline.checks.engine import of_base
+from mudline.checks.verdict import all_findings, errors_of
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.streams import emit_json, notify
 from mudline.cli.view import View
-from mudline.diagnostics import Coverage
-from mudline.display import DisplayTable, number, text
-from mudline.keywords import catalogue
-from mudline.keywords.values import SUBJECTS
-from mudline.limits import SHOWN_ROWS
-from mudline.linting.context import LintContext
-from mudline.linting.engine import of_base
-from mudline.linting.verdict import all_findings, errors_of
-from mudline.quantities import UnitNames, shown, unit_names
-from mudline.results.summary import summarise
-from mudline.results.summary_tables import Rows, diameter_table, elements_of, set_table, static_table
-from mudline.short_repr import counted
+from mudline.language.diagnostics import Coverage
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.values import SUBJECTS
+from mudline.model.results.summary import summarise
+from mudline.model.results.summary_tables import Rows, diameter_table, elements_of, set_table, static_table
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer

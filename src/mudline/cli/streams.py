@@ -13,12 +13,12 @@ from typing import BinaryIO
 
 import click
 
-from mudline.diagnostics import Diagnostic
-from mudline.limits import SHOWN_ROWS
-from mudline.linting.output import visible, visible_lines
-from mudline.overwriting import claim
-from mudline.short_repr import counted as counted  # noqa: PLC0414 - commands that print findings take it here
-from mudline.syntax.source import Source
+from mudline.basics.limits import SHOWN_ROWS
+from mudline.basics.overwriting import claim
+from mudline.basics.short_repr import counted as counted  # noqa: PLC0414 - commands that print findings take it here
+from mudline.checks.output import visible, visible_lines
+from mudline.language.diagnostics import Diagnostic
+from mudline.language.syntax.source import Source
 
 
 def prepare() -> None:
@@ -120,7 +120,7 @@ def writing(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
     What is not `synced` is not waited for until it is on the disk, as in `replacement`. Raises OverwriteError for a
     file that the run reads.
     """
-    from mudline.files import replacement  # noqa: PLC0415 - help and faults of usage write no file
+    from mudline.basics.files import replacement  # noqa: PLC0415 - help and faults of usage write no file
 
     claim(path)
     try:

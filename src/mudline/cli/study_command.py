@@ -11,18 +11,18 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from mudline.basics.display import DisplayColumn, DisplayTable
+from mudline.basics.files import suffix_of
+from mudline.basics.quantities import csv_lines
+from mudline.checks.engine import naming_causes
 from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, refuses_bad_decks
 from mudline.cli.plots import Plot, plot_option
 from mudline.cli.streams import emit, emit_json, notify, write_text
 from mudline.cli.view import View, tracked
-from mudline.display import DisplayColumn, DisplayTable
-from mudline.files import suffix_of
-from mudline.linting.engine import naming_causes
-from mudline.quantities import csv_lines
-from mudline.scene.model import resolve
-from mudline.study import PARTS, Study, jump_note, study
-from mudline.study.screen import ScreenTable, extremes_sentences, precision_table, stability_table, stages_table
+from mudline.model.scene.model import resolve
+from mudline.tools.study import PARTS, Study, jump_note, study
+from mudline.tools.study.screen import ScreenTable, extremes_sentences, precision_table, stability_table, stages_table
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
@@ -85,7 +85,7 @@ def _plot(found: Study, plot: Plot, view: View) -> None:
     if found.drawn is None or not found.drawn.curves:
         notify("--plot: there is nothing to draw, as no contact of this deck has a motion")
         return
-    from mudline.study.picture import study_figure  # noqa: PLC0415 - needs the extra `plot`
+    from mudline.tools.study.picture import study_figure  # noqa: PLC0415 - needs the extra `plot`
 
     plot.write(lambda _: study_figure(found), view)
 

@@ -12,22 +12,22 @@ from typing import NamedTuple
 
 import click
 
+from mudline.basics.display import DisplayTable, number, text
+from mudline.basics.outside import refusing_outside
+from mudline.basics.quantities import csv_lines
+from mudline.basics.short_repr import counted
+from mudline.checks.configuration import refuses_outside
+from mudline.checks.context import LintContext
+from mudline.checks.output.json import as_object
+from mudline.checks.verdict import Verdict, judge, refused
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import Input, Inputs, collect, is_in_any_form
 from mudline.cli.many_files import many_files
 from mudline.cli.streams import emit
 from mudline.cli.view import Progress, View
-from mudline.deck.loading import load_bytes
-from mudline.diagnostics import Coverage, DeckError, Diagnostic
-from mudline.display import DisplayTable, number, text
-from mudline.linting.configuration import refuses_outside
-from mudline.linting.context import LintContext
-from mudline.linting.output.json import as_object
-from mudline.linting.verdict import Verdict, judge, refused
-from mudline.outside import refusing_outside
-from mudline.quantities import csv_lines
-from mudline.short_repr import counted
-from mudline.syntax.source import Source
+from mudline.language.deck.loading import load_bytes
+from mudline.language.diagnostics import Coverage, DeckError, Diagnostic
+from mudline.language.syntax.source import Source
 
 _COLUMNS = (
     text("verdict", lambda one: (one.short, _style(good=one.legal))),

@@ -13,10 +13,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import mudline
-from mudline.contact import ContactModel
-from mudline.contact.arrays import FloatArray
-from mudline.scene.deck_values import number
-from mudline.scene.model import resolve
+from mudline.model.contact import ContactModel
+from mudline.model.contact.arrays import FloatArray
+from mudline.model.scene.deck_values import number
+from mudline.model.scene.model import resolve
 from tests.benchmarks.runner import ROOT
 
 DECKS = ROOT / "docs" / "studies" / "benchmark"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mudline.contact.arrays import FloatArray
+from mudline.model.contact.arrays import FloatArray
 from tests.benchmarks.dynamics.beam import Beam, read_beam
 from tests.benchmarks.dynamics.lifting import DAMPING, Hoist, Lifting
 from tests.benchmarks.dynamics.reference import Path, Reference, Tolerance

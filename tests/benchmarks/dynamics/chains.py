@@ -15,11 +15,11 @@ import numpy as np
 from scipy.optimize import fsolve
 
 import mudline
-from mudline.contact import ContactModel
-from mudline.contact.arrays import FloatArray
-from mudline.contact.tables import ContactState
-from mudline.scene.model import resolve
-from mudline.scene.sections import surroundings
+from mudline.model.contact import ContactModel
+from mudline.model.contact.arrays import FloatArray
+from mudline.model.contact.tables import ContactState
+from mudline.model.scene.model import resolve
+from mudline.model.scene.sections import surroundings
 from tests.benchmarks.dynamics.beam import DECKS, in_line_order
 
 PULLS = {50: 3.0, 200: 15.0, 600: 40.0}

@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mudline.contact.arrays import FloatArray
-from mudline.contact.result import ContactResult
-from mudline.contact.tables import ContactState
+from mudline.model.contact.arrays import FloatArray
+from mudline.model.contact.result import ContactResult
+from mudline.model.contact.tables import ContactState
 from tests.benchmarks.dynamics.beam import Beam
 
 DAMPING = 1e-3

@@ -10,8 +10,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mudline.contact.arrays import FloatArray
-from mudline.contact.stiffest import CRITICAL_OMEGA_DT, critical_step
+from mudline.model.contact.arrays import FloatArray
+from mudline.model.contact.stiffest import CRITICAL_OMEGA_DT, critical_step
 from tests.benchmarks.dynamics.beam import Beam, read_beam
 from tests.benchmarks.dynamics.lifting import DAMPING
 from tests.benchmarks.dynamics.schemes import DECK

@@ -18,10 +18,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.integrate import DOP853
 
-from mudline.contact.arrays import FloatArray, IndexArray
-from mudline.contact.laws.friction import FrictionState
-from mudline.contact.laws.suction import SuctionLaw, SuctionState
-from mudline.contact.tables import ContactState
+from mudline.model.contact.arrays import FloatArray, IndexArray
+from mudline.model.contact.laws.friction import FrictionState
+from mudline.model.contact.laws.suction import SuctionLaw, SuctionState
+from mudline.model.contact.tables import ContactState
 from tests.benchmarks.dynamics.lifting import Forces, Lifting
 
 _PEEK = 1e-7

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mudline.contact.arrays import FloatArray
+from mudline.model.contact.arrays import FloatArray
 from tests.benchmarks.dynamics.beam import read_beam
 from tests.benchmarks.dynamics.lifting import Hoist, Lifting, touchdown
 from tests.benchmarks.dynamics.reference import Path, Reference, Tolerance

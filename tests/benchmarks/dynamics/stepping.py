@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mudline.contact.arrays import FloatArray
+from mudline.model.contact.arrays import FloatArray
 from tests.benchmarks.dynamics.lifting import Lifting
 from tests.benchmarks.dynamics.reference import Path
 from tests.benchmarks.studies.motion import Forces, History, Motion, Scheme, System

@@ -16,11 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator, PPoly
 
-from mudline.contact.arrays import FloatArray
-from mudline.curves import ForceCurve
+from mudline.model.contact.arrays import FloatArray
+from mudline.model.curves import ForceCurve
 from tests.benchmarks.studies.laws import CLAY, DIAMETER
 from tests.benchmarks.tables import digits, load, save, table
-from tests.contact.exact import ExactCurve
+from tests.model.contact.exact import ExactCurve
 
 CURVES, BACKBONES = "precision-curves", "precision-backbones"
 Evaluation = Callable[[FloatArray], NDArray[np.floating]]

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from tests.benchmarks.tables import Cell, digits, load, save, table
-from tests.contact.extreme_decks import FAMILIES, Verdict, judge
+from tests.model.contact.extreme_decks import FAMILIES, Verdict, judge
 
 NAME = "stability-ladder"
 

@@ -30,9 +30,9 @@ from functools import partial
 
 import numpy as np
 
-from mudline.contact.arrays import FloatArray
-from mudline.contact.laws.friction import FrictionHistory, FrictionLaw, slide
-from mudline.contact.laws.suction import (
+from mudline.model.contact.arrays import FloatArray
+from mudline.model.contact.laws.friction import FrictionHistory, FrictionLaw, slide
+from mudline.model.contact.laws.suction import (
     SuctionHistory,
     SuctionLaw,
     breakout_uplift,

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.figure import Figure
 
-from mudline.contact.arrays import BoolArray, FloatArray
+from mudline.model.contact.arrays import BoolArray, FloatArray
 from tests.benchmarks.drawing import draw, label, legend_below, lines
 from tests.benchmarks.studies.laws import CLAY, DIAMETER, MASS, CurveLaw, Falling, Law, LinearLaw
 from tests.benchmarks.studies.motion import Motion, Scheme, march

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mudline.contact.arrays import FloatArray
-from mudline.curves import ForceCurve
+from mudline.model.contact.arrays import FloatArray
+from mudline.model.curves import ForceCurve
 from tests.benchmarks.studies.motion import Forces, History
 
 CLAY = ForceCurve(

@@ -12,8 +12,8 @@ from typing import Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
 
-from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
-from mudline.contact.stiffest import CRITICAL_OMEGA_DT
+from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.model.contact.stiffest import CRITICAL_OMEGA_DT
 
 History = Any
 """The state of a system between steps; only the system itself reads it."""

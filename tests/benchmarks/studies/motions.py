@@ -23,10 +23,10 @@ from typing import NamedTuple
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from mudline.contact.arrays import BoolArray, FloatArray
-from mudline.contact.laws.friction import FrictionHistory, FrictionLaw, slide
-from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, SuctionState, from_cohesion, step
-from mudline.curves import ForceCurve
+from mudline.model.contact.arrays import BoolArray, FloatArray
+from mudline.model.contact.laws.friction import FrictionHistory, FrictionLaw, slide
+from mudline.model.contact.laws.suction import SuctionHistory, SuctionLaw, SuctionState, from_cohesion, step
+from mudline.model.curves import ForceCurve
 from tests.benchmarks.studies.laws import CLAY, DIAMETER, MASS, WEIGHT, CurveLaw, Falling, Law, LinearLaw
 from tests.benchmarks.studies.motion import Forces, History, Motion, System, Trajectory
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 
 Residual = Callable[[FloatArray], tuple[FloatArray, FloatArray, FloatArray]]
 """Residuals (k,) at unknowns (k,), their derivatives, and the size of the largest term in each residual."""

@@ -17,16 +17,16 @@ from time import process_time
 import numpy as np
 from matplotlib.figure import Figure
 
-from mudline.contact.input import ContactInput, LawAssignment
-from mudline.contact.model import ContactModel
-from mudline.contact.seabed import PlanesSeabed, Seabed, SlopingSeabed
-from mudline.curves import ForceCurve
-from mudline.deck.loading import load_bytes
-from mudline.scene.model import resolve
+from mudline.language.deck.loading import load_bytes
+from mudline.model.contact.input import ContactInput, LawAssignment
+from mudline.model.contact.model import ContactModel
+from mudline.model.contact.seabed import PlanesSeabed, Seabed, SlopingSeabed
+from mudline.model.curves import ForceCurve
+from mudline.model.scene.model import resolve
 from tests.benchmarks.contact import all_laws, by_hand, of_line, series, streaming
 from tests.benchmarks.drawing import draw, label
 from tests.benchmarks.tables import Cell, column, digits, load, save, table
-from tests.builders.contact import bridge_law, friction, line, on, suction, trench
+from tests.helpers.builders.contact import bridge_law, friction, line, on, suction, trench
 
 STAGES, GROWTH = "pruning-stages", "pruning-growth"
 PLAIN, CURVE = "plain numpy", "curve"

@@ -1,0 +1,76 @@
+"""Tables as people read them: one list of columns, whether for a terminal or for a page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
+
+from mudline.basics.quantities import headed
+
+Cell = str | int | float | tuple[str, str] | None
+"""What a table shows: a text, a number, a text and its style, nothing."""
+Value = str | int | Callable[[Any], Cell]
+"""The name of a key or an attribute of a row, its place in a row, or what makes a cell of a row."""
+
+
+@dataclass(frozen=True, slots=True)
+class DisplayColumn:
+    """A column of a table.
+
+    Attributes:
+        heading: one line or several.
+        value: what a cell is.
+        unit: stands below the heading; "" for none.
+        left: aligned left and folded where it is too wide, as text is; numbers are aligned right.
+        whole: never folded, as a path.
+        optional: left out where all its cells are empty.
+    """
+
+    heading: str
+    value: Value
+    unit: str = ""
+    left: bool = False
+    whole: bool = False
+    optional: bool = False
+
+    @property
+    def head(self) -> str:
+        """The heading with its unit."""
+        return headed(self.heading, self.unit)
+
+    def cell(self, row: Any) -> Cell:  # noqa: ANN401 - rows of JSON, or objects
+        """Return what the column shows of a row."""
+        if callable(self.value):
+            return self.value(row)
+        by_name = isinstance(self.value, str) and not isinstance(row, Mapping)
+        cell: Cell = getattr(row, str(self.value)) if by_name else row[self.value]
+        return cell
+
+
+number = DisplayColumn
+"""A column of numbers."""
+
+
+text = partial(DisplayColumn, left=True)
+"""A column of texts."""
+
+
+@dataclass(frozen=True, slots=True)
+class DisplayTable:
+    """A table: its title, columns and rows, and a note below it."""
+
+    title: str
+    columns: Sequence[DisplayColumn]
+    rows: Sequence[Any]
+    note: str = ""
+
+    def cells(self) -> list[list[Cell]]:
+        """Return what each row shows."""
+        return [[column.cell(row) for column in self.columns] for row in self.rows]
+
+    def first(self, most: int | None, words: str) -> DisplayTable:
+        """Return the table with the first rows (None: all), and how many more there are in its note."""
+        left = 0 if most is None else len(self.rows) - most
+        return replace(self, rows=self.rows[:most], note=f"{left} {words}") if left > 0 else self

@@ -1,0 +1,43 @@
+"""Small tables of HTML, which notebooks show of an object: every text is escaped, long lists are cut."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from html import escape
+from itertools import islice
+
+from mudline.basics.limits import SHOWN_LETTERS, SHOWN_ROWS
+from mudline.basics.short_repr import cut
+
+Cell = str | float | None
+
+
+def html_page(title: str, summary: str, *tables: str) -> str:
+    """Return a title with a line of summary, and tables below it."""
+    return f"<div><p><b>{_text(title)}</b> {_text(summary, 200)}</p>{''.join(tables)}</div>"
+
+
+def html_table(headings: Sequence[str], rows: Iterable[Sequence[Cell]], count: int) -> str:
+    """Return a table of the first rows, and how many of `count` are left out; "" where there is none.
+
+    Texts stand at the left, numbers at the right in at most six digits, None is an empty cell.
+    """
+    if not count:
+        return ""
+    head = "".join(f"<th>{_text(name)}</th>" for name in headings)
+    body = "".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in islice(rows, SHOWN_ROWS))
+    more = f"... and {count - SHOWN_ROWS} more" if count > SHOWN_ROWS else ""
+    last = f'<tr><td colspan="{len(headings)}">{more}</td></tr>' if more else ""
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}{last}</tbody></table>"
+
+
+def _cell(value: Cell) -> str:
+    if isinstance(value, str):
+        return f'<td style="text-align: left">{_text(value)}</td>'
+    text = "" if value is None or value != value else f"{value:.6g}"  # noqa: PLR0124 - NaN
+    return f'<td style="text-align: right">{text}</td>'
+
+
+def _text(text: str, most: int = SHOWN_LETTERS) -> str:
+    """A text as HTML has it; half a surrogate pair, as a name may hold, is escaped."""
+    return escape(cut(text, most).encode("utf-8", "backslashreplace").decode())

@@ -1,0 +1,289 @@
+"""The quantities of results with units and meaning, and how their values are written for people and for files."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Iterable, Iterator
+from typing import Literal, NamedTuple
+
+from mudline.basics.short_repr import cut
+
+RESULT_FORMAT = "mudline-result/2"
+"""Name and version of the form of result files."""
+
+UNIT_SYSTEMS = ("metric", "imperial", "user")
+
+
+def checked_units(units: object) -> str:
+    """The name of a system of units; raises ValueError for what is none."""
+    if not isinstance(units, str) or units not in UNIT_SYSTEMS:
+        raise ValueError(f"units must be one of {', '.join(UNIT_SYSTEMS)}, not {cut(repr(units), 60)}")
+    return units
+
+
+class UnitNames(NamedTuple):
+    """Names of units; empty where the deck's units are the user's own."""
+
+    length: str
+    force: str
+    line_force: str
+    """Force per length of pipe."""
+    stiffness: str
+    """Force per length of pipe and length of penetration."""
+
+    def behind(self, quantity: Literal["length", "force", "line_force", "stiffness"]) -> str:
+        """A unit as it is written behind a number, with a space; "" in user units."""
+        unit: str = getattr(self, quantity)
+        return f" {unit}" if unit else ""
+
+
+_METRIC = UnitNames("m", "N", "N/m", "N/m2")
+_IMPERIAL = UnitNames("ft", "lbf", "lbf/ft", "lbf/ft2")
+_NONE = UnitNames("", "", "", "")
+
+
+def unit_names(units: str) -> UnitNames:
+    """The names of "metric", "imperial" or "user" units."""
+    return {"metric": _METRIC, "imperial": _IMPERIAL}.get(units, _NONE)
+
+
+def time_unit(units: str) -> str:
+    """The name of the unit of times; "" in user units."""
+    return "s" if unit_names(units).length else ""
+
+
+Names = tuple[str | None, ...]
+
+STATES: Names = ("free", "compression", "suction", "hold", "broken", None)
+"""Of an element with suction, by number; the last one stands for -1."""
+SLIDING: Names = ("open", "stick", "slip", None)
+"""Of a direction of a node with friction."""
+
+
+class Quantity(NamedTuple):
+    """What a column of results, or a figure of a step, is.
+
+    Attributes:
+        name: of the column, the array and the key.
+        meaning: for the documentation, Markdown.
+        unit: a field of `UnitNames`; "" for none.
+        label: on the axis of a plot; the name where it is "".
+        names: the texts of a column of texts, whose values are indices; -1 is the last one, None.
+        vector: whether a value has three components.
+        over_steps: whether a step may change the value, even if nothing does in a scene.
+    """
+
+    name: str
+    meaning: str
+    unit: str = ""
+    label: str = ""
+    names: Names = ()
+    vector: bool = False
+    over_steps: bool = True
+
+    def unit_name(self, units: str) -> str:
+        """The name of the unit in a deck's units; "" for none."""
+        name: str = getattr(unit_names(units), self.unit) if self.unit else ""
+        return name
+
+    def axis(self, units: str) -> str:
+        """The label of an axis with the unit in brackets."""
+        return labelled(self.label or self.name, self.unit_name(units))
+
+
+def _by_name(*quantities: Quantity) -> dict[str, Quantity]:
+    return {quantity.name: quantity for quantity in quantities}
+
+
+ELEMENTS = _by_name(
+    Quantity("element", "its number", over_steps=False),
+    Quantity("set", "the set that gave it its law, or `null`", over_steps=False),
+    Quantity("arc_length", "of its middle, from the first end of its line", "length", over_steps=False),
+    Quantity("x", "of its middle, up", "length", label="height X"),
+    Quantity("y", "of its middle", "length"),
+    Quantity("z", "of its middle", "length"),
+    Quantity("diameter", "external diameter, or `null`", "length", over_steps=False),
+    Quantity("length", "length", "length", over_steps=False),
+    Quantity(
+        "depth",
+        "mean distance of its two nodes below the seabed; `null` where there is no seabed",
+        "length",
+        label="embedment",
+    ),
+    Quantity("ratio", "depth / diameter, or `null`", label="embedment ratio, depth / diameter"),
+    Quantity("contact", "depth > 0"),
+    Quantity(
+        "force",
+        "seabed reaction per unit length, positive upwards",
+        "line_force",
+        label="seabed reaction\nper unit length",
+    ),
+    Quantity("slope", "d force / d ratio, or `null`", "line_force"),
+    Quantity("stiffness", "d force / d depth, per unit length", "stiffness", label="seabed stiffness\nper unit length"),
+    Quantity("law", "`curve:NAME`, `curve-cut`, `linear`, `nodal`, `rigid` or `none`"),
+    Quantity(
+        "state",
+        "of suction: `free`, `compression`, `suction`, `hold` or `broken`; `null` without a suction law",
+        names=STATES,
+    ),
+    Quantity(
+        "line",
+        "number of its line, from 1: elements one behind the other, up to an end or a junction",
+        over_steps=False,
+    ),
+    Quantity("node1", "the node that it begins at", over_steps=False),
+    Quantity("node2", "the node that it ends at", over_steps=False),
+)
+"""Of an element, in the order of the columns."""
+
+NODES = _by_name(
+    Quantity("node", "its number", over_steps=False),
+    Quantity("arc_length", "from the first end of its line; `null` without elements", "length", over_steps=False),
+    Quantity("x", "its height; X is up", "length", label="height X"),
+    Quantity("y", "its second coordinate", "length"),
+    Quantity("z", "its third coordinate", "length"),
+    Quantity("gap", "height above the seabed, along its normal; `null` where there is no seabed", "length"),
+    Quantity("normal", "normal of the seabed: x, y, z; `[null, null, null]` where there is no seabed", vector=True),
+    Quantity("reaction", "total force of the seabed on the node: x, y, z", "force", vector=True),
+    Quantity("normal_force", "the part along the normal, negative where it pulls", "force"),
+    Quantity("axial_force", "seabed reaction on the pipe along the line: friction; 0.0 without it", "force"),
+    Quantity(
+        "lateral_force",
+        "seabed reaction on the pipe across the line: friction and lateral springs; 0.0 without them",
+        "force",
+    ),
+    Quantity("axial_state", "`open`, `stick` or `slip`; `null` without a friction law", names=SLIDING),
+    Quantity("lateral_state", "the same across the line", names=SLIDING),
+    Quantity(
+        "line",
+        "the number of its line; of the first one at a junction; 0 without elements",
+        over_steps=False,
+    ),
+)
+"""Of a node, in the order of the columns."""
+
+LINES = _by_name(
+    Quantity("line", "its number, from 1", over_steps=False),
+    Quantity("first_element", "at its first end", over_steps=False),
+    Quantity("last_element", "at its other end", over_steps=False),
+    Quantity("length", "all of it", "length", over_steps=False),
+    Quantity("touchdown_points", "how often it comes down on the seabed or leaves it"),
+    Quantity("first_touchdown", "arc length of the first of these points", "length", label="touchdown point"),
+    Quantity("first_touchdown_x", "its height", "length"),
+    Quantity("first_touchdown_y", "its second coordinate", "length"),
+    Quantity("first_touchdown_z", "its third coordinate", "length"),
+    Quantity("last_touchdown", "arc length of the last of these points", "length"),
+    Quantity("last_touchdown_x", "its height", "length"),
+    Quantity("last_touchdown_y", "its second coordinate", "length"),
+    Quantity("last_touchdown_z", "its third coordinate", "length"),
+    Quantity("contact_length", "length below the seabed", "length", label="length in contact"),
+    Quantity("largest_force", "largest push of the seabed on an element, per unit length", "line_force"),
+    Quantity("largest_force_element", "the element"),
+    Quantity("largest_force_arc_length", "arc length of its middle", "length"),
+    Quantity("largest_uplift", "largest pull, negative, by suction or a curve", "line_force"),
+    Quantity("largest_uplift_element", "the element"),
+    Quantity("largest_uplift_arc_length", "arc length of its middle", "length"),
+    Quantity("reaction", "total normal force on its nodes; `null` on a rigid seabed", "force"),
+    Quantity("submerged_weight", "of its elements in contact", "force"),
+    Quantity("ratio", "reaction / submerged weight"),
+)
+"""Of a line, in the order of the columns; `null` where there is none."""
+
+STEPS = _by_name(
+    Quantity("reaction", "total normal force on all nodes; `null` on a rigid seabed", "force", label="total reaction"),
+    Quantity(
+        "force",
+        "largest magnitude of an element's force per unit length, with its sign",
+        "line_force",
+        label="largest force\nper length",
+    ),
+    Quantity(
+        "pull",
+        "largest force per unit length that holds an element down, 0 where none does",
+        "line_force",
+        label="largest suction\nper length",
+    ),
+    Quantity("touching", "number of elements in contact", label="elements\nin contact"),
+    Quantity("deepest", "largest depth of an element", "length", label="deepest\nembedment"),
+)
+"""Of a step: what is followed over time."""
+
+CASES = _by_name(
+    Quantity("deck", "the file, as it was given or found"),
+    Quantity("verdict", "`evaluated` or `failed`"),
+    Quantity("reason", "why it failed"),
+    Quantity("units", "`metric`, `imperial` or `user`"),
+    Quantity("positions", "`deck` or `file`"),
+    Quantity("steps", "number of time steps; 1 for one state"),
+    Quantity("elements", "number of elements that were evaluated"),
+    Quantity("in_contact", "largest number of elements in contact", label="in\ncontact"),
+    Quantity("touchdown_from", "least arc length of a touchdown point", "length"),
+    Quantity("touchdown_to", "largest arc length of a touchdown point", "length"),
+    Quantity("contact_length", "largest length below the seabed", "length", label="length in\ncontact"),
+    Quantity(
+        "largest_force",
+        "largest push of the seabed on an element, per unit length",
+        "line_force",
+        label="largest\nforce",
+    ),
+    Quantity("largest_force_element", "the element", label="element"),
+    Quantity("largest_force_time", "when; `null` for one state"),
+    Quantity("largest_uplift", "largest pull, negative, by suction or a curve", "line_force", label="largest\nuplift"),
+    Quantity("largest_uplift_element", "the element"),
+    Quantity("largest_uplift_time", "when; `null` for one state"),
+    Quantity(
+        "reaction",
+        "largest total normal force on all nodes; `null` on a rigid seabed",
+        "force",
+        label="total\nreaction",
+    ),
+    Quantity("ratio", "this reaction / submerged weight of the elements in contact at that step", label="ratio"),
+    Quantity("warnings", "number of warnings about the results", label="warn-\nings"),
+    Quantity("warning_codes", "their codes, separated by spaces"),
+    Quantity("result", "the file with its results, below the folder of `-o`"),
+)
+"""Of a deck among many: the worst over all lines and steps; `null` where there is none."""
+
+
+def labelled(text: str, unit: str) -> str:
+    """A label, with the unit in brackets behind it if it has one."""
+    return f"{text} [{unit}]" if unit else text
+
+
+def headed(name: str, unit: str) -> str:
+    """A heading: the name, and below it the unit in brackets if it has one."""
+    return f"{name}\n[{unit}]" if unit else name
+
+
+def shown(value: float | None, digits: int = 6) -> str:
+    """A number in the shortest common form; "" for None and NaN."""
+    if value is None or math.isnan(value):
+        return ""
+    return f"{value:.{digits}g}"
+
+
+def finite(value: float | None) -> float | None:
+    """A number that JSON can hold; None for what overflowed or is none."""
+    return value if value is not None and math.isfinite(value) else None
+
+
+def csv_lines(rows: Iterable[Iterable[object]]) -> Iterator[str]:
+    """The lines with their ends (LF); None is an empty field, numbers read back to the same double."""
+    buffer = io.StringIO()
+    writer = csv.writer(buffer, lineterminator="\n")
+    for row in rows:
+        writer.writerow([csv_value(value) for value in row])
+        yield buffer.getvalue()
+        buffer.seek(0)
+        buffer.truncate()
+
+
+def csv_value(value: object) -> str:
+    """The text of a field."""
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return repr(value) if isinstance(value, float) else str(value)

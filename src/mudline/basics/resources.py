@@ -1,0 +1,37 @@
+"""What mudline consists of: the grammar files, the pages of rules, the modules of a package that says what it has."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from importlib import import_module
+from pathlib import Path
+from pkgutil import iter_modules
+from types import ModuleType
+
+
+def grammar_file(name: str) -> Path:
+    """Path of the grammar file `name`: the package's own copy first, the checkout's second."""
+    return _own_file(f"grammar/{name}")
+
+
+def rule_file(code: str) -> Path:
+    """Path of the page of a rule, in the package or the checkout."""
+    return _own_file(f"docs/rules/{code}.md")
+
+
+def _own_file(path: str) -> Path:
+    package = Path(__file__).parents[1]
+    return package / path if (package / path).exists() else package.parents[1] / path
+
+
+def modules_of(package: str) -> list[ModuleType]:
+    """Import every module of a package, and of the packages in it; what they declare is there then."""
+    return list(_modules_of(import_module(package)))
+
+
+def _modules_of(package: ModuleType) -> Iterator[ModuleType]:
+    for found in iter_modules(package.__path__, f"{package.__name__}."):
+        module = import_module(found.name)
+        yield module
+        if found.ispkg:
+            yield from _modules_of(module)

@@ -1,0 +1,291 @@
+"""The configuration of a project: the `[tool.mudline]` of a pyproject.toml, or a mudline.toml."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
+from functools import lru_cache, reduce
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from mudline.basics.overwriting import reading
+from mudline.basics.spelling import nearest
+
+Values = dict[str, Any]
+
+LISTS = ("select", "ignore", "extend-select", "include", "exclude", "fixable", "unfixable")
+WORDS = {"fail-on": ("error", "warning", "info"), "dialect": ("mudline", "flexcom")}
+TABLES = ("per-file-ignores", "severity")
+EXTEND = "extend"
+NO_OUTSIDE = "no-outside"
+KEYS = (EXTEND, *LISTS, *WORDS, NO_OUTSIDE, *TABLES)
+_ADDED = "extend-select"
+OF_CODES = ("select", "ignore", "extend-select", "fixable", "unfixable")
+SEVERITIES = ("error", "warning", "info", "off")
+
+
+CodeFault = Callable[[str], str]
+"""What is wrong with a word that is to name rules, or ""."""
+
+
+class ConfigurationError(ValueError):
+    """A configuration that cannot be used; the message has file, line or key, and what to do."""
+
+
+@dataclass(frozen=True)
+class Configuration:
+    """The values that a file sets, checked, with those of the files that it extends; none without a file.
+
+    `origins` has the file and the line of each key, `content` the contents of all files: findings depend on them.
+    """
+
+    path: Path | None = None
+    values: Values = field(default_factory=dict)
+    origins: dict[str, tuple[Path, int]] = field(default_factory=dict)
+    content: bytes = b""
+
+    def over(self, base: Configuration) -> Configuration:
+        """This configuration with what a base sets besides.
+
+        A key replaces that of the base; tables are joined entry by entry, and `extend-select` adds to that of the base.
+        """
+        values = base.values | self.values
+        for key in TABLES:
+            if key in base.values and key in self.values:
+                values[key] = base.values[key] | self.values[key]
+        if _ADDED in base.values and _ADDED in self.values:
+            values[_ADDED] = [*base.values[_ADDED], *self.values[_ADDED]]
+        content = b"%d %b%b" % (len(self.content), self.content, base.content)
+        return Configuration(self.path, values, base.origins | self.origins, content)
+
+    def words(self, key: str) -> list[str]:
+        """A list, empty if it is not set."""
+        return list(self.values.get(key, ()))
+
+    def table(self, key: str) -> dict[str, Any]:
+        """A table, empty if it is not set."""
+        return dict(self.values.get(key, {}))
+
+    def relative(self, path: str) -> str:
+        """A path as seen from the folder of the configuration, with `/`."""
+        folder = os.curdir if self.path is None else self.path.parent
+        try:
+            return os.path.relpath(path, folder).replace(os.sep, "/")
+        except ValueError:  # another drive
+            return path.replace(os.sep, "/")
+
+
+class Given(NamedTuple):
+    """What a caller gives of the settings that findings depend on; None or empty where that is nothing."""
+
+    chosen: tuple[str, ...] = ()
+    ignored: tuple[str, ...] = ()
+    also: tuple[str, ...] = ()
+    dialect: str | None = None
+    units: str | None = None
+    no_outside: bool = False
+
+
+def read_configuration(
+    path: Path, *, demanded: bool = True, code_fault: CodeFault | None = None
+) -> Configuration | None:
+    """The configuration in a file; None for a pyproject.toml without `[tool.mudline]` that is not `demanded`.
+
+    What it extends is read too. Words for rules are checked by `code_fault` (`mudline.checks.registry.code_fault`),
+    and taken as they are without. Raises OSError and ConfigurationError.
+    """
+    found = _read_one(path, demanded=demanded, code_fault=code_fault)
+    if found is None or EXTEND not in found.values:
+        return found
+    chain, at, whole = [path], found, [found]
+    while EXTEND in at.values:
+        base, line = _base_of(chain[-1], at.values[EXTEND]), at.origins[EXTEND][1]
+        place = f"{chain[-1].as_posix()}:{line}: {EXTEND}"
+        known = [os.path.realpath(one) for one in chain]
+        if (real := os.path.realpath(base)) in known:
+            names = " -> ".join(one.as_posix() for one in (*chain[known.index(real) :], base))
+            raise ConfigurationError(f"{place} leads back to itself: {names}")
+        try:
+            read = _read_one(base, demanded=True, code_fault=code_fault)
+        except OSError as error:
+            why = (error.strerror or str(error)).lower()
+            raise ConfigurationError(f"{place}: {base.as_posix()} cannot be read: {why}") from error
+        at = read or Configuration(base)
+        chain.append(base)
+        whole.append(at)
+    return reduce(lambda above, own: own.over(above), reversed(whole))
+
+
+def base_paths(path: Path) -> Iterator[Path]:
+    """The files that a configuration extends, as far as they can be followed; faults are for those who read it."""
+    known = {os.path.realpath(path)}
+    while True:
+        try:
+            found = _read_one(path, demanded=False, code_fault=None)
+        except (OSError, ConfigurationError):
+            return
+        if found is None or EXTEND not in found.values:
+            return
+        path = _base_of(path, found.values[EXTEND])
+        yield path
+        if (real := os.path.realpath(path)) in known:
+            return
+        known.add(real)
+
+
+def _base_of(path: Path, given: str) -> Path:
+    """The file that `extend` names, from the folder of the file in which it stands."""
+    return Path(os.path.normpath(path.parent / given))
+
+
+def _read_one(path: Path, *, demanded: bool, code_fault: CodeFault | None) -> Configuration | None:
+    """As `read_configuration`, of the file alone."""
+    reading(path)
+    content = path.read_bytes()
+    import tomllib  # noqa: PLC0415 - most commands find no file
+
+    try:
+        text = content.decode("utf-8-sig").replace("\r\n", "\n")
+        document = tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise ConfigurationError(f"{path.as_posix()}: this is not TOML: {error}") from error
+    except ValueError as error:  # of more digits than Python reads
+        raise ConfigurationError(f"{path.as_posix()}: a whole number in this file is too large") from error
+    values: object = document
+    if path.name == "pyproject.toml":
+        tool = document.get("tool")
+        values = tool.get("mudline") if isinstance(tool, dict) else None
+        if values is None and not demanded:
+            return None
+        values = {} if values is None else values
+    return _Reading(path, content, text, code_fault).checked(values)
+
+
+class _Reading:
+    """One file being checked."""
+
+    def __init__(self, path: Path, content: bytes, text: str, code_fault: CodeFault | None) -> None:
+        self.path = path
+        self.content = content
+        self.code_fault = code_fault
+        self.rows = text.split("\n")
+        self.first = 0
+        if path.name == "pyproject.toml":
+            heads = [i for i, row in enumerate(self.rows) if re.match(r"\s*\[\s*tool\s*\.\s*mudline\b", row)]
+            self.first = heads[0] if heads else 0
+
+    def checked(self, values: object) -> Configuration:
+        if not isinstance(values, dict):
+            raise self.error("tool", "tool.mudline must be a table")
+        for key, value in values.items():
+            self.check(key, value)
+        origins = {key: (self.path, self.line(key) or 1) for key in values}
+        return Configuration(self.path, values, origins, self.content)
+
+    def check(self, key: str, value: object) -> None:
+        if key not in KEYS:
+            raise self.error(key, f"unknown key {key!r}{_hint(key, KEYS)}")
+        if key in (EXTEND, NO_OUTSIDE):
+            self.single(key, value)
+        elif key in WORDS:
+            self.one_of(key, value, WORDS[key])
+        elif key == "severity":
+            for code, severity in self.pairs(key, value):
+                self.codes(key, [code])
+                self.one_of(code, severity, SEVERITIES)
+        elif key == "per-file-ignores":
+            for glob, codes in self.pairs(key, value):
+                self.codes(glob, self.texts(glob, codes))
+        elif key in LISTS:
+            texts = self.texts(key, value)
+            if key in OF_CODES:
+                self.codes(key, texts)
+
+    def single(self, key: str, value: object) -> None:
+        if key == NO_OUTSIDE and not isinstance(value, bool):
+            raise self.error(key, f"{key} is true or false, not {value!r}")
+        if key == EXTEND and (not isinstance(value, str) or not value.strip()):
+            raise self.error(key, f'{key} must be the path of a file, such as "../base.toml", not {value!r}')
+
+    def one_of(self, key: str, value: object, choices: tuple[str, ...]) -> None:
+        if not isinstance(value, str) or value not in choices:
+            near = _hint(value, choices) if isinstance(value, str) else f": write one of {', '.join(choices)}"
+            raise self.error(key, f"{key} cannot be {value!r}{near}")
+
+    def pairs(self, key: str, value: object) -> Iterable[tuple[str, object]]:
+        if not isinstance(value, dict):
+            raise self.error(key, f"{key} must be a table, not {value!r}")
+        return value.items()
+
+    def texts(self, key: str, value: object) -> list[str]:
+        if not isinstance(value, list) or not all(isinstance(word, str) and word.strip() for word in value):
+            raise self.error(key, f'{key} must be a list of texts, such as ["..."], not {value!r}')
+        return value
+
+    def codes(self, key: str, words: list[str]) -> None:
+        for word in words:
+            if fault := self.code_fault(word) if self.code_fault else "":
+                raise self.error(word, f"{key}: {fault}", key)
+
+    def line(self, *words: str) -> int | None:
+        """The line of a key or a text, as far as a search of the text finds it."""
+        for word in words:
+            name = re.escape(word)
+            pattern = re.compile(rf"""["']{name}["']|(^|[\s.\[{{,]){name}\s*[=\].]""")
+            for number, row in enumerate(self.rows[self.first :], self.first + 1):
+                if pattern.search(row.partition("#")[0]):
+                    return number
+        return None
+
+    def error(self, word: str, message: str, key: str | None = None) -> ConfigurationError:
+        line = self.line(word, key or word)
+        return ConfigurationError(f"{self.path.as_posix()}{f':{line}' if line else ''}: {message}")
+
+
+def _hint(word: str, choices: Iterable[str]) -> str:
+    near = nearest(word.replace("_", "-"), choices)
+    return f": did you mean {near}?" if near else f": choose from {', '.join(choices)}"
+
+
+class Search:
+    """The nearest configuration upwards of a folder, each folder looked at once; `code_fault` as when one is read."""
+
+    def __init__(self, code_fault: CodeFault | None = None) -> None:
+        self._known: dict[Path, Configuration] = {}
+        self._code_fault = code_fault
+
+    def nearest(self, folder: Path) -> Configuration:
+        """mudline.toml before pyproject.toml in one folder. Raises OSError and ConfigurationError."""
+        passed: list[Path] = []
+        found = Configuration()
+        for place in (folder, *folder.parents):
+            if place in self._known:
+                found = self._known[place]
+                break
+            passed.append(place)
+            if here := _in(place, self._code_fault):
+                found = here
+                break
+        self._known.update(dict.fromkeys(passed, found))
+        return found
+
+
+def _in(folder: Path, code_fault: CodeFault | None) -> Configuration | None:
+    for name in ("mudline.toml", "pyproject.toml"):
+        path = folder / name
+        is_there = os.path.isfile(path)  # noqa: PTH113 - Path raises for a folder that may not be searched
+        if is_there and (found := read_configuration(path, demanded=False, code_fault=code_fault)):
+            return found
+    return None
+
+
+@lru_cache(maxsize=256)
+def refuses_outside(folder: Path) -> bool:
+    """Whether the nearest configuration keeps decks of a folder from files outside; also one that cannot be read."""
+    try:
+        found = Search().nearest(Path(os.path.abspath(folder)))  # noqa: PTH100 - links stay what they are called
+    except (OSError, ConfigurationError):
+        return True
+    return bool(found.values.get(NO_OUTSIDE))

@@ -1,0 +1,108 @@
+"""What a rule that advises sees of a deck: the deck as it is written, and its scene."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import chain, islice
+from typing import Any, TypeVar
+
+from mudline.basics.limits import MOST_REPORTED
+from mudline.editing.variations.names import (
+    may_vary,
+    misspelt_keywords,
+    misspelt_sections,
+    undefined_parameters,
+    undefined_variations,
+)
+from mudline.language.deck.model import Deck
+from mudline.language.deck.reading import TextOrigin
+from mudline.language.diagnostics import Blocks, Code, Problem, Where
+from mudline.language.keywords.catalogue import holds_in_soil
+from mudline.model.scene.context import placed_blocks
+from mudline.model.scene.model import Scene, resolve
+
+T = TypeVar("T")
+
+
+@dataclass(eq=False)
+class LintContext:
+    """A deck as it is written (equations and all) and its scene (evaluated and resolved, as far as that goes).
+
+    `dialect` is the deck language that the deck must keep to: "mudline", or "flexcom" without extension keywords.
+    `fixing` says that repairs are made: those that another deck beside this one forbids must not be among them.
+    """
+
+    deck: Deck
+    dialect: str = "mudline"
+    fixing: bool = False
+    _made: dict[object, Any] = field(default_factory=dict, repr=False)
+
+    @property
+    def text(self) -> TextOrigin | None:
+        """Tree, source and places of a deck that was read from text; None for one in JSON or YAML."""
+        return self.deck.origin if isinstance(self.deck.origin, TextOrigin) else None
+
+    @cached_property
+    def scene(self) -> Scene:
+        """The scene of the deck."""
+        return resolve(self.deck)
+
+    def blocks(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
+        """What `Deck.blocks` gives for the deck of the scene, whose equations are evaluated."""
+        return self.scene.context.blocks(keyword, section)
+
+    def written(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
+        """What `Deck.blocks` gives for the deck itself, with its equations."""
+        return self._written.get((section, keyword), ())
+
+    @cached_property
+    def _written(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
+        return placed_blocks(self.deck)
+
+    @cached_property
+    def keywords(self) -> set[str]:
+        """Names of the keywords in the models of the deck of the scene, those that are not read among them."""
+        return self.scene.deck.keywords()
+
+    @cached_property
+    def in_soil(self) -> bool:
+        """Whether the model has soil springs."""
+        return any(map(holds_in_soil, self.keywords))
+
+    @cached_property
+    def noticed(self) -> dict[str, list[Problem]]:
+        """What reading and resolving the deck, and the rules that block, report, by code."""
+        found: dict[str, list[Problem]] = {}
+        for problem in chain(self.scene.findings, _of_variations(self.deck)):
+            found.setdefault(problem.code.code, []).append(problem)
+        return found
+
+    def once(self, make: Callable[[LintContext], T]) -> T:
+        """What a function makes of this deck, made once for all rules that ask."""
+        try:
+            found: T = self._made[make]
+        except KeyError:
+            found = self._made[make] = make(self)
+        return found
+
+    def problems_of(self, code: Code) -> Sequence[Problem]:
+        """What reading and resolving the deck, and the rules that block, report under a code."""
+        return self.noticed.get(code.code, ())
+
+
+def entries_of_sets(blocks: Iterable[tuple[Where, Any]]) -> Iterator[tuple[Where, Any]]:
+    """Every entry below a SET= of some blocks, with its place."""
+    for where, block in blocks:
+        for index, entry in enumerate(block.sets):
+            yield where.inside("sets", index), entry
+
+
+def _of_variations(deck: Deck) -> Iterator[Problem]:
+    """Undefined names in variations: they are faults of the varied decks, and not of this one."""
+    if not may_vary(deck):
+        return
+    for find in (undefined_parameters, undefined_variations, misspelt_keywords, misspelt_sections):
+        for problem in islice(find(deck), MOST_REPORTED):
+            yield replace(problem, blocks=Blocks.NEVER)

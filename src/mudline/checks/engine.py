@@ -1,0 +1,313 @@
+"""Running rules over decks, under the settings of a run."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field, fields, replace
+from enum import StrEnum
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, cast
+
+from mudline.checks.context import LintContext
+from mudline.checks.suppression import suppressions
+from mudline.language.codes.lines import SYN009, SYN010
+from mudline.language.deck.coverage import coverage_of
+from mudline.language.deck.faults import MisspeltDeckError
+from mudline.language.deck.loading import load_bytes
+from mudline.language.deck.model import BaseProblem, Deck, Opaque
+from mudline.language.deck.reading import TextOrigin, units_of
+from mudline.language.diagnostics import Blocks, Coverage, DeckError, Diagnostic, Problem, Severity, strongest
+from mudline.language.keywords.model import Block
+from mudline.language.keywords.naming import repeated_set
+from mudline.language.keywords.reader import ReadBlock, read_block, read_piece
+from mudline.language.rules import Rule
+from mudline.language.syntax.tree import RawBlock
+
+if TYPE_CHECKING:
+    from mudline.checks.recovery.engine import Recovered
+
+
+class Fixing(StrEnum):
+    """Which fixes are made: none, those that keep what the deck means, or also those that guess."""
+
+    NONE = "none"
+    SAFE = "safe"
+    UNSAFE = "unsafe"
+
+    def takes(self, applicability: str) -> bool:
+        """Whether fixes of an applicability ("safe" or "unsafe") are made."""
+        return self is Fixing.UNSAFE or (self is Fixing.SAFE and applicability == "safe")
+
+
+@dataclass(frozen=True, slots=True)
+class LintSettings:
+    """Which rules run, how severe their findings are, and which are fixed; it can be pickled.
+
+    `units` None means those of the file. `severities` override the rules' own by code. Findings of `fail_on` or worse
+    fail a run. Fixes of the codes in `unfixable` are never made. With `no_outside` a deck names no file outside of its
+    project.
+    """
+
+    rules: tuple[Rule, ...]
+    units: str | None = None
+    dialect: str = "mudline"
+    severities: Mapping[str, Severity] = field(default_factory=dict)
+    fail_on: Severity = Severity.WARNING
+    fixing: Fixing = Fixing.NONE
+    unfixable: frozenset[str] = frozenset()
+    no_outside: bool = False
+
+    def __reduce__(self) -> tuple[Callable[..., LintSettings], tuple[object, ...]]:
+        """Rules go by their codes: their functions may not be picklable."""
+        codes = frozenset(rule.code.code for rule in self.rules)
+        return _with_rules, (codes, *(getattr(self, one.name) for one in fields(self)[1:]))
+
+
+def _with_rules(codes: frozenset[str], *others: Any) -> LintSettings:  # noqa: ANN401 - the fields behind the first
+    """Settings with the rules of these codes; raises ImportError where a package that has some of them is missing."""
+    from mudline.checks.registry import rules  # noqa: PLC0415 - it imports the rules, which import this
+
+    found = tuple(rule for rule in rules() if rule.code.code in codes)
+    if len(found) < len(codes):
+        raise ImportError(f"no rule {', '.join(sorted(codes - {rule.code.code for rule in found}))}")
+    return LintSettings(found, *others)
+
+
+def lint_context(context: LintContext, chosen: Sequence[Rule]) -> list[Diagnostic]:
+    """All findings of the chosen rules in a deck, in the order of the file, without those that comments suppress.
+
+    Those that say no more than another one are under it.
+    """
+    return context.deck.diagnose(joined_problems(context, chosen))
+
+
+def joined_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: bool = True) -> list[Problem]:
+    """What the chosen rules find in a deck as it was meant: what only follows from a fault is not among it.
+
+    What says no more than another finding is under that (`Problem.following`). `suppress` False keeps what comments of
+    the deck suppress.
+    """
+    meant = _meant(context, chosen, suppress=suppress)
+    found = problems_in(meant.context if meant else context, chosen)
+    if meant is not None:
+        found = [*meant.as_written(found)]
+        found = [*_as_severe(context, meant), *found]
+    found = _misspelt_as_errors(context, found)
+    found = unsuppressed(context, found, chosen) if suppress else found
+    if not found:
+        return found
+    from mudline.checks.joining import joined_findings  # noqa: PLC0415 - most decks are without a finding
+
+    return joined_findings(context, found)
+
+
+def _meant(context: LintContext, chosen: Sequence[Rule], *, suppress: bool) -> Recovered | None:
+    """The deck as it was meant; None where it is so, or was made by a program."""
+    deck = context.deck
+    if context.text is None or not (may_recover(deck) or context.scene.lacks):
+        return None
+    hiding = context.once(suppressions) if suppress else None
+    units = None if units_of(deck) == deck.units else deck.units
+
+    def again(data: bytes) -> Deck:
+        return read_deck(data, deck.file, units=units, folder=deck.folder)
+
+    def reported(problems: Sequence[Problem]) -> Sequence[Problem]:
+        return hiding.split([*problems], ())[0] if hiding else problems
+
+    from mudline.checks.recovery.engine import Reading, recovered  # noqa: PLC0415 - most decks do without
+
+    return recovered(context, {rule.code.code for rule in chosen}, Reading(again, _read_once, reported))
+
+
+def _as_severe(context: LintContext, meant: Recovered) -> list[Problem]:
+    """Return the causes of a deck, as severe as what follows from them: errors where the deck is refused for it."""
+    causes = meant.causes
+    if any(one.weight is Severity.ERROR for one in causes):
+        return causes
+    others = {(one.code, one.message) for one in meant.context.scene.blocking()}
+    following = [
+        one
+        for one in context.scene.blocking()
+        if one.weight is not Severity.INFO and (one.code, one.message) not in others
+    ]
+    if not following:
+        return causes
+    worst = max((one.weight for one in causes), key=lambda severity: severity.rank)
+    return [_as_error(one, strongest(following)) if one.weight is worst else one for one in causes]
+
+
+def _as_error(problem: Problem, blocks: Blocks) -> Problem:
+    return replace(problem, severity=Severity.ERROR, blocks=blocks)
+
+
+def _misspelt_as_errors(context: LintContext, found: list[Problem]) -> list[Problem]:
+    """Make errors of the misspelt names in a deck of which nothing can be judged, as no keyword in it is read."""
+    misspelt = [one for one in found if one.repair and one.code in (SYN009, SYN010)]
+    coverage = coverage_of(context.deck) if misspelt else None
+    if coverage is None or coverage.read or coverage.partly:
+        return found
+    return [_as_error(one, Blocks.ALWAYS) if one in misspelt else one for one in found]
+
+
+def may_recover(deck: Deck) -> bool:
+    """Whether something in a deck was not read, is passed through, or may stand there twice."""
+    origin = deck.origin
+    if deck.problems or (isinstance(origin, TextOrigin) and any(read.lost for read in origin.read.values())):
+        return True
+    blocks = [block for section in deck.sections for block in section.blocks]
+    count = Counter(block.keyword for block in blocks)
+    for block in blocks:
+        if type(block) is Opaque:
+            return True
+        facts = cast("Block", block).facts
+        if facts.defines and (count[block.keyword] > 1 or not all(map(count.__contains__, facts.beside))):
+            return True
+        if facts.later_wins and repeated_set(cast("Block", block)):
+            return True
+    return False
+
+
+def named_causes(deck: Deck, refused: Sequence[Diagnostic], chosen: Sequence[Rule]) -> list[Diagnostic]:
+    """Return the reasons for which a deck was refused, with the cause in the place of what follows from it."""
+    codes = {one.code for one in refused}
+    reported = [
+        one
+        for one in joined_problems(LintContext(deck), chosen, suppress=False)
+        if one.blocking is Blocks.ALWAYS or (one.blocking is Blocks.WITH_TENSION and one.code.code in codes)
+    ]
+    return deck.diagnose(reported) or list(refused)
+
+
+@contextmanager
+def naming_causes(deck: Deck) -> Iterator[None]:
+    """Refuse a deck with the causes of that for which it is refused inside: raises DeckError with these."""
+    try:
+        yield
+    except DeckError as error:
+        from mudline.checks.registry import rules  # noqa: PLC0415 - only where the deck is refused
+
+        raise DeckError(named_causes(deck, error.diagnostics, rules())) from error
+
+
+def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
+    """What the chosen rules find in a deck itself; what lies in a deck that it continues is reported for that one.
+
+    Suppressed problems are among them; unused suppression comments are not.
+    """
+    found: list[Problem] = []
+    for rule in chosen:
+        if rule.check is None or rule.blocks:
+            found += context.problems_of(rule.code)
+        else:
+            found.extend(map(_advice, rule.findings(context)))
+    return [problem for problem in found if not of_base(context.deck, problem)]
+
+
+def of_base(deck: Deck, problem: Problem) -> bool:
+    """Whether a problem of a scene lies in a deck that `deck` continues, and not in `deck` itself."""
+    beyond = problem.where is not None and problem.where.section >= len(deck.sections)
+    return beyond or isinstance(problem, BaseProblem)
+
+
+def _advice(problem: Problem) -> Problem:
+    """A problem that does not keep the deck from being evaluated."""
+    return problem if problem.blocking is Blocks.NEVER else replace(problem, blocks=Blocks.NEVER)
+
+
+def unsuppressed(context: LintContext, problems: list[Problem], chosen: Sequence[Rule]) -> list[Problem]:
+    """The problems that comments of the deck do not suppress, and the comments that suppress nothing."""
+    found = context.once(suppressions)
+    return problems if found is None else found.split(problems, chosen)[0]
+
+
+_SHORT_BLOCK = 4096
+"""Characters of a block that is remembered: decks of a project share their short blocks."""
+
+
+class _Piece(str):
+    """The text of a block, equal to that of any other; `raw` and `start` are those of the first one that was read."""
+
+    __slots__ = ("raw", "start")
+
+    raw: RawBlock
+    start: int
+
+
+@lru_cache(512)
+def _read_piece(piece: _Piece, declared: type[Block], last: bool) -> ReadBlock:  # noqa: FBT001 - for the cache
+    return read_piece(piece, piece.start, piece.raw, declared, last=last)
+
+
+def _read_once(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
+    """What `read_block` gives for a block; those of the same text share their model."""
+    start = raw.head.span.start
+    end = (raw.leaves[-1] if raw.leaves else raw.head).span.end
+    if end - start > _SHORT_BLOCK:
+        return read_block(text, raw, declared, last=last)
+    piece = _Piece(text[start:end])
+    piece.raw, piece.start = raw, start
+    known = _read_piece(piece, declared, last)
+    return known.at(text, start, [_reported_at(problem, start) for problem in known.problems] if known.problems else [])
+
+
+def _reported_at(problem: Problem, by: int) -> Problem:
+    span = problem.span and problem.span.moved(by)
+    repair = problem.repair
+    if repair is not None:
+        repair = replace(repair, edits=tuple((place.moved(by), text) for place, text in repair.edits))
+    return replace(problem, span=span, repair=repair)
+
+
+def read_deck(data: bytes, name: str, *, units: str | None = None, folder: Path | None = None) -> Deck:
+    """The deck of a file's content, whose models are shared with decks that were read before: it is not to be changed.
+
+    Raises DeckError for a JSON or YAML file that holds no deck.
+    """
+    deck = load_bytes(data, name, units=units, folder=folder, read=_read_once)
+    if isinstance(deck.origin, TextOrigin):
+        deck.origin.no_equations = "[" not in deck.origin.source.text
+    return deck
+
+
+def lint_bytes(
+    data: bytes,
+    name: str,
+    chosen: Sequence[Rule],
+    *,
+    units: str | None = None,
+    folder: Path | None = None,
+    dialect: str = "mudline",
+) -> list[Diagnostic]:
+    """All findings in a file's content, in its order; `name` gives its form, and is named in the findings.
+
+    `folder` is where files that the deck names are; without it none of them is looked for. `dialect` is the program
+    that the deck is for, "mudline" or "flexcom".
+
+    Never raises for content: a JSON or YAML file that holds no deck gives the reasons (DOC001, DOC002), whatever rules
+    are chosen, as nothing else can be checked.
+    """
+    return covered_findings(data, name, chosen, units=units, folder=folder, dialect=dialect)[0]
+
+
+def covered_findings(
+    data: bytes,
+    name: str,
+    chosen: Sequence[Rule],
+    *,
+    units: str | None = None,
+    folder: Path | None = None,
+    dialect: str = "mudline",
+) -> tuple[list[Diagnostic], Coverage]:
+    """What `lint_bytes` finds, and how many keywords were read."""
+    try:
+        deck = read_deck(data, name, units=units, folder=folder)
+    except MisspeltDeckError as error:
+        found = lint_context(LintContext(error.meant, dialect=dialect), chosen)
+        return [*error.diagnostics, *found], coverage_of(error.meant)
+    except DeckError as error:
+        return list(error.diagnostics), Coverage()
+    return lint_context(LintContext(deck, dialect=dialect), chosen), coverage_of(deck)

@@ -1,0 +1,146 @@
+"""One cause, one finding: findings that repeat themselves are one, and so are those that a joint puts together.
+
+Nothing is read or checked for this.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import chain
+
+from mudline.basics.short_repr import counted
+from mudline.checks.context import LintContext
+from mudline.checks.joints import JOINTS, Joined
+from mudline.checks.recovery.blocks import ROW_NUMBER, also_in
+from mudline.language.codes.fields import SYN002, SYN003, SYN015
+from mudline.language.codes.lines import SYN001, SYN004, SYN014
+from mudline.language.codes.references import REF007
+from mudline.language.deck.model import Origin
+from mudline.language.deck.reading import TextOrigin
+from mudline.language.diagnostics import MORE, Blocks, Problem, Repair, Severity, strongest
+
+FEWEST = 3
+"""Rows below each other, or fields of a row, that have one fault; two may each have a fault of their own."""
+
+MOST_NAMED = 4
+"""Rows below the first one whose numbers are named."""
+
+_OF_ROWS = frozenset(code.code for code in (SYN001, SYN002, SYN003, SYN004, SYN014, SYN015, REF007))
+"""Codes of faults of a row, which one slip gives to many rows."""
+_DIGITS = re.compile(r"-?[0-9]+")
+
+
+def joined_findings(context: LintContext, problems: list[Problem]) -> list[Problem]:
+    """Return the findings with those under another one that say no more (`Problem.following`)."""
+    text, origin = context.text, context.deck.origin
+    if type(origin) is Origin:  # a program made the deck, which has no lines
+        return problems
+    by_code: dict[str, list[Problem]] = {}
+    for problem in problems:
+        if problem.message != MORE:
+            by_code.setdefault(problem.code.code, []).append(problem)
+    declared = (join(context, by_code) for codes, join in JOINTS if text and not codes.isdisjoint(by_code))
+    repeated = _repeated(text, by_code) if text else ()
+    under: dict[int, Problem] = {}
+    hidden: set[int] = set()
+    for one in chain(*declared, repeated, _alike(origin, by_code)):
+        if id(one.first) not in hidden and (one.others or one.message):
+            cause = under.get(id(one.first), one.first)
+            cause = replace(cause, message=one.message or cause.message, span=one.place or cause.span)
+            others = [under.get(id(each), each) for each in one.others]
+            under[id(one.first)] = _joined(cause, others, one.words) if others else cause
+            hidden.update(map(id, one.others))
+    return [under.get(id(one), one) for one in problems if id(one) not in hidden]
+
+
+def _joined(cause: Problem, others: Sequence[Problem], words: str) -> Problem:
+    """A finding with others under it: as severe as the worst of them, and an error if one keeps from evaluation."""
+    everything = (cause, *others)
+    blocks = strongest(everything)
+    severity = max((one.weight for one in everything), key=lambda severity: severity.rank)
+    below = tuple(each for one in others for each in (replace(one, following=()), *one.following))
+    return replace(
+        cause,
+        message=f"{cause.message}; {words or _left_out(len(others))}",
+        severity=Severity.ERROR if blocks is Blocks.ALWAYS else severity,
+        blocks=blocks,
+        repair=cause.repair and _of_all(everything) if all(one.code is cause.code for one in others) else cause.repair,
+        following=(*cause.following, *below),
+    )
+
+
+def _left_out(count: int) -> str:
+    """How many findings follow from one, in words."""
+    which = "finding that follows from it is" if count == 1 else "findings that follow from it are"
+    return f"{count} {which} left out"
+
+
+def _of_all(problems: Sequence[Problem]) -> Repair | None:
+    """The repair of a finding with the edits of those that say the same; None where one of them has none."""
+    repairs = [one.repair for one in problems if one.repair]
+    if len(repairs) < len(problems):
+        return None
+    return replace(repairs[0], edits=tuple(sorted({edit for repair in repairs for edit in repair.edits})))
+
+
+def _repeated(text: TextOrigin, by_code: dict[str, list[Problem]]) -> Iterator[Joined]:
+    """Further fields of the same row, and the rows below each other with the same fault."""
+    for code in _OF_ROWS & by_code.keys():
+        rows: dict[int, list[Problem]] = {}
+        for problem in by_code[code]:
+            rows.setdefault(text.place(problem).line, []).append(problem)
+        behind = 0
+        for line, found in sorted(rows.items()):
+            if line < behind:
+                continue
+            behind = line + 1
+            while behind in rows and _said(rows[behind][0]) == _said(found[0]):
+                behind += 1
+            below = [rows[each] for each in range(line + 1, behind)] if behind - line >= FEWEST else []
+            behind = behind if below else line + 1
+            whole_row = len(found) == text.source.line(line).count(",") + 1
+            same = found[1:] if len(found) >= FEWEST or whole_row or code == SYN014.code else []
+            yield Joined(found[0], [*same, *chain(*below)], f"and {' and '.join(_counts(text, same, below))}")
+
+
+def _said(problem: Problem) -> str:
+    """What is said of a row but for its numbers."""
+    return _DIGITS.sub("0", problem.message)
+
+
+def _counts(text: TextOrigin, same: Sequence[Problem], below: Sequence[Sequence[Problem]]) -> Iterator[str]:
+    """How many fields of a row, and which rows below it, have its fault, in words."""
+    if same:
+        yield f"{counted(len(same), 'more field')} of this row"
+    if below:
+        lines = [text.place(row[0]).line for row in below]
+        ids = [number[1] for line in lines if (number := ROW_NUMBER.match(text.source.line(line)))]
+        named = f" ({', '.join(ids)})" if len(ids) == len(below) <= MOST_NAMED else ""
+        yield f"{len(below)} more rows of this block{named}, the last in line {lines[-1]}"
+
+
+def _lacking(problem: Problem) -> str:
+    """What a deck lacks; of numbers that a line may define which was not read, that line."""
+    doubt = problem.message.rpartition("; ")[2]
+    one_cause = problem.lacks.isdecimal() and doubt.endswith("could not be used may define it")
+    return doubt if one_cause else problem.lacks.casefold()
+
+
+def _alike(origin: Origin, by_code: dict[str, list[Problem]]) -> Iterator[Joined]:
+    """Further lines that use a name which is not defined; further fields of a row of which the same is said.
+
+    A line of JSON may be the whole deck.
+    """
+    has_rows = isinstance(origin, TextOrigin)
+    for code, problems in by_code.items():
+        alike: dict[tuple[str, int], list[Problem]] = {}
+        for problem in problems if len(problems) > 1 else ():
+            if problem.lacks:
+                alike.setdefault((_lacking(problem), 0), []).append(problem)
+            elif has_rows and code not in _OF_ROWS:
+                alike.setdefault((problem.message, origin.place(problem).line), []).append(problem)
+        for first, *others in (sorted(found, key=lambda one: origin.place(one).line) for found in alike.values()):
+            fields = f"and {counted(len(others), 'more field')} of it"
+            yield Joined(first, others, also_in(origin, others) if others and first.lacks else fields)

@@ -1,0 +1,86 @@
+"""The forms of findings, a module each, imported when it is asked for, and what they share.
+
+A module is a form by being here, under its name: `SUMMARY` is a sentence for the documentation, `write(diagnostics,
+run)` returns the text of findings in pieces. `text`, the form for people, is printed by the command as they come.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
+from hashlib import sha256
+from importlib import import_module
+from pkgutil import iter_modules
+from types import ModuleType
+from typing import NamedTuple
+
+from mudline.basics.limits import LONGEST_MESSAGE
+from mudline.basics.short_repr import cut
+from mudline.language.diagnostics import Diagnostic
+
+TEXT = "text"
+"""The form for people, which goes to the terminal as the findings come."""
+
+TEXT_SUMMARY = "for people: place, message, the source line with a mark; standard output only"
+
+
+_REPLACEMENT = "\ufffd"
+
+
+class LintRun(NamedTuple):
+    """What a form may say besides the findings: the files linted, in their order, and the version of mudline."""
+
+    files: Sequence[str]
+    version: str
+
+
+def form_names() -> list[str]:
+    """Return the name of every form but text, found without importing one."""
+    return sorted(found.name for found in iter_modules(__path__))
+
+
+def form_module(name: str) -> ModuleType:
+    """Return the module of a form."""
+    return import_module(f"{__name__}.{name}")
+
+
+def form(name: str, files: Sequence[str], version: str) -> Callable[[Iterable[Diagnostic]], Iterator[str]]:
+    """Return the function that makes the text of findings in a form; `files` and `version` are those of `LintRun`."""
+    return partial(form_module(name).write, run=LintRun(files, version))
+
+
+class Fingerprints:
+    """Hashes of path, code and message, not of the line number; the same thing found again is counted."""
+
+    def __init__(self) -> None:
+        self._met: Counter[tuple[str, str, str]] = Counter()
+
+    def of(self, found: Diagnostic) -> str:
+        """The hash of a finding, in the order of the findings; no two of a run are equal."""
+        known = (found.file, found.code, found.message)
+        self._met[known] += 1
+        text = "\0".join([*known, str(self._met[known])])
+        return sha256(text.encode("utf-8", "backslashreplace")).hexdigest()
+
+
+def visible(text: str, encoding: str = "utf-8") -> str:
+    """The text with a blank for a tab and a replacement mark for every other character that does not print.
+
+    Nothing in a deck acts on a terminal then. What a terminal's encoding lacks is escaped, so that the text is as long
+    here as it is there. A text that nobody would read to its end is cut.
+    """
+    shown = cut(text, LONGEST_MESSAGE)
+    if not shown.isprintable():
+        shown = "".join(char if char.isprintable() else " " if char == "\t" else _REPLACEMENT for char in shown)
+    if encoding.startswith("utf"):
+        return shown
+    return shown.encode(encoding, "backslashreplace").decode(encoding)
+
+
+def visible_lines(text: str) -> str:
+    """The same for a text of several lines, whose line ends and tabs stay."""
+    kept = "\n\t"
+    if all(char.isprintable() or char in kept for char in text):
+        return text
+    return "".join(char if char.isprintable() or char in kept else _REPLACEMENT for char in text)

@@ -1,0 +1,17 @@
+"""A finding a line: `file:line:column: CODE message`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from mudline.checks.output import LintRun, visible
+from mudline.language.diagnostics import Diagnostic
+
+SUMMARY = "`file:line:column: CODE message`, a line each"
+
+
+def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # noqa: ARG001 - the same for every form
+    """The lines, with their ends."""
+    for found in diagnostics:
+        place = f"{found.file}:{found.line}:{found.column}"
+        yield f"{visible(place)}: {found.code} {visible(found.message)}\n"

@@ -1,0 +1,18 @@
+"""Findings as JSON objects, one a line."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator
+
+from mudline.checks.output import LintRun
+from mudline.checks.output.json import as_object
+from mudline.language.diagnostics import Diagnostic
+
+SUMMARY = "the same objects, one a line"
+
+
+def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # noqa: ARG001 - the same for every form
+    """An object a line."""
+    for found in diagnostics:
+        yield f"{json.dumps(as_object(found), ensure_ascii=False)}\n"

@@ -1,0 +1,51 @@
+"""Findings as the XML of test reports: a suite a file, a failed case a finding, one passed case for a clean file.
+
+The text of a failure is there twice: some readers show the attribute, others the element.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from xml.sax.saxutils import escape, quoteattr
+
+from mudline.checks.output import LintRun, visible
+from mudline.language.diagnostics import Diagnostic
+
+SUMMARY = (
+    "XML of test reports: a suite a file, a failed case a finding, "
+    "one passed case for a clean file; texts as attribute and element"
+)
+
+
+def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
+    """The document in pieces; all files that were linted are in it, in their order."""
+    by_file: dict[str, list[Diagnostic]] = {name: [] for name in run.files}
+    for found in diagnostics:
+        by_file.setdefault(found.file, []).append(found)
+    cases = sum(len(found) or 1 for found in by_file.values())
+    failures = sum(len(found) for found in by_file.values())
+    yield '<?xml version="1.0" encoding="UTF-8"?>\n'
+    yield f'<testsuites name="mudline" tests="{cases}" failures="{failures}" errors="0">\n'
+    for name, listed in by_file.items():
+        yield from _suite(name, listed)
+    yield "</testsuites>\n"
+
+
+def _suite(name: str, listed: list[Diagnostic]) -> Iterator[str]:
+    counts = f'tests="{len(listed) or 1}" failures="{len(listed)}" errors="0" skipped="0"'
+    yield f"  <testsuite name={_value(name)} {counts}>\n"
+    if not listed:
+        yield f'    <testcase name="mudline" classname={_value(name)} time="0"/>\n'
+    for found in listed:
+        case = f"{found.code} {found.slug} {found.line}:{found.column}"
+        place = f"{found.file}:{found.line}:{found.column}"
+        yield f'    <testcase name={_value(case)} classname={_value(name)} time="0">\n'
+        text = visible(f"{place}: {found.message}")
+        yield f'      <failure type="{found.severity.value}" message={quoteattr(text)}>{escape(text)}</failure>\n'
+        yield "    </testcase>\n"
+    yield "  </testsuite>\n"
+
+
+def _value(text: str) -> str:
+    """An attribute in quotes; what XML forbids does not print either, and is replaced."""
+    return quoteattr(visible(text))

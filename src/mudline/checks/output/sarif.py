@@ -1,0 +1,118 @@
+"""Findings in SARIF 2.1.0, the interchange form of static analysis."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from collections.abc import Iterable, Iterator
+from typing import Any
+from urllib.parse import quote
+
+from mudline.checks.output import Fingerprints, LintRun, visible
+from mudline.checks.registry import page, rules
+from mudline.language.diagnostics import Diagnostic, Edit, Severity
+from mudline.language.rules import Rule
+
+SUMMARY = "SARIF 2.1.0: rules with help, levels, regions in code points, fixes and fingerprints"
+
+SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
+LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
+_BASE = "ROOT"
+
+_NO_RULE = "This is not a rule and cannot be ignored; the message says why the file could not be used or checked."
+
+
+def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
+    """One log with one run; its rules are those that something was found by."""
+    listed = list(diagnostics)
+    first = {found.code: found for found in reversed(listed)}
+    codes = sorted(first)
+    fingerprints = Fingerprints()
+    driver = {
+        "name": "mudline",
+        "version": run.version,
+        "semanticVersion": run.version,
+        "rules": [_descriptor(first[code]) for code in codes],
+    }
+    head = {"$schema": SCHEMA, "version": "2.1.0"}
+    log = {
+        "tool": {"driver": driver},
+        "columnKind": "unicodeCodePoints",
+        "newlineSequences": ["\r\n", "\r", "\n"],
+        "originalUriBaseIds": {_BASE: {"description": {"text": "the folder that the linter was run in"}}},
+    }
+    yield f'{json.dumps(head)[:-1]}, "runs": [\n{json.dumps(log)[:-1]}, "results": ['
+    for number, found in enumerate(listed):
+        result = _result(found, codes.index(found.code), fingerprints.of(found))
+        yield f"{',' * (number > 0)}\n {json.dumps(result)}"
+    yield "\n]}]}\n"
+
+
+def _result(found: Diagnostic, index: int, fingerprint: str) -> dict[str, Any]:
+    place = {
+        "artifactLocation": _location(found.file),
+        "region": _region((found.line, found.column), (found.end_line, found.end_column)),
+    }
+    result: dict[str, Any] = {
+        "ruleId": found.code,
+        "ruleIndex": index,
+        "level": LEVELS[found.severity],
+        "message": {"text": visible(found.message)},
+        "locations": [{"physicalLocation": place}],
+        "partialFingerprints": {"mudline/v1": fingerprint},
+    }
+    if found.fix is not None:
+        changes = [{"artifactLocation": _location(found.file), "replacements": [_edit(e) for e in found.fix.edits]}]
+        result["fixes"] = [{"description": {"text": visible(found.fix.message)}, "artifactChanges": changes}]
+    return result
+
+
+def _location(file: str) -> dict[str, str]:
+    path = file.removeprefix("./")
+    written = quote(_bytes(path), safe="/")
+    if path.startswith("/"):
+        return {"uri": f"file://{written}"}
+    if re.match(r"[A-Za-z]:/", path):
+        return {"uri": f"file:///{quote(_bytes(path), safe='/:')}"}
+    return {"uri": written, "uriBaseId": _BASE}
+
+
+def _bytes(path: str) -> bytes:
+    """The bytes of a name, those of the file system if it may have such a name."""
+    try:
+        return os.fsencode(path)
+    except UnicodeEncodeError:
+        return path.encode("utf-8", "backslashreplace")
+
+
+def _region(start: tuple[int, int], end: tuple[int, int]) -> dict[str, int]:
+    return {"startLine": start[0], "startColumn": start[1], "endLine": end[0], "endColumn": end[1]}
+
+
+def _edit(edit: Edit) -> dict[str, Any]:
+    return {"deletedRegion": _region(edit.start, edit.end), "insertedContent": {"text": edit.text}}
+
+
+def _descriptor(found: Diagnostic) -> dict[str, Any]:
+    """The reporting descriptor of the code of a finding."""
+    rule = next((rule for rule in rules() if rule.code.code == found.code), None)
+    title = rule.page.title if rule else f"{found.slug.replace('-', ' ').capitalize()}."
+    why = rule.page.why if rule else _NO_RULE
+    severity = rule.code.severity if rule else found.severity
+    help_uri = page(found.code)
+    return {
+        "id": found.code,
+        "name": "".join(word.capitalize() for word in found.slug.split("-")),
+        "shortDescription": {"text": title},
+        "fullDescription": {"text": why},
+        "defaultConfiguration": {"level": LEVELS[severity], "enabled": not (rule and rule.off)},
+        "help": {"text": f"{title}\n\n{why}"} | ({"markdown": _markdown(rule)} if rule else {}),
+        **({"helpUri": help_uri} if help_uri else {}),
+    }
+
+
+def _markdown(rule: Rule) -> str:
+    said = rule.page
+    examples = f"Bad:\n\n```text\n{said.bad.rstrip()}\n```\n\nGood:\n\n```text\n{said.good.rstrip()}\n```\n"
+    return f"# {said.title}\n\n{said.why}\n\n{examples}"

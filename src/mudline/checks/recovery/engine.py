@@ -1,0 +1,212 @@
+"""The deck as it was meant, for findings alone: faults are recovered from, and all checks see the outcome.
+
+A fault of reading has corrections; one is taken if the block around it then reads better, which reading the lines of
+that block tells. The deck with all of them is read, resolved and checked in the place of the one as written, once, and
+what is found in it is reported at the lines that it has in the file.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import chain
+
+from mudline.checks.context import LintContext
+from mudline.checks.recovery import lines, names, sections, undefined, values
+from mudline.checks.recovery.blocks import RECOVERIES, Blocks, Correction, line_at
+from mudline.checks.rules.keyword_families import LEG001
+from mudline.language.codes.fields import SYN002
+from mudline.language.codes.lines import SYN007, SYN008, SYN009, SYN010, SYN013
+from mudline.language.deck.model import Deck
+from mudline.language.deck.reading import TextOrigin, read_source
+from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span
+from mudline.language.keywords.reader import BlockReader
+from mudline.language.syntax.edits import OverlapError, TextEdit, Undoing, apply_edits, edited_bytes, with_line_ends
+from mudline.language.syntax.source import Source
+
+SUBJECTS = (names, sections, lines, values)
+"""The modules of correctors, which register them."""
+
+MOST_ROUNDS = 4
+"""Times that the corrected lines are looked through for faults that the ones before them hid."""
+
+MOST_TRIALS, OF_A_TRIAL = 200, 2000
+"""Corrections of a deck that are tried, as a file of another kind would have as many as it has lines; and characters
+that are read for one: a longer block counts as several."""
+
+LONGEST_LINE, LONGEST_TRIED = 4096, 50_000
+"""Characters of a line that is corrected, and of a block that is read again to see whether it is better."""
+
+_OF_KEYWORDS = (SYN008, SYN009)
+"""Faults whose correction says what keyword a block has, which must then read without a fault."""
+_OF_SECTIONS = (SYN007, SYN010)
+"""Faults whose correction says where blocks belong, and not how they read."""
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """How a deck is read and what is reported of it.
+
+    `again` reads a text, and `block` a block of it; `reported` gives those of some problems, with their places in the
+    file, that a user sees: others are not recovered from, as nobody would learn why.
+    """
+
+    again: Callable[[bytes], Deck]
+    block: BlockReader
+    reported: Callable[[Sequence[Problem]], Sequence[Problem]]
+
+
+@dataclass
+class Recovered:
+    """A deck with its faults corrected, and the finding of each in terms of the file; `steps` lead back to that."""
+
+    context: LintContext
+    causes: list[Problem] = field(default_factory=list)
+    steps: list[Undoing] = field(default_factory=list)
+
+    @property
+    def deck(self) -> Deck:
+        """The deck."""
+        return self.context.deck
+
+    def take(self, corrections: Sequence[Correction], again: Callable[[bytes], Deck]) -> bool:
+        """Read the deck with some corrections; whether these could be made."""
+        text = self.context.text
+        if text is None or not corrections:
+            return False
+        edits = with_line_ends(text.source, chain.from_iterable(one.edits for one in corrections))
+        try:
+            deck = again(edited_bytes(text.source, edits))
+        except (OverlapError, UnicodeEncodeError):  # of a character that the encoding lacks
+            return False
+        self.causes += self.as_written(map(_cause, corrections))
+        self.steps.append(Undoing(edits))
+        self.context = LintContext(deck, self.context.dialect, self.context.fixing)
+        return True
+
+    def as_written(self, problems: Iterable[Problem]) -> Iterator[Problem]:
+        """Problems of the recovered deck at their places in the file, without those of what corrections put in.
+
+        A repair that a correction touches is left out.
+        """
+        origin = self.deck.origin
+        for problem in problems:
+            span = problem.span
+            if span is None and problem.where is not None and isinstance(origin, TextOrigin):
+                span = origin.span(problem.where)
+            # A deck is migrated as it is written, or not at all.
+            repair = None if problem.code is LEG001 else problem.repair
+            for step in reversed(self.steps):
+                if span is not None and step.is_in_new_lines(span):
+                    break
+                span = span and step.before(span)
+                if repair is not None and any(step.touches(place) for place, _ in repair.edits):
+                    repair = None
+                if repair is not None:
+                    repair = replace(repair, edits=tuple((step.before(place), text) for place, text in repair.edits))
+            else:
+                yield replace(problem, span=span, where=problem.where if span else None, repair=repair)
+
+
+def recovered(context: LintContext, codes: Collection[str], reading: Reading) -> Recovered | None:
+    """Return the deck as it was meant; None for one that was meant as it is written.
+
+    `codes` are those of findings that are wanted at all.
+    """
+    found = Recovered(context)
+    reported = reading.reported([one for one in context.deck.problems if one.code.code in codes])
+    trials = MOST_TRIALS
+    while len(found.steps) < MOST_ROUNDS and (text := found.context.text) is not None:
+        round_ = _Round(Blocks(found.deck, text), reading.block, codes, trials)
+        if not found.take(round_.taken(reported), reading.again):
+            break
+        trials = round_.trials
+        reported = [one for one in found.deck.problems if one.code.code in codes]
+    if found.context.scene.lacks:
+        late = undefined.corrections(found.context)
+        wanted = [one for one in late if one.cause.code.code in codes]
+        found.take([one for one in wanted if reading.reported([*found.as_written([one.cause])])], reading.again)
+    return found if found.steps else None
+
+
+def _cause(correction: Correction) -> Problem:
+    cause = correction.cause
+    made = tuple((edit.span, edit.text) for edit in correction.edits)
+    repair = Repair("unsafe", correction.does, made) if correction.does else cause.repair
+    return replace(cause, message=correction.message or cause.message, repair=repair)
+
+
+class _Round:
+    """The corrections of a text that are taken, of which no two are in the same lines."""
+
+    def __init__(self, blocks: Blocks, read: BlockReader, codes: Collection[str], trials: int) -> None:
+        self.blocks = blocks
+        self.text = blocks.text
+        self.read = read
+        self.codes = codes
+        self.trials = trials
+        self.errors: dict[Span, Counter[tuple[Code, str]]] = {}
+
+    def taken(self, problems: Sequence[Problem]) -> list[Correction]:
+        """The first one of each fault that makes its block better."""
+        taken: list[Correction] = []
+        for last in (False, True):
+            made: list[Correction] = []
+            for recovery in (one for one in RECOVERIES if one.last is last):
+                asked = [one for one in problems if one.code in recovery.codes]
+                if asked or recovery.always:
+                    made += recovery.corrector(self.blocks, asked)
+            made.sort(key=lambda each: (each.edits[0].span.start, each.cause.code is SYN002))
+            for one in made:
+                apart = self._is_sayable(one) and not any(_meet(one.region, other.region) for other in taken)
+                if apart and self._is_better(one):
+                    taken.append(one)
+            explained = {id(one.cause) for one in taken}
+            problems = [one for one in problems if one.repair is None and id(one) not in explained]
+        return taken
+
+    def _is_sayable(self, correction: Correction) -> bool:
+        """Whether the finding of a correction is wanted, and its line is not too long."""
+        line = line_at(self.text, correction.edits[0].span.start)
+        return correction.cause.code.code in self.codes and line.end - line.start <= LONGEST_LINE
+
+    def _is_better(self, correction: Correction) -> bool:
+        """Whether the blocks around a correction have fewer faults with it, and its own is gone."""
+        if correction.certain or correction.cause.code in _OF_SECTIONS:
+            return True
+        edits = correction.edits
+        start = self.blocks.block_at(max(edits[0].span.start - correction.joins, 0)).start
+        end = self.blocks.block_at(edits[-1].span.end - (edits[-1].span.end > edits[0].span.start)).end
+        section = self.blocks.section_name(start)
+        region = Span(start, max(end, edits[-1].span.end))
+        if not section or region.end - region.start > LONGEST_TRIED or self.trials <= 0:
+            return False
+        self.trials -= 1 + (region.end - region.start) // OF_A_TRIAL
+        if region not in self.errors:
+            self.errors[region] = Counter(self._faults(section, region, ()))
+        before = self.errors[region]
+        try:
+            after = Counter(self._faults(section, region, edits))
+        except ValueError:  # of edits that overlap
+            return False
+        cause = (correction.cause.code, correction.cause.message)
+        if after[cause] >= max(before[cause], 1):
+            return False
+        return after <= before or (cause[0] not in _OF_KEYWORDS and after.total() < before.total())
+
+    def _faults(self, section: str, region: Span, edits: Sequence[TextEdit]) -> Iterator[tuple[Code, str]]:
+        """What is wrong in some lines of a section with edits of the whole text made."""
+        text = self.text.source.unified[slice(*region)]
+        moved = [TextEdit(edit.span.moved(-region.start), edit.text) for edit in edits]
+        head = "" if text.startswith("$") else f"${section}\n"
+        lines = apply_edits(text, moved)
+        behind = ("" if lines.endswith("\n") else "\n") + "$MODEL\n"  # so that no block is the last one
+        source = Source(self.text.source.name, f"{head}{lines}{behind}", clean=self.text.source.clean)
+        for one in read_source(source, units="user", read=self.read).problems:
+            if one.weight is Severity.ERROR or one.code in (SYN009, SYN013):
+                yield one.code, one.message
+
+
+def _meet(one: Span, other: Span) -> bool:
+    return one.start < other.end and other.start < one.end

@@ -1,0 +1,312 @@
+"""Lines that another keyword has: a `*KEYWORD` line or its star is missing above them, or the name of their set."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_left
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
+from functools import cache, lru_cache
+from itertools import pairwise
+
+from mudline.checks.recovery.blocks import (
+    ROW_NUMBER,
+    Blocks,
+    Correction,
+    data_of,
+    line_at,
+    lines_of,
+    recovers_from,
+    start_of,
+    whole,
+)
+from mudline.checks.rules.seabed_overlaps import SBD008
+from mudline.language.codes.contact import SBD006
+from mudline.language.codes.fields import SYN002, SYN003, SYN016
+from mudline.language.codes.lines import SYN001, SYN004, SYN005, SYN011, SYN013
+from mudline.language.codes.references import REF007
+from mudline.language.deck.reading import TextOrigin
+from mudline.language.diagnostics import Problem, Severity, Span
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.fields import Setting
+from mudline.language.keywords.keeping import is_choice, opened
+from mudline.language.keywords.model import Block, record_schema
+from mudline.language.keywords.naming import kinds_of, repeated_set
+from mudline.language.keywords.reader import ReadBlock, all_keys, reads, schemas_of
+from mudline.language.keywords.values import Facts, Names
+from mudline.language.keywords.values import Kind as Value
+from mudline.language.syntax.edits import TextEdit
+from mudline.language.syntax.fields import first_key, trimmed
+from mudline.language.syntax.source import Source
+from mudline.language.syntax.tree import Kind, RawBlock, parse
+from mudline.model.scene.names import CURVES, THINGS
+from mudline.model.scene.sets import set_key
+
+LONGEST_PIECE = 600
+"""Characters of a block that are read to see which keyword its lines belong to."""
+
+MOST_NAMED = 5
+"""Keywords that a finding names."""
+
+NAMED = CURVES | THINGS | {Names.SET, Names.CURVE}
+"""Kinds of names that tell whose lines some are: one that is used, and that nothing defines."""
+
+_OF_FOREIGN_LINES = (SYN001, SYN002, SYN003, SYN004)
+"""What the lines of another keyword give in a block."""
+
+# ------------------------------------------------------------------------------------------------------------- the star
+
+
+@recovers_from(*_OF_FOREIGN_LINES, SYN011, SYN013, SYN016, always=True)
+def stars(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Lines that hold a keyword of their section without its star; where nothing is said of them, in column 1 only."""
+    text = blocks.text
+    said = {line_at(text, start_of(text, one)).start: one for one in reversed(problems)}
+    for section in text.tree.sections:
+        for leaf in (*section.leaves, *(leaf for block in section.blocks for leaf in block.leaves)):
+            if leaf.kind not in (Kind.TEXT, Kind.UNDECIDED):
+                continue
+            line = line_at(text, leaf.span.start)
+            written = text.source.unified[slice(*line)].rstrip()
+            name = starless(written.lstrip(), section.name)
+            problem = said.get(line.start)
+            if not name or (problem is None and written[:1].isspace()):
+                continue
+            comment = problem.code is SYN013 if problem else leaf.kind is not Kind.TEXT
+            read = "a comment" if comment else "data"
+            message = f"{written.strip()} without its star is read as {read}: write *{name}"
+            own = Span(line.start, line.start + len(written))
+            place = problem.span if problem else own
+            known = problem if problem and problem.code is not SYN016 else None
+            code = SYN013 if comment else known.code if known else SYN001
+            cause = Problem(code, message, place, known.weight if known and not comment else None)
+            certain = section.name in (catalogue.sections_of(name) or ())
+            lines = Span(line.start, blocks.block_at(line.start).end)
+            yield Correction(cause, (TextEdit(own, f"*{name}"),), lines, does=f"write *{name}", certain=certain)
+
+
+def starless(line: str, section: str) -> str:
+    """The keyword of a section that a line without a star is, or ""."""
+    if not line[:1].isalpha() or "=" in line or line.upper() not in _known():
+        return ""
+    sections = catalogue.sections_of(line.upper())
+    return "" if sections and section not in sections else line.upper()
+
+
+@cache
+def _known() -> frozenset[str]:
+    return frozenset(catalogue.keywords())
+
+
+# ------------------------------------------------------------------------------------------------ the line of a keyword
+
+
+@recovers_from(*_OF_FOREIGN_LINES, last=True)
+def keyword_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Lines in a block that read well as lines of another keyword: that keyword in front of them."""
+    text = blocks.text
+    wanted = sorted((start_of(text, one), number) for number, one in enumerate(problems))
+    for section, block in blocks.blocks if wanted else ():
+        first, end = (bisect_left(wanted, (at, 0)) for at in (block.head.span.end, whole(block).end))
+        inside = wanted[first:end]
+        if inside and any(problems[number].weight is Severity.ERROR for _, number in inside):
+            yield from _missing_line(blocks, section, block, problems[inside[0][1]], inside[0][0])
+
+
+def _missing_line(blocks: Blocks, section: str, block: RawBlock, cause: Problem, at: int) -> Iterator[Correction]:
+    end = whole(block).end
+    line = blocks.text.source.unified.rfind("\n", 0, at) + 1
+    settings = [leaf.span.start for leaf in block.leaves if leaf.kind is Kind.SETTING and leaf.span.start < line]
+    first = next((leaf.span.start for leaf in data_of(block.leaves)), end)
+    declared = blocks.declared_at(at)
+    key = first_key(blocks.text.source.unified, line_at(blocks.text, line))
+    is_own = declared is not None and cause.code in (SYN002, SYN003) and key in all_keys(declared)  # a value is wrong
+    places = [*([] if is_own else [line]), *settings[-1:]]
+    for place in (at for at in places if at > first):  # the block has lines of its own before it
+        legal = () if place == line else blocks.keywords
+        found = [*_keyword_line(blocks, section, block.name, cause, Span(place, end), legal)]
+        if found:
+            yield from found
+            return
+
+
+def _keyword_line(
+    blocks: Blocks, section: str, own: str, cause: Problem, lines: Span, present: Collection[str] = ()
+) -> Iterator[Correction]:
+    """The keyword that some lines read as in front of them; of several, none: they are passed over.
+
+    For `present` see `reads_as`.
+    """
+    unified = blocks.text.source.unified
+    found = reads_as(blocks, section, own, unified[slice(*lines)], present)
+    which = "this line and those below it"
+    if unified.count("\n", lines.start, start_of(blocks.text, cause)):
+        which = f"the lines from line {blocks.text.source.position(lines.start)[0]} on"
+    above = Span(lines.start, lines.start)
+    if len(found) == 1:
+        message = f"{which} read as *{found[0]}: that line seems to be missing above them"
+        edits = (TextEdit(above, f"*{found[0]}\n"),)
+        yield Correction(cause, edits, lines, message, does=f"write *{found[0]} above them")
+    elif found:
+        names = " or ".join(f"*{keyword}" for keyword in found[:MOST_NAMED])
+        message = f"{which} are of another keyword, {names}: its line seems to be missing above them"
+        lacked = any(map(blocks.missing, _defined_by(section, found[0])))  # all of them define such names
+        edit = TextEdit(above, f"*{found[0]}\n") if lacked else TextEdit(lines, "")
+        yield Correction(cause, (edit,), lines, message)
+
+
+def reads_as(blocks: Blocks, section: str, own: str, lines: str, present: Collection[str] = ()) -> list[str]:
+    """The keywords of a section that take some lines as they stand, in the order of the alphabet.
+
+    Those that define names which the deck lacks go before others, and those that it has not yet before those it has.
+    Rows alone fit many keywords: they are of one that stands beside others of the deck, or is behind its equations.
+    Where the block above can have the first line, and the keywords `present` are given, only such names or a keyword
+    that is not among these say that it is another one's.
+    """
+    piece = lines if len(lines) <= LONGEST_PIECE else lines[: lines.rfind("\n", 0, LONGEST_PIECE) + 1]
+    text, block = _block(section, own or "-", piece)
+    first = next(iter(data_of(block.leaves)), None)
+    if first is None:
+        return []
+    if first.kind in (Kind.SETTING, Kind.UNDECIDED):
+        candidates = _taking(section, first_key(text, first.span))
+    else:
+        beside = {other for each in blocks.keywords for other in catalogue.facts_of(each).beside}
+        beside.update(catalogue.definers(Names.PARAMETER) if "=[" in blocks.text.source.unified else ())
+        read = ((each, catalogue.block_class(section, each)) for each in sorted(beside - blocks.keywords))
+        candidates = {each: one for each, one in read if one and not ("." in piece and _of_whole_numbers(one))}
+    fitting = [
+        keyword
+        for keyword, declared in candidates.items()
+        if keyword != own and reads(*_block(section, keyword, piece), declared)
+    ]
+    lacked = [each for each in fitting if any(map(blocks.missing, _defined_by(section, each)))]
+    if present:
+        return lacked or [each for each in fitting if each not in present and not _defined_by(section, each)]
+    return lacked or [each for each in fitting if each not in blocks.keywords] or fitting
+
+
+@lru_cache(256)
+def _taking(section: str, key: str) -> dict[str, type[Block]]:
+    """The keywords of a section that have a setting, with their declarations."""
+    read = ((keyword, catalogue.block_class(section, keyword)) for keyword in catalogue.read_keywords())
+    return {keyword: declared for keyword, declared in read if declared and key in all_keys(declared)}
+
+
+def _block(section: str, keyword: str, lines: str) -> tuple[str, RawBlock]:
+    """A block of some lines, and the text around it."""
+    text = f"${section}\n*{keyword}\n{lines}"
+    return text, parse(Source("", text, clean=True)).sections[0].blocks[0]
+
+
+def _defined_by(section: str, keyword: str) -> frozenset[Names]:
+    """The kinds of names that the lines of a keyword define."""
+    declared = catalogue.declared(keyword, section)
+    return (kinds_of(declared, "defines") & NAMED) if declared else frozenset()
+
+
+def _of_whole_numbers(declared: type[Block]) -> bool:
+    """Whether every value that a row of a keyword must have is a whole number."""
+    tables = [one.table.row for one in schemas_of(declared) if one.table and one.table.row]
+    columns = [slot for row in tables for slot in record_schema(row).columns if slot.required]
+    return bool(columns) and all(slot.kind in (Value.WHOLE, Value.IDENT) for slot in columns)
+
+
+@recovers_from(*_OF_FOREIGN_LINES, SYN005, always=True)
+def legal_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Lines that a block can have, and that another keyword has, which its section or the deck lacks."""
+    text = blocks.text
+    wrong = {blocks.block_at(start_of(text, one)).start for one in problems}
+    for number, section in enumerate(text.tree.sections):
+        present = {block.name for block in section.blocks}
+        for index, block in enumerate(section.blocks):
+            if block.head.span.start in wrong or section.name not in (catalogue.sections_of(block.name) or ()):
+                continue
+            for cause in _first_lines(blocks, block, text.read.get((number, index))):
+                lines = Span(line_at(text, start_of(text, cause)).start, whole(block).end)
+                found = [*_keyword_line(blocks, section.name, block.name, cause, lines, present)]
+                yield from (replace(one, message=f"{cause.message}{one.message}") for one in found)
+                if found:
+                    break
+
+
+def _first_lines(blocks: Blocks, block: RawBlock, read: ReadBlock | None) -> Iterator[Problem]:
+    """Where lines of another keyword may begin in a block, and what is said of them there.
+
+    With the name of a curve that nothing of its kind defines, or a number that the block has above; else with a set
+    that it gives a second time and otherwise, or a line that it passes through.
+    """
+    text = blocks.text
+    unified = text.source.unified
+    facts = read.model.facts if read else Facts()
+    lacking = [keyword for keyword in facts.beside if facts.defines and keyword not in blocks.keywords]
+    for name in _name_of_curve().finditer(unified, *whole(block)) if blocks.lacked_curves else ():
+        kinds = blocks.lacked_curves.get(set_key(name[1]), [])
+        if len(kinds) == 1 and block.name not in catalogue.definers(kinds[0]):
+            yield Problem(SYN001, "", trimmed(unified, *name.span()))
+            return
+    numbers: set[str] = set()
+    for line in lines_of(text, block) if lacking else ():
+        number = ROW_NUMBER.match(unified, *line)
+        if number and number[1] in numbers:
+            said = f"{facts.defines.removesuffix('s')} {number[1]} is defined twice, and "
+            yield Problem(REF007, said, Span(*number.span(1)))
+            return
+        numbers.update(number.groups() if number else ())
+    # Rows fit many keywords.
+    path = repeated_set(read.model) if read and all(each.kind is Kind.SETTING for each in data_of(block.leaves)) else ()
+    again = read.places.find(path) if read and path else None
+    for start in [again.start] if again else _foreign_lines(text, block, read):
+        line = trimmed(unified, *line_at(text, start))
+        said = f"*{block.name} has {unified[slice(*line)]} above, and " if again else ""
+        code = SBD008 if again else SBD006 if _is_telling(unified, line) else SYN001
+        yield Problem(code, said, line, Severity.WARNING)
+
+
+def _is_telling(unified: str, line: Span) -> bool:
+    """Whether one keyword alone has a line; it gives the laws of the seabed, which would be missing."""
+    return "".join(unified[slice(*line)].split()).upper() in catalogue.telling_lines()
+
+
+@cache
+def _key_of_points(declared: type[Block]) -> tuple[str, Names | None]:
+    """The setting above the points of a curve that names it, and what the name is one of; "" for other keywords."""
+    for slot in record_schema(declared).slots:
+        for record in map(record_schema, slot.record.values()):
+            about = record.slots[0].about if record.table and record.slots else None
+            if isinstance(about, Setting) and (kind := about.names or about.defines):
+                return about.key, kind
+    return "", None
+
+
+@cache
+def _name_of_curve() -> re.Pattern[str]:
+    """The line above the points of a curve, with its name."""
+    definers = {catalogue.declared(keyword) for kind in (Names.CURVE, *CURVES) for keyword in catalogue.definers(kind)}
+    keys = "|".join(sorted({_key_of_points(declared)[0] for declared in definers if declared} - {""}))
+    return re.compile(rf"^[ \t]*(?:{keys})[ \t]*=([^,\r\n]*)", re.MULTILINE | re.IGNORECASE)
+
+
+def _foreign_lines(text: TextOrigin, block: RawBlock, read: ReadBlock | None) -> list[int]:
+    """Where a block has settings that it passes through, or that open lines by a value which is not known.
+
+    Before each of them the setting on the line above it; its last line alone tells too little. In a block that is not
+    read at all lines that one keyword alone has.
+    """
+    unified = text.source.unified
+    if read is None:
+        return [line.start for line in lines_of(text, block) if _is_telling(unified, line)]
+    leaves = data_of(block.leaves) if read.lost else []
+    kept = read.places.kept if leaves else frozenset()
+    found: list[int] = []
+    declared, behind = type(read.model), False
+    for above, leaf in pairwise(leaves[:-1]):
+        line = line_at(text, leaf.span.start)
+        key, value = first_key(unified, line), unified[slice(*line)].partition("=")[2]
+        choice = is_choice(declared, key, value)
+        unknown = bool(opened(declared, key, value)) and not choice
+        behind = choice or (behind and line.start in kept)  # lines of an unknown form belong there
+        if leaf.kind is Kind.SETTING and not behind and (unknown or line.start in kept):
+            begins = above.kind is Kind.SETTING and above is not leaves[0]
+            found += [line_at(text, above.span.start).start, line.start] if begins else [line.start]
+    return list(dict.fromkeys(found))[:MOST_NAMED]

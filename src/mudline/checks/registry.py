@@ -1,0 +1,288 @@
+"""All rules: those of reading and resolving, those that only advise, and those of plugins; choosing among them.
+
+Rules of other packages are found through the entry point group `mudline.rules`, and loaded when rules are asked for.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cache
+from types import ModuleType
+from typing import TYPE_CHECKING, cast
+
+from mudline.basics.installed import may_declare
+from mudline.basics.resources import modules_of, rule_file
+from mudline.basics.spelling import nearest
+from mudline.checks.context import LintContext
+from mudline.language.codes import all_codes
+from mudline.language.diagnostics import Code, PluginError, Problem, Severity, Where
+from mudline.language.rules import RULES, Check, Rule, add
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
+
+GROUP = "mudline.rules"
+
+RUN002 = Code("RUN002", "rule-failed", Severity.ERROR)
+
+STRIPPED = (
+    "rules are described by docstrings, which python -OO and PYTHONOPTIMIZE=2 strip: run Python with -O or without"
+)
+"""Why there are no rules."""
+
+RESERVED = {"DOC", "DAT", "EXP", "MIG", "RUN"}
+"""Letters of mudline's codes that no rule has; those of its rules are kept from others too."""
+
+_FEW = 4
+"""Rules that are listed where a word is a part of their names."""
+_ORIGINS: dict[str, str] = {}
+
+
+class UnknownRule(ValueError):  # noqa: N818 - the name of the fault, as callers catch it
+    """A word that names no rule."""
+
+
+@cache
+def _collected() -> tuple[tuple[Rule, ...], tuple[str, ...]]:
+    if sys.flags.optimize > 1:
+        raise RuntimeError(STRIPPED)
+    for code in all_codes():
+        if code.page:
+            add(Rule(code, None, code.page))
+    modules_of("mudline.model.scene.rules")
+    modules_of("mudline.checks.rules")
+    faults = load(RULES)
+    return tuple(RULES[code] for code in sorted(RULES)), faults
+
+
+def rules() -> tuple[Rule, ...]:
+    """All rules, by code, those of installed plugins among them.
+
+    Raises PluginError when a plugin cannot be used: a run with fewer rules than people believe is worse than none.
+    """
+    found, faults = _collected()
+    if faults:
+        raise PluginError(faults)
+    return found
+
+
+def find(word: str) -> list[Rule]:
+    """The rules that a code, a prefix of a code or a slug names, in any case."""
+    wanted = word.strip()
+    code, slug = wanted.upper(), wanted.lower()
+    exact = [found for found in rules() if code == found.code.code or slug == found.code.slug]
+    if exact or not wanted.isalnum():
+        return exact
+    return [found for found in rules() if found.code.code.startswith(code)]
+
+
+def select(chosen: Iterable[str] = (), ignored: Iterable[str] = (), also: Iterable[str] = ()) -> tuple[Rule, ...]:
+    """The rules that codes, prefixes of codes or slugs choose, and `also`, without those ignored; by code.
+
+    Nothing chosen means all rules but those that are off. A rule that is off runs when a word in `chosen` or `also`
+    names it, were it by a prefix. What is ignored is left out, whatever else names it.
+
+    Raises UnknownRule, with a suggestion, for a word that names none.
+    """
+    wanted = _named(chosen) or {rule.code.code for rule in rules() if not rule.off}
+    wanted = (wanted | _named(also)) - _named(ignored)
+    return tuple(rule for rule in rules() if rule.code.code in wanted)
+
+
+def _named(words: Iterable[str]) -> set[str]:
+    found: set[str] = set()
+    for word in words:
+        named = find(word)
+        if not named:
+            raise UnknownRule(f"{word!r} names no rule{_hint(word)}")
+        found |= {rule.code.code for rule in named}
+    return found
+
+
+def _hint(word: str) -> str:
+    codes = [rule.code.code for rule in rules()]
+    if word.isalpha():  # a code has digits: this was to be a beginning
+        codes = sorted({code.rstrip("0123456789") for code in codes})
+    slugs = [rule.code.slug for rule in rules()]
+    near = nearest(word, slugs) or nearest(word, codes)
+    holding = [slug for slug in slugs if word.casefold() in slug.split("-")]
+    if not near and 0 < len(holding) <= _FEW:
+        near = " or ".join(holding)
+    return f": did you mean {near}?" if near else ": `mudline rules` lists all rules"
+
+
+# ------------------------------------------------------------------------------------------- rules of other packages
+
+
+def load(known: dict[str, Rule]) -> tuple[str, ...]:
+    """Let every installed plugin add its rules to the known ones; returns what is wrong with those that cannot.
+
+    A plugin with a fault adds nothing. Rules that were added find no way to end a run: see `Guarded`.
+    """
+    own = RESERVED | {code.rstrip("0123456789") for code in known}
+    faults: list[str] = []
+    for entry in sorted(_entries(), key=lambda entry: (entry.name, entry.value)):
+        before = dict(known)
+        package = _package(entry)
+        fault = _run(entry) or _fault_of([rule for code, rule in known.items() if code not in before], own)
+        if fault:
+            known.clear()
+            known.update(before)
+            faults.append(f"the plugin {entry.name} of {package} cannot be used: {fault}, or uninstall the package")
+        for code in known.keys() - before.keys():
+            known[code] = known[code]._replace(check=Guarded(cast("Check", known[code].check), code, package))
+            _ORIGINS[code] = package
+    return tuple(faults)
+
+
+def _entries() -> Sequence[EntryPoint]:
+    """The entry points of the group, each once however often its package is on the path."""
+    if not may_declare(GROUP):
+        return ()
+    from importlib.metadata import entry_points  # noqa: PLC0415 - only plugins need it
+
+    return list({(entry.name, entry.value): entry for entry in entry_points(group=GROUP)}.values())
+
+
+def _package(entry: EntryPoint) -> str:
+    return f"{entry.dist.name} {entry.dist.version}" if entry.dist else entry.value
+
+
+def _run(entry: EntryPoint) -> str:
+    """Import what an entry point names, and call it unless it is a module; returns what went wrong."""
+    try:
+        loaded = entry.load()
+        if not isinstance(loaded, ModuleType):
+            loaded()
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # noqa: BLE001 - the code of others may fail in any way, and end nothing
+        return f"{_said(error)}: report it to its authors"
+    return ""
+
+
+def _fault_of(added: Sequence[Rule], own: set[str]) -> str:
+    """What is wrong with the rules that a plugin added."""
+    if not added:
+        return "it adds no rule: use the decorator mudline.plugins.rule in it"
+    if blocking := [rule.code.code for rule in added if rule.blocks]:
+        return f"{blocking[0]} is declared to block evaluation, and rules of other packages only advise: leave it out"
+    for code in (rule.code for rule in added):
+        if not re.fullmatch(r"[A-Z]{2,8}[0-9]{3}", code.code):
+            return f"the code {code.code!r} must be 2 to 8 capital letters and 3 digits, as ACM001: change it"
+        if code.code.rstrip("0123456789") in own:
+            return f"codes like {code.code} belong to mudline: choose other letters"
+        if not re.fullmatch(r"[a-z][a-z0-9]*(-[a-z0-9]+)*", code.slug):
+            return f"the name {code.slug!r} of {code.code} must be words in lower case with hyphens: change it"
+    return _fault_of_pages(added)
+
+
+def _fault_of_pages(added: Sequence[Rule]) -> str:
+    """What the docstrings of the rules that a plugin added lack."""
+    try:
+        for one in added:
+            one.page  # noqa: B018 - own rules are read in tests
+    except ValueError as error:
+        return f"{_said(error)}: report it to its authors"
+    return ""
+
+
+@dataclass(frozen=True, slots=True)
+class Guarded:
+    """The function of a plugin's rule: if it fails on a deck, that is a finding, and the run goes on."""
+
+    check: Check
+    code: str
+    package: str
+
+    def __call__(self, context: LintContext) -> Iterator[Problem]:
+        """What the rule finds, as far as it comes; then RUN002 if it failed, were it by ending the program."""
+        found: Iterator[Problem] = iter(())
+        started = False
+        while True:
+            try:
+                if not started:
+                    found, started = iter(self.check(context)), True
+                problem = next(found, None)
+                if problem is None:
+                    return
+                self._examine(problem, context)
+            except KeyboardInterrupt:
+                raise
+            except BaseException as error:  # noqa: BLE001 - the code of others may fail in any way, and end nothing
+                message = (
+                    f"the rule {self.code} of {self.package} failed on this deck ({_said(error)}): report it to "
+                    f"its authors, or leave it out with --ignore {self.code}; add what it checks by hand"
+                )
+                yield Problem(RUN002, message, where=Where())
+                return
+            yield problem
+
+    def _examine(self, problem: Problem, context: LintContext) -> None:
+        """Fail now, in the guard, for what would fail later: another rule's code, a place that the deck has not."""
+        if problem.code.code != self.code:
+            raise ValueError(f"it gave a finding of {problem.code.code}")
+        context.deck.diagnose([problem])
+
+
+def _said(error: BaseException) -> str:
+    """An error in one line."""
+    words = " ".join(str(error).split())[:200]
+    return f"{type(error).__name__}: {words}" if words else type(error).__name__
+
+
+# ---------------------------------------------------------------------------------------------------- pages of rules
+
+
+def origin(code: str) -> str:
+    """The package that a rule comes from, with its version: "mudline" for mudline's own."""
+    return _ORIGINS.get(code, "mudline")
+
+
+@cache
+def page(code: str) -> str | None:
+    """The address of the page of a code, None where it has none.
+
+    Mudline's own are on the site that its package names as its documentation, else among the installed files; of the
+    code of a plugin, it is the documentation of its package.
+    """
+    package = origin(code)
+    if package != "mudline":
+        return _documentation(package.rpartition(" ")[0])
+    if site := _documentation(package):
+        return f"{site.rstrip('/')}/rules/{code}/"
+    file = rule_file(code)
+    return file.as_uri() if file.exists() else None
+
+
+@cache
+def _documentation(name: str) -> str | None:
+    """The address of the documentation of an installed package."""
+    from importlib.metadata import PackageNotFoundError, metadata  # noqa: PLC0415 - only plugins need it
+
+    try:
+        given = metadata(name).get_all("Project-URL") or []
+    except (PackageNotFoundError, ValueError):  # a plugin that is not an installed package has no name
+        return None
+    addresses = {label.strip().lower(): url.strip() for label, _, url in (text.partition(",") for text in given)}
+    found = next((addresses[label] for label in ("documentation", "homepage") if label in addresses), "")
+    return found if found.startswith(("https://", "http://")) else None
+
+
+def code_fault(word: str) -> str:
+    """What is wrong with a word that is to name rules, with a suggestion, or ""."""
+    try:
+        _named([word])
+    except UnknownRule as error:
+        return str(error)
+    return ""
+
+
+def plugin_files() -> tuple[str, ...]:
+    """The files of every module that a plugin's package has imported: with them, its rules may change."""
+    packages = {rule.check.check.__module__.partition(".")[0] for rule in rules() if isinstance(rule.check, Guarded)}
+    modules = [module for name, module in sys.modules.items() if name.partition(".")[0] in packages]
+    return tuple(sorted(path for module in modules if (path := getattr(module, "__file__", None))))

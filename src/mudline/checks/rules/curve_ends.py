@@ -1,0 +1,267 @@
+"""Force-embedment curves at ratio 0, above it, and beyond their last point."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mudline.checks.context import LintContext
+from mudline.checks.joints import Found, Joined, joint
+from mudline.checks.rules.curve_shape import is_upside_down
+from mudline.checks.rules.seabed_position import DEEPEST, bounds_of
+from mudline.language.diagnostics import Code, Problem, Severity
+from mudline.language.keywords.text import shown
+from mudline.language.rules import rule
+from mudline.model.curves import ForceCurve
+from mudline.model.scene.force_curves import SceneCurve
+from mudline.model.scene.seabed import SeabedKind
+
+CRV007 = Code("CRV007", "force-at-zero", Severity.WARNING)
+CRV008 = Code("CRV008", "steep-extrapolation", Severity.WARNING)
+CRV012 = Code("CRV012", "curve-pulls", Severity.WARNING)
+CRV013 = Code("CRV013", "flat-last-segment", Severity.WARNING)
+CRV014 = Code("CRV014", "beyond-curve", Severity.INFO)
+
+STEEPEST = 100.0
+"""Ratio of two slopes of a curve."""
+_SMALL = 0.01
+"""Part of the largest force of a curve that counts as none."""
+
+
+@joint(CRV012)
+def falls_where_it_pulls(_: LintContext, found: Found) -> Iterator[Joined]:
+    """That a force falls, at the point where it pulls."""
+    falling = {one.where: one for one in found.get("CRV005", ())}
+    for problem in found["CRV012"]:
+        if other := falling.get(problem.where):
+            yield Joined(problem, [other], other.message)
+
+
+def _at_zero(curve: ForceCurve) -> float:
+    """The force at ratio 0; 0 where it is small beside the largest force of the curve, or overflows."""
+    try:
+        force = float(curve.evaluate(np.zeros(1))[0][0])
+    except ValueError:
+        return 0.0
+    return force if abs(force) > _SMALL * float(np.abs(curve.forces).max()) else 0.0
+
+
+def _deepest(curve: SceneCurve) -> int:
+    """Index of the point with the largest ratio."""
+    return int(np.argmax(curve.points[:, 0]))
+
+
+@rule(CRV007)
+def force_at_zero(context: LintContext) -> Iterator[Problem]:
+    """The force at ratio 0 is not 0.
+
+    Contact begins at ratio 0, when the centreline reaches the mudline. With a force there, the full reaction acts as
+    soon as the pipe touches, and vanishes as soon as it lifts off: the solver sees a jump and finds no equilibrium near
+    it. Below its first point a curve continues with its first slope, so a curve without the point (0, 0) may have such
+    a force too. A force above a hundredth of the largest one of the curve is reported. Add the point 0, 0.
+
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay
+        + 0.00, 0.0
+          0.05, 800.0
+          0.10, 1200.0
+          0.50, 4200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
+
+    Finds: 3:2
+    """
+    for entry in context.scene.laws.curves:
+        curve = entry.curve
+        if curve is None or not (force := _at_zero(curve)):
+            continue
+        given = np.flatnonzero(entry.points[:, 0] == 0.0)
+        if given.size:
+            message = f"the force at ratio 0 is {force:.6g}: contact begins with a jump; give it the force 0"
+            yield Problem(CRV007, message, where=entry.point(int(given[0])))
+            continue
+        if not entry.whole:
+            continue
+        slope = "between the points beside it" if curve.ratios[0] < 0.0 else "with the slope of the first two points"
+        advice = "correct the points about 0" if curve.ratios[0] < 0.0 else "add the point 0, 0"
+        message = f"the force at ratio 0 is {force:.6g} ({slope}): contact begins with a jump; {advice}"
+        yield Problem(CRV007, message, where=entry.where)
+
+
+@rule(CRV012)
+def curve_pulls(context: LintContext) -> Iterator[Problem]:
+    """The force of a curve is negative at a ratio above 0.
+
+    An embedded pipe would be pulled down by the seabed. A wrong sign does this, and so does a curve that keeps
+    decreasing beyond its last point, or one whose first slope is so steep that it crosses 0 too late. Suction belongs
+    in *SEABED SUCTION or SUCTION=, where it acts on a rising pipe. Correct the force.
+
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay
+          0.0, 0.0
+        - 0.1, -1200.0
+        + 0.1, 1200.0
+          0.5, 4200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
+
+    Finds: 5:2
+    """
+    for entry in context.scene.laws.curves:
+        negative = np.flatnonzero((entry.points[:, 0] > 0.0) & (entry.points[:, 1] < 0.0))
+        if negative.size:
+            ratio, force = entry.points[negative[0]].tolist()
+            more = f" (as at {negative.size - 1} more of its points)" if negative.size > 1 else ""
+            message = f"the force at ratio {ratio!r} is {force!r}{more}: the seabed pulls the pipe down; correct it"
+            yield Problem(CRV012, message, where=entry.point(int(negative[0])))
+        elif entry.curve is not None and entry.whole and not is_upside_down(entry):
+            if (force := _at_zero(entry.curve)) < 0.0:
+                message = f"the force just above ratio 0 is {force:.6g}: the seabed pulls the pipe down; correct it"
+                yield Problem(CRV012, message, where=entry.where)
+            if entry.curve.slopes[-1] < 0.0:
+                message = (
+                    "the force keeps decreasing beyond the last point, until the seabed pulls the pipe down: "
+                    "add a point whose force does not decrease"
+                )
+                yield Problem(CRV012, message, where=entry.point(_deepest(entry)))
+
+
+@rule(CRV008)
+def steep_extrapolation(context: LintContext) -> Iterator[Problem]:
+    """The last segment of a curve is over 100 times steeper than the one before it.
+
+    A curve continues beyond its last point with its last slope, so this segment alone gives the stiffness at every
+    greater depth. A rounded ratio or two points very close together make such a slope by accident. Correct the last
+    point, or remove it. Flat segments are left out of the comparison.
+
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay
+          0.0, 0.0
+          0.1, 1200.0
+          0.5, 4200.0
+        - 0.5001, 4400.0
+        + 0.6, 5200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
+
+    Finds: 7:2
+    """
+    for entry in context.scene.laws.curves:
+        if entry.curve is None or not entry.whole or entry.curve.slopes[-1] == 0.0:
+            continue
+        slopes = np.abs(entry.curve.slopes[entry.curve.slopes != 0.0])
+        if len(slopes) > 1 and slopes[-1] / STEEPEST > slopes[-2]:
+            last, before = entry.curve.slopes[-1], slopes[-2]
+            message = (
+                f"the last slope, {last:.6g}, is over {STEEPEST:g} times as steep as the one before, {before:.6g}, and "
+                "it holds at every greater depth: correct the point, or remove it"
+            )
+            yield Problem(CRV008, message, where=entry.point(_deepest(entry)))
+
+
+@rule(CRV013)
+def flat_last_segment(context: LintContext) -> Iterator[Problem]:
+    """The last segment of a curve is flat.
+
+    A curve continues beyond its last point with its last slope, which is zero here. A pipe that is heavier than the
+    last force sinks without end, and a static run does not converge. Add a point with a larger force.
+
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay
+          0.0, 0.0
+          0.5, 4200.0
+        - 1.0, 4200.0
+        + 1.0, 4600.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
+
+    Finds: 6:2
+    """
+    for entry in context.scene.laws.curves:
+        if entry.curve is not None and entry.whole and entry.curve.slopes[-1] == 0.0:
+            force = float(entry.curve.forces[-1])
+            message = (
+                f"the force stays at {force!r} at every greater depth and does not support a heavier pipe: add a "
+                "point with a larger force"
+            )
+            yield Problem(CRV013, message, where=entry.point(_deepest(entry)))
+
+
+@rule(CRV014)
+def beyond_curve(context: LintContext) -> Iterator[Problem]:
+    """Elements lie deeper, in the deck's coordinates, than their curve reaches.
+
+    The force there is extrapolated with the last slope, and nothing was measured or calculated for it. Perhaps the
+    coordinates have another datum than the seabed, X = 0; otherwise add points down to the depth of the elements.
+    Nothing is reported in models whose seabed is not flat.
+
+    Example:
+         $MODEL
+         *NODE
+        - 1, -0.25, 0.0
+        - 5, -0.25, 40.0
+        + 1, -0.05, 0.0
+        + 5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *GEOMETRIC SETS
+          OPTION=RIGID
+          SET=ALL
+          207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+         *SEABED STIFFNESS
+          CURVE=Clay
+          0.0, 0.0
+          0.5, 4200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
+
+    Finds: 14:2
+    """
+    scene = context.scene
+    if scene.seabed.kind is not SeabedKind.FLAT:
+        return
+    ends = [float(entry.curve.ratios[-1]) for entry in scene.laws.curves if entry.curve is not None and entry.whole]
+    bounds = context.once(bounds_of)
+    if not ends or (bounds.thinnest > 0.0 and max(-bounds.lowest, 0.0) / bounds.thinnest <= min(ends)):
+        return
+    heights = np.append(scene.coordinates[:, 0], np.nan)[scene.element_nodes]  # -1, an unknown node, is the last one
+    with np.errstate(over="ignore"):
+        ratios = -(0.5 * heights[:, 0] + 0.5 * heights[:, 1]) / scene.diameter
+    deepest_of_all = np.fmax.reduce(ratios, initial=-np.inf)
+    if deepest_of_all > DEEPEST and not context.in_soil:
+        return  # SBD022 reports the datum
+    for number, entry in enumerate(scene.laws.curves):
+        if entry.curve is None or not entry.whole or is_upside_down(entry) or deepest_of_all <= entry.curve.ratios[-1]:
+            continue
+        elements = scene.laws.followers(number)
+        last = float(entry.curve.ratios[-1])
+        beyond = elements[ratios[elements] > last]
+        if beyond.size:
+            deepest = int(beyond[np.argmax(ratios[beyond])])
+            which = "an element lies" if beyond.size == 1 else f"{beyond.size} elements lie"
+            message = (
+                f"{which} beyond the last ratio {last!r} of curve {shown(entry.name)}, element "
+                f"{scene.element_ids[deepest]} at {ratios[deepest]:.4g}: add points down to there"
+            )
+            yield Problem(CRV014, message, where=entry.where)

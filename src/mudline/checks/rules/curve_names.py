@@ -1,0 +1,250 @@
+"""Names of force-embedment curves, and the places that use them."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections.abc import Iterable, Iterator
+from itertools import groupby
+from typing import TYPE_CHECKING, cast
+
+from mudline.checks.context import LintContext
+from mudline.checks.joints import Found, Joined, joint
+from mudline.checks.suppression import MARK
+from mudline.language.codes.contact import REF003, SBD006, SBD017
+from mudline.language.deck.parameters import folded
+from mudline.language.deck.reading import TextOrigin
+from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span, Where
+from mudline.language.keywords.reader import all_keys
+from mudline.language.keywords.text import shown
+from mudline.language.rules import rule
+from mudline.language.syntax.fields import first_key
+from mudline.language.syntax.rows import read_number
+from mudline.language.syntax.tree import Kind, Leaf
+from mudline.model.contact.input import LawKind
+from mudline.model.scene.names import CURVES, repeated, unused
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.seabed_properties import SeabedProperties
+    from mudline.language.keywords.library.variation import Variation
+    from mudline.model.scene.force_curves import SceneCurve
+
+REF004 = Code("REF004", "duplicate-curve", Severity.WARNING)
+
+
+@rule(REF003)
+def unused_curve(context: LintContext) -> Iterator[Problem]:
+    """No STIFFNESS=, or other setting that takes curves of its kind, uses the curve.
+
+    It was measured or calculated for something, so perhaps the elements that it was meant for follow another law. Name
+    it in a STIFFNESS= of *SEABED PROPERTIES, or remove it. Another estimate of a soil that is used, as Clay Low beside
+    Clay Best, is an info: decks carry all of them. Nothing is reported in a deck whose STIFFNESS= is an
+    equation, as its parameters choose the curve, or for a curve whose name reads as a number (SBD017). The curves of
+    *MOMENT-CURVATURE and the like are looked at too: it is an info where mudline knows no keyword that would use one.
+
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Soft Clay
+          0.0, 0.0
+          0.1, 1200.0
+        - CURVE=Backfill
+        - 0.0, 0.0
+        - 0.1, 300.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Soft Clay
+
+    Finds: 6:8
+    """
+    yield from unused(context.scene.context, CURVES, REF003)
+    if _chosen_elsewhere(context):
+        return
+    scene = context.scene
+    names = {folded(curve.name) for curve in scene.laws.curves if not curve.embedment}
+    unknown = scene.laws.referenced - names
+    idle: dict[str, list[SceneCurve]] = {}
+    for curve in scene.laws.curves:
+        name = folded(curve.name)
+        if curve.embedment or not curve.named or name in scene.laws.referenced:
+            continue
+        if read_number(name) is not None:  # a STIFFNESS= may mean it, which SBD017 reports
+            continue
+        if name in idle:
+            idle[name].append(curve)
+        elif not scene.context.near(name, unknown):  # else it is misspelt where it is used, which is reported there
+            idle[name] = [curve]
+    if not idle or (len(idle) == 1 and len(unknown) == 1):
+        return
+    places = [curve.where for curves in idle.values() for curve in curves]
+    repairs = removals(context.text, places) if context.text else {}
+    soils = {_without_estimate(name) for name in scene.laws.referenced}
+    for curve, *_ in idle.values():
+        message = f"curve {shown(curve.name)} is not used: name it in a STIFFNESS=, or remove it"
+        soil = _without_estimate(curve.name)
+        severity = Severity.INFO if soil != folded(curve.name) and soil in soils else None
+        yield Problem(REF003, message, None, severity, curve.title, repairs.get(curve.where))
+
+
+@joint(SBD006)
+def the_law_of_a_curve(_: LintContext, found: Found) -> Iterator[Joined]:
+    """The one curve that nothing uses, under the one law that lacks a stiffness."""
+    bare, idle = found["SBD006"], found.get("REF003", ())
+    if len(bare) == len(idle) == 1:
+        yield Joined(bare[0], idle, idle[0].message)
+
+
+_ESTIMATE = re.compile(
+    r"[\W_]*(?<![^\W_])(?:lb|le|be|ub|hb|he|low|lower|best|high|higher|upper|mean|min|max|p\d\d?)(?:[\W_]+(?:estimate|bound))?(?![^\W_])"
+)
+"""The words of a name that say which estimate it is."""
+
+
+def _without_estimate(name: str) -> str:
+    """The name of a curve without the words that say which estimate of its soil it is."""
+    return _ESTIMATE.sub("", folded(name)).strip(" -_.")
+
+
+def _chosen_elsewhere(context: LintContext) -> bool:
+    """Whether something that is not read, or not fixed, may use curves."""
+    scene = context.scene
+    own = zip(
+        _stiffnesses(context.written("SEABED PROPERTIES")),
+        _stiffnesses(context.blocks("SEABED PROPERTIES")),
+        strict=False,
+    )  # a continued deck adds more after them
+    if any(written is not value for written, value in own):
+        return True  # an equation, whose parameters may be varied
+    if any(grant.kind is LawKind.NONE and grant.unknown for grant in scene.laws.set_laws):
+        return True  # a set whose STIFFNESS= is not known
+    if any(gap.block >= 0 and not gap.path for gap in scene.laws.gaps):
+        return True  # a block of which no set is known
+    if scene.context.misplaced("SEABED PROPERTIES") or (scene.context.restart and not scene.laws.referenced):
+        return True
+    return any(
+        folded(" ".join(varied.keyword or [])) == "seabed properties"  # None in a line that could not be read
+        for _, block in context.blocks("VARIATION", "PREPROCESSOR")
+        for variation in cast("Variation", block).variations
+        for varied in variation.blocks
+        if varied.action == "ADD"
+    )
+
+
+def _stiffnesses(blocks: Iterable[tuple[Where, SeabedProperties]]) -> Iterator[object]:
+    return (entry.stiffness for _, block in blocks for entry in block.sets)
+
+
+@rule(REF004)
+def duplicate_curve(context: LintContext) -> Iterator[Problem]:
+    """Two curves have one name, or one set has two curves in *EMBEDMENT.
+
+    The later one is used (inferred: the language does not say what happens) and overrides the earlier one. Names are
+    case-insensitive. Choose another name, or remove one of the curves.
+
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay
+          0.0, 0.0
+          0.1, 1200.0
+        - CURVE=CLAY
+        - 0.0, 0.0
+        - 0.1, 2500.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
+
+    Finds: 6:8
+    """
+    known: set[tuple[bool, str]] = set()
+    for curve in context.scene.laws.curves:
+        key = (curve.embedment, folded(curve.name))
+        if key in known and curve.named:
+            what = "set {} already has a curve" if curve.embedment else "curve {} is already defined"
+            what = what.format(shown(curve.name))
+            message = f"{what}: the later one is used (inferred); keep one of them"
+            yield Problem(REF004, message, where=curve.title)
+        known.add(key)
+    yield from repeated(context.scene.context, CURVES, REF004)
+
+
+def removals(text: TextOrigin, unused: Iterable[Where]) -> dict[Where, Repair]:
+    """For each curve of `*SEABED STIFFNESS` that is not used, the removal of its lines; comments stay.
+
+    The first curve of a block takes the whole block with it where none of its curves is used, unless a comment hides
+    findings there: then it goes alone, as the others do.
+    """
+    found: dict[Where, Repair] = {}
+    for block, places in groupby(sorted(unused), lambda where: where._replace(path=())):
+        if (block.section, block.block) in text.read:  # not of a deck that this one continues
+            found |= _of_block(text, block, list(places))
+    return found
+
+
+def _of_block(text: TextOrigin, block: Where, unused: list[Where]) -> dict[Where, Repair]:
+    read = text.read[block.section, block.block]
+    raw = text.tree.sections[block.section].blocks[block.block]
+    source = text.source.unified
+    length = len(unused[0].path)
+    starts = {path: span.start for path, span in read.places.spans.items() if len(path) == length}
+    lines = _by_curve(raw.leaves, source, all_keys(type(read.model)), sorted(starts.values()))
+    found = {
+        where: Repair("unsafe", "remove the curve", tuple((span, "") for span in lines[starts[where.path]]))
+        for where in unused
+    }
+    if len(unused) == len(starts) and (len(starts) == 1 or not any(_hides(leaf, source) for leaf in raw.leaves)):
+        spans = [raw.head.span, *(span for start in sorted(lines) for span in lines[start])]
+        message = "remove the curve" if len(starts) == 1 else "remove the curves of this block"
+        found[unused[0]] = Repair("unsafe", message, tuple((span, "") for span in spans))
+    return found
+
+
+def _by_curve(leaves: list[Leaf], source: str, keys: frozenset[str], starts: list[int]) -> dict[int, list[Span]]:
+    """The lines of each curve without comments and blank lines; a curve is known by where it starts."""
+    lines: dict[int, list[Span]] = {start: [] for start in starts}
+    for leaf in leaves:
+        at = bisect_right(starts, leaf.span.end - 1) - 1
+        if at >= 0 and _counts(leaf, source, keys):
+            lines[starts[at]].append(leaf.span)
+    return lines
+
+
+def _hides(leaf: Leaf, source: str) -> bool:
+    return leaf.kind is Kind.COMMENT and MARK.match(source, *leaf.span) is not None
+
+
+def _counts(leaf: Leaf, source: str, keys: frozenset[str]) -> bool:
+    """Whether a line is part of the curve and not a comment."""
+    if leaf.kind is Kind.UNDECIDED:
+        return first_key(source, leaf.span) in keys
+    return leaf.kind not in (Kind.COMMENT, Kind.BLANK)
+
+
+@rule(SBD017)
+def curve_named_as_number(context: LintContext) -> Iterator[Problem]:
+    """The name of a curve reads as a number.
+
+    STIFFNESS= takes a number or the name of a curve, and a number comes first: the elements get a linear stiffness of
+    that value, and the curve is never used. Give the curve a name that begins with a letter.
+
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+        - CURVE=100
+        + CURVE=Clay 100
+          0.0, 0.0
+          0.5, 4200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+        - STIFFNESS=100
+        + STIFFNESS=Clay 100
+
+    Finds: 3:8
+    """
+    for curve in context.scene.laws.curves:
+        if not curve.embedment and curve.named and read_number(curve.name) is not None:
+            message = "the name of this curve reads as a number, and STIFFNESS= takes the number: choose another name"
+            yield Problem(SBD017, message, where=curve.title)

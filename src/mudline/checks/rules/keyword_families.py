@@ -1,0 +1,179 @@
+"""Superseded keywords, decks that mix them with newer ones, and extension keywords in decks for Flexcom."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+
+from mudline.basics.limits import LISTED
+from mudline.checks.context import LintContext
+from mudline.language.diagnostics import Code, Problem, Repair, Severity, Where
+from mudline.language.keywords.catalogue import is_extension, is_superseded, supersedes
+from mudline.language.keywords.text import shown
+from mudline.language.rules import rule
+from mudline.language.syntax.edits import with_line_ends
+from mudline.model.contact.input import LawKind
+from mudline.model.scene.model import Scene
+from mudline.model.scene.rules.laws import SBD002
+
+LEG001 = Code("LEG001", "superseded-keyword", Severity.INFO)
+SBD016 = Code("SBD016", "mixed-families", Severity.WARNING)
+SBD018 = Code("SBD018", "extension-keyword", Severity.ERROR)
+
+
+@rule(LEG001)
+def superseded_keyword(context: LintContext) -> Iterator[Problem]:
+    """The keyword is superseded by a newer one.
+
+    It is still legal and keeps its meaning. The newer keywords can express more (profiles, friction by set), and new
+    decks use them.
+
+    Example:
+         $MODEL
+         *NODE
+          1, 0.0, 0.0
+          2, 0.0, 10.0
+         *ELEMENT
+          1, 1, 2
+        -*ELASTIC SURFACE
+        - 50000.0, 0.3, 0.5
+        +*SEABED PROPERTIES
+        + TYPE=ELASTIC
+        + SET=ALL
+        + STIFFNESS=50000.0
+        + FRICTION=0.3, 0.5
+
+    Finds: 7:1
+    """
+    found = context.deck.blocks_that(lambda declared: declared.subject == "seabed" and declared.facts.superseded_by)
+    for number, (where, block) in enumerate(found):
+        newer = " and ".join(map(str, block.facts.superseded_by))
+        message = f"*{block.keyword} is superseded by {newer}: `mudline migrate` rewrites the deck"
+        yield Problem(LEG001, message, where=where, repair=None if number else _migration(context))
+
+
+def _migration(context: LintContext) -> Repair | None:
+    """What `mudline migrate` does, to all blocks at once; None where it refuses, or a second file is needed.
+
+    Only when repairs are made, the decks of the folder are searched for those that continue this one.
+    """
+    deck, text = context.deck, context.text
+    if text is None or context.scene.errors():
+        return None
+    from mudline.editing.migration.refusals import (  # noqa: PLC0415 - few decks need it
+        continuations_beside,
+        refusals,
+        surfaces,
+    )
+    from mudline.editing.migration.rewriting import rewrite, unused_definitions  # noqa: PLC0415 - as above
+
+    continued_by, extended = continuations_beside(deck) if context.fixing else ([], False)
+    profile = any(surface.profile is not None for _, surface in surfaces(deck))
+    if profile or any(refusals(deck, context.scene, continued_by)):
+        return None
+    unused = unused_definitions(context.scene, extended=extended)
+    edits = with_line_ends(text.source, rewrite(deck, unused).edits)
+    return Repair("unsafe", "write the newer keywords", tuple((edit.span, edit.text) for edit in edits))
+
+
+@rule(SBD016)
+def mixed_families(context: LintContext) -> Iterator[Problem]:
+    """The model has legacy and new seabed keywords.
+
+    The manual says that a non-linear curve is used where there is one. The rest is inferred: of two curves, and of two
+    numbers, that of the newer keywords is used. Another version of the program may read the deck otherwise. The message
+    lists what each set gets, and the curves that no element gets. Keep one family.
+
+    Example:
+         $MODEL
+        -*ELASTIC SURFACE
+        - 50000.0, 0.3, 0.6
+        +*SEABED PROPERTIES
+        + TYPE=ELASTIC
+        + SET=ALL
+        + STIFFNESS=50000.0
+        + FRICTION=0.3, 0.6
+         *SEABED PROFILE
+          TYPE=SLOPING
+          SLOPE=2.0
+
+    Finds: 4:1
+    """
+    legacy = _first(context, filter(is_superseded, context.keywords))
+    new = _first(context, filter(supersedes, context.keywords)) if legacy else None
+    if not legacy or not new or context.problems_of(SBD002):
+        return  # of two seabeds, one of which goes, SBD002 speaks
+    own = len(context.scene.deck.own_sections)
+    where, keyword = max((place for place in (legacy, new) if place[0].section < own), default=legacy)
+    other = (new if is_superseded(keyword) else legacy)[1]
+    message = f"*{keyword} and *{other} are in one model{_laws_by_set(context.scene)}: keep one family"
+    yield Problem(SBD016, message, where=where)
+
+
+def _laws_by_set(scene: Scene) -> str:
+    """What each set gets where both families give laws, as far as it is known: ` (SET=A gets curve clay)`."""
+    laws = scene.laws
+    if not scene.element_ids.size or laws.uncertain or len({set_law.family for set_law in laws.set_laws}) < 2:
+        return ", and how they combine is partly inferred"
+    used = np.unique(laws.of_element).tolist()
+    parts = [
+        f"SET={shown(laws.set_laws[index].set_.name)} gets {_called(scene, index)}" for index in used if index >= 0
+    ]
+    idle = [
+        _called(scene, index)
+        for index, set_law in enumerate(laws.set_laws)
+        if set_law.kind is LawKind.CURVE and index not in used
+    ]
+    parts += [f"no element gets {name}" for name in idle]
+    more = f", {len(parts) - LISTED} more" if len(parts) > LISTED else ""
+    return f" (partly inferred: {', '.join(parts[:LISTED])}{more})"
+
+
+def _called(scene: Scene, index: int) -> str:
+    """A law of a set as a reader knows it: `curve clay`, `stiffness 500`, `a rigid seabed`."""
+    set_law = scene.laws.set_laws[index]
+    match set_law.kind:
+        case LawKind.CURVE if set_law.family == "legacy":
+            return f"the curve of *EMBEDMENT for SET={shown(set_law.set_.name)}"
+        case LawKind.CURVE:
+            return f"curve {shown(scene.laws.curves[set_law.curve].name)}" if set_law.curve >= 0 else "an unknown curve"
+        case LawKind.LINEAR:
+            return f"stiffness {set_law.stiffness:.10g}"
+        case LawKind.RIGID:
+            return "a rigid seabed"
+    return "no stiffness"
+
+
+def _first(context: LintContext, names: Iterable[str]) -> tuple[Where, str] | None:
+    return min(((where, name) for name in names for where, _ in context.blocks(name)), default=None)
+
+
+@rule(SBD018)
+def extension_keyword(context: LintContext) -> Iterator[Problem]:
+    """An extension keyword is used in a deck for Flexcom.
+
+    The keyword belongs to mudline alone: Flexcom does not know it and will not run the deck. It is reported only where
+    the deck is checked for that dialect. Remove it, or keep a copy of the deck for Flexcom.
+
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        -*SEABED SUCTION
+        - SET=ALL
+        - COHESION=5000.0
+        + SUCTION=8000.0, 0.15
+
+    Finds: 6:1
+    Dialect: flexcom
+    """
+    if context.dialect != "flexcom":
+        return
+    for i, section in enumerate(context.deck.sections):
+        for j, block in enumerate(section.blocks):
+            if is_extension(block.keyword):
+                message = f"*{block.keyword} is an extension that Flexcom does not know: remove it for that program"
+                yield Problem(SBD018, message, where=Where(i, j))

@@ -1,0 +1,110 @@
+"""Keywords of a load case that lack what a run needs, or that have no effect in it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, cast
+
+from mudline.checks.context import LintContext
+from mudline.language.diagnostics import Code, Problem, Severity
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.naming import names_given
+from mudline.language.keywords.text import shown
+from mudline.language.keywords.values import Names
+from mudline.language.rules import rule
+from mudline.model.scene.sets import set_key
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.analysis_type import AnalysisType
+    from mudline.language.keywords.library.vessel import Vessels
+    from mudline.language.keywords.library.vessel_integrated import IntegratedVessels
+
+VES002 = Code("VES002", "vessel-without-rao", Severity.WARNING)
+TIM005 = Code("TIM005", "static-steps-without-effect", Severity.INFO)
+
+_DYNAMIC = ("DYNAMIC", "TIME DOMAIN", "FREQUENCY DOMAIN")
+_FREQUENCY = "FREQUENCY"
+_WAVES = re.compile("WAVE.*")
+
+
+def _analysis(context: LintContext) -> set[str]:
+    """The kinds of run that the deck names."""
+    blocks = context.blocks("ANALYSIS TYPE", "LOAD CASE")
+    return {str(cast("AnalysisType", block).type_).upper() for _, block in blocks if block.type_}
+
+
+@rule(VES002)
+def vessel_without_rao(context: LintContext) -> Iterator[Problem]:
+    """A vessel has no response amplitude operators in a dynamic run with waves.
+
+    Without them it stands still in the waves, and the line hangs from a fixed point: the motions that drive the
+    touchdown zone are missing. Give the file of the operators with RAO= of *VESSEL,INTEGRATED, or in *RAO. Vessels that
+    a time history moves are left out, as are decks that do not say with *ANALYSIS TYPE that they are dynamic.
+
+    Example:
+         $MODEL
+         *VESSEL,INTEGRATED
+          VESSEL=FPSO
+          INITIAL POSITION=1005.0, 0.0, 0.0, 90.0
+         $LOAD CASE
+         *ANALYSIS TYPE
+          TYPE=DYNAMIC
+         *WAVE-REGULAR
+          1.5, 9.0, 180.0
+        +*RAO
+        + VESSEL=FPSO
+        + HEADING=0.0
+        + 0.1
+        + 0.9, 0.4, 0.0, 0.0, 0.0, 1.1
+        + 10.0, 90.0, 0.0, 0.0, 0.0, -80.0
+
+    Finds: 3:9
+    """
+    if not _analysis(context) & {*_DYNAMIC} or not _has_waves(context):
+        return
+    moving = context.scene.deck.blocks_that(lambda declared: declared.facts.moves_vessels, "LOAD CASE")
+    moved = {set_key(name) for _, block in moving for _, name in names_given(block, Names.VESSEL)}
+    for keyword in catalogue.definers(Names.VESSEL):
+        for where, block in context.blocks(keyword):
+            for index, vessel in enumerate(cast("Vessels | IntegratedVessels", block).vessels):
+                place = where.inside("vessels", index)
+                name = str(getattr(vessel, "vessel", None) or "")
+                still = name and set_key(name) not in moved and not getattr(vessel, "rao", None)
+                if still and not getattr(vessel, "unread", None):
+                    message = (
+                        f"vessel {shown(name)} has no RAO and stands still in the waves: give RAO= in "
+                        "*VESSEL,INTEGRATED, or the operators in *RAO"
+                    )
+                    yield Problem(VES002, message, where=place.inside("vessel"))
+
+
+def _has_waves(context: LintContext) -> bool:
+    """Whether a load case has waves, of a kind that is read or not."""
+    sections = (section for section in context.deck.sections if section.name == "LOAD CASE")
+    return any(_WAVES.fullmatch(block.keyword) for section in sections for block in section.blocks)
+
+
+@rule(TIM005)
+def static_steps_without_effect(context: LintContext) -> Iterator[Problem]:
+    """*NON LINEAR STATIC stands in a run that is not one in the frequency domain.
+
+    It sets the steps, the tolerance and the iterations of the static solution from which dynamics in the frequency
+    domain start, and has no effect elsewhere. Remove it, or correct *ANALYSIS TYPE.
+
+    Example:
+         $LOAD CASE
+         *ANALYSIS TYPE
+        - TYPE=TIME DOMAIN
+        + TYPE=FREQUENCY DOMAIN
+         *NON LINEAR STATIC
+          5, 0.001, 40
+
+    Finds: 4:1
+    """
+    kinds = _analysis(context)
+    if not kinds or any(kind.startswith(_FREQUENCY) for kind in kinds):
+        return
+    for where, _ in context.written("NON LINEAR STATIC", "LOAD CASE"):
+        message = f"no effect: the run is {min(kinds).lower()}, not in the frequency domain; remove *NON LINEAR STATIC"
+        yield Problem(TIM005, message, where=where)

@@ -1,0 +1,353 @@
+"""Parts of a whole model that lack something: nodes without elements, ends that hang free, elements without properties.
+
+A deck without `$LOAD CASE`, or without `$MODEL`, is a part of a job, and nothing is missing in it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from mudline.checks.context import LintContext
+from mudline.checks.rules.references import WATER
+from mudline.checks.rules.seabed_position import first_of
+from mudline.language.deck.model import Opaque
+from mudline.language.diagnostics import Code, Problem, Severity
+from mudline.language.keywords.catalogue import may_have_no_length
+from mudline.language.keywords.keeping import kept_lines
+from mudline.language.keywords.model import Block, Part
+from mudline.language.keywords.naming import idents_given, may_name
+from mudline.language.keywords.values import Names
+from mudline.language.rules import rule
+from mudline.language.syntax.rows import read_number
+from mudline.model.scene.deck_values import number
+from mudline.model.scene.model import Scene
+from mudline.model.scene.numbering import Mask
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.cable import Cables
+    from mudline.language.keywords.library.node_curvilinear import CurvilinearNodes
+
+GEO007 = Code("GEO007", "element-without-section", Severity.WARNING)
+GEO008 = Code("GEO008", "missing-hydrodynamics", Severity.INFO)
+GEO009 = Code("GEO009", "node-without-element", Severity.INFO)
+GEO010 = Code("GEO010", "end-not-held", Severity.INFO)
+GEO011 = Code("GEO011", "short-cable", Severity.WARNING)
+GEO012 = Code("GEO012", "node-beyond-cable", Severity.WARNING)
+
+_ROUNDED = 1e-6
+_OF_CABLE = ("node", "cable", "distance")
+"""Share of a length by which it may be rounded."""
+
+
+def _is_whole(context: LintContext) -> bool:
+    """Whether a deck shows a whole model and a load case of it, all lines of which are read.
+
+    Joints, springs and the like take no properties, and a keyword that is passed through may be of one, or hold a line.
+    """
+    scene = context.scene
+    parts = [section for section in scene.deck.sections if section.name in ("MODEL", "LOAD CASE")]
+    blocks = [block for section in parts for block in section.blocks]
+    if len({section.name for section in parts}) < 2 or not len(scene.element_ids):
+        return False
+    if any(type(block) is Opaque or may_have_no_length(block.keyword) for block in blocks):
+        return False
+    return not (scene.context.external_definers or scene.context.restart or scene.context.unread)
+
+
+@rule(GEO007)
+def element_without_section(context: LintContext) -> Iterator[Problem]:
+    """An element has no geometric properties, while others of its model have.
+
+    No set with a line in *GEOMETRIC SETS holds it: it has neither stiffness nor weight. A range of a set ends too
+    early, or a new part of the line was not put into a set. Extend the set, or give it a section. Decks that are only
+    the model or only the load case are left out, and models with joints, springs and the like, whose elements take no
+    properties.
+
+    Example:
+         $MODEL
+         *NODE
+          1, 50.0, 0.0
+          3, 50.0, 20.0
+          GEN=1, 3
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 2
+         *ELEMENT SETS
+          SET=Pipe
+        - 1
+        + 1, 2
+         *GEOMETRIC SETS
+          OPTION=RIGID
+          SET=Pipe
+          207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+         $LOAD CASE
+         *BOUNDARY
+          TYPE=CONSTANT
+          1, 1
+          3, 1
+
+    Finds: 8:2
+    """
+    scene = context.scene
+    if not _is_whole(context) or not context.blocks("GEOMETRIC SETS"):
+        return
+    bare = np.flatnonzero(scene.section_table.of_element < 0)
+    if bare.size and bare.size < len(scene.element_ids):
+        what = first_of("element", scene.element_ids[bare[0]], bare.size)
+        message = f"{what} without a line in *GEOMETRIC SETS: put it into a set that has one, or give it a section"
+        yield Problem(GEO007, message, where=scene.table.numbered.where(int(bare[0])))
+
+
+@rule(GEO008)
+def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
+    """Elements have no hydrodynamic properties in a load case with waves or a current.
+
+    No set of *HYDRODYNAMIC SETS holds them, so neither drag nor added mass acts on them. That is right inside another
+    pipe or in a moonpool, and a slip elsewhere. Put them into a set with coefficients.
+
+    Example:
+         $MODEL
+         *OCEAN
+          420.0, 1025.0, 9.81
+         *NODE
+          1, 50.0, 0.0
+          3, 50.0, 20.0
+          GEN=1, 3
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 2
+         *ELEMENT SETS
+          SET=Pipe
+        - 1
+        + 1, 2
+         *HYDRODYNAMIC SETS
+          SET=Pipe, TYPE=CONSTANT
+          1.0, 0.0, 2.0
+         $LOAD CASE
+         *CURRENT
+          TYPE=UNIFORM
+          0.5
+         *BOUNDARY
+          TYPE=CONSTANT
+          1, 1
+          3, 1
+
+    Finds: 10:2
+    """
+    scene = context.scene
+    cases = (section for section in context.deck.sections if section.name == "LOAD CASE")
+    flows = any(WATER.fullmatch(block.keyword) for case in cases for block in case.blocks)
+    blocks = context.blocks("HYDRODYNAMIC SETS")
+    kept = any(True for _, block in blocks for _ in kept_lines(block))
+    if not flows or kept or not _is_whole(context):
+        return
+    covered = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    for _, block in blocks:
+        for entry in block.sets:
+            found = scene.set_table.find(entry.set_name) if isinstance(entry.set_name, str) else None
+            if found is None:
+                return
+            covered[found.elements] = True
+    bare = np.flatnonzero(~covered)
+    if bare.size:
+        what = first_of("element", scene.element_ids[bare[0]], bare.size)
+        message = f"{what} without coefficients in *HYDRODYNAMIC SETS: give them, else neither drag nor added mass acts"
+        yield Problem(GEO008, message, where=scene.table.numbered.where(int(bare[0])))
+
+
+@rule(GEO009)
+def node_without_element(context: LintContext) -> Iterator[Problem]:
+    """A node belongs to no element, and nothing else names it.
+
+    It has no effect. It is left over from an earlier layout, or the number of a node in *ELEMENT is wrong. Remove the
+    node, or correct the element.
+
+    Example:
+         $MODEL
+         *NODE
+          1, 50.0, 0.0
+          2, 50.0, 10.0
+        - 9, 50.0, 20.0
+         *ELEMENT
+          1, 1, 2
+         $LOAD CASE
+         *BOUNDARY
+          TYPE=CONSTANT
+          1, 1
+          2, 1
+
+    Finds: 5:2
+    """
+    scene = context.scene
+    if not _is_whole(context):
+        return
+    used = np.zeros(len(scene.node_ids), dtype=np.bool_)
+    ends = scene.element_nodes
+    used[ends[ends >= 0]] = True
+    used |= _named(context)
+    free = np.flatnonzero(~used & _placed(scene))
+    if free.size:
+        what = first_of("node", scene.node_ids[free[0]], free.size)
+        message = f"{what} of no element: remove it, or correct the element that should end there"
+        yield Problem(GEO009, message, where=scene.nodes.where(int(free[0])))
+
+
+@rule(GEO010)
+def end_not_held(context: LintContext) -> Iterator[Problem]:
+    """A line ends at a node that nothing holds.
+
+    Neither *BOUNDARY nor a spring, a vessel or a body has the node, so the end is free. That is right for a pipe that
+    is laid or hangs from one end, and else a wrong number. Hold the node, or correct the number. A deck that holds no
+    node at all is left out.
+
+    Example:
+         $MODEL
+         *NODE
+          1, 50.0, 0.0
+          2, 50.0, 10.0
+         *ELEMENT
+          1, 1, 2
+         $LOAD CASE
+         *BOUNDARY
+          TYPE=CONSTANT
+          1, 1
+        + 2, 1
+
+    Finds: 4:2
+    """
+    scene = context.scene
+    if not _is_whole(context) or (scene.element_nodes < 0).any():
+        return
+    counts = np.bincount(scene.element_nodes.ravel(), minlength=len(scene.node_ids))
+    held = _named(context)
+    free = np.flatnonzero((counts == 1) & ~held & _placed(scene))
+    if free.size and held.any():
+        what = first_of("node", scene.node_ids[free[0]], free.size)
+        message = f"{what} at the end of a line is held by nothing: add it to *BOUNDARY, or leave it if the end is free"
+        yield Problem(GEO010, message, where=scene.nodes.where(int(free[0])))
+
+
+def _placed(scene: Scene) -> Mask:
+    """The nodes whose place is known: those of a GEN= between others that are not defined are not."""
+    x, y = scene.coordinates[:, 0], scene.coordinates[:, 1]
+    return ~(np.isnan(x) & np.isnan(y))
+
+
+def _named(context: LintContext) -> Mask:
+    """The nodes that anything but an element names, also in lines whose form is not public."""
+    found: Mask = context.once(_named_nodes)
+    return found
+
+
+def _named_nodes(context: LintContext) -> Mask:
+    scene = context.scene
+    numbers: set[int] = set()
+    for section in scene.deck.sections:
+        for block in section.blocks:
+            if isinstance(block, Block) and block.facts.defines not in ("nodes", "elements"):
+                numbers.update(_of_block(block))
+    named = np.zeros(len(scene.node_ids), dtype=np.bool_)
+    indices = scene.nodes.indices(np.array(sorted(numbers), dtype=np.int64)) if numbers else np.zeros(0, np.intp)
+    named[indices[indices >= 0]] = True
+    return named
+
+
+def _of_block(block: Part) -> Iterator[int]:
+    """The numbers of nodes that a block gives, those of a GEN= and of kept lines among them."""
+    if may_name(type(block), Names.NODE):
+        yield from (ident for _, ident in idents_given(block, Names.NODE) if isinstance(ident, int))
+    for entry in _generated(block):
+        start, end = getattr(entry, "start", None), getattr(entry, "end", None)
+        if isinstance(start, int) and isinstance(end, int) and 0 <= end - start <= _LONGEST_RANGE:
+            yield from range(start, end + 1)
+    yield from _whole(word for line in kept_lines(block) for word in line.replace("=", ",").split(","))
+
+
+_LONGEST_RANGE = 100_000
+"""Nodes of a GEN= of boundary conditions that are looked at one by one."""
+
+
+def _generated(part: Part) -> Iterator[object]:
+    for held in getattr(part, "types", None) or ():
+        for entry in getattr(held, "entries", None) or ():
+            if (values := getattr(entry, "generate", None)) is not None:
+                yield values
+
+
+def _whole(words: Iterator[str]) -> Iterator[int]:
+    for word in words:
+        value = read_number(word.strip())
+        if value is not None and value.is_integer() and abs(value) < 2**53:
+            yield int(value)
+
+
+# ------------------------------------------------------------------------------------------------------- cables
+
+
+@rule(GEO011)
+def short_cable(context: LintContext) -> Iterator[Problem]:
+    """A cable is shorter than the distance between the nodes at its ends.
+
+    A cable hangs between its two nodes, so it is at least as long as the straight line. Length and a coordinate do not
+    fit each other: correct one of them.
+
+    Example:
+         $MODEL
+         *NODE
+          1, 0.0, 0.0
+          41, 300.0, 400.0
+         *CABLE
+        - 1, 1, 41, 450.0
+        + 1, 1, 41, 565.6
+
+    Finds: 6:12
+    """
+    scene = context.scene
+    for where, block in context.blocks("CABLE"):
+        for index, cable in enumerate(cast("Cables", block).cables):
+            ends = np.array([end for end in (cable.start, cable.end) if isinstance(end, int)], dtype=np.int64)
+            places = scene.nodes.indices(ends)
+            if len(places) < 2 or (places < 0).any():
+                continue
+            distance = float(np.linalg.norm(scene.coordinates[places[1]] - scene.coordinates[places[0]]))
+            length = number(cable, "length")
+            if length < distance * (1.0 - _ROUNDED):
+                message = f"the cable is {length:g} long and its ends lie {distance:g} apart: correct one of them"
+                yield Problem(GEO011, message, where=where.inside("cables", index, "length"))
+
+
+@rule(GEO012)
+def node_beyond_cable(context: LintContext) -> Iterator[Problem]:
+    """A node lies farther along a cable than the cable is long.
+
+    The distance of *NODE,CURVILINEAR counts from the start of the cable. Correct the distance, the number of the cable,
+    or its length.
+
+    Example:
+         $MODEL
+         *NODE
+          1, 0.0, 0.0
+          41, 300.0, 400.0
+         *CABLE
+          1, 1, 41, 565.6
+         *NODE,CURVILINEAR
+        - 2, 1, 600.0
+        + 2, 1, 14.1
+
+    Finds: 8:8
+    """
+    cables = (cable for _, block in context.blocks("CABLE") for cable in cast("Cables", block).cables)
+    lengths = {float(cable.cable): number(cable, "length") for cable in cables if isinstance(cable.cable, int)}
+    for where, block in context.blocks("NODE,CURVILINEAR"):
+        for index, entry in enumerate(cast("CurvilinearNodes", block).entries):
+            table = getattr(entry, "nodes", None)
+            rows = [] if table is None or table.values.shape[1] < len(_OF_CABLE) else table.values.tolist()
+            for row, (_, cable, distance) in enumerate(rows):
+                length = lengths.get(cable, math.nan)
+                if distance > length * (1.0 + _ROUNDED):
+                    message = f"the node lies {distance:g} along a cable {length:g} long: correct one of them"
+                    yield Problem(GEO012, message, where=where.inside("entries", index, "nodes", row, 2))

@@ -1,0 +1,189 @@
+"""Geometry that does not fit the seabed as a whole: lines that hang far above it, a vertical axis Z."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from mudline.checks.context import LintContext
+from mudline.checks.rules.seabed_position import bounds_of, depths
+from mudline.language.codes.contact import GEO005
+from mudline.language.diagnostics import Problem
+from mudline.language.rules import rule
+from mudline.model.contact.input import LawKind
+from mudline.model.scene.deck_values import number
+from mudline.model.scene.numbering import Floats, Mask, blocks_of
+from mudline.model.scene.vertical_axis import FLAT, NEAR
+
+HIGHEST = 100.0
+"""Diameters above the seabed: a line that lies level does not hang there."""
+LEVEL = 0.1
+"""Rise to length, along the ground, of a line that lies level."""
+
+
+@rule(GEO005)
+def not_on_the_seabed(context: LintContext) -> Iterator[Problem]:
+    """The line cannot reach the seabed, or lies as if Z were vertical.
+
+    X is vertical in a deck, and 0 at the mudline. Nodes with another datum, or with the height as their last
+    coordinate, never touch the seabed, or all of them do. Correct the coordinates. As the static solution of a deck may
+    start above the seabed, and a riser or a jumper may hang there for good, only these are reported, all of them for
+    the elements with a seabed law:
+
+    * every node lies above the sea surface (*OCEAN gives the depth);
+    * the line lies level over 100 diameters above the seabed: it rises by less than a tenth of its length, or its
+      lowest four nodes or more have one height;
+    * Z goes from 0 to the depth, or from the depth below 0 to 0, within 5 % of the depth, and every node has the same X
+      within 1 % of the depth; or, from 0, three nodes or more lie within a diameter of Z = 0, and only one of X = 0;
+    * the three lowest nodes in Z or more lie at minus the depth within 1 % of it, on one level within a diameter, and
+      only one lies within a diameter of X = 0: Z is the height, and 0 at the sea surface.
+
+    Nothing is reported where elements come from lines or from another deck, where the shape of the seabed is not known,
+    or in models with soil curves.
+
+    Example:
+         $MODEL
+         *OCEAN
+          420.0, 1025.0, 9.81
+         *NODE
+        - 1, 420.0, 0.0
+        - 5, 420.0, 40.0
+        + 1, -0.01, 0.0
+        + 5, -0.01, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *GEOMETRIC SETS
+          OPTION=RIGID
+          SET=ALL
+          207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+
+    Finds: 5:2
+    """
+    scene = context.scene
+    if scene.context.external_definers or scene.context.restart or context.in_soil or _is_low(context):
+        return
+    if (line := _line(context)) is not None and (message := _above(line) or _along_z(line)):
+        lowest = int(np.where(line.used, context.once(depths), -np.inf).argmax())
+        message = message.format(node=f"node {scene.node_ids[lowest]}")
+        yield Problem(GEO005, message, where=scene.nodes.where(lowest))
+
+
+class _Line(NamedTuple):
+    """What is known of the nodes (n,) that belong to elements with a seabed law.
+
+    Smallest and largest coordinates and heights above the seabed, the largest diameter, the water depth; NaN where a
+    value is not known.
+    """
+
+    used: Mask
+    x: tuple[float, float]
+    y: tuple[float, float]
+    z: tuple[float, float]
+    heights: tuple[float, float]
+    diameter: float
+    depth: float
+    flat: tuple[int, int, int]
+    """Nodes within a diameter of X = 0, of Z = 0, and of the smallest Z."""
+    level: int
+    """Nodes as low as the lowest one."""
+
+
+LAID = 3
+"""Nodes of a line that lie on the seabed."""
+ROUNDED = 1e-3
+"""Diameters by which nodes on one level may differ."""
+
+
+def _is_low(context: LintContext) -> bool:
+    """Whether no line can be reported, as every node lies near the seabed and Z does not span the depth."""
+    bounds, depth = context.once(bounds_of), _water_depth(context)
+    if not bounds.highest <= HIGHEST * bounds.thinnest:
+        return False
+    if not depth > 0.0:
+        return True
+    rise = bounds.last - bounds.first
+    return bounds.highest <= depth and rise < (1.0 - 2.0 * NEAR) * depth and bounds.first > (NEAR - 1.0) * depth
+
+
+def _water_depth(context: LintContext) -> float:
+    """The depth that the last *OCEAN gives, NaN without any."""
+    oceans = context.blocks("OCEAN")
+    return number(oceans[-1][1], "depth") if oceans else math.nan
+
+
+def _line(context: LintContext) -> _Line | None:
+    """The line, None where nothing is known of it."""
+    scene = context.scene
+    used = np.zeros(len(scene.node_ids), dtype=np.bool_)
+    for block in blocks_of(len(scene.element_ids)):
+        ends = scene.element_nodes[block][scene.law[block] != LawKind.NONE]
+        if (ends < 0).any():
+            return None
+        used[ends] = True
+    if not used.any():
+        return None
+    deepest, highest = _extent(context.once(depths), used)[::-1]
+    x, y, z = (_extent(axis, used) for axis in scene.coordinates.T)
+    diameter = float(np.fmax.reduce(scene.diameter, initial=np.nan, where=scene.law != LawKind.NONE))
+    with np.errstate(invalid="ignore"):
+        near = np.abs(scene.coordinates[used]) <= diameter
+        low = scene.coordinates[used, 2] - z[0] <= diameter
+    flat = int(near[:, 0].sum()), int(near[:, 2].sum()), int(low.sum())
+    level = int((context.once(depths)[used] >= deepest - ROUNDED * diameter).sum())
+    return _Line(used, x, y, z, (-deepest, -highest), diameter, _water_depth(context), flat, level)
+
+
+def _extent(values: Floats, used: Mask) -> tuple[float, float]:
+    """The smallest and the largest of the values in use, NaN with a NaN among them."""
+    return float(values.min(where=used, initial=np.inf)), float(values.max(where=used, initial=-np.inf))
+
+
+def _above(line: _Line) -> str:
+    """What is wrong with a line that hangs above the seabed, or ""."""
+    lowest, highest = line.heights
+    if lowest > line.depth > 0.0:
+        return (
+            f"the lowest {{node}} lies {lowest:.5g} above the seabed, in water {line.depth:.5g} deep: correct the "
+            "datum of X, which is 0 at the mudline"
+        )
+    length = math.hypot(line.y[1] - line.y[0], line.z[1] - line.z[0])
+    level = highest - lowest < LEVEL * length
+    if (level or line.level > LAID) and lowest > HIGHEST * line.diameter:
+        what = "the line lies level, its lowest {node}" if level else "the lowest nodes lie level, {node}"
+        what = f"{what} {lowest:.5g} above the seabed (over 100 diameters)"
+        return f"{what}: correct the datum of X, which is 0 at the mudline"
+    return ""
+
+
+def _along_z(line: _Line) -> str:
+    """What is wrong with a line whose last coordinate is its height, or ""."""
+    near = NEAR * line.depth
+    first, last = line.z
+    upright = abs(last - first - line.depth) <= near and (abs(first) <= near or abs(last) <= near)
+    turned = abs(first) <= near and line.flat[0] <= 1 and line.flat[1] >= LAID
+    if line.depth > 0.0 and upright and turned and line.x[1] - line.x[0] > FLAT * line.depth:
+        return (
+            f"Z goes from {first:.5g} to {last:.5g}, and {line.flat[1]} nodes lie within a diameter of 0 in Z and "
+            f"{line.flat[0]} in X, as if Z were the height: write the height as X, the first coordinate"
+        )
+    sunk = abs(first + line.depth) <= FLAT * line.depth and last > first + near
+    if line.depth > 0.0 and sunk and line.flat[0] <= 1 and line.flat[2] >= LAID:
+        return (
+            f"{line.flat[2]} nodes lie at Z = {first:.5g}, minus the water depth, and {line.flat[0]} near X = 0, as if "
+            "Z were the height above the sea surface: write the height above the mudline as X, the first coordinate"
+        )
+    if line.depth > 0.0 and line.x[1] - line.x[0] <= FLAT * line.depth and upright:
+        return (
+            f"X is the same at all nodes and Z goes from {first:.5g} to {last:.5g}, as if it were the height: write "
+            "the height as X, the first coordinate"
+        )
+    return ""

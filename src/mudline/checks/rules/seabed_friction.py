@@ -1,0 +1,365 @@
+"""Friction, lateral resistance and suction of the seabed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple, cast
+
+import numpy as np
+
+from mudline.checks.context import LintContext
+from mudline.language.deck.parameters import folded
+from mudline.language.diagnostics import Code, Problem, Severity, Where
+from mudline.language.rules import rule
+from mudline.model.scene.laws import DIRECTIONS, Extension, typed_blocks
+from mudline.model.scene.sets import ALL
+
+SBD007 = Code("SBD007", "lateral-and-friction", Severity.WARNING)
+SBD013 = Code("SBD013", "legacy-friction-order", Severity.WARNING)
+SBD014 = Code("SBD014", "unused-friction-stiffness", Severity.INFO)
+SBD015 = Code("SBD015", "extent-without-stiffness", Severity.WARNING)
+SBD019 = Code("SBD019", "short-mobilisation", Severity.WARNING)
+SBD020 = Code("SBD020", "unused-characteristic-length", Severity.INFO)
+SBD024 = Code("SBD024", "one-friction-coefficient", Severity.WARNING)
+
+_CHARACTERISTIC = (3.048, 10.0)
+
+_SHORTEST = 1e-4
+
+_UNKNOWN = float("nan")
+_OF_SET = {
+    "lateral": ("lateral",),
+    "suction_stiffness": ("suction", "stiffness"),
+    "suction_extent": ("suction", "extent"),
+}
+
+
+@rule(SBD007)
+def lateral_and_friction(context: LintContext) -> Iterator[Problem]:
+    """Lateral resistance and transverse friction are given for the same elements.
+
+    A lateral spring replaces transverse friction and never adds to it: the program sets the transverse coefficient to
+    zero. Lateral walking is then resisted by the spring alone, however large the coefficient is. Keep the one that the
+    assessment relies on.
+
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        - FRICTION=0.3, 0.6
+        + FRICTION=0.3, 0.0
+          LATERAL=2000.0
+
+    Finds: 7:10
+    """
+    for entry in context.once(resisting):
+        friction = entry.value("transverse")
+        both = entry.type_ != "RIGID" and positive(entry.value("lateral")) and positive(friction)
+        if both and not friction_replaced(context, entry):
+            message = f"lateral resistance sets the transverse friction coefficient {friction!r} to zero: remove one"
+            yield Problem(SBD007, message, where=entry.place("lateral"))
+
+
+@rule(SBD013)
+def legacy_friction_order(context: LintContext) -> Iterator[Problem]:
+    """FRICTION= seems to have the order of fields of a legacy surface.
+
+    After the two coefficients *RIGID SURFACE has characteristic lengths, whose default is 3.048 m or 10 ft, where
+    FRICTION= has mobilisation lengths. A line copied from a legacy deck then spreads the build-up of friction over
+    metres, and the pipe slides far before it is held. Leave the field empty, or give the mobilisation length.
+
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        - FRICTION=0.3, 0.6, 3.048, 3.048
+        + FRICTION=0.3, 0.6, 0.03, 0.05
+
+    Finds: 6:21
+    """
+    for entry in context.once(resisting):
+        length = entry.value("longitudinal_mobilisation")
+        if not entry.legacy and length in _CHARACTERISTIC:
+            message = (
+                f"{length!r} is a usual characteristic length of legacy surfaces, and the third field of FRICTION= is "
+                "the mobilisation length (inferred from the value): give that, or remove it"
+            )
+            yield Problem(SBD013, message, where=entry.place("longitudinal_mobilisation"))
+
+
+@rule(SBD014)
+def unused_friction_stiffness(context: LintContext) -> Iterator[Problem]:
+    """A friction stiffness is given in a direction whose coefficient is zero.
+
+    Modal and frequency-domain runs use the stiffness instead of friction only where the coefficient is not zero; in
+    this direction the pipe is free, and the modes have less restraint than the deck suggests. The same holds for
+    *FRICTION of a load case or of modes. Give a coefficient, or remove the stiffness.
+
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        - FRICTION=0.0, 0.6, , , , 500.0, 250.0
+        + FRICTION=0.3, 0.6, , , , 500.0, 250.0
+
+    Finds: 6:27
+    """
+    for entry in context.once(resisting):
+        for direction in DIRECTIONS:
+            name = f"{direction}_stiffness"
+            idle = positive(entry.value(name)) and absent(entry, direction)
+            if idle and not friction_replaced(context, entry):
+                message = f"the {direction} friction stiffness is unused: the coefficient is 0; give one, or remove it"
+                yield Problem(SBD014, message, where=entry.place(name))
+    yield from _of_load_cases(context)
+
+
+def _of_load_cases(context: LintContext) -> Iterator[Problem]:
+    """Stiffnesses of *FRICTION in directions in which no place of the model has a coefficient."""
+    scene = context.scene
+    blocks = [found for section in ("LOAD CASE", "MODES") for found in context.blocks("FRICTION", section)]
+    if not blocks or scene.context.restart or "SEABED FRICTION" in context.keywords:
+        return
+    entries = list(given(context))
+    for direction in DIRECTIONS if entries else ():
+        if not all(absent(entry, direction) for entry in entries):
+            continue
+        for where, block in blocks:
+            stiffness = getattr(block, direction, None)
+            if isinstance(stiffness, float | int) and stiffness > 0.0:
+                message = (
+                    f"the {direction} friction stiffness is unused: the seabed has no {direction} coefficient; give "
+                    "one, or remove it"
+                )
+                yield Problem(SBD014, message, where=where.inside(direction))
+
+
+@rule(SBD015)
+def extent_without_stiffness(context: LintContext) -> Iterator[Problem]:
+    """A suction zone has an extent and no stiffness.
+
+    The extent is the height over which suction resists a rising pipe; without a stiffness there is no suction. Give the
+    suction stiffness, or remove the extent.
+
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        - SUCTION=0.0, 0.15
+        + SUCTION=8000.0, 0.15
+
+    Finds: 6:15
+    """
+    for entry in context.once(resisting):
+        if positive(entry.value("suction_extent")) and absent(entry, "suction_stiffness"):
+            message = "a suction zone without suction stiffness has no effect: give the stiffness, or remove the extent"
+            yield Problem(SBD015, message, where=entry.place("suction_extent"))
+
+
+@rule(SBD020)
+def unused_characteristic_length(context: LintContext) -> Iterator[Problem]:
+    """A characteristic length is given together with a mobilisation length.
+
+    The mobilisation length of a direction overrides its characteristic length: changing the characteristic length has
+    no effect. Remove the one that is not meant.
+
+    Example:
+         $MODEL
+        -*ELASTIC SURFACE
+        - 50000.0, 0.3, 0.6, , , , 3.048, , , 0.03
+        +*SEABED PROPERTIES
+        + TYPE=ELASTIC
+        + SET=ALL
+        + STIFFNESS=50000.0
+        + FRICTION=0.3, 0.6, 0.03
+
+    Finds: 3:27
+    """
+    for entry in context.once(resisting):
+        for direction in DIRECTIONS if entry.legacy else ():
+            name = f"{direction}_length"
+            both = positive(entry.value(name)) and positive(entry.value(f"{direction}_mobilisation"))
+            if both and not friction_replaced(context, entry):
+                message = f"the {direction} mobilisation length overrides this characteristic length: remove one"
+                yield Problem(SBD020, message, where=entry.place(name))
+
+
+@rule(SBD024)
+def one_friction_coefficient(context: LintContext) -> Iterator[Problem]:
+    """Friction has a longitudinal coefficient and no transverse one.
+
+    The second coefficient is 0 unless it is given (stated for the legacy surfaces, inferred for FRICTION=), so nothing
+    but the pipe itself resists sideways movement: it slides under the smallest current. People who mean one coefficient
+    for both directions write it once. Give both, or a 0 where no transverse friction is meant. A line with LATERAL=
+    needs none, as its spring replaces transverse friction.
+
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        - FRICTION=0.6
+        + FRICTION=0.6, 0.6
+
+    Finds: 6:11
+    """
+    for entry in context.once(resisting):
+        longitudinal = entry.value("longitudinal")
+        single = positive(longitudinal) and entry.value("transverse") is None and absent(entry, "transverse")
+        sprung = entry.type_ != "RIGID" and positive(entry.value("lateral"))
+        if single and not sprung and not friction_replaced(context, entry):
+            source = "0" if entry.legacy else "0 (inferred)"
+            message = (
+                f"friction has one coefficient, {longitudinal!r}, and the transverse one is then {source}: "
+                "give both, the second one as 0 if that is meant"
+            )
+            yield Problem(SBD024, message, where=entry.place("longitudinal"))
+
+
+@rule(SBD019)
+def short_mobilisation(context: LintContext) -> Iterator[Problem]:
+    """A mobilisation length is under a ten-thousandth of the diameter.
+
+    Friction then builds up almost at once: its spring is so stiff that the solution jumps between stick and slip and
+    hardly converges. Soil mobilises friction over some thousandths of a diameter at least. Give a longer one.
+
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *GEOMETRIC SETS
+          OPTION=RIGID
+          SET=ALL
+          207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        - FRICTION=0.3, 0.6, 0.00001, 0.05
+        + FRICTION=0.3, 0.6, 0.03, 0.05
+
+    Finds: 17:21
+    """
+    scene = context.scene
+    if not context.once(resisting) or not (resistance := scene.resistance).has_mobilisation:
+        return
+    lengths, friction = resistance.column("mobilisation"), resistance.column("friction")
+    friction[resistance.column("lateral") > 0.0, 1] = 0.0  # a lateral spring replaces it
+    if replacing := scene.extensions.get("SEABED FRICTION"):
+        friction[replacing.of_element >= 0] = 0.0
+    for side, name in enumerate(("longitudinal_mobilisation", "transverse_mobilisation")):
+        length = lengths[:, side]
+        short = (length > 0.0) & (friction[:, side] > 0.0) & (length < _SHORTEST * scene.diameter)
+        for index in sorted(set(resistance.of_element[short].tolist())):
+            where = resistance.places[index]
+            path = (name,) if where.path[0] == "properties" else ("friction", name)
+            value = resistance.values[index].mobilisation[side]
+            message = f"mobilisation length {value!r} is under 1e-4 diameters of the pipe: give a longer one"
+            yield Problem(SBD019, message, where=where.inside(*path))
+
+
+class Given(NamedTuple):
+    """A set of *SEABED PROPERTIES, or the first line of a legacy surface; `type_` is None where it is not known."""
+
+    part: Any
+    where: Where
+    type_: str | None
+    legacy: bool
+
+    def place(self, name: str) -> Where:
+        """The place of a value; names are those of the fields of *ELASTIC SURFACE."""
+        return self.where.inside(*self._path(name))
+
+    def value(self, name: str) -> float | None:
+        """A value: None where the deck gives none, NaN where it could not be read."""
+        found = self.part
+        for step in self._path(name):
+            found = getattr(found, step, None)
+        if found is None:
+            return None
+        return float(cast("float", found)) if isinstance(found, float | int) else _UNKNOWN
+
+    def _path(self, name: str) -> tuple[str, ...]:
+        return (name,) if self.legacy else _OF_SET.get(name, ("friction", name))
+
+
+def given(context: LintContext) -> list[Given]:
+    """All of them: legacy surfaces first, then the sets of *SEABED PROPERTIES in the order of the file."""
+    return context.once(_found)
+
+
+def _found(context: LintContext) -> list[Given]:
+    found = [
+        Given(
+            getattr(surface, "properties", None),
+            where.inside("properties"),
+            surface.facts.seabed_type,
+            legacy=True,
+        )
+        for where, surface in context.scene.context.surfaces
+    ]
+    for where, properties, type_ in typed_blocks(context.scene.context):
+        for index, entry in enumerate(properties.sets):
+            found.append(Given(entry, where.inside("sets", index), type_, legacy=False))
+    return found
+
+
+def resisting(context: LintContext) -> list[Given]:
+    """Those that may give more than a stiffness: the others have nothing that rules about friction look at."""
+    return [
+        entry
+        for entry in given(context)
+        if entry.legacy
+        or entry.part.friction is not None
+        or entry.part.lateral is not None
+        or entry.part.suction is not None
+    ]
+
+
+def positive(value: float | None) -> bool:
+    """Whether a value is given, could be read and is above zero."""
+    return value is not None and value > 0.0
+
+
+def absent(entry: Given, name: str) -> bool:
+    """Whether the deck gives no value, or zero."""
+    value = entry.value(name)
+    return value is None or value == 0.0
+
+
+def friction_replaced(context: LintContext, entry: Given) -> bool:
+    """Whether every element that follows this place has its friction from `*SEABED FRICTION` instead.
+
+    Of sets whose elements the deck does not show only the names are compared.
+    """
+    friction = context.scene.extensions.get("SEABED FRICTION")
+    if friction is None:
+        return False
+    names = _names(friction)
+    if ALL in names:
+        return True
+    resistance = context.scene.resistance
+    followers = np.zeros(0, dtype=np.intp)
+    if entry.where in resistance.places:
+        followers = np.flatnonzero(resistance.of_element == resistance.places.index(entry.where))
+    if followers.size:
+        return bool((friction.of_element[followers] >= 0).all())
+    return not entry.legacy and folded(str(entry.part.set_name)) in names
+
+
+def _names(friction: Extension) -> set[str]:
+    return {folded(held.name) for held in friction.sets if held is not None}

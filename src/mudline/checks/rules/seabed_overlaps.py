@@ -1,0 +1,262 @@
+"""Elements that are given seabed properties twice, and properties that no element gets."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple, cast
+
+import numpy as np
+
+from mudline.checks.context import LintContext
+from mudline.checks.rules.seabed_position import first_of
+from mudline.language.codes.contact import SBD025
+from mudline.language.codes.references import REF010
+from mudline.language.deck.parameters import folded
+from mudline.language.diagnostics import Code, Problem, Severity
+from mudline.language.keywords.model import Record
+from mudline.language.keywords.text import shown
+from mudline.language.rules import rule
+from mudline.model.contact.input import LawKind
+from mudline.model.scene.laws import SetLaw, present
+from mudline.model.scene.model import Scene
+from mudline.model.scene.numbering import Floats, Indices
+from mudline.model.scene.sets import ALL, NamedSet
+
+SBD008 = Code("SBD008", "overlapping-sets", Severity.INFO)
+
+
+@rule(SBD008)
+def overlapping_sets(context: LintContext) -> Iterator[Problem]:
+    """Elements are given seabed properties twice.
+
+    The later definition in the file overrides the earlier one as a whole: nothing of that remains. A set that refines a
+    larger one given before it is the usual way to write a deck and is not reported. Reported are a definition that
+    overrides an earlier one for all its elements, as SET=ALL after the other sets does, and sets of which each has
+    elements that the other one lacks. A definition of which nothing is left is a warning if its values are others. For
+    curves of *EMBEDMENT no order is documented: there any overlap of two different curves is a warning. Put the larger
+    set first, or give each element one definition.
+
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *ELEMENT SETS
+          SET=Crossing
+          2, 3
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+        + SET=ALL
+        + STIFFNESS=50000.0
+          SET=Crossing
+          STIFFNESS=500000.0
+        - SET=ALL
+        - STIFFNESS=50000.0
+
+    Finds: 16:6
+    """
+    new = _own_grants(context, "new")
+    if len(new) > 1:
+        yield from (problem for _, problem in _properties(context.scene, new))
+    embedment = [grant for grant in _own_grants(context, "legacy") if grant.curve >= 0]
+    if len(embedment) > 1:
+        yield from _embedment(context.scene, embedment)
+
+
+def _own_grants(context: LintContext, family: str) -> list[SetLaw]:
+    """What the deck itself gives, without the deck that it continues."""
+    grants = [grant for grant in context.scene.laws.set_laws if grant.family == family]
+    own = len(context.scene.deck.own_sections) if grants else 0
+    return [grant for grant in grants if grant.where.section < own]
+
+
+@rule(SBD025)
+def law_without_effect(context: LintContext) -> Iterator[Problem]:
+    """A seabed definition applies to no element.
+
+    Several later definitions together override it for all elements of the set; or a legacy surface is followed by
+    another one; or the set is made of subsets without any element. Changing such a value has no effect on the results.
+    Remove it, or correct the sets. A single later definition that overrides an earlier one for all its elements is
+    reported as SBD008, a set with nothing in it as REF010, and legacy beside new keywords as SBD016. Not reported are
+    the stiffness of a legacy surface beside curves for every element, and values that an extension keyword replaces, as
+    Flexcom still reads them.
+
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *ELEMENT SETS
+          SET=West
+          GEN=1, 2
+          SET=East
+          GEN=3, 4
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+        - SET=ALL
+        - STIFFNESS=50000.0
+          SET=West
+          STIFFNESS=40000.0
+          SET=East
+          STIFFNESS=60000.0
+
+    Finds: 16:6
+    """
+    if len(context.scene.element_ids):
+        yield from _unused_properties(context)
+    yield from _unused_surfaces(context)
+
+
+def _unused_properties(context: LintContext) -> Iterator[Problem]:
+    """Sets of *SEABED PROPERTIES without an element that follows them, unless SBD008 or REF010 gives the reason."""
+    scene = context.scene
+    followed = {*present(scene.laws.covered)}
+    new = _own_grants(context, "new")
+    idle_grants = {id(grant) for index, grant in enumerate(scene.laws.set_laws) if index not in followed}
+    if not any(id(grant) in idle_grants for grant in new):
+        return
+    reported = {earlier for earlier, _ in _properties(scene, new)} if len(new) > 1 else set()
+    empty = {problem.where for problem in context.problems_of(REF010)}
+    for index, grant in enumerate(new):
+        set_ = grant.set_
+        if id(grant) not in idle_grants or grant.unknown or set_.open or index in reported:
+            continue
+        place = grant.where._replace(path=(*grant.where.path[:2], "set"))
+        if set_.elements.size:
+            message = (
+                f"this definition applies to no element, as later ones override it for all of SET={shown(set_.name)}: "
+                "remove it, or correct the sets"
+            )
+            yield Problem(SBD025, message, where=place)
+        elif set_.where not in empty:
+            message = (
+                f"this definition applies to no element, as no subset of SET={shown(set_.name)} has any: correct "
+                "the set"
+            )
+            yield Problem(SBD025, message, where=place)
+
+
+def _unused_surfaces(context: LintContext) -> Iterator[Problem]:
+    """Legacy surfaces that a later one replaces, unless SBD002 reports two types."""
+    found = context.scene.context.surfaces if len(context.scene.laws.types) == 1 else []
+    for where, surface in found[:-1]:
+        message = (
+            f"these values apply to no element, as a later *{surface.keyword} overrides them: remove one of the two"
+        )
+        yield Problem(SBD025, message, where=where.inside("properties"))
+
+
+class _Overlap(NamedTuple):
+    """Places of two sets in their list, and the elements (indices) of the earlier one that the later one overrides."""
+
+    earlier: int
+    later: int
+    elements: Indices
+
+
+def _overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[_Overlap]:
+    """Each set against those that held its elements until then; sets that are not known against their namesakes."""
+    holder = np.full(count, -1, dtype=np.intp)
+    names: dict[str, int] = {}
+    for index, later in enumerate(sets):
+        before = holder[later.elements]
+        first = int(before[0]) if index and before.size else -1
+        if np.count_nonzero(before == first) == len(before):  # as mostly: of one set, or of none
+            if first >= 0:
+                yield _Overlap(first, index, later.elements)
+        else:
+            order = np.argsort(before, kind="stable")
+            parts, starts = np.unique(before[order], return_index=True)
+            for earlier, elements in zip(parts.tolist(), np.split(later.elements[order], starts[1:]), strict=False):
+                if earlier >= 0:
+                    yield _Overlap(earlier, index, elements)
+        name = folded(later.name)
+        if not later.elements.size and name in names:
+            yield _Overlap(names[name], index, later.elements)
+        names[name] = index
+        holder[later.elements] = index
+
+
+def _properties(scene: Scene, grants: list[SetLaw]) -> Iterator[tuple[int, Problem]]:
+    """Overlaps that are reported, each with the place of the overridden definition in the list."""
+    for earlier, later, elements in _overlaps([grant.set_ for grant in grants], len(scene.element_ids)):
+        one, other = grants[earlier].set_, grants[later].set_
+        where = grants[later].where
+        place = where._replace(path=(*where.path[:2], "set"))
+        if _within(one, other, len(scene.element_ids)):
+            message = (
+                f"{_called(one, other)} is overridden by this one for all its elements: "
+                "put the larger set first, or remove one"
+            )
+            lost = not _alike(scene, grants[earlier], grants[later])
+            yield earlier, Problem(SBD008, message, None, Severity.WARNING if lost else None, place)
+        elif not _within(other, one, len(scene.element_ids)) and not _alike(scene, grants[earlier], grants[later]):
+            message = (
+                f"this definition overrides the earlier one of SET={shown(one.name)} for "
+                f"{_counted(scene, elements)}: give each element one definition"
+            )
+            yield earlier, Problem(SBD008, message, where=place)
+
+
+def _within(part: NamedSet, whole: NamedSet, count: int) -> bool:
+    """Whether the elements of one set are all in another one, as far as they are known."""
+    if folded(whole.name) in (folded(part.name), folded(ALL)):
+        return True
+    if part.open or whole.open:
+        return False
+    if len(whole.elements) == count:
+        return True
+    return len(part.elements) <= len(whole.elements) and bool(
+        np.isin(part.elements, whole.elements, assume_unique=True).all()
+    )
+
+
+def _called(earlier: NamedSet, later: NamedSet) -> str:
+    same = folded(earlier.name) == folded(later.name)
+    return "the earlier definition of this set" if same else f"the earlier definition of SET={shown(earlier.name)}"
+
+
+def _counted(scene: Scene, elements: Indices) -> str:
+    return first_of("element", scene.element_ids[elements.min()], elements.size)
+
+
+def _alike(scene: Scene, one: SetLaw, other: SetLaw) -> bool:
+    """Whether two sets of *SEABED PROPERTIES give the same, curves of the same points included."""
+    first, second = (_entry(scene, grant) for grant in (one, other))
+    same = one.kind is other.kind is LawKind.CURVE and np.array_equal(_points(scene, one), _points(scene, other))
+    given = [name for name in type(first).model_fields if name != "set_name" and not (same and name == "stiffness")]
+    return all(getattr(first, name) == getattr(second, name) for name in given)
+
+
+def _points(scene: Scene, grant: SetLaw) -> Floats:
+    """The points of the curve of a set; a NaN, which equals nothing, where there is no such curve."""
+    return scene.laws.curves[grant.curve].points if grant.curve >= 0 else np.array([np.nan])
+
+
+def _entry(scene: Scene, grant: SetLaw) -> Record:
+    block = scene.deck.sections[grant.where.section].blocks[grant.where.block]
+    return cast("Record", getattr(block, "sets")[grant.where.path[1]])  # noqa: B009 - blocks have no common type
+
+
+def _embedment(scene: Scene, grants: list[SetLaw]) -> Iterator[Problem]:
+    """Overlaps that matter: of curves with other points, on elements that no newer keyword holds."""
+    curves = scene.laws.curves
+    for earlier, later, elements in _overlaps([grant.set_ for grant in grants], len(scene.element_ids)):
+        one, other = curves[grants[earlier].curve], curves[grants[later].curve]
+        held = elements[scene.laws.of_element[elements] != scene.laws.covered[elements]]
+        if np.array_equal(one.points, other.points) or (elements.size and not held.size):
+            continue
+        which = _counted(scene, held) if held.size else "elements"
+        message = (
+            f"*EMBEDMENT gives another curve for {which}, of SET={shown(grants[earlier].set_.name)}: the later one is "
+            "used, which is not documented (inferred); give each element one curve"
+        )
+        yield Problem(SBD008, message, None, Severity.WARNING, other.title)

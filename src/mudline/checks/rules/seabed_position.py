@@ -1,0 +1,381 @@
+"""Where nodes lie relative to the seabed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import isfinite
+from typing import TYPE_CHECKING, NamedTuple, cast
+
+import numpy as np
+
+from mudline.checks.context import LintContext
+from mudline.language.diagnostics import Code, Problem, Severity, Where
+from mudline.language.keywords.table import LARGEST_WHOLE
+from mudline.language.rules import rule
+from mudline.model.scene.deck_values import number
+from mudline.model.scene.model import Scene
+from mudline.model.scene.numbering import FEW, Floats, Indices, Mask, blocks_of
+from mudline.model.scene.seabed import SeabedKind, SeabedShape
+from mudline.model.scene.vertical_axis import FLAT
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.boundary import Boundary, FixedNode, FixedRange
+
+SBD021 = Code("SBD021", "one-constrained-dof", Severity.WARNING)
+SBD022 = Code("SBD022", "deep-node", Severity.WARNING)
+
+_VERTICAL = 90.0
+
+DEEPEST = 5.0
+"""Diameters below the seabed."""
+
+_IN_PLANE = (1, 2)
+
+
+def depths(context: LintContext) -> Floats:
+    """Depths (n,) of the deck's coordinates normal to the seabed, negative above it; NaN where they are not known.
+
+    Of a polyline and of a surface it is a lower bound: no point of the seabed is nearer. A surface is triangulated
+    between its points, so it lies nowhere below the lowest of them. A cubic profile may lie anywhere between its
+    points. In a trench that lowers the seabed it is that below the bottom. Several rules need them, and ask
+    `context.once`.
+    """
+    lowering = _lowering(context.scene)
+    return _depths(context.scene) if lowering is None else _depths(context.scene) - lowering
+
+
+def _lowering(scene: Scene) -> Floats | None:
+    """By how much (n,) trenches lower the seabed at nodes; None where none does."""
+    trenches = scene.extensions.get("SEABED TRENCH")
+    if (
+        not len(scene.node_ids)
+        or trenches is None
+        or all(getattr(entry, "level", None) != "LOWERED" for entry in trenches.entries)
+    ):
+        return None
+    lowers = np.array([*(getattr(entry, "level", None) == "LOWERED" for entry in trenches.entries), False])
+    elements = np.flatnonzero(lowers[trenches.of_element])
+    block = trenches.of_element[elements]
+    deep, bottom, top = (trenches.values(block, "geometry", name) for name in ("depth", "bottom_width", "upper_width"))
+    y0, z0, y1, z1 = (trenches.values(block, "centreline", name) for name in ("y0", "z0", "y1", "z1"))
+    found = np.zeros(len(scene.node_ids))
+    for nodes in scene.element_nodes[elements].T:
+        _, y, z = scene.coordinates[nodes].T
+        with np.errstate(all="ignore"):
+            away = np.abs((y1 - y0) * (z - z0) - (z1 - z0) * (y - y0)) / np.hypot(y1 - y0, z1 - z0)
+            share = np.clip((top - 2.0 * away) / (top - bottom), 0.0, 1.0)
+        known = nodes >= 0
+        lower = deep * np.where(np.isnan(away), 1.0, share)  # without a line of its own it lies below the pipe
+        np.fmax.at(found, nodes[known], lower[known])
+    return found
+
+
+def _depths(scene: Scene) -> Floats:
+    floor = scene.seabed
+    x, y, z = scene.coordinates.T
+    if not _is_bed(scene):
+        return np.full(len(x), np.nan)
+    with np.errstate(over="ignore", invalid="ignore"):
+        if floor.kind is SeabedKind.PLANES:
+            return _below_planes(floor, x, y, z)
+        if floor.kind in (SeabedKind.FLAT, SeabedKind.SLOPING):
+            slope = np.radians(floor.slope)
+            level = _is_level(floor)
+            found = np.empty(len(x))
+            for block in blocks_of(len(x)):
+                if level:
+                    found[block] = 0.0 * y[block] + 0.0 * z[block] - x[block]
+                else:
+                    along = _along(floor.direction, y[block], z[block])
+                    found[block] = along * np.sin(slope) - x[block] * np.cos(slope)
+            return found
+        if floor.missing or floor.points.size == 0 or floor.interpolation != "LINEAR":
+            return np.full(len(x), np.nan)
+        if floor.kind is SeabedKind.SURFACE:
+            return np.asarray(floor.points[:, 0].min() - x)
+        return _below_profile(floor, x, _along(floor.direction, y, z))
+
+
+def _is_level(floor: SeabedShape) -> bool:
+    """Whether a seabed is X = 0."""
+    kind = floor.kind
+    return (kind is SeabedKind.FLAT or kind is SeabedKind.SLOPING) and floor.slope == 0.0 and floor.direction == 0.0
+
+
+def _is_bed(scene: Scene) -> bool:
+    """Whether slopes are below 90 degrees, and the deck describes one seabed; other rules report where it does not."""
+    floor = scene.seabed
+    if floor.kind is SeabedKind.PLANES and "SEABED PROFILE" in scene.deck.keywords():
+        return False
+    return all(abs(slope) < _VERTICAL for slope in (floor.slope, *(plane.slope for plane in floor.planes)))
+
+
+class Bounds(NamedTuple):
+    """The highest and the deepest node, normal to the seabed, the lowest X, the first and the last Z: NaN with a NaN.
+
+    Of the known diameters the smallest and the largest, inf and 0 without any. With no nodes all is infinite.
+    """
+
+    highest: float
+    deepest: float
+    lowest: float
+    first: float
+    last: float
+    thinnest: float
+    thickest: float
+
+
+def bounds_of(context: LintContext) -> Bounds:
+    """What is computed once for the rules that most decks pass by such bounds alone; they ask `context.once`."""
+    scene = context.scene
+    axes = [*zip(*scene.coordinates.tolist(), strict=True)] if len(scene.coordinates) <= FEW else []
+    if axes and isfinite(sum(map(sum, axes))):  # of few without numpy, which takes three times as long
+        (lowest, left, first), (top, right, last) = map(min, axes), map(max, axes)
+    else:
+        lowest, left, first = np.minimum.reduce(scene.coordinates, axis=0, initial=np.inf).tolist()
+        top, right, last = np.maximum.reduce(scene.coordinates, axis=0, initial=-np.inf).tolist()
+    level = _is_level(scene.seabed) and "SEABED TRENCH" not in scene.extensions
+    if level and isfinite(left + right + first + last):
+        highest, deepest = top, -lowest
+    else:
+        depth = context.once(depths)
+        highest = -float(np.minimum.reduce(depth, initial=np.inf))
+        deepest = float(np.maximum.reduce(depth, initial=-np.inf))
+    return Bounds(
+        highest,
+        deepest,
+        lowest,
+        first,
+        last,
+        float(np.fmin.reduce(scene.diameter, initial=np.inf)),
+        float(np.fmax.reduce(scene.diameter, initial=0.0)),
+    )
+
+
+def steepness(scene: Scene) -> Floats:
+    """Slopes (n,) of the seabed under the nodes as a tangent, without sign: of a profile, or of a uniform slope.
+
+    NaN where they are not known.
+    """
+    floor = scene.seabed
+    _, y, z = scene.coordinates.T
+    if floor.kind in (SeabedKind.FLAT, SeabedKind.SLOPING):
+        return np.full(len(y), abs(np.tan(np.radians(floor.slope))))
+    if floor.kind is not SeabedKind.PROFILE or floor.missing or floor.points.size == 0:
+        return np.full(len(y), np.nan)
+    points = floor.points[np.argsort(floor.points[:, 0], kind="stable")]
+    slopes = np.concatenate([[0.0], _slopes(points), [0.0]])
+    place = _along(floor.direction, y, z)
+    sides = (np.searchsorted(points[:, 0], place, side) for side in ("left", "right"))
+    found: Floats = np.maximum(*(slopes[side] for side in sides))
+    return found
+
+
+def _along(direction: float, y: Floats, z: Floats) -> Floats:
+    """The horizontal coordinate in which a seabed that is the same across it rises or falls."""
+    turned = np.radians(direction)
+    along: Floats = y * np.cos(turned) + z * np.sin(turned)
+    return along
+
+
+def _slopes(points: Floats) -> Floats:
+    widths, rises = np.diff(points, axis=0).T
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        slopes: Floats = np.abs(np.where(rises == 0.0, 0.0, rises / widths))
+    return slopes
+
+
+def _below_profile(floor: SeabedShape, x: Floats, along: Floats) -> Floats:
+    """Distances to the profile at least; beyond its ends, where it is level, they are exact."""
+    points = floor.points[np.argsort(floor.points[:, 0], kind="stable")]
+    steepest = float(_slopes(points).max(initial=0.0))
+    below: Floats = np.interp(along, points[:, 0], points[:, 1]) - x
+    below[(along >= points[0, 0]) & (along <= points[-1, 0])] /= np.hypot(1.0, steepest)
+    return below
+
+
+def _below_planes(floor: SeabedShape, x: Floats, y: Floats, z: Floats) -> Floats:
+    """Depth below the highest plane whose bounds hold the node; of two as high the later one counts."""
+    highest = np.full(len(x), -np.inf)
+    depth = np.full(len(x), np.nan)
+    for plane in floor.planes:
+        x0, y0, z0 = plane.point
+        slope = np.radians(plane.slope)
+        height = x0 + _along(plane.direction, y - y0, z - z0) * np.tan(slope)
+        y_min, y_max, z_min, z_max = plane.bounds
+        held = (y >= y_min) & (y <= y_max) & (z >= z_min) & (z <= z_max) & (height >= highest)
+        highest[held] = height[held]
+        depth[held] = ((height - x) * np.cos(slope))[held]
+    return depth
+
+
+def first_of(thing: str, first: int, count: int) -> str:
+    """Some elements or nodes in words, by the number of the first and how many they are."""
+    return f"{thing} {first}" if count == 1 else f"{count} {thing}s (first: {first})"
+
+
+@rule(SBD022)
+def deep_node(context: LintContext) -> Iterator[Problem]:
+    """Nodes lie more than five diameters below the seabed.
+
+    Pipes on the seabed sink by a fraction of their diameter. So deep a node usually has the wrong datum: elevations are
+    measured upwards from the mudline at X = 0, and not from the sea surface. Correct the coordinates. Of a
+    three-dimensional seabed only its lowest point is used; cubic and compiled profiles, and models with soil curves,
+    are left out.
+
+    Example:
+         $MODEL
+         *NODE
+        - 1, -500.0, 0.0
+        - 2, -500.0, 10.0
+        + 1, -0.02, 0.0
+        + 2, -0.02, 10.0
+         *ELEMENT
+          1, 1, 2
+         *GEOMETRIC SETS
+          OPTION=RIGID
+          SET=ALL
+          207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+
+    Finds: 3:2
+    """
+    scene = context.scene
+    if not (scene.laws.types or scene.laws.set_laws) or context.in_soil:
+        return
+    bounds = context.once(bounds_of)
+    if bounds.thinnest > 0.0 and bounds.deepest <= DEEPEST * bounds.thinnest:
+        return
+    depth = context.once(depths)
+    with np.errstate(over="ignore", invalid="ignore"):
+        limit = DEEPEST * _widest(scene)
+        deep = np.flatnonzero((limit > 0.0) & (depth > limit))
+    if deep.size:
+        which = f"{first_of('node', scene.node_ids[deep[0]], deep.size)} lie{'s' * (deep.size == 1)}"
+        message = f"{which} more than 5 diameters below the seabed: correct the datum of X{_surface(scene)}"
+        yield Problem(SBD022, message, where=scene.nodes.where(int(deep[0])))
+
+
+def _surface(scene: Scene) -> str:
+    """Where the datum seems to be, if the lowest node lies at minus the water depth."""
+    oceans = [block for _, block in scene.deck.blocks("OCEAN")]
+    depth = number(oceans[-1], "depth") if oceans else np.nan
+    with np.errstate(invalid="ignore"):
+        lowest = float(np.fmin.reduce(scene.coordinates[:, 0], initial=np.inf))
+    if not (depth > 0.0 and abs(lowest + depth) <= FLAT * depth):
+        return ""
+    return f", which is 0 at the mudline and not at the sea surface: add {depth:.5g}"
+
+
+@rule(SBD021)
+def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
+    """Only one of the degrees of freedom 1 and 2 is constrained at a node on a sloping rigid seabed.
+
+    Such a seabed holds its nodes along its normal, which lies between the directions 1 and 2. A node with a constraint
+    in one of the two only is held in both by the program: it can no longer slide down the slope, and the reaction there
+    is larger than the deck suggests. Constrain both, or none. Reported are nodes on the seabed or below it, or less
+    than a diameter above it.
+
+    Example:
+         $MODEL
+         *NODE
+          1, 0.0, 0.0
+          2, 0.3, 10.0
+         *ELEMENT
+          1, 1, 2
+         *SEABED PROPERTIES
+          TYPE=RIGID
+          SET=ALL
+          FRICTION=0.3, 0.6
+         *SEABED PROFILE
+          TYPE=SLOPING
+          SLOPE=2.0
+         $LOAD CASE
+         *BOUNDARY
+          TYPE=CONSTANT
+        + 1, 1
+          1, 2
+          2, 1
+          2, 2
+
+    Finds: 17:5
+    """
+    scene = context.scene
+    if "RIGID" not in scene.laws.types or "ELASTIC" in scene.laws.types:
+        return
+    held = list(_held(scene))
+    if not held or scene.context.restart:  # the deck that is continued may constrain the other one
+        return
+    given = np.zeros((2, len(scene.node_ids)), dtype=np.bool_)
+    for _, dof, nodes in held:
+        given[dof - 1, nodes] = True
+    alone = (given[0] != given[1]) & _on_slope(context)
+    for where, dof, nodes in held:
+        found = nodes[alone[nodes]]
+        if found.size:
+            which = first_of("node", scene.node_ids[found[0]], found.size)
+            message = (
+                f"of degrees of freedom 1 and 2 only {dof} is constrained at {which} on a sloping rigid seabed, and "
+                "both are held there: give both, or remove this one"
+            )
+            yield Problem(SBD021, message, where=where)
+
+
+def _widest(scene: Scene) -> Floats:
+    """The largest diameter (n,) of the elements at each node; 0 where none is known."""
+    widest = np.zeros(len(scene.node_ids))
+    ends = scene.element_nodes
+    known = (ends >= 0).all(axis=1) & (scene.diameter > 0.0)
+    for side in (0, 1):
+        np.maximum.at(widest, ends[known, side], scene.diameter[known])
+    return widest
+
+
+def _on_slope(context: LintContext) -> Mask:
+    """Nodes within a diameter of a seabed that is not level."""
+    scene = context.scene
+    near = 1e-6 * np.abs(scene.coordinates).max(axis=1, initial=0.0)  # coordinates are rounded when they are written
+    sloping: Mask = (steepness(scene) > 0.0) & (context.once(depths) >= -np.maximum(_widest(scene), near))
+    return sloping
+
+
+def _held(scene: Scene) -> Iterator[tuple[Where, int, Indices]]:
+    """Each constraint of degree of freedom 1 or 2: its place, the degree, the indices of its nodes."""
+    for where, block in scene.deck.blocks("BOUNDARY", "LOAD CASE"):
+        for i, type_ in enumerate(cast("Boundary", block).types):
+            for j, entry in enumerate(type_.entries):
+                place = where.inside("types", i, "entries", j)
+                generated = getattr(entry, "generate", None)
+                if generated is None:
+                    yield from _single(scene, cast("FixedNode", entry), place)
+                else:
+                    yield from _range(scene, cast("FixedRange", entry), place)
+
+
+def _single(scene: Scene, entry: FixedNode, where: Where) -> Iterator[tuple[Where, int, Indices]]:
+    node, dof = entry.node, entry.dof
+    if isinstance(node, int) and abs(node) <= LARGEST_WHOLE and dof in _IN_PLANE:
+        found = np.flatnonzero(scene.node_ids == node)
+        yield where.inside("dof"), int(dof), found
+
+
+def _range(scene: Scene, entry: FixedRange, where: Where) -> Iterator[tuple[Where, int, Indices]]:
+    """Nodes of a GEN=: of three values the last one is the degree of freedom, of five the fourth.
+
+    Four values can be read in two ways; they are read as increment and degree of freedom.
+    """
+    values = entry.generate
+    if values.third is None:
+        return
+    step, dof = (1, values.third) if values.fourth is None else (values.third, values.fourth)
+    numbers = (values.start, values.end, step)
+    if dof not in _IN_PLANE or not all(isinstance(value, int) and abs(value) <= LARGEST_WHOLE for value in numbers):
+        return
+    start, end, step = (int(value) for value in numbers)
+    if step > 0:
+        ids = scene.node_ids
+        found = np.flatnonzero((ids >= start) & (ids <= end) & ((ids - start) % step == 0))
+        yield where.inside("generate"), int(dof), found

@@ -1,0 +1,425 @@
+"""What keeps a solution from being found, or from being right."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from mudline.basics.quantities import unit_names
+from mudline.checks.context import LintContext
+from mudline.language.diagnostics import Code, Problem, Severity
+from mudline.language.keywords.text import shown
+from mudline.language.rules import rule
+from mudline.model.contact.input import LawKind
+from mudline.model.scene.deck_values import number
+from mudline.model.scene.force_curves import SceneCurve
+from mudline.model.scene.model import Scene
+from mudline.model.scene.numbering import Floats, Indices
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.time import TimeSpan
+    from mudline.model.contact.laws.suction import SuctionLaw
+    from mudline.model.scene.oscillation import Oscillation
+
+EXT008 = Code("EXT008", "soft-unloading", Severity.WARNING)
+STB001 = Code("STB001", "suction-snap", Severity.INFO)
+STB002 = Code("STB002", "coarse-time-step", Severity.INFO)
+STB003 = Code("STB003", "stiff-jump", Severity.WARNING)
+STB004 = Code("STB004", "lateral-softening", Severity.INFO)
+
+_SMALLEST_PART, _LARGEST_PART = 0.01, 0.99
+
+_FAILS = ", central difference fails"
+
+FARTHEST = 1.0e4
+
+
+@rule(STB001)
+def suction_snap(context: LintContext) -> Iterator[Problem]:
+    """The suction force decreases while the pipe keeps rising.
+
+    From the second corner of the trapezoid to breakout, the suction decreases with slope F_max / ((1 - xc2) Delta_B).
+    This is a negative stiffness. A static or quasi-static solution is unique only where the stiffness of the pipe
+    itself, per unit length, is greater; elsewhere the pipe snaps off the seabed, and the solver may not converge. The
+    message gives the stiffness at the velocity of REGULARISATION=, for the element that needs most. Use smaller steps
+    at lift-off, or a linear SUCTION=.
+
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *GEOMETRIC SETS
+          OPTION=RIGID
+          SET=ALL
+          207.0E9, 79.6E9, 0.3, 0.265, 7850.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        -*SEABED SUCTION
+        - SET=ALL
+        - COHESION=5000.0
+        + SUCTION=15000.0, 0.05
+
+    Finds: 18:2
+    """
+    scene = context.scene
+    extension = scene.extensions.get("SEABED SUCTION")
+    if extension is None:
+        return
+    from mudline.model.scene.assignments import suction_law  # noqa: PLC0415 - most decks do without
+
+    for index, where in enumerate(extension.places):
+        elements = np.flatnonzero(extension.of_element == index)
+        needed = _release(suction_law(scene, extension, elements))
+        known = np.flatnonzero(np.isfinite(needed) & (needed > 0.0))
+        if known.size:
+            worst = int(known[np.argmax(needed[known])])
+            unit = unit_names(scene.units).behind("stiffness")
+            message = (
+                f"the release of the suction is softening: equilibrium needs a structural stiffness per unit length "
+                f"above F_max / ((1 - xc2) Delta_B) = {needed[worst]:.6g}{unit} at the velocity of "
+                f"REGULARISATION= (element {scene.element_ids[elements[worst]]})"
+            )
+            yield Problem(STB001, message, where=where)
+
+
+def _release(law: SuctionLaw) -> Floats:
+    """|slope| of the release branch, per unit length, of some elements; NaN where it is not known."""
+    from mudline.model.contact.laws.suction import release_stiffness  # noqa: PLC0415 - most decks do without
+
+    with np.errstate(all="ignore"):
+        usable = (law.second_corner >= _SMALLEST_PART) & (law.second_corner <= _LARGEST_PART)
+        return np.where(usable & (law.regularisation > 0.0), release_stiffness(law, law.regularisation), np.nan)
+
+
+@rule(STB002, off=True)
+def coarse_time_step(context: LintContext) -> Iterator[Problem]:
+    """The fixed time step is coarse for the stiffest contact.
+
+    A node on the seabed oscillates with omega, the root of stiffness over the mass that it carries. Every law counts:
+    the normal law, *SEABED UNLOADING, friction that sticks, lateral springs, and suction while it is mobilised.
+    Implicit schemes that are called unconditionally stable are so for linear systems: contact that opens and closes
+    adds energy to the pipe when omega times the step is large; at 0.5 the rebound of Newmark's scheme is up to 3 % too
+    fast, above that far more. Only backward Euler never adds energy; generalised-alpha with rho = 0 adds no more than
+    0.02 % of the speed, and both damp. Central difference fails above 2, and suction whose force depends on the
+    velocity lowers that: a damping c allows a step of 2 m / c. The message gives that step where it is the smaller one.
+    The mass is that of the section without added water; friction with a mobilisation length has its spring under the
+    static normal force; the third value of *TIME is read as the step (inferred). Give the step that the message names.
+    `mudline study` has the same numbers.
+
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *GEOMETRIC SETS
+          OPTION=MOORING
+          SET=ALL
+          480.0E6, 200.0, 0.3
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+         $LOAD CASE
+         *TIME
+          STEP=FIXED
+        - 0.0, 120.0, 0.1, 24.0
+        + 0.0, 120.0, 0.03, 24.0
+
+    Finds: 20:14
+    """
+    scene = context.scene
+    blocks = context.blocks("TIME", "LOAD CASE")
+    if not blocks or not len(scene.element_ids) or scene.blocking("cut"):
+        return
+    from mudline.model.contact.stiffest import ADVISED_OMEGA_DT, rounded_down  # noqa: PLC0415 - most decks do without
+    from mudline.model.scene.oscillation import oscillations  # noqa: PLC0415 - most decks do without
+
+    found = oscillations(scene, scene.contact_input("cut")).found
+    springs = [one for one in found if one.omega > 0.0]
+    if not springs:
+        return
+    stiffest = max(springs, key=lambda one: one.omega)
+    advised = rounded_down(ADVISED_OMEGA_DT / stiffest.omega)
+    for where, block in blocks:
+        step = getattr(cast("TimeSpan", block).fixed, "increment", None)
+        if isinstance(step, int | float) and stiffest.omega * step > ADVISED_OMEGA_DT:
+            effect = _effect(stiffest.kind, stiffest.omega * step)
+            if damped := _damped(scene, found):
+                effect = f"{effect.removesuffix(_FAILS)}, {damped}"
+            message = (
+                f"omega dt = {stiffest.omega * step:.3g} on the stiffest contact ({_described(scene, stiffest)}, "
+                f"omega = {stiffest.omega:.4g} rad/s): {effect}; give a step of "
+                f"{advised:.3g} or less"
+            )
+            yield Problem(STB002, message, where=where.inside("fixed", "increment"))
+
+
+@rule(STB004)
+def lateral_softening(context: LintContext) -> Iterator[Problem]:
+    """The lateral resistance falls while the pipe moves on.
+
+    Behind the breakout of LATERAL=PEAK-RESIDUAL or F114 the resistance falls to its residual: this is a negative
+    stiffness, (peak - residual) N over the distance between the two displacements. Only a structure that is stiffer
+    sideways, per unit length, has one equilibrium there; a softer one jumps, and the motion grows at a rate that is the
+    root of that stiffness over the mass. The message gives the stiffness under the static normal force, for the node
+    that needs most, and the step that resolves the rate, where weight and mass are known. Use that step through
+    breakout, or a static solution by displacements.
+
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *GEOMETRIC SETS
+          OPTION=MOORING
+          SET=ALL
+          480.0E6, 200.0, 0.3
+         *OCEAN
+          100.0, 1025.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+         *SEABED FRICTION
+          SET=ALL
+          COEFFICIENTS=0.3, 0.6
+          STIFFNESS=20000.0
+        - LATERAL=PEAK-RESIDUAL
+        - PEAK=1.2, 0.03
+        - RESIDUAL=0.6, 0.3
+
+    Finds: 24:2
+    """
+    scene = context.scene
+    extension = scene.extensions.get("SEABED FRICTION")
+    if extension is None:
+        return
+    from mudline.model.scene.assignments import softens  # noqa: PLC0415 - most decks do without
+    from mudline.model.scene.oscillation import oscillations, softening_needs  # noqa: PLC0415 - most decks do without
+
+    if not any(map(softens, extension.entries)) or scene.blocking("cut"):
+        return
+    known = {one.where: one for one in oscillations(scene, scene.contact_input("cut")).softening}
+    needs = "equilibrium needs a structural stiffness per unit length above (peak - residual) N / distance"
+    for entry, place in zip(extension.entries, extension.places, strict=True):
+        where = place.inside("peak")
+        if softens(entry):
+            numbers = softening_needs(scene, known[where]) if where in known else ", with N and mass as they will be"
+            yield Problem(STB004, f"the lateral resistance falls behind its peak: {needs}{numbers}", where=where)
+
+
+def _effect(kind: str, product: float) -> str:
+    """What happens to a landing pipe, or to a spring that does not lift off, at a product of frequency and step."""
+    from mudline.model.contact.stiffest import CRITICAL_OMEGA_DT  # noqa: PLC0415 - most decks do without
+
+    fails = _FAILS if product > CRITICAL_OMEGA_DT["central-difference"] else ""
+    if kind in {"friction", "lateral"}:
+        return f"the spring of what sticks is not resolved{fails}"
+    fast = "up to 11 % too fast" if product <= 1.0 else "up to three times too fast" if fails else "far too fast"
+    return f"with Newmark's scheme the rebound may be {fast}{fails}"
+
+
+def _described(scene: Scene, one: Oscillation) -> str:
+    """Law, node and line of a contact, with the file of a deck that this one continues."""
+    from mudline.model.scene.oscillation import line_of  # noqa: PLC0415 - most decks do without
+
+    line, base = line_of(scene, one.where), scene.deck.base_of(one.where)
+    place = f", line {line}" if line else ""
+    return f"{one.name}, node {scene.node_ids[one.node]}{place}" + (f" of {Path(base[0].file).name}" if base else "")
+
+
+def _damped(scene: Scene, found: Sequence[Oscillation]) -> str:
+    """What central difference needs where damping asks for less than the springs do."""
+    least = min(found, key=lambda one: one.critical_step("central-difference"))
+    if least.rate == 0.0:
+        return ""
+    from mudline.model.contact.stiffest import rounded_down  # noqa: PLC0415 - most decks do without
+
+    step = rounded_down(least.critical_step("central-difference"))
+    return f"central difference needs {step:.3g} or less for {_described(scene, least)}"
+
+
+@rule(STB003)
+def stiff_jump(context: LintContext) -> Iterator[Problem]:
+    """The stiffness of the seabed jumps by a factor of more than 10 000.
+
+    It does so where two segments of a curve meet, flat ones left out, or where an element on a curve has a neighbour on
+    a linear seabed that is so much stiffer, or softer, than every segment. The solver loses digits at such a jump, and
+    the pipe bends sharply at the edge. Usually an exponent is wrong. Correct the point or the stiffness; real rock
+    beside mud needs a transition.
+
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay over Rock
+          0.0, 0.0
+        - 0.1, 5.0
+        - 0.2, 2.0E6
+        - 0.3, 4.0E6
+        + 0.1, 5.0E2
+        + 0.2, 2.0E4
+        + 0.3, 4.0E4
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay over Rock
+
+    Finds: 5:2
+    """
+    for entry in context.scene.laws.curves:
+        if entry.curve is not None and entry.whole:
+            yield from _inside(entry, entry.curve.ratios, entry.curve.slopes)
+    yield from _beside(context)
+
+
+def _inside(entry: SceneCurve, ratios: Floats, slopes: Floats) -> Iterator[Problem]:
+    """Jumps at points of a curve."""
+    steep = np.flatnonzero(slopes)
+    before, behind = np.abs(slopes[steep[:-1]]), np.abs(slopes[steep[1:]])
+    jumps = np.flatnonzero((before / FARTHEST > behind) | (behind / FARTHEST > before))
+    if not len(jumps):
+        return
+    order = entry.points[:, 0].argsort(kind="stable")
+    points = order[np.searchsorted(entry.points[:, 0], ratios[steep[jumps + 1]], sorter=order)]
+    for at, point in zip(jumps.tolist(), points.tolist(), strict=True):
+        message = (
+            f"the slope goes from {before[at]:.6g} to {behind[at]:.6g} here, over {FARTHEST:g} times: correct the "
+            "point, or add a transition"
+        )
+        yield Problem(STB003, message, where=entry.point(point))
+
+
+def _beside(context: LintContext) -> Iterator[Problem]:
+    """Jumps between an element on a curve and its neighbour on a linear seabed, one for each pair of laws."""
+    scene = context.scene
+    grants = scene.laws.set_laws
+    reported: set[tuple[int, int]] = set()
+    if not scene.laws.curves:
+        return
+    slopes = [*map(_extremes, scene.laws.curves), (math.nan, math.nan)]
+    linear, curved = _neighbours(scene)
+    extremes = np.array(slopes)
+    curve_of = np.array([*(grant.curve for grant in grants), -1], dtype=np.intp)
+    stiffness = np.array([*(grant.stiffness for grant in grants), np.nan])[scene.laws.of_element[linear]]
+    with np.errstate(all="ignore"):
+        softest, steepest = (extremes[curve_of[scene.laws.of_element[curved]]] / scene.diameter[curved][:, None]).T
+        far = (stiffness / FARTHEST > steepest) | ((stiffness > 0.0) & (softest / FARTHEST > stiffness))
+    for at in np.flatnonzero(far).tolist():
+        pair = (int(scene.laws.of_element[linear[at]]), int(scene.laws.of_element[curved[at]]))
+        if pair in reported:
+            continue
+        reported.add(pair)
+        message = (
+            f"the linear stiffness {stiffness[at]:.6g} of element {scene.element_ids[linear[at]]} is over "
+            f"{FARTHEST:g} times away from that of curve {shown(scene.laws.curves[curve_of[pair[1]]].name)} at its "
+            f"neighbour {scene.element_ids[curved[at]]}, {softest[at]:.6g} to {steepest[at]:.6g}: correct it, or "
+            "add a transition"
+        )
+        yield Problem(STB003, message, where=grants[pair[0]].where)
+
+
+def _extremes(entry: SceneCurve) -> tuple[float, float]:
+    """The smallest and the largest slope of a curve, flat segments left out; NaN without any."""
+    if entry.curve is None or not entry.whole:
+        return (math.nan, math.nan)
+    slopes = np.abs(entry.curve.slopes)
+    slopes = slopes[slopes > 0.0]
+    return (float(slopes.min()), float(slopes.max())) if slopes.size else (math.nan, math.nan)
+
+
+def _neighbours(scene: Scene) -> tuple[Indices, Indices]:
+    """Pairs of elements that meet at a node: one on a linear seabed, one on a curve."""
+    law = scene.law
+    if not (np.count_nonzero(law == LawKind.LINEAR) and np.count_nonzero(law == LawKind.CURVE)):
+        nothing: Indices = np.zeros(0, dtype=np.intp)
+        return nothing, nothing
+    nodes = scene.element_nodes.ravel()
+    order = np.argsort(nodes, kind="stable")
+    elements, at = order // 2, nodes[order]
+    meet = (at[1:] == at[:-1]) & (at[1:] >= 0)
+    one, other = elements[:-1][meet], elements[1:][meet]
+    one, other = np.append(one, other), np.append(other, one)
+    wanted = (law[one] == LawKind.LINEAR) & (law[other] == LawKind.CURVE)
+    return one[wanted], other[wanted]
+
+
+@rule(EXT008)
+def soft_unloading(context: LintContext) -> Iterator[Problem]:
+    """The unloading stiffness is below the steepest slope of the loading law.
+
+    Soil unloads at least as stiffly as it was loaded: with a softer return path a cycle would give energy back, and the
+    trench would lie above the seabed. The stiffness is raised to the slope reached. Give a higher one.
+
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+         *SEABED UNLOADING
+          SET=ALL
+        - STIFFNESS=20000.0
+        + STIFFNESS=500000.0
+
+    Finds: 15:12
+    """
+    scene = context.scene
+    extension = scene.extensions.get("SEABED UNLOADING")
+    if extension is None:
+        return
+    steepest = np.where(scene.nodal, np.nan, _steepest(scene))
+    for index, (entry, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
+        stiffness = number(entry, "stiffness")
+        softer = np.flatnonzero((extension.of_element == index) & (steepest > stiffness))
+        if stiffness > 0.0 and softer.size:
+            unit = unit_names(scene.units).behind("stiffness")
+            message = (
+                f"unloading stiffness {stiffness!r} is below the steepest slope of the loading law of "
+                f"{softer.size} elements (first: {scene.element_ids[softer[0]]}), "
+                f"{float(steepest[softer].max()):.6g}{unit}: it is raised to that; give at least as much"
+            )
+            yield Problem(EXT008, message, where=where.inside("stiffness"))
+
+
+def _steepest(scene: Scene) -> Floats:
+    """Steepest slope of each element's law below the mudline, per unit of penetration; NaN where it is not known."""
+    linear = np.array([*(np.nan if grant.unknown else grant.stiffness for grant in scene.laws.set_laws), np.nan])
+    slopes = np.array([*(_curve_slope(scene, grant.curve) for grant in scene.laws.set_laws), np.nan])
+    found = scene.laws.of_element
+    with np.errstate(over="ignore"):
+        steep: Floats = np.where(scene.law == LawKind.LINEAR, linear[found], slopes[found] / scene.diameter)
+    return steep
+
+
+def _curve_slope(scene: Scene, index: int) -> float:
+    curve = scene.laws.curves[index].curve if index >= 0 else None
+    if curve is None:
+        return float("nan")
+    ratios = scene.laws.curves[index].points[:, 0]
+    return float(curve.evaluate(np.append(ratios[ratios > 0.0], 0.0))[1].max())

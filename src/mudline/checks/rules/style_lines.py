@@ -1,0 +1,278 @@
+"""Comments, keyword lines and suppression comments; the lines that style rules look at."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator
+from functools import wraps
+from typing import NamedTuple
+
+from mudline.checks.context import LintContext
+from mudline.checks.suppression import STY010, suppressions
+from mudline.language.deck.reading import TextOrigin
+from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.reader import ReadBlock, all_keys
+from mudline.language.rules import rule
+from mudline.language.syntax.fields import first_key, trimmed
+from mudline.language.syntax.tree import Kind, Leaf, canonical_name
+
+STY002 = Code("STY002", "lower-case-comment", Severity.WARNING)
+STY005 = Code("STY005", "indented-keyword", Severity.WARNING)
+STY006 = Code("STY006", "keyword-case", Severity.INFO)
+STY008 = Code("STY008", "key-like-comment", Severity.INFO)
+STY009 = Code("STY009", "indented-comment", Severity.WARNING)
+
+_DATA = (Kind.RUN, Kind.SETTING, Kind.TEXT)
+
+_KEY_LIKE = r"\n[Cc][A-Za-z]"
+INDENTED_COMMENT = re.compile(r"[ \t]++[Cc](?:[ \t]++[^ \t\r\n]|[-*=#_.~+]{2})")
+_COMMENT_BELOW = rf"\n{INDENTED_COMMENT.pattern}"
+
+_SMALL = r"[a-z]"
+_INDENTED_HEAD = r"[ \t]++[*$]"
+_HEAD_BELOW = rf"\n{_INDENTED_HEAD}"
+_SMALL_HEAD = r"[ \t]*+[*$][^\na-z]*+[a-z]"
+_SMALL_BELOW = rf"\n{_SMALL_HEAD}"
+_UPPER = {code: code - 32 for code in range(ord("a"), ord("z") + 1)}
+
+
+def rule_of_text(
+    code: Code, gate: Callable[[str], object], *, off: bool = False
+) -> Callable[[Callable[[TextOrigin, str], Iterator[Problem]]], object]:
+    """Make a function of a text and its unified source a rule: decks in JSON and YAML have nothing of its kind.
+
+    `gate` looks at the whole source, quickly: without a match the function is not called.
+    """
+
+    def register(find: Callable[[TextOrigin, str], Iterator[Problem]]) -> object:
+        @rule(code, off=off)
+        @wraps(find)
+        def check(context: LintContext) -> Iterable[Problem]:
+            text = context.text
+            if text is None or not gate(text.source.unified):
+                return ()
+            return find(text, text.source.unified)
+
+        return check
+
+    return register
+
+
+class Placed(NamedTuple):
+    """A line, or a run of them; `read` is the block that it stands in, `kept` says that this block has no model."""
+
+    leaf: Leaf
+    read: ReadBlock | None
+    kept: bool
+
+
+def placed_leaves(text: TextOrigin) -> Iterator[Placed]:
+    """Every line but those of keywords and sections."""
+    preamble = text.tree.preamble
+    yield from (Placed(leaf, None, kept=False) for leaf in preamble.leaves)
+    yield from (Placed(leaf, None, kept=False) for block in preamble.blocks for leaf in block.leaves)
+    for index, section in enumerate(text.tree.sections):
+        yield from (Placed(leaf, None, kept=False) for leaf in section.leaves)
+        for number, block in enumerate(section.blocks):
+            read = text.read.get((index, number))
+            yield from (Placed(leaf, read, read is None) for leaf in block.leaves)
+
+
+def data_leaves(text: TextOrigin) -> Iterator[tuple[Leaf, ReadBlock]]:
+    """The lines with values of the blocks that have a model."""
+    source, sections = text.source.unified, text.tree.sections
+    for (section, number), read in text.read.items():
+        for leaf in sections[section].blocks[number].leaves:
+            if leaf.kind in _DATA or is_setting(source, leaf, read):
+                yield leaf, read
+
+
+def is_setting(source: str, leaf: Leaf, read: ReadBlock) -> bool:
+    """Whether a line is a KEY= that the keyword knows."""
+    known = leaf.kind in (Kind.SETTING, Kind.UNDECIDED)
+    return known and first_key(source, leaf.span) in all_keys(type(read.model))
+
+
+def first_of_lines(pattern: re.Pattern[str], source: str, span: Span) -> Iterator[re.Match[str]]:
+    """The first match of a pattern on each line of a span."""
+    at = span.start
+    while at < span.end and (match := pattern.search(source, at, span.end)):
+        yield match
+        at = source.find("\n", match.end(), span.end) + 1 or span.end
+
+
+def line_around(source: str, offset: int) -> Span:
+    """The line that an offset stands in, without its LF; `source` is a unified text."""
+    end = source.find("\n", offset)
+    return Span(source.rfind("\n", 0, offset) + 1, len(source) if end < 0 else end)
+
+
+@rule_of_text(STY002, lambda source: "\nc" in source or source.startswith("c"))
+def lower_case_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
+    """A comment begins with a lower-case c.
+
+    The mark of a comment is a capital C in column 1. A lower-case c is accepted here, but stricter programs read the
+    line as data. Write a capital C.
+
+    Example:
+         $MODEL
+         *OCEAN
+        -c Depth from the survey
+        +C Depth from the survey
+          500.0, 1025.0, 9.81
+
+    Finds: 3:1
+    """
+    for leaf, _, kept in placed_leaves(text):
+        start = leaf.span.start
+        if leaf.kind is Kind.COMMENT and source[start] == "c" and not kept:
+            mark = Span(start, start + 1)
+            repair = Repair("safe", "write a capital C", ((mark, "C"),))
+            yield Problem(STY002, "the comment begins with a lower-case c: write a capital C", mark, repair=repair)
+
+
+@rule_of_text(STY008, lambda source: re.search(_KEY_LIKE, source))
+def key_like_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
+    """A setting such as CURVE= begins in column 1, where a C makes a comment.
+
+    It is read as data here, since its keyword knows the setting. Programs that read any line with a C in column 1 as a
+    comment skip it without a warning, and with it the name of a curve or a whole group of values. Put a space in front.
+
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+        -CURVE=Clay
+        + CURVE=Clay
+          0.0, 0.0
+          0.5, 4200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
+
+    Finds: 3:1
+    """
+    for leaf, read, _ in placed_leaves(text):
+        start = leaf.span.start
+        if read is not None and source[start] in "Cc" and is_setting(source, leaf, read):
+            key = first_key(source, leaf.span)
+            message = f"{key}= begins with C in column 1, a comment to other programs: put a space before it"
+            repair = Repair("safe", "put a space before it", ((Span(start, start), " "),))
+            yield Problem(STY008, message, Span(start, source.index("=", start) + 1), repair=repair)
+
+
+@rule_of_text(STY009, lambda source: re.search(_COMMENT_BELOW, source) or INDENTED_COMMENT.match(source))
+def indented_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
+    """A line that looks like a comment is indented, and so it is data.
+
+    Only a C in column 1 makes a comment; the manual mentions no other (inferred). With a space before it the line is
+    read as values of its keyword, as the name of a set for instance, or cannot be read. If it is a comment, remove the
+    spaces. Lines of blocks that are passed through unchanged are not checked.
+
+    Example:
+         $MODEL
+         *OCEAN
+        -  C Depth from the survey
+        +C Depth from the survey
+          500.0, 1025.0, 9.81
+
+    Finds: 3:3
+    """
+    for leaf, read, kept in placed_leaves(text):
+        if kept or leaf.kind not in (Kind.TEXT, Kind.SETTING) or not INDENTED_COMMENT.match(source, *leaf.span):
+            continue
+        if read is None or not is_setting(source, leaf, read):
+            message = "an indented line is data, not a comment: if it is meant as one, put its C in column 1"
+            yield Problem(STY009, message, trimmed(source, *leaf.span))
+
+
+@rule_of_text(STY005, lambda source: re.search(_HEAD_BELOW, source) or re.match(_INDENTED_HEAD, source))
+def indented_keyword(text: TextOrigin, source: str) -> Iterator[Problem]:
+    """A keyword or a section does not begin in column 1.
+
+    Spaces before the `*` or the `$` are ignored here, but a program that expects the mark in column 1 reads the line as
+    data of the block above. Remove the spaces.
+
+    Example:
+         $MODEL
+        -  *OCEAN
+        +*OCEAN
+          500.0, 1025.0, 9.81
+
+    Finds: 2:3
+    """
+    for line in head_lines(text):
+        head = trimmed(source, *line)
+        if line.start < head.start:
+            mark = source[head.start]
+            what = "section" if mark == "$" else "keyword"
+            message = f"the {what} is indented: put its {mark} in column 1"
+            repair = Repair("safe", "remove the indentation", ((Span(line.start, head.start), ""),))
+            yield Problem(STY005, message, head, repair=repair)
+
+
+@rule_of_text(STY006, lambda source: re.search(_SMALL_BELOW, source) or re.match(_SMALL_HEAD, source))
+def keyword_case(text: TextOrigin, source: str) -> Iterator[Problem]:
+    """The name of a keyword or a section is not in upper case.
+
+    Case is ignored here. Manuals and other decks write these names in upper case, though, and a search of many decks
+    for a keyword may miss others. Write it in upper case.
+
+    Example:
+         $MODEL
+        -*Ocean
+        +*OCEAN
+          500.0, 1025.0, 9.81
+
+    Finds: 2:1
+    """
+    for line in head_lines(text):
+        head = trimmed(source, *line)
+        written = source[slice(*head)]
+        if re.search(_SMALL, written) and _known(written):
+            what = "section" if written[0] == "$" else "keyword"
+            repair = Repair("safe", "write it in upper case", ((head, written.translate(_UPPER)),))
+            message = f"the {what} is not in upper case: write it in upper case"
+            yield Problem(STY006, message, head, repair=repair)
+
+
+def _known(head: str) -> bool:
+    """Whether a head names a known section or keyword: what follows a name may be a remark."""
+    return canonical_name(head) in (catalogue.SECTIONS if head[0] == "$" else catalogue.keywords())
+
+
+def head_lines(text: TextOrigin) -> Iterator[Span]:
+    """Every line that begins a section or a keyword."""
+    for section in (text.tree.preamble, *text.tree.sections):
+        yield from (head.span for head in (section.head, *(block.head for block in section.blocks)) if head)
+
+
+@rule(STY010)
+def unused_suppression(context: LintContext) -> Iterator[Problem]:
+    """A suppression comment suppresses nothing.
+
+    It was written for a finding that is no longer there, or names no rule; the next fault of that kind would be hidden
+    before anyone has seen it. Only rules that run are judged: with `--ignore CRV005` a comment for CRV005 is not
+    unused. The fix removes the code, or the comment when it names nothing else.
+
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay
+          0.0, 0.0
+          0.1, 1200.0
+        -C mudline: ignore CRV0O5 -- remoulded, see the survey
+        +C mudline: ignore CRV005 -- remoulded, see the survey
+          0.5, 900.0
+          1.0, 2000.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
+
+    Finds: 6:19
+    """
+    found = context.once(suppressions)
+    if found is not None:
+        yield from found.unknown()

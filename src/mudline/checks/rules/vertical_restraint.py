@@ -1,0 +1,193 @@
+"""Elements that nothing supports vertically: no seabed law applies to them, or one without stiffness."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from mudline.checks.context import LintContext
+from mudline.checks.rules.seabed_position import first_of
+from mudline.language.codes.contact import SBD006
+from mudline.language.codes.lines import SYN014
+from mudline.language.deck.model import Opaque
+from mudline.language.diagnostics import Problem, Repair, Span, Where
+from mudline.language.keywords.catalogue import is_superseded, sections_of
+from mudline.language.rules import rule
+from mudline.model.contact.input import LawKind
+from mudline.model.scene.model import Scene
+from mudline.model.scene.numbering import Floats, Indices, Mask, blocks_of
+from mudline.model.scene.rules.laws import SBD004
+from mudline.model.scene.seabed import SeabedKind
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.pip_section import PipSections
+
+
+@rule(SBD006)
+def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
+    """Nothing supports elements of the model vertically.
+
+    Either the block of *SEABED PROPERTIES that applies to the elements gives no stiffness: a block overrides an earlier
+    one as a whole, and does not inherit its STIFFNESS=. Or the elements lie at or below the seabed (X = 0) in the
+    deck's coordinates, and no law, or a stiffness of 0, applies to them; inner pipes of *PIP SECTION need none. A
+    static run may then have no unique solution. Give STIFFNESS=, or put the elements into a set that has it.
+
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *ELEMENT SETS
+          SET=Crossing
+          2, 3
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+          SET=Crossing
+        + STIFFNESS=50000.0
+          FRICTION=0.8, 0.9
+
+    Finds: 16:2
+    """
+    scene = context.scene
+    reading = scene.context
+    if stray := list(_stray_laws(context)):
+        yield from stray
+        return
+    if reading.restart or any(map(is_superseded, reading.misplaced_keywords)) or reading.misplaced("SEABED PROPERTIES"):
+        return
+    if "SEABED CONTACT" in context.keywords:
+        return  # it may hold the pipe
+    if context.problems_of(SBD004):
+        return  # that there is no stiffness is reported there
+    yield from _zeros(scene)
+    free = scene.law == LawKind.NONE
+    if not np.count_nonzero(free):
+        return
+    if "PIP SECTION" in context.keywords or "PIP CONNECTION" in context.keywords:
+        free &= ~_inner_pipes(scene, free)
+    if np.count_nonzero(free):
+        yield from _blocks(scene, np.flatnonzero(free & (scene.laws.covered >= 0)))
+        if not context.problems_of(SYN014):  # else the law may be in the part that was cut off
+            yield from _lying(context, np.flatnonzero(free & (scene.laws.covered < 0)))
+
+
+_LAW = re.compile(r"^[ \t]*TYPE[ \t]*=[ \t]*(?:ELASTIC|RIGID)[ \t]*$", re.IGNORECASE | re.MULTILINE)
+
+
+def _stray_laws(context: LintContext) -> Iterator[Problem]:
+    """Lines of *SEABED PROPERTIES in blocks that are passed through: their keyword line is missing."""
+    for number, section in enumerate(context.deck.sections):
+        for index, block in enumerate(section.blocks):
+            if type(block) is not Opaque or section.name not in (sections_of(block.keyword) or ()):
+                continue
+            if not any(map(_LAW.match, block.lines)) or not context.text:
+                continue
+            where = Where(number, index)
+            head = context.text.head(where)
+            found = _LAW.search(context.text.source.text, head.end if head else 0)
+            message = (
+                f"*{block.keyword} has no such line: begin *SEABED PROPERTIES above it, else no seabed law applies"
+            )
+            place = Span(*found.span()) if found else head or Span(0, 0)
+            line = (Span(place.start, place.start), "*SEABED PROPERTIES\n")
+            repair = Repair("unsafe", "begin *SEABED PROPERTIES above this line", (line,)) if found else None
+            yield Problem(SBD006, message, place, repair=repair)
+
+
+def _zeros(scene: Scene) -> Iterator[Problem]:
+    """Stiffnesses of 0 of elements that lie at or below a flat seabed."""
+    grants = scene.laws.set_laws
+    zero = [
+        i
+        for i, grant in enumerate(grants)
+        if grant.kind is LawKind.LINEAR and grant.stiffness == 0.0 and not grant.unknown
+    ]
+    for index in zero if scene.seabed.kind is SeabedKind.FLAT else ():
+        elements = np.flatnonzero(scene.laws.of_element == index)
+        lying = elements[_depths(scene, elements) >= 0.0]
+        if lying.size and "SEABED CONTACT" not in scene.extensions:
+            which = f"{first_of('element', scene.element_ids[lying[0]], lying.size)} lie{'s' * (lying.size == 1)}"
+            message = f"{which} at or below the seabed (X = 0) and this stiffness is 0: give another one"
+            yield Problem(SBD006, message, where=grants[index].where)
+
+
+_SAME_PLACE = 3
+"""Decimals in which the coordinates of the pipes of a pipe in a pipe agree."""
+
+
+def _inner_pipes(scene: Scene, free: Mask) -> Mask:
+    """Those of the elements without a law (m,) that lie in another pipe, so that the seabed does not touch them.
+
+    *PIP SECTION names their sets; where they are only connected, their middles are those of elements with a law.
+    """
+    inside = np.zeros(len(free), dtype=np.bool_)
+    for _, block in scene.deck.blocks("PIP SECTION"):
+        for pipe in cast("PipSections", block).pipes:
+            if set_ := scene.set_table.find(pipe.inner or ""):
+                inside[set_.elements] = True
+    placed = (scene.element_nodes >= 0).all(axis=1)
+    outer = set(_middles(scene, np.flatnonzero(placed & (scene.law != LawKind.NONE))))
+    alone = np.flatnonzero(placed & free & ~inside)
+    inside[alone] = [middle in outer for middle in _middles(scene, alone)]
+    return inside & free
+
+
+def _middles(scene: Scene, elements: Indices) -> list[tuple[float, ...]]:
+    """The middles of some elements whose nodes are known, rounded."""
+    return list(map(tuple, scene.coordinates[scene.element_nodes[elements]].mean(axis=1).round(_SAME_PLACE).tolist()))
+
+
+def _blocks(scene: Scene, elements: Indices) -> Iterator[Problem]:
+    """Blocks without stiffness that hold for elements, unless a later one whose elements are not known may hold."""
+    if not elements.size:
+        return
+    grants = scene.laws.set_laws
+    last_open = max((index for index, grant in enumerate(grants) if grant.set_.open), default=-1)
+    legacy_open = any(grant.set_.open for grant in grants if grant.family == "legacy")
+    found = np.unique(scene.laws.covered[elements], return_index=True, return_counts=True)
+    for index, first, count in zip(*(part.tolist() for part in found), strict=True):
+        where = grants[index].where
+        if legacy_open or last_open > index or grants[index].unknown or max(scene.laws.gaps, default=Where()) >= where:
+            continue
+        which = f"{first_of('element', scene.element_ids[elements[first]], count)} get{'s' * (count == 1)}"
+        message = (
+            f"{which} no stiffness from this block, which overrides earlier ones as a whole: give STIFFNESS= here too"
+        )
+        yield Problem(SBD006, message, where=where)
+
+
+def _lying(context: LintContext, elements: Indices) -> Iterator[Problem]:
+    """Elements at or below a flat seabed without any law; without any seabed in the deck only those below count."""
+    if not elements.size:
+        return
+    scene = context.scene
+    if scene.laws.uncertain or scene.may_have_more_laws or scene.seabed.kind is not SeabedKind.FLAT or context.in_soil:
+        return
+    seabed = bool(scene.laws.types or scene.laws.set_laws)
+    lies = np.greater_equal if seabed else np.greater
+    parts = (elements[block] for block in blocks_of(len(elements)))
+    lying = np.concatenate([part[lies(_depths(scene, part), 0.0)] for part in parts])
+    if lying.size:
+        where = "at or below" if seabed else "below"
+        which = f"{first_of('element', scene.element_ids[lying[0]], lying.size)} lie{'s' * (lying.size == 1)}"
+        message = f"{which} {where} the seabed (X = 0) and no seabed law applies: give STIFFNESS= to a set of them"
+        yield Problem(SBD006, message, where=scene.table.numbered.where(int(lying[0])))
+
+
+def _depths(scene: Scene, elements: Indices) -> Floats:
+    """Mean depths of the two nodes; NaN where one is not known."""
+    depths = np.full(len(elements), np.nan)
+    ends = scene.element_nodes[elements]
+    known = (ends >= 0).all(axis=1)
+    heights = scene.coordinates[ends[known], 0]
+    depths[known] = 0.0 - (0.5 * heights[:, 0] + 0.5 * heights[:, 1])
+    return depths

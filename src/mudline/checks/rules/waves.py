@@ -1,0 +1,216 @@
+"""Waves and currents against each other, the depth of the water and the time steps of the run."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple, cast
+
+import numpy as np
+
+from mudline.checks.context import LintContext
+from mudline.language.diagnostics import Code, Problem, Severity, Where
+from mudline.language.keywords.table import Table
+from mudline.language.rules import rule
+from mudline.model.scene.deck_values import DEFAULT_GRAVITY, number
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.current import Current
+    from mudline.language.keywords.library.time import TimeSpan
+    from mudline.language.keywords.library.wave_regular import RegularWaves
+    from mudline.language.keywords.library.wave_stokes import StokesWave
+
+WAV002 = Code("WAV002", "breaking-wave", Severity.WARNING)
+TIM003 = Code("TIM003", "ramp-does-not-fit", Severity.WARNING)
+TIM004 = Code("TIM004", "step-too-long-for-waves", Severity.WARNING)
+CUR001 = Code("CUR001", "current-ends-below-surface", Severity.WARNING)
+
+STEEPEST = 0.142
+"""Height over length of the steepest regular wave in deep water (Michell 1893)."""
+STEPS = 20
+"""Time steps of a wave period, at least."""
+_ROUNDED = 1e-3
+"""Share of the water depth by which a profile may miss the surface."""
+
+
+class _Wave(NamedTuple):
+    """A wave of one period: its height, and the places of height and period."""
+
+    height: float
+    period: float
+    at_height: Where
+    at_period: Where
+
+
+def waves(context: LintContext) -> list[_Wave]:
+    """The regular waves of a load case whose height and period are known."""
+    found = []
+    for where, block in context.blocks("WAVE-REGULAR", "LOAD CASE"):
+        for index, entry in enumerate(cast("RegularWaves", block).waves):
+            place = where.inside("waves", index, "wave")
+            height, period = 2.0 * number(entry.wave, "amplitude"), number(entry.wave, "period")
+            found.append(_Wave(height, period, place.inside("amplitude"), place.inside("period")))
+    for where, block in context.blocks("WAVE-STOKES", "LOAD CASE"):
+        wave = cast("StokesWave", block)
+        places = where.inside("height"), where.inside("period")
+        found.append(_Wave(number(wave, "height"), number(wave, "period"), *places))
+    return [wave for wave in found if wave.height > 0.0 and wave.period > 0.0]
+
+
+@rule(WAV002)
+def breaking_wave(context: LintContext) -> Iterator[Problem]:
+    """A regular wave is steeper than a wave can be.
+
+    A wave whose height is more than 0.142 of its length in deep water, g T^2 / (2 pi), breaks before it is so high. In
+    shallow water it breaks at a lower height still. Height and period were exchanged, the height is given where the
+    amplitude belongs, or a unit is wrong. Correct the wave.
+
+    Example:
+         $MODEL
+         *OCEAN
+          420.0, 1025.0, 9.81
+         $LOAD CASE
+         *WAVE-REGULAR
+        - 9.0, 6.0, 180.0
+        + 3.0, 9.0, 180.0
+
+    Finds: 6:2
+    """
+    gravity = _gravity(context)
+    for wave in context.once(waves):
+        length = gravity * wave.period * wave.period / (2.0 * math.pi)
+        if wave.height > STEEPEST * length:
+            message = (
+                f"a wave {wave.height:g} high with a period of {wave.period:g} is {wave.height / length:.3g} of its "
+                f"length high, and breaks at {STEEPEST}: correct height or period"
+            )
+            yield Problem(WAV002, message, where=wave.at_height)
+
+
+def _gravity(context: LintContext) -> float:
+    """Gravity of the last *OCEAN, else of the unit system; NaN where neither tells it."""
+    oceans = context.blocks("OCEAN")
+    given = number(oceans[-1][1], "gravity") if oceans else math.nan
+    if given > 0.0:
+        return given
+    return DEFAULT_GRAVITY.get(context.scene.units, math.nan)
+
+
+@rule(TIM003)
+def ramp_does_not_fit(context: LintContext) -> Iterator[Problem]:
+    """Loads grow in less than a wave period, or longer than the run lasts.
+
+    The ramp lets a run begin without a jolt; over less than the longest wave period the first wave comes at once, and
+    the motions that it excites spoil the start of the results. A ramp beyond the end of the run never lets the loads
+    reach their full size. Correct the ramp, the last value of the first line of *TIME. A ramp of 0 and runs that
+    continue another one are left out.
+
+    Example:
+         $LOAD CASE
+         *TIME
+          STEP=FIXED
+        - 0.0, 120.0, 0.05, 5.0
+        + 0.0, 120.0, 0.05, 24.0
+         *WAVE-STOKES
+          6.0, 12.0, 180.0
+
+    Finds: 4:20
+    """
+    longest = max((wave.period for wave in context.once(waves)), default=0.0)
+    continues = bool(context.blocks("RESTART", "LOAD CASE"))
+    for where, span in _spans(context):
+        ramp, start, end = (number(span, name) for name in ("ramp", "start", "end"))
+        if ramp > end - start > 0.0:
+            message = f"loads grow over {ramp:g}, longer than the run lasts ({end - start:g}): shorten the ramp"
+            yield Problem(TIM003, message, where=where.inside("ramp"))
+        elif 0.0 < ramp < longest and not continues:
+            message = f"loads grow over {ramp:g}, less than the wave period {longest:g}: give them a period at least"
+            yield Problem(TIM003, message, where=where.inside("ramp"))
+
+
+@rule(TIM004)
+def step_too_long_for_waves(context: LintContext) -> Iterator[Problem]:
+    """The time step is more than a twentieth of the shortest wave period.
+
+    Between such steps the wave is no smooth curve any more: forces and motions at its crest are missed. Of a variable
+    step the largest one counts, of random seas no period is looked at. Shorten the step; what the seabed needs may be
+    less: `mudline study` says so.
+
+    Example:
+         $LOAD CASE
+         *TIME
+          STEP=FIXED
+        - 0.0, 120.0, 1.0, 24.0
+        + 0.0, 120.0, 0.1, 24.0
+         *WAVE-REGULAR
+          1.5, 9.0, 180.0
+
+    Finds: 4:14
+    """
+    shortest = min((wave.period for wave in context.once(waves)), default=math.inf)
+    for where, step in _steps(context):
+        if step > shortest / STEPS:
+            message = (
+                f"a time step of {step:g} is more than a twentieth of the wave period {shortest:g}: "
+                f"give {shortest / STEPS:g} or less"
+            )
+            yield Problem(TIM004, message, where=where)
+
+
+def _spans(context: LintContext) -> Iterator[tuple[Where, object]]:
+    """The spans of time of a load case."""
+    for where, block in context.blocks("TIME", "LOAD CASE"):
+        for name in ("fixed", "variable"):
+            if (span := getattr(block, name)) is not None:
+                yield where.inside(name), span
+
+
+def _steps(context: LintContext) -> Iterator[tuple[Where, float]]:
+    """The time steps of a load case: fixed ones, and the largest of variable ones."""
+    for where, span in _spans(context):
+        yield where.inside("increment"), number(span, "increment")
+    for where, block in context.blocks("TIME", "LOAD CASE"):
+        for index, limits in enumerate(cast("TimeSpan", block).limits or ()):
+            yield where.inside("limits", index, "largest"), number(limits, "largest")
+
+
+@rule(CUR001)
+def current_ends_below_surface(context: LintContext) -> Iterator[Problem]:
+    """A current profile ends below the surface of the sea.
+
+    Elevations count upward from X = 0 at the mudline, unless OPTION=DESCEND gives depths below the water line. A
+    profile that ends far below the surface was written from the surface down, or for another depth; the current is
+    mostly strongest where it lacks points. Give a point at the surface, or OPTION=DESCEND.
+
+    Example:
+         $MODEL
+         *OCEAN
+          420.0, 1025.0, 9.81
+         $LOAD CASE
+         *CURRENT
+          TYPE=PIECEWISE LINEAR
+          0.0, 0.1
+        - 300.0, 0.9
+        + 420.0, 0.9
+
+    Finds: 8:2
+    """
+    oceans = context.blocks("OCEAN")
+    depth = number(oceans[-1][1], "depth") if oceans else math.nan
+    for where, block in context.blocks("CURRENT", "LOAD CASE"):
+        for index, current in enumerate(cast("Current", block).currents):
+            place = where.inside("currents", index, "profile")
+            if current.profile is not None and depth > 0.0 and len(current.profile):
+                yield from _below(current.profile, place, depth, descends=current.option == "DESCEND")
+
+
+def _below(profile: Table, where: Where, depth: float, *, descends: bool) -> Iterator[Problem]:
+    elevations = profile.column(0)
+    if np.isnan(elevations).any():
+        return
+    row = int(elevations.argmin() if descends else elevations.argmax())
+    missing = float(elevations[row]) if descends else depth - float(elevations[row])
+    if missing > _ROUNDED * depth:
+        advice = "" if descends else ", or OPTION=DESCEND for depths below the water line"
+        message = f"the profile ends {missing:g} below the surface of {depth:g} deep water: give a point there{advice}"
+        yield Problem(CUR001, message, where=where.inside(row))

@@ -1,0 +1,61 @@
+"""The settings under which a deck is linted: what a configuration says, under what a caller gives."""
+
+from __future__ import annotations
+
+from mudline.basics.patterns import matches
+from mudline.checks.configuration import NO_OUTSIDE, Configuration, Given
+from mudline.checks.engine import Fixing, LintSettings
+from mudline.checks.registry import rules, select
+from mudline.language.diagnostics import Severity
+
+
+def hidden_codes(found: Configuration, path: str) -> tuple[str, ...]:
+    """The codes that a configuration ignores in a file."""
+    ignores = found.table("per-file-ignores")
+    relative = found.relative(path) if ignores else ""
+    return tuple(code for glob, codes in ignores.items() if matches(relative, [glob]) for code in codes)
+
+
+def merged_settings(
+    found: Configuration,
+    given: Given,
+    hidden: tuple[str, ...] = (),
+    *,
+    fail_on: str | None = None,
+    fixing: Fixing = Fixing.NONE,
+) -> LintSettings:
+    """A configuration under what is given; `hidden` are codes that it ignores in a file. Raises UnknownRule."""
+    severity = found.table("severity")
+    off = [code for code, word in severity.items() if word == "off"]
+    chosen = list(given.chosen) or found.words("select")
+    ignored, also = [*given.ignored, *hidden], [*given.also]
+    if not given.chosen:
+        ignored += [*found.words("ignore"), *off]
+        also += found.words("extend-select")
+    running = select(chosen, ignored, also)
+    severities = {
+        rule.code.code: Severity(word)
+        for code, word in sorted(severity.items(), key=lambda item: len(item[0]))
+        if word != "off"
+        for rule in select([code])
+    }
+    return LintSettings(
+        running,
+        given.units,
+        given.dialect or found.values.get("dialect", "mudline"),
+        severities,
+        Severity(fail_on or found.values.get("fail-on", "warning")),
+        fixing,
+        _unfixable(found),
+        given.no_outside or bool(found.values.get(NO_OUTSIDE)),
+    )
+
+
+def _unfixable(found: Configuration) -> frozenset[str]:
+    unfixable = _codes(found.words("unfixable"))
+    fixable = found.words("fixable")
+    return unfixable | ({rule.code.code for rule in rules()} - _codes(fixable)) if fixable else unfixable
+
+
+def _codes(words: list[str]) -> frozenset[str]:
+    return frozenset(rule.code.code for rule in select(words)) if words else frozenset()

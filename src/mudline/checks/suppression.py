@@ -1,0 +1,371 @@
+"""Findings that are hidden: by comments, `C mudline: ignore CRV005`, `ignore-block`, `ignore-file`; by a baseline.
+
+A comment applies to the next line that is neither blank nor a comment, to the block that it is in (from its keyword to
+the next one), or to the whole file. What it names are codes, prefixes of codes and slugs; naming none means all. A
+baseline records known findings by path, code and the text of their line, not by its number.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from bisect import bisect_right
+from collections import Counter
+from collections.abc import Hashable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import chain
+from pathlib import Path
+from typing import NamedTuple
+
+from mudline.basics.overwriting import reading
+from mudline.basics.spelling import nearest
+from mudline.checks.context import LintContext
+from mudline.checks.registry import find, rules
+from mudline.language.deck.forms.keyword import to_keyword
+from mudline.language.deck.model import Opaque, comment_texts
+from mudline.language.deck.reading import TextOrigin, read_source
+from mudline.language.diagnostics import Code, DeckError, Diagnostic, Problem, Repair, Severity, Span, Where
+from mudline.language.rules import Rule, first_reported
+from mudline.language.syntax.source import Source
+from mudline.language.syntax.tree import Kind, Leaf
+
+STY010 = Code("STY010", "unused-suppression", Severity.WARNING)
+
+MARK = re.compile(r"[Cc][ \t]+mudline[ \t]*:[ \t]*", re.IGNORECASE)
+"""The beginning of a comment for mudline."""
+
+_NAMED = re.compile(r"mudline", re.IGNORECASE)
+_ORDER = re.compile(r"[\w-]+")
+_WORD = re.compile(r"[^,\s]+")
+_REASON = r"(?:(?<=[\s,])|^)--(?=\s|$)"
+_PLACES = {"ignore": "the next line", "ignore-block": "this block", "ignore-file": "this file"}
+_NOWHERE = ("outside",)
+"""The scope of what is in no block."""
+_NOTHING = ("nothing",)
+"""The scope of a comment that applies to nothing."""
+
+
+class Word(NamedTuple):
+    """What a comment names: the text, its place, and the codes of the rules behind it (none: no rule has that name)."""
+
+    text: str
+    span: Span
+    codes: frozenset[str]
+
+
+@dataclass(slots=True, eq=False)
+class Directive:
+    """One comment. `scope` is what it applies to: a line, a block or the file; nothing after the last line.
+
+    `reason` is the text behind `--`, "" without one.
+    """
+
+    order: str
+    leaf: Span
+    span: Span
+    words: list[Word]
+    where: Where
+    scope: Hashable = _NOTHING
+    reason: str = ""
+
+
+@dataclass(slots=True, eq=False)
+class Suppressions:
+    """All comments of a deck that hide findings, and those that look like one (`misspelt`: the word, what was meant).
+
+    `origin` gives the places: that of the deck's own text, or of the text that a JSON or YAML deck would be.
+    """
+
+    origin: TextOrigin
+    own_text: bool
+    directives: list[Directive] = field(default_factory=list)
+    misspelt: list[tuple[Word, str, Where]] = field(default_factory=list)
+    blocks: list[tuple[int, Hashable]] = field(default_factory=list)
+
+    def split(self, problems: Sequence[Problem], chosen: Iterable[Rule]) -> tuple[list[Problem], list[Problem]]:
+        """The problems that are reported, and those that are hidden.
+
+        The reported ones have STY010 besides for what hides nothing, where that rule and the ones named are among the
+        chosen.
+        """
+        selected = {rule.code.code for rule in chosen}
+        present = self._present(problems)
+        unused = first_reported(self._unused(present, selected)) if STY010.code in selected else []
+        hidden_by: dict[Hashable, set[str]] = {}
+        for directive in self.directives:
+            hidden_by.setdefault(directive.scope, set()).update(_named(directive))
+        reported: list[Problem] = []
+        hidden: list[Problem] = []
+        for problem in [*problems, *unused]:
+            codes = (hidden_by.get(scope, set()) for scope in self._scopes(problem))
+            (hidden if any(_covers(found, problem.code.code) for found in codes) else reported).append(problem)
+        return reported, hidden
+
+    def hiding(self, problem: Problem) -> Directive | None:
+        """The comment that hides a problem."""
+        scopes, code = self._scopes(problem), problem.code.code
+        return next((one for one in self.directives if one.scope in scopes and _covers(_named(one), code)), None)
+
+    def unknown(self) -> Iterator[Problem]:
+        """Names that no rule has and unknown instructions in comments."""
+        for word, meant, where in self.misspelt:
+            message = f"{word.text!r} is not an instruction: did you mean {meant}?"
+            yield self._problem(message, word.span, where, self._replacing(word, meant))
+        for directive in self.directives:
+            for number, word in enumerate(directive.words):
+                if not word.codes:
+                    near = nearest(word.text, _names())
+                    hint = f"did you mean {near}?" if near else "`mudline rules` lists all rules; remove it"
+                    repair = self._replacing(word, near) if near else self._removing(directive, number, "unsafe")
+                    yield self._problem(f"{word.text!r} names no rule: {hint}", word.span, directive.where, repair)
+
+    def _present(self, problems: Iterable[Problem]) -> dict[Hashable, set[str]]:
+        """The codes of the findings in every scope."""
+        present: dict[Hashable, set[str]] = {}
+        for problem in problems:
+            for scope in self._scopes(problem):
+                present.setdefault(scope, set()).add(problem.code.code)
+        return present
+
+    def _scopes(self, problem: Problem) -> tuple[Hashable, ...]:
+        line = self.origin.place(problem).line
+        at = bisect_right(self.blocks, line, key=lambda start: start[0]) - 1
+        block = self.blocks[at][1] if at >= 0 else _NOWHERE
+        return (("line", line), block, ("file",))
+
+    def _unused(self, present: dict[Hashable, set[str]], selected: set[str]) -> Iterator[Problem]:
+        everything = {rule.code.code for rule in rules() if not rule.off}
+        for directive in self.directives:
+            found = present.get(directive.scope, set()) - {STY010.code}
+            place = _place(directive)
+            if not directive.words and not found and everything <= selected:
+                message = f"nothing is found in {place}: remove this comment"
+                yield self._problem(message, directive.span, directive.where, self._removing(directive, 0, "safe"))
+            for number, word in enumerate(directive.words):
+                judged = (word.codes & everything) or word.codes
+                if word.codes and STY010.code not in word.codes and judged <= selected and not word.codes & found:
+                    message = f"{word.text} is not found in {place}: remove it from this comment"
+                    repair = self._removing(directive, number, "safe")
+                    yield self._problem(message, word.span, directive.where, repair)
+
+    def _problem(self, message: str, span: Span, where: Where, repair: Repair) -> Problem:
+        if self.own_text:
+            return Problem(STY010, message, span, repair=repair)
+        return Problem(STY010, message, where=where)
+
+    def _replacing(self, word: Word, meant: str) -> Repair:
+        return Repair("unsafe", f"write {meant}", ((word.span, meant),))
+
+    def _removing(self, directive: Directive, number: int, applicability: str) -> Repair:
+        """Without a word and the separator beside it, or without the comment when nothing else is named."""
+        words = directive.words
+        if len(words) <= 1:
+            return Repair(applicability, "remove the comment", ((directive.leaf, ""),))
+        own = words[number].span
+        last = number == len(words) - 1
+        span = Span(words[number - 1].span.end, own.end) if last else Span(own.start, words[number + 1].span.start)
+        return Repair(applicability, f"remove {words[number].text}", ((span, ""),))
+
+
+def _place(directive: Directive) -> str:
+    """What a comment applies to, in words."""
+    if directive.scope != _NOTHING:
+        return _PLACES[directive.order]
+    return "what is not a block (put it below its *KEYWORD)" if directive.order == "ignore-block" else "what follows"
+
+
+def _named(directive: Directive) -> set[str]:
+    return {code for word in directive.words for code in word.codes} if directive.words else {""}
+
+
+def _covers(named: set[str], code: str) -> bool:
+    """Whether a code is hidden; a comment that names none does not hide that it is unused."""
+    return code in named or ("" in named and code != STY010.code)
+
+
+def suppressions(context: LintContext) -> Suppressions | None:
+    """What the comments of a deck hide; None for a deck without such comments. Rules ask `context.once` for it.
+
+    A deck in JSON or YAML is seen as the keyword text that it would be; one that has no such text hides nothing.
+    """
+    deck = context.deck
+    if isinstance(deck.origin, TextOrigin):
+        return _read(deck.origin, own_text=True) if deck.origin.source.readable else None
+    lines = (block.lines for section in deck.sections for block in section.blocks if isinstance(block, Opaque))
+    if not any("mudline" in text.lower() for text in chain(comment_texts(deck), *lines)):
+        return None
+    try:
+        text = to_keyword(deck)
+    except DeckError:
+        return None
+    written = read_source(Source.from_bytes(text.encode(errors="replace"), deck.file), units=deck.units)
+    return _read(written.origin, own_text=False) if isinstance(written.origin, TextOrigin) else None
+
+
+def _read(origin: TextOrigin, *, own_text: bool) -> Suppressions | None:
+    text = origin.source.unified
+    if not ("mudline" in text.lower() if text.isascii() else _NAMED.search(text)):  # the first is many times as fast
+        return None
+    if not any(leaf.kind is Kind.COMMENT and MARK.match(text, *leaf.span) for leaf in origin.tree.leaves()):
+        return None
+    found = Suppressions(origin, own_text)
+    waiting: list[Directive] = []
+    for leaf, where in _placed(origin, found.blocks):
+        if leaf.kind is Kind.COMMENT:
+            directive = _directive(text, leaf.span, where, found)
+            if directive is not None and directive.order == "ignore":
+                waiting.append(directive)
+        elif leaf.kind is not Kind.BLANK:
+            line = origin.source.position(leaf.span.start)[0]
+            for directive in waiting:
+                directive.scope = ("line", line)
+            waiting.clear()
+    return found
+
+
+def _placed(origin: TextOrigin, blocks: list[tuple[int, Hashable]]) -> Iterator[tuple[Leaf, Where]]:
+    """The leaves in their order with the block that they are in; the first lines of blocks go to `blocks`."""
+    for index, section in enumerate((origin.tree.preamble, *origin.tree.sections), -1):
+        if section.head is not None:
+            blocks.append((origin.source.position(section.head.span.start)[0], _NOWHERE))
+            yield section.head, Where(index)
+        yield from ((leaf, Where(index)) for leaf in section.leaves)
+        for number, block in enumerate(section.blocks):
+            where = Where(index, number)
+            blocks.append((origin.source.position(block.head.span.start)[0], where))
+            yield block.head, where
+            yield from ((leaf, where) for leaf in block.leaves)
+
+
+def _directive(text: str, leaf: Span, where: Where, found: Suppressions) -> Directive | None:
+    mark = MARK.match(text, *leaf)
+    order = _ORDER.match(text, mark.end(), leaf.end) if mark else None
+    if order is None:
+        return None
+    name = order.group().lower()
+    if name not in _PLACES:
+        if near := nearest(name, _PLACES):
+            found.misspelt.append((Word(order.group(), Span(*order.span()), frozenset()), near, where))
+        return None
+    end = leaf.start + len(text[slice(*leaf)].rstrip())
+    reason = re.search(_REASON, text[order.end() : end])
+    names = list(_WORD.finditer(text, order.end(), order.end() + reason.start() if reason else end))
+    codes = {word: frozenset(rule.code.code for rule in find(word)) for word in {one.group() for one in names}}
+    words = [Word(one.group(), Span(*one.span()), codes[one.group()]) for one in names]
+    directive = Directive(name, leaf, Span(leaf.start, end), words, where)
+    directive.reason = text[order.end() + reason.end() : end].strip() if reason else ""
+    if name == "ignore-file":
+        directive.scope = ("file",)
+    elif name == "ignore-block" and where.block >= 0:
+        directive.scope = where
+    found.directives.append(directive)
+    return directive
+
+
+def _names() -> Iterator[str]:
+    """The codes and slugs of all rules."""
+    for rule in rules():
+        yield from (rule.code.code, rule.code.slug)
+
+
+# --------------------------------------------------------------------------------------------------------- the baseline
+
+FORMAT = "mudline-baseline/1"
+_KEYS = {"path", "code", "content", "count"}
+_RECORDED = 500
+"""Characters of a line that are recorded."""
+
+
+class BaselineError(ValueError):
+    """A file that is not a baseline; the message says why."""
+
+
+class Entry(NamedTuple):
+    """What findings are known by: the path from the baseline's folder, the code, and the line without outer blanks."""
+
+    path: str
+    code: str
+    content: str
+
+
+@dataclass
+class Baseline:
+    """Known findings and how often each is there; `folder` is that of the baseline's file."""
+
+    folder: Path
+    known: Counter[Entry] = field(default_factory=Counter)
+    met: Counter[Entry] = field(default_factory=Counter)
+    seen: set[str] = field(default_factory=set)
+
+    def record(self, found: Iterable[Diagnostic], data: bytes, path: str) -> None:
+        """Add the findings of a file, whose content is `data`."""
+        self.known.update(self._entries(found, data, path))
+
+    def unknown(self, found: Sequence[Diagnostic], data: bytes, path: str) -> list[Diagnostic]:
+        """The findings of a file that are not recorded, or more of a kind than are."""
+        self.seen.add(self._relative(path))
+        new: list[Diagnostic] = []
+        for one, entry in zip(found, self._entries(found, data, path), strict=True):
+            self.met[entry] += 1
+            if self.met[entry] > self.known[entry]:
+                new.append(one)
+        return new
+
+    def gone(self) -> int:
+        """How many recorded findings of the files seen are no longer there."""
+        return sum(max(count - self.met[entry], 0) for entry, count in self.known.items() if entry.path in self.seen)
+
+    def text(self) -> str:
+        """The content of the file: sorted, an entry a line, ends with LF."""
+        entries = sorted((entry, count) for entry, count in self.known.items() if count)
+        lines = [json.dumps({**entry._asdict(), "count": count}, ensure_ascii=True) for entry, count in entries]
+        inner = ",\n".join(f"  {line}" for line in lines)
+        return f'{{\n "format": "{FORMAT}",\n "findings": [' + (f"\n{inner}\n ]\n}}\n" if lines else "]\n}\n")
+
+    def _entries(self, found: Iterable[Diagnostic], data: bytes, path: str) -> Iterator[Entry]:
+        source = Source.from_bytes(data, "")
+        relative = self._relative(path)
+        lines = len(source.line_starts)
+        for one in found:
+            content = source.line(one.line).strip()[:_RECORDED] if one.line <= lines else ""
+            yield Entry(relative, one.code, content)
+
+    def _relative(self, path: str) -> str:
+        try:
+            relative = os.path.relpath(path, self.folder)
+        except ValueError:  # another drive
+            relative = str(Path(path).absolute())
+        return relative.replace(os.sep, "/")
+
+
+def read_baseline(path: Path) -> Baseline:
+    """The baseline in a file; raises OSError, or BaselineError for a file that is not a baseline."""
+    reading(path)
+    try:
+        document = json.loads(path.read_bytes())
+    except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise BaselineError(f"it is not JSON ({error})") from error
+    except ValueError as error:  # of more digits than Python reads
+        raise BaselineError("a whole number in it is too large") from error
+    if not isinstance(document, dict) or document.get("format") != FORMAT:
+        raise BaselineError(f'it has no "format": "{FORMAT}"')
+    findings = document.get("findings")
+    if not isinstance(findings, list):
+        raise BaselineError('it has no list "findings"')
+    baseline = Baseline(path.parent)
+    for number, given in enumerate(findings):
+        entry, count = _entry(given, number)
+        baseline.known[entry] += count
+    return baseline
+
+
+def _entry(given: object, number: int) -> tuple[Entry, int]:
+    if not isinstance(given, dict) or given.keys() != _KEYS:
+        raise BaselineError(f"findings[{number}] must have the keys {', '.join(sorted(_KEYS))}, and no others")
+    path, code, content, count = (given[key] for key in ("path", "code", "content", "count"))
+    if not (isinstance(path, str) and isinstance(code, str) and isinstance(content, str)):
+        raise BaselineError(f"findings[{number}]: path, code and content must be texts")
+    if not isinstance(count, int) or isinstance(count, bool) or count < 1:
+        raise BaselineError(f"findings[{number}]: count must be a whole number from 1")
+    return Entry(path, code, content), count

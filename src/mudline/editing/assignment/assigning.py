@@ -1,0 +1,290 @@
+"""One value of a deck set: the edits of its text, aligned as before, or why the deck is left unchanged."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import islice
+from typing import NamedTuple, cast
+
+from mudline.basics.limits import LISTED
+from mudline.basics.short_repr import cut
+from mudline.basics.spelling import nearest
+from mudline.editing.assignment.fields import Target, Value, blocks_of, cell, values_of
+from mudline.editing.assignment.paths import Assignment, Operand
+from mudline.language.deck.meaning import same_meaning
+from mudline.language.deck.model import Deck
+from mudline.language.deck.reading import TextOrigin, read_source
+from mudline.language.diagnostics import Diagnostic, Problem, Severity, Span
+from mudline.language.keywords.ranges import range_fault
+from mudline.language.keywords.table import Table
+from mudline.language.keywords.values import Equation, Kind
+from mudline.language.syntax.edits import TextEdit, edited_bytes
+from mudline.language.syntax.fields import Field, first_key, split
+from mudline.language.syntax.source import Source
+from mudline.model.scene.model import resolve
+
+
+class AssignmentError(Exception):
+    """Why a deck is left unchanged; `line` is where, None for the deck as a whole."""
+
+    def __init__(self, message: str, line: int | None = None, diagnostics: Sequence[Diagnostic] = ()) -> None:
+        self.line = line
+        self.diagnostics = diagnostics
+        super().__init__(message)
+
+
+@dataclass(frozen=True, slots=True)
+class Assigned:
+    """The edits that set a value, none where it has it already; its line, and how it was and is written."""
+
+    edits: tuple[TextEdit, ...]
+    line: int
+    before: str
+    after: str
+
+
+def assigned(deck: Deck, assignment: Assignment, target: Target, units: str | None = None) -> Assigned | None:
+    """Set the value of a deck that was read from keyword text; None where the deck has no such value.
+
+    `units` are those with which the deck was read. Raises AssignmentError for a value that is given by an equation, is
+    left out in the deck, or is not the only one at the path, and for a deck that would be faulty, or another one but
+    for this value.
+    """
+    operand = Operand.of(assignment.value)
+    if not any(field.fits(operand) for field in target.fields):
+        if next(values_of(deck, target), None) is None:
+            return None
+        expected = " or ".join(dict.fromkeys(_kinds(target)))
+        near = nearest(assignment.value, {choice for field in target.fields for choice in field.slot.choices})
+        hint = f" (did you mean {near}?)" if near else ""
+        raise AssignmentError(f"{target.path} cannot be {assignment.value!r}: expected {expected}{hint}")
+    found = _the_one(deck, target)
+    if found is None:
+        return None
+    origin = cast("TextOrigin", deck.origin)
+    span = origin.span(found.where)
+    line = _line(deck, found)
+    place = found.where._replace(path=found.where.path[:-2]) if isinstance(found.owner, Table) else found.where
+    if span is None or not deck.written(place):
+        raise AssignmentError(f"{target.path} is not written in the deck", line)
+    if isinstance(found.value, Equation):
+        raise AssignmentError(
+            f"{target.path} is given by an equation, {cut(str(found.value), 60)}: change its parameters instead", line
+        )
+    wanted = _checked(found, operand, assignment, line)
+    written = origin.source.text[slice(*span)]
+    if _same(found.value, wanted):
+        return Assigned((), line, written, written)
+    edits = tuple(replacement_in_layout(origin.source, span, assignment.value))
+    content = _edited(origin.source, edits, line)
+    after = read_source(Source.from_bytes(content, deck.file), units=units)
+    after.folder = deck.folder
+    _require_no_worse(deck, after, line)
+    _require_only_this(deck, after, found, wanted, assignment, line)
+    return Assigned(edits, line, written, assignment.value)
+
+
+def _the_one(deck: Deck, target: Target) -> Value | None:
+    """The value at a path; None where the deck has no such record. Raises AssignmentError for several of them."""
+    all_found = list(islice(values_of(deck, target), LISTED * 100))
+    given = [one for one in all_found if one.value is not None]
+    if len(given) > 1:
+        lines = [str(_line(deck, one)) for one in given[: LISTED + 1]]
+        listed = ", ".join(lines[:LISTED]) + (", ..." if len(lines) > LISTED else "")
+        raise AssignmentError(
+            f"{target.path} is ambiguous: the deck has several such values, in lines {listed}; choose one by the name "
+            "of its set, as in KEYWORD[set=NAME].field, or by its number, as in KEYWORD[2].field"
+        )
+    if not given and all_found:
+        raise AssignmentError(
+            f"{target.path} is left out here: only a value that is written can be changed", _line(deck, all_found[0])
+        )
+    if not given and (faults := _read_faults(deck, target.path.keyword)):
+        raise AssignmentError(
+            f"*{target.path.keyword} cannot be read: correct its errors first", None, deck.diagnose(faults)
+        )
+    return given[0] if given else None
+
+
+def _read_faults(deck: Deck, keyword: str) -> list[Problem]:
+    """What could not be read of the blocks of a keyword, among whose lines may be the value that is not found."""
+    read = cast("TextOrigin", deck.origin).read
+    found = (read.get((where.section, where.block)) for where, _ in blocks_of(deck, keyword))
+    return [problem for block in found if block for problem in block.problems if problem.weight is Severity.ERROR]
+
+
+def _line(deck: Deck, found: Value) -> int:
+    origin = cast("TextOrigin", deck.origin)
+    span = origin.span(found.where)
+    return origin.source.position(span.start)[0] if span else 1
+
+
+def _kinds(target: Target) -> Iterator[str]:
+    """What the fields of a target can hold, in words."""
+    for field in target.fields:
+        if field.slot.choices:
+            several = "one of " if len(field.slot.choices) > 1 else ""
+            yield several + ", ".join(field.slot.choices)
+        if field.slot.kind and field.slot.kind is not Kind.OTHER:
+            yield field.slot.kind.value
+
+
+def _checked(found: Value, operand: Operand, assignment: Assignment, line: int) -> float | str:
+    """The value that is wanted, as a deck holds it; raises AssignmentError for one that the field cannot have."""
+    slot = found.field.slot
+    if operand.number is None or (slot.kind in (Kind.NAME, Kind.TITLE) and not slot.choices):
+        return operand.text
+    if slot.kind in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL) and not operand.number.is_integer():
+        raise AssignmentError(f"{assignment.path} cannot be {assignment.value!r}: expected a whole number", line)
+    if fault := range_fault(operand.number, slot):
+        raise AssignmentError(fault, line)
+    return operand.number
+
+
+def _same(one: object, other: object) -> bool:
+    if isinstance(one, str) and isinstance(other, str):
+        return one.casefold() == other.casefold()
+    return one == other
+
+
+def _edited(source: Source, edits: Sequence[TextEdit], line: int) -> bytes:
+    try:
+        return edited_bytes(source, edits)
+    except UnicodeEncodeError as error:
+        raise AssignmentError(
+            f"the file's encoding, {source.encoding}, lacks a character of the value", line
+        ) from error
+
+
+def _require_no_worse(before: Deck, after: Deck, line: int) -> None:
+    """Raise AssignmentError for a deck with errors that it did not have before."""
+    old, new = (
+        [problem for problem in resolve(deck).findings if problem.weight is Severity.ERROR] for deck in (before, after)
+    )
+    more = Counter(one.code.code for one in new) - Counter(one.code.code for one in old)
+    if more:
+        known = {one.message for one in old}
+        added = [one for one in new if one.code.code in more and one.message not in known] or new
+        raise AssignmentError("the deck would have a new error", line, after.diagnose(added))
+
+
+def _require_only_this(
+    before: Deck, after: Deck, found: Value, wanted: float | str, assignment: Assignment, line: int
+) -> None:
+    """Raise AssignmentError unless the decks differ in the one value, which is the wanted one; `before` is used up."""
+    if before.units != after.units:
+        raise AssignmentError(
+            f"the units of the deck, {before.units}, would be taken for {after.units}: give them by --units", line
+        )
+    new = _value_at(after, found)
+    if _same(new, wanted):
+        if isinstance(found.owner, Table):
+            row, column = cast("tuple[int, int]", found.where.path[-2:])
+            _set_cell(found.owner, row, column, after, found)
+        else:
+            setattr(found.owner, found.field.slot.name, new)
+        if same_meaning(before, after):
+            return
+    raise AssignmentError(f"{assignment.value!r} would change more than {assignment.path}", line)
+
+
+def _set_cell(table: Table, row: int, column: int, after: Deck, found: Value) -> None:
+    other = _owner(after, found)
+    if isinstance(other, Table) and other.values.shape == table.values.shape:
+        table.values[row, column] = other.values[row, column]
+        table.words.pop((row, column), None)
+        if (row, column) in other.words:
+            table.words[row, column] = other.words[row, column]
+
+
+def _value_at(deck: Deck, found: Value) -> object:
+    owner = _owner(deck, found)
+    if isinstance(owner, Table):
+        row, column = cast("tuple[int, int]", found.where.path[-2:])
+        return cell(owner, row, column) if row < len(owner) else None
+    return getattr(owner, found.field.slot.name, None)
+
+
+def _owner(deck: Deck, found: Value) -> object:
+    """The record or table of a deck where that of the other deck is; None where there is none."""
+    try:
+        block = deck.sections[found.where.section].blocks[found.where.block]
+    except IndexError:
+        return None
+    path = found.where.path[: -2 if isinstance(found.owner, Table) else -1]
+    return block.at(path)[1]
+
+
+# ------------------------------------------------------------------------------------------------------------ alignment
+
+
+class _Row(NamedTuple):
+    """A line of fields, and where it begins."""
+
+    start: int
+    fields: list[Field]
+
+
+def replacement_in_layout(source: Source, span: Span, text: str) -> list[TextEdit]:
+    """The edits that put `text` in the place of `span`.
+
+    Where the row above or below ends or begins its field of the same number in the same column, the blanks before or
+    behind the field make up for the difference in length, as far as one of them stays.
+    """
+    replaced = [TextEdit(span, text)]
+    growth = len(text) - (span.end - span.start)
+    row = _row(source, source.position(span.start)[0])
+    index = next((i for i, field in enumerate(row.fields) if field.span == span), None) if row else None
+    if row is None or index is None or not growth:
+        return replaced
+    blanks = _to_resize(source, row, index)
+    return replaced if blanks is None else [*replaced, _resized(blanks, growth)]
+
+
+def _to_resize(source: Source, row: _Row, index: int) -> Span | None:
+    """The blanks before a field that ends in one column with its neighbours, or behind one that begins so.
+
+    Columns that are in line only because all fields are of one length are not aligned.
+    """
+    span = row.fields[index].span
+    others = [(one.fields[index].span, one.start) for one in _neighbours(source, span, index)]
+    if any(span.end - row.start == other.end - start for other, start in others):
+        return _wide_blanks_before(source, row, span)
+    if index + 1 < len(row.fields) and any(span.start - row.start == other.start - start for other, start in others):
+        return _wide_blanks_before(source, row, row.fields[index + 1].span)
+    return None
+
+
+def _resized(blanks: Span, growth: int) -> TextEdit:
+    """Blanks that are fewer by `growth`, but at least one."""
+    left = max(blanks.end - blanks.start - growth, 1)
+    return TextEdit(blanks, " " * left)
+
+
+def _wide_blanks_before(source: Source, row: _Row, span: Span) -> Span | None:
+    """The blanks directly before a field; None where there are fewer than two, or a tab stands before it."""
+    before = source.text[row.start : span.start]
+    length = len(before) - len(before.rstrip(" "))
+    return Span(span.start - length, span.start) if length > 1 and "\t" not in before else None
+
+
+def _neighbours(source: Source, span: Span, index: int) -> Iterator[_Row]:
+    """The rows directly above and below that have such a field."""
+    line = source.position(span.start)[0]
+    for number in (line - 1, line + 1):
+        row = _row(source, number) if 1 <= number <= len(source.line_starts) else None
+        if row is not None and index < len(row.fields):
+            yield row
+
+
+def _row(source: Source, number: int) -> _Row | None:
+    """A line as a row of fields; None for a setting, a comment, a keyword."""
+    start = source.line_starts[number - 1]
+    line = source.line(number)
+    span = Span(start, start + len(line))
+    if not line.strip() or line[0] in "Cc*$" or line.lstrip()[0] in "*$" or first_key(source.unified, span):
+        return None
+    fields, problems = split(source.unified, span)
+    return None if problems else _Row(start, fields)

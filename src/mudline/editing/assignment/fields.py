@@ -1,0 +1,339 @@
+"""Which declared fields a path means, the values that a deck has of them, and whether a condition on them holds."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from itertools import islice
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mudline.basics.limits import LISTED
+from mudline.basics.spelling import edits, nearest
+from mudline.editing.assignment.paths import (
+    Comparison,
+    Condition,
+    FieldPath,
+    Joined,
+    Negated,
+    Operand,
+    PathError,
+    Selector,
+    folded_name,
+)
+from mudline.language.deck.model import Deck, Opaque
+from mudline.language.deck.parameters import NoValueError, Parameters
+from mudline.language.diagnostics import Where
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Rows, record_schema
+from mudline.language.keywords.table import Table
+from mudline.language.keywords.values import Equation, Kind, Label
+
+
+class DeclaredField(NamedTuple):
+    """A field of a keyword: the names that lead to it, its declaration, and its column where it is one of a table."""
+
+    names: tuple[str, ...]
+    slot: FieldSpec
+    column: int | None = None
+
+    def fits(self, operand: Operand) -> bool:
+        """Whether a text may be a value of the field, or be compared with one."""
+        if operand.text.casefold() in (choice.casefold() for choice in self.slot.choices):
+            return True
+        if Equation.match(operand.text) or operand.number is not None:
+            return self.slot.kind is not None
+        if self.slot.kind is Kind.IDENT:
+            return Label.match(operand.text) is not None
+        return self.slot.kind in (Kind.NAME, Kind.TITLE, Kind.REAL_OR_NAME)
+
+    @property
+    def dotted(self) -> str:
+        """The names as a path has them, without the list of records at its beginning."""
+        return ".".join(self.names[1:] if len(self.names) > 1 else self.names)
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """What a path means: a keyword, and its fields of that name that may hold what is to be set or compared."""
+
+    path: FieldPath
+    fields: tuple[DeclaredField, ...]
+
+
+class Value(NamedTuple):
+    """A value of a deck, with its place, its declaration and the record, or the table and row, that holds it."""
+
+    where: Where
+    value: float | str | None
+    field: DeclaredField
+    owner: Part | Table
+
+
+def target_of(path: FieldPath, operand: Operand) -> Target:
+    """Find the fields that a path means; raises PathError for a keyword or a field that is not declared.
+
+    Of several fields of a name those are meant that may hold the operand, and of these the outermost.
+    """
+    blocks = catalogue.declarations(path.keyword)
+    if not blocks:
+        raise PathError(_unknown_keyword(path.keyword))
+    known = [field for block in blocks for field in declared_fields(block)]
+    named = [field for field in known if _ends_with(field, path.names)]
+    if not named:
+        raise PathError(_unknown_field(path, known))
+    fitting = [field for field in named if field.fits(operand)] or named
+    outermost = min(len(field.names) for field in fitting)
+    fields = tuple(field for field in fitting if len(field.names) == outermost)
+    selectable = {name for field in known for name in _names_of(field.slot)}
+    for selector in path.selectors:
+        if selector.name not in selectable:
+            raise PathError(f"{path}: *{path.keyword} has no field {selector.name!r}{_hint(selector.name, selectable)}")
+    return Target(path, fields)
+
+
+def values_of(deck: Deck, target: Target) -> Iterator[Value]:
+    """The values at a path in the blocks of a deck itself, in the order of the file."""
+    found = _all_values(deck, target)
+    count = target.path.count
+    return found if count is None else islice(found, count - 1, count)
+
+
+# --------------------------------------------------------------------------------------------------- declared fields
+
+
+@cache
+def declared_fields(block: type[Block]) -> tuple[DeclaredField, ...]:
+    """Every field of a keyword that holds a single value."""
+    return tuple(_fields_of(block, ()))
+
+
+def _fields_of(part: type[Part], before: tuple[str, ...]) -> Iterator[DeclaredField]:
+    for slot in record_schema(part).slots:
+        names = (*before, slot.json)
+        if isinstance(slot.about, Rows):
+            columns = record_schema(slot.row).columns if slot.row else []
+            yield from (DeclaredField((*names, column.json), column, i) for i, column in enumerate(columns))
+            continue
+        for inner in (*slot.record.values(), *([slot.row] if slot.row else [])):
+            yield from _fields_of(inner, names)
+        if not slot.many and (slot.kind or slot.choices):
+            yield DeclaredField(names, slot)
+
+
+def _names_of(slot: FieldSpec) -> set[str]:
+    """What a field may be called: its name in JSON, its KEY, and what else its declaration says."""
+    return {folded_name(name) for name in (slot.json, slot.key, slot.about.also) if name}
+
+
+def _ends_with(field: DeclaredField, names: Sequence[str]) -> bool:
+    """Whether the path to a field ends with some names."""
+    *before, last = names
+    if last not in _names_of(field.slot) or len(names) > len(field.names):
+        return False
+    between = field.names[len(field.names) - len(names) : -1]
+    return all(folded_name(one) == other for one, other in zip(between, before, strict=True))
+
+
+def _unknown_keyword(keyword: str) -> str:
+    if catalogue.sections_of(keyword) is not None:
+        return f"the lines of *{keyword} are passed through unchanged: no value in them can be named"
+    near = catalogue.suggest_keyword(keyword)
+    return f"*{keyword} is not a known keyword" + (f": did you mean {near}?" if near else ": see docs/keywords.md")
+
+
+def _unknown_field(path: FieldPath, known: Sequence[DeclaredField]) -> str:
+    names = dict.fromkeys(field.dotted for field in known)
+    hint = _hint(path.names[-1], {name for field in known for name in _names_of(field.slot)})
+    listed = ", ".join(list(names)[:LISTED]) + (", ..." if len(names) > LISTED else "")
+    return f"*{path.keyword} has no field {'.'.join(path.names)!r}" + (hint or f": it has {listed or 'none'}")
+
+
+def _hint(word: str, known: set[str]) -> str:
+    near = nearest(word, known)
+    if not near:
+        return ""
+    most = edits(folded_name(word), near, 2)
+    as_near = sorted(name for name in known if edits(folded_name(word), name, 2) == most)
+    return f": did you mean {' or '.join(as_near)}?"
+
+
+# ------------------------------------------------------------------------------------------------ values of a deck
+
+
+def blocks_of(deck: Deck, keyword: str) -> Iterator[tuple[Where, Block]]:
+    """The blocks of a keyword in a deck itself, in any section, whose lines were read."""
+    for index, section in enumerate(deck.own_sections):
+        for number, block in enumerate(section.blocks):
+            if block.keyword == keyword and not isinstance(block, Opaque):
+                yield Where(index, number), block
+
+
+def _all_values(deck: Deck, target: Target) -> Iterator[Value]:
+    for where, block in blocks_of(deck, target.path.keyword):
+        own = list(map(id, declared_fields(type(block))))
+        for field in (field for field in target.fields if id(field) in own):
+            yield from _values(block, where, field, 0, _Holders([block], target.path.selectors))
+
+
+class _Holders:
+    """The records around a value, the outermost first, and the selectors that they have to fit."""
+
+    def __init__(self, parts: list[Part], selectors: tuple[Selector, ...]) -> None:
+        self.parts = parts
+        self.selectors = selectors
+
+    def with_part(self, part: Part) -> _Holders:
+        """Those around a value of one more part."""
+        return _Holders([*self.parts, part], self.selectors)
+
+    def selected(self, of_table: Sequence[Selector] = ()) -> bool:
+        """Whether all selectors fit but those that choose rows of a table."""
+        return all(self._fits(selector) for selector in self.selectors if selector not in of_table)
+
+    def _fits(self, selector: Selector) -> bool:
+        for part in reversed(self.parts):
+            for slot in record_schema(type(part)).slots:
+                if selector.name in _names_of(slot):
+                    value = getattr(part, slot.name, None)
+                    if value is None and slot.kind is Kind.NAME:
+                        value = slot.about.default or None
+                    if isinstance(value, int | float | str):
+                        return equals(value, selector.value)
+        return False
+
+
+def equals(value: float | str, operand: Operand) -> bool:
+    """Whether a value of a deck is what is written; texts compare without case."""
+    if isinstance(value, int | float):
+        return operand.number is not None and float(value) == operand.number
+    return value.strip().casefold() == operand.text.strip().casefold()
+
+
+def _values(part: Part, where: Where, field: DeclaredField, depth: int, holders: _Holders) -> Iterator[Value]:
+    """The values of a field in a part that stands `depth` names deep."""
+    name = field.names[depth]
+    slots = [slot for slot in record_schema(type(part)).slots if slot.json == name]
+    for slot in slots:
+        inner: Any = getattr(part, slot.name, None)
+        place = where.inside(name)
+        if depth + 1 == len(field.names):
+            if not isinstance(inner, Part | list | Table) and holders.selected():
+                index = record_schema(type(part)).slots.index(slot)
+                yield Value(where.inside(index) if isinstance(part, ListRow) else place, inner, field, part)
+        elif isinstance(inner, Table):
+            yield from _cells(inner, place, field, slot, holders)
+        elif isinstance(inner, Part):
+            yield from _values(inner, place, field, depth + 1, holders.with_part(inner))
+        elif isinstance(inner, list):
+            for index, item in enumerate(inner):
+                if isinstance(item, Part):
+                    yield from _values(item, place.inside(index), field, depth + 1, holders.with_part(item))
+
+
+def _cells(table: Table, where: Where, field: DeclaredField, slot: FieldSpec, holders: _Holders) -> Iterator[Value]:
+    """The values of a column in the rows that the selectors choose."""
+    columns = record_schema(slot.row).columns if slot.row else []
+    choosing: list[Selector] = []
+    chosen = np.ones(len(table), dtype=np.bool_)
+    for index, column in enumerate(columns):
+        for selector in holders.selectors:
+            if selector.name in _names_of(column):
+                choosing.append(selector)
+                chosen &= _rows_with(table, index, selector.value)
+    if not holders.selected(choosing) or field.column is None:
+        return
+    for row in np.flatnonzero(chosen):
+        yield Value(where.inside(int(row), field.column), cell(table, int(row), field.column), field, table)
+
+
+def _rows_with(table: Table, column: int, wanted: Operand) -> NDArray[np.bool_]:
+    found: NDArray[np.bool_] = table.column(column) == (np.nan if wanted.number is None else wanted.number)
+    for (row, at), word in table.words.items():
+        if at == column and word is not None:
+            found[row] = equals(str(word), wanted)
+    return found
+
+
+def cell(table: Table, row: int, column: int) -> float | str | None:
+    """What stands in a row and column of a table; None where the row ends before it, or its field is empty."""
+    if column >= table.lengths[row]:
+        return None
+    if (row, column) in table.words:
+        return table.words[row, column]
+    value = float(table.values[row, column])
+    return None if np.isnan(value) else value
+
+
+# ----------------------------------------------------------------------------------------------------------- conditions
+
+_ORDER: Mapping[str, Callable[[float, float], bool]] = MappingProxyType(
+    {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge}
+)
+
+
+class ConditionError(Exception):
+    """Why it cannot be said whether a condition holds for a deck."""
+
+
+@dataclass(frozen=True, slots=True)
+class DeckCondition:
+    """A condition with what its paths mean; made by `of`, which finds faults of the paths before a deck is read."""
+
+    condition: Condition
+    targets: Mapping[Comparison, Target]
+
+    @classmethod
+    def of(cls, condition: Condition) -> DeckCondition:
+        """The condition, its paths looked up; raises PathError."""
+        return cls(condition, {one: target_of(one.path, one.operand) for one in _comparisons(condition)})
+
+    def holds(self, deck: Deck) -> bool:
+        """Whether the condition holds for a deck. Raises ConditionError for an equation without a value.
+
+        A comparison holds where one of the values at its path fits; none does where the deck has no such value.
+        """
+        return self._holds(self.condition, deck, Parameters(deck))
+
+    def _holds(self, condition: Condition, deck: Deck, parameters: Parameters) -> bool:
+        if isinstance(condition, Negated):
+            return not self._holds(condition.condition, deck, parameters)
+        if isinstance(condition, Joined):
+            found = (self._holds(one, deck, parameters) for one in condition.conditions)
+            return any(found) if condition.any_of else all(found)
+        values = values_of(deck, self.targets[condition])
+        return any(_fits(value, condition, parameters) for value in values)
+
+
+def _comparisons(condition: Condition) -> list[Comparison]:
+    if isinstance(condition, Negated):
+        return _comparisons(condition.condition)
+    if isinstance(condition, Joined):
+        return [found for one in condition.conditions for found in _comparisons(one)]
+    return [condition]
+
+
+def _fits(found: Value, comparison: Comparison, parameters: Parameters) -> bool:
+    value = _evaluated(found, comparison.path, parameters)
+    if value is None:
+        return False
+    if compare := _ORDER.get(comparison.operator):
+        number = comparison.operand.number
+        return isinstance(value, int | float) and number is not None and compare(value, number)
+    return equals(value, comparison.operand) is (comparison.operator == "==")
+
+
+def _evaluated(found: Value, path: FieldPath, parameters: Parameters) -> float | str | None:
+    value = found.value
+    if not isinstance(value, Equation):
+        return value
+    try:
+        return parameters.evaluate(value, found.where)
+    except NoValueError as error:
+        why = f": {error}" if str(error) else ""
+        raise ConditionError(f"{path} is given by an equation without a value, {value}{why}") from error

@@ -1,0 +1,384 @@
+"""The differences of two decks: values by name or number, and laws and sections element by element."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mudline.basics.limits import MOST_GENERATED
+from mudline.editing.comparison.blocks import blocks, record_values
+from mudline.editing.comparison.model import Difference, Members, Pair, Side, Tolerance, Value, plain, spans_of, text_of
+from mudline.language.deck.parameters import Definition, folded
+from mudline.language.diagnostics import Where
+from mudline.language.keywords.model import Record
+from mudline.language.keywords.table import Table
+from mudline.language.keywords.values import Label
+from mudline.model.contact.input import LawKind
+from mudline.model.scene.force_curves import SceneCurve
+from mudline.model.scene.laws import SetLaw
+from mudline.model.scene.model import Scene
+from mudline.model.scene.numbering import Floats, Indices, Numbered
+from mudline.model.scene.seabed import SeabedShape
+
+
+def compare(before: Scene, after: Scene, tolerance: float = 0.0) -> list[Difference]:
+    """The semantic differences of two decks; an empty list where they mean the same.
+
+    `tolerance` is the allowed difference of two numbers over the larger one. Raises DeckError for a deck of which
+    something could not be read, or in which an equation has no value.
+    """
+    pair = Pair(Side(before), Side(after), Tolerance(tolerance))
+    pair.one.require()
+    pair.other.require()
+    of_keywords = list(blocks(pair))  # first, so that differences of elements do not repeat them
+    groups = (_units, _parameters, _nodes, _elements, _sets, _curves, _by_element, _floor)
+    return [*(found for differences in groups for found in differences(pair)), *of_keywords]
+
+
+def _units(pair: Pair) -> Iterator[Difference]:
+    old, new = pair.one.scene.units, pair.other.scene.units
+    if old != new:
+        yield Difference("changed", "units", "units", old, new)
+
+
+def _floor(pair: Pair) -> Iterator[Difference]:
+    """The points of the seabed from files; those in the deck are compared with its blocks."""
+    if pair.one.scene.seabed.file or pair.other.scene.seabed.file:
+        yield from seabed_points(pair)
+
+
+def seabed_points(pair: Pair) -> Iterator[Difference]:
+    """The points of a profile or a surface, in whatever order, if they differ."""
+    old, new = pair.one.scene.seabed, pair.other.scene.seabed
+    same = old.points.shape == new.points.shape and bool(pair.tolerance.arrays(_sorted(old), _sorted(new)).all())
+    if not same:
+        held = ((f"{len(floor.points)} points", floor.where) for floor in (old, new))
+        yield pair.difference("seabed", "seabed/points", *held)
+
+
+def _sorted(floor: SeabedShape) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+    return floor.points[np.lexsort(floor.points.T[::-1])] if len(floor.points) else floor.points
+
+
+# ------------------------------------------------------------------------------------------ what has a name or a number
+
+
+def _nodes(pair: Pair) -> Iterator[Difference]:
+    """Coordinates of the nodes."""
+    yield from _numbered("nodes", pair.one.scene.nodes, pair.other.scene.nodes, pair)
+    yield from _labelled("NODE", "nodes", pair)
+
+
+def _elements(pair: Pair) -> Iterator[Difference]:
+    """Nodes of the elements; numbers are names here, so the tolerance does not apply."""
+    tables = pair.one.scene.table.numbered, pair.other.scene.table.numbered
+    yield from _numbered("elements", *tables, replace(pair, tolerance=Tolerance()))
+    yield from _labelled("ELEMENT", "elements", pair)
+
+
+def _common(one: Numbered, other: Numbered) -> tuple[Indices, Indices]:
+    """Indices in each of the numbers that both have."""
+    if np.array_equal(one.ids, other.ids):
+        same = np.arange(len(one.ids), dtype=np.intp)
+        return same, same
+    at = other.indices(one.ids)
+    here = np.flatnonzero(at >= 0)
+    return here, at[here]
+
+
+def _numbered(group: str, first: Numbered, second: Numbered, pair: Pair) -> Iterator[Difference]:
+    here, there = _common(first, second)
+    differing = np.flatnonzero(~pair.tolerance.arrays(first.values[here], second.values[there]).all(axis=1))
+    for i, j in zip(here[differing].tolist(), there[differing].tolist(), strict=True):
+        yield pair.difference(group, f"{group}/{first.ids[i]}", _held(group, first, i), _held(group, second, j))
+    for i in np.flatnonzero(second.indices(first.ids) < 0).tolist():
+        yield pair.difference(group, f"{group}/{first.ids[i]}", _held(group, first, i), None)
+    for j in np.flatnonzero(first.indices(second.ids) < 0).tolist():
+        yield pair.difference(group, f"{group}/{second.ids[j]}", None, _held(group, second, j))
+
+
+def _held(group: str, table: Numbered, index: int) -> tuple[Value, Where]:
+    """Coordinates of a node, or the whole numbers of an element's nodes; their place."""
+    values = [plain(value) for value in table.values[index].tolist()]
+    if group == "elements":
+        values = [int(value) if isinstance(value, float) else value for value in values]
+    return values, table.where(index)
+
+
+def _labelled(keyword: str, group: str, pair: Pair) -> Iterator[Difference]:
+    """Rows with a {label} instead of a number."""
+    first, second = _label_rows(pair.one, keyword, group), _label_rows(pair.other, keyword, group)
+    for key in sorted(first.keys() - second.keys()):
+        yield pair.difference(group, f"{group}/{first[key][0][0]}", first[key], None)
+    for key in sorted(second.keys() - first.keys()):
+        yield pair.difference(group, f"{group}/{second[key][0][0]}", None, second[key])
+
+
+def _label_rows(side: Side, keyword: str, name: str) -> dict[tuple[str, ...], tuple[list[Value], Where]]:
+    found: dict[tuple[str, ...], tuple[list[Value], Where]] = {}
+    for where, block in side.scene.deck.blocks(keyword):
+        for index, entry in enumerate(block.entries):
+            table = getattr(entry, name, None)
+            if not isinstance(table, Table):
+                continue
+            rows = sorted({row for (row, _), word in table.words.items() if isinstance(word, Label)})
+            for row in rows:
+                numbers = enumerate(table.values[row, : table.lengths[row]].tolist())
+                cells: list[Value] = [table.words.get((row, column)) or plain(number) for column, number in numbers]
+                key = tuple(str(cell).casefold() for cell in cells)
+                found[key] = (cells, where.inside("entries", index, name, row))
+    return found
+
+
+_KINDS = {False: "curves", True: "curves of sets"}
+
+
+def _parameters(pair: Pair) -> Iterator[Difference]:
+    """Values of the parameters."""
+    first, second = pair.one.parameters, pair.other.parameters
+    for name in dict.fromkeys([*first.values, *second.values]):
+        old, new = first.values.get(name), second.values.get(name)
+        if old is None or new is None or not pair.tolerance.values(old, new):
+            held = (_value(old, first.definitions.get(name)), _value(new, second.definitions.get(name)))
+            yield pair.difference("parameters", f"parameters/{name}", *held)
+
+
+def _value(value: float | str | None, definition: Definition | None) -> tuple[Value, Where | None] | None:
+    return None if value is None else (plain(value), definition.where if definition else None)
+
+
+_NO_MEMBERS = Members()
+
+
+def _sets(pair: Pair) -> Iterator[Difference]:
+    """Members of the element sets; ALL has all elements."""
+    first, second = pair.one.scene.set_table.named, pair.other.scene.set_table.named
+    written, others = _written(pair.one), _written(pair.other)
+    for name in dict.fromkeys([*first, *second]):
+        if name == "all":
+            continue
+        old, new = first.get(name), second.get(name)
+        before = Members([pair.one.scene.element_ids[old.elements]]) if old else None
+        after = Members([pair.other.scene.element_ids[new.elements]]) if new else None
+        if old and new and (old.open or new.open or not (len(old.elements) and len(new.elements))):
+            before, after = written.get(name, _NO_MEMBERS), others.get(name, _NO_MEMBERS)
+        if before is None or after is None or not before.same(after):
+            title = old.name if old else new.name if new else name
+            sides = (before, old), (after, new)
+            held = ((_text(members), found.where) if members and found else None for members, found in sides)
+            yield pair.difference("element sets", f"element sets/{title}", *held)
+
+
+def _text(members: Members) -> str:
+    return ", ".join(filter(None, [text_of(members.spans), *sorted(members.words)]))
+
+
+def _written(side: Side) -> dict[str, Members]:
+    """Members of sets as their lines give them, for sets with elements that the deck does not define."""
+    found: dict[str, Members] = {}
+    for _, block in side.scene.deck.blocks("ELEMENT SETS"):
+        for entry in block.sets:
+            members = found.setdefault(folded(str(entry.name)), Members())
+            for member in entry.members:
+                if subset := getattr(member, "subset", None):
+                    members.words.add(f"SUBSET={folded(str(subset))}")
+                if listed := getattr(member, "elements", None):
+                    members.words |= {folded(item) for item in listed if isinstance(item, Label)}
+                    whole = [item for item in listed if isinstance(item, int)]
+                    members.arrays.append(np.array(whole, dtype=np.int64))
+                if given := getattr(member, "generate", None):
+                    members.ranges += _generated(given.start, given.end, given.increment)
+    return found
+
+
+def _generated(start: object, end: object, step: object) -> list[tuple[int, int, int]]:
+    """The range of a GEN=; none where it is not one."""
+    step = 1 if step is None else step
+    if not (isinstance(start, int) and isinstance(end, int) and isinstance(step, int)) or step < 1:
+        return []
+    return [(start, min(end, start + MOST_GENERATED * step), step)]
+
+
+def _curves(pair: Pair) -> Iterator[Difference]:
+    """Points of the force-embedment curves; of several of one name the last one counts."""
+    first, second = _by_name(pair.one), _by_name(pair.other)
+    for name in dict.fromkeys([*first, *second]):
+        old, new = first.get(name), second.get(name)
+        if old and new:
+            yield from _points_differ(_title(old), old, new, pair)
+        elif old:
+            yield pair.difference("curves", _title(old), (shown_points(old), old.where), None)
+        elif new:
+            yield pair.difference("curves", _title(new), None, (shown_points(new), new.where))
+
+
+def _points_differ(name: str, old: SceneCurve, new: SceneCurve, pair: Pair) -> Iterator[Difference]:
+    first, second = _points(old), _points(new)
+    same = pair.tolerance.arrays
+    if first.shape == second.shape:
+        if same(first, second).all():
+            return
+        if same(first[:, 0], second[:, 0]).all():
+            for i in np.flatnonzero(~same(first[:, 1], second[:, 1])).tolist():
+                yield pair.difference(
+                    "curves", f"{name}/{first[i, 0].item()!r}", _force(old, first[i]), _force(new, second[i])
+                )
+            return
+    mine, theirs = set(map(tuple, first.tolist())), set(map(tuple, second.tolist()))
+    for point in sorted(mine - theirs):
+        yield pair.difference("curves", f"{name}/{point[0]!r}", _force(old, np.array(point)), None)
+    for point in sorted(theirs - mine):
+        yield pair.difference("curves", f"{name}/{point[0]!r}", None, _force(new, np.array(point)))
+
+
+def _title(curve: SceneCurve) -> str:
+    return f"{_KINDS[curve.embedment]}/{curve.name}"
+
+
+def _by_name(side: Side) -> dict[str, SceneCurve]:
+    return {f"{_KINDS[curve.embedment]}/{folded(curve.name)}": curve for curve in side.scene.laws.curves}
+
+
+def _points(curve: SceneCurve) -> Floats:
+    """The points in ascending order, each once."""
+    return np.unique(curve.points, axis=0) if len(curve.points) else curve.points
+
+
+def shown_points(curve: SceneCurve) -> Value:
+    """The points of a curve in ascending order, as a difference shows them."""
+    return [[plain(value) for value in row] for row in _points(curve).tolist()]
+
+
+def _force(curve: SceneCurve, point: Floats) -> tuple[Value, Where]:
+    """The force of a point, and its place."""
+    at = np.flatnonzero((curve.points == point).all(axis=1))
+    return point[1].item(), curve.point(int(at[0])) if len(at) else curve.where
+
+
+# ------------------------------------------------------------------------------------------------- what elements follow
+
+Values = dict[str, object]
+
+
+@dataclass(frozen=True, slots=True)
+class Followed:
+    """The entries of one kind, the entry of each element (-1 for none), and their places."""
+
+    entries: Sequence[Values]
+    places: Sequence[Where]
+    of_element: Indices
+
+
+def _by_element(pair: Pair) -> Iterator[Difference]:
+    """Elements of both decks whose laws, sections or resistance differ, as ranges of numbers.
+
+    For elements with one record in both decks, or a record of one deck only, the difference of the record is reported.
+    """
+    yield from follow_differently("laws", _laws, pair)
+    yield from follow_differently("sections", _sections, pair)
+    yield from follow_differently("bed", _bed, pair)
+    for keyword in dict.fromkeys([*pair.one.scene.extensions, *pair.other.scene.extensions]):
+        yield from follow_differently(keyword.lower(), partial(_extension, keyword=keyword), pair)
+
+
+def follow_differently(
+    group: str, read: Callable[[Side], Followed], pair: Pair, descriptions: Mapping[int, str] | None = None
+) -> Iterator[Difference]:
+    """Differences of the entries of elements that both decks have.
+
+    `descriptions` are of the elements to compare, by their number, where they are not those of the decks.
+    """
+    one, other = pair.one, pair.other
+    here, there = _common(one.scene.table.numbered, other.scene.table.numbered)
+    if descriptions is not None:
+        chosen = np.isin(one.scene.element_ids[here], list(descriptions))
+        here, there = here[chosen], there[chosen]
+    if not len(here):
+        return
+    first, second = read(one), read(other)
+    width = len(second.entries) + 1
+    followed = (first.of_element[here] + 1) * width + second.of_element[there] + 1
+    starts = np.append(0, np.flatnonzero(followed[1:] != followed[:-1]) + 1)  # neighbours mostly follow the same
+    for both in sorted(set(followed[starts].tolist())):
+        i, j = both // width - 1, both % width - 1
+        places = first.places[i] if i >= 0 else None, second.places[j] if j >= 0 else None
+        if tuple(place and place._replace(path=place.path[:2]) for place in places) in pair.said:  # the records
+            continue
+        old, new = _entry(first, i), _entry(second, j)
+        names = [
+            name for name in dict.fromkeys([*old, *new]) if not pair.tolerance.values(old.get(name), new.get(name))
+        ]
+        if not names:
+            continue
+        elements = _called(one.scene.element_ids[here[followed == both]], descriptions)
+        lines = one.line(places[0]), other.line(places[1])
+        for name in names:
+            where = f"{elements}/{group}" + (f"/{name}" if name else "")
+            values = cast("Value", old.get(name)), cast("Value", new.get(name))
+            yield Difference("changed", f"{group} of elements", where, *values, *lines)
+
+
+def _called(ids: NDArray[np.int64], descriptions: Mapping[int, str] | None) -> str:
+    if descriptions is None:
+        return f"elements {text_of(spans_of(ids))}"
+    return "; ".join(dict.fromkeys(descriptions[number] for number in ids.tolist()))
+
+
+def _entry(found: Followed, index: int) -> Values:
+    return found.entries[index] if index >= 0 else {}
+
+
+def _laws(side: Side) -> Followed:
+    laws = side.scene.laws
+    return Followed(
+        [_law(side.scene, grant) for grant in laws.set_laws], [g.where for g in laws.set_laws], laws.of_element
+    )
+
+
+def _law(scene: Scene, grant: SetLaw) -> Values:
+    if grant.kind is LawKind.LINEAR:
+        return {"": "linear", "stiffness": plain(grant.stiffness)}
+    return {} if grant.kind is LawKind.NONE else {"": scene.law_name(grant)}
+
+
+def _record(side: Side, record: Record, where: Where) -> Values:
+    return {path: entry.shown for path, entry in record_values(side, record, where).items()}
+
+
+def _sections(side: Side) -> Followed:
+    table = side.scene.section_table
+    places = [section.where for section in table.sections]
+    entries = []
+    for where in places:
+        block = cast("Any", side.scene.deck.sections[where.section].blocks[where.block])
+        values = _record(side, block.sets[where.path[1]], where)
+        values.pop("option", None)  # the property line has the name of its format
+        entries.append(values)
+    return Followed(entries, places, table.of_element)
+
+
+def _bed(side: Side) -> Followed:
+    bed = side.scene.resistance
+    return Followed([numbers_given(entry._asdict()) for entry in bed.values], bed.places, bed.of_element)
+
+
+def numbers_given(given: Mapping[str, Any]) -> Values:
+    """Given values, without NaN; pairs are split into longitudinal and transverse."""
+    found: Values = {}
+    for name, value in given.items():
+        pair = zip(("longitudinal ", "transverse "), value, strict=True) if isinstance(value, tuple) else [("", value)]
+        found |= {axis + name: plain(number) for axis, number in pair if not np.isnan(number)}
+    return found
+
+
+def _extension(side: Side, keyword: str) -> Followed:
+    found = side.scene.extensions.get(keyword)
+    if found is None:
+        return Followed([], [], np.full(len(side.scene.element_ids), -1, dtype=np.intp))
+    pairs = zip(found.entries, found.places, strict=True)
+    return Followed([_record(side, entry, place) for entry, place in pairs], found.places, found.of_element)

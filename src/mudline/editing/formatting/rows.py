@@ -1,0 +1,334 @@
+"""Rows of one kind that belong together: all are measured, then all are laid out."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import zip_longest
+from typing import NamedTuple, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mudline.language.diagnostics import Span
+from mudline.language.keywords.model import FieldSpec
+from mudline.language.keywords.values import Kind
+from mudline.language.syntax.rows import GROUPED, PIECE, line_spans, row_fields
+
+WIDEST = 32
+"""Longer fields, such as equations, do not widen their column: the fields after them on their row are shifted right."""
+
+_INTEGER = re.compile(r"[-+0-9]*")
+_NUMERIC = frozenset("+-.0123456789")
+
+
+class RowKind(NamedTuple):
+    """Rows that fill the same field of a model: that field, and the fields on a row.
+
+    `many`: any number of values of the one field; `table`: rows that are read as arrays.
+    """
+
+    slot: FieldSpec
+    columns: tuple[FieldSpec, ...]
+    many: bool = False
+    table: bool = False
+
+    def is_text(self, column: int) -> bool:
+        """Whether a column holds names or text; others hold numbers, with an equation or a label here and there."""
+        slot = self.columns[0] if self.many else self.columns[min(column, len(self.columns) - 1)]
+        return bool(slot.choices) or slot.kind in (Kind.NAME, Kind.REAL_OR_NAME)
+
+
+class Shape(NamedTuple):
+    """The alignment of a column: its width, the position of its decimal points, and the width from there on.
+
+    Without numbers all but the width is 0: words are aligned left. Among numbers they are aligned right.
+    """
+
+    width: int
+    point: int
+    right: int
+
+    def padded(self, text: str) -> str:
+        """A field with its comma, one blank before it, and the padding of its column on both sides."""
+        before = self.point - self._inner(text)
+        if before <= 0:
+            return f" {text},{' ' * (self.width - len(text))}"
+        return f" {' ' * before}{text},{' ' * (self.width - before - len(text))}"
+
+    def _inner(self, text: str) -> int:
+        """How many characters of a field come before the decimal point of its column."""
+        if not text or text[0] in _NUMERIC:
+            return _integer(text)
+        return len(text) - self.right
+
+
+def _integer(number: str) -> int:
+    """Length of a number before its decimal point or its exponent."""
+    at = number.find(".")
+    if at < 0:
+        match = _INTEGER.match(number)
+        at = match.end() if match else 0
+    return at
+
+
+@dataclass(slots=True)
+class Column:
+    """Widths of a column: before the decimal point, from there on, and of words; with `text` all fields are words."""
+
+    text: bool = False
+    left: int = 0
+    right: int = 0
+    words: int = 0
+
+    def take(self, texts: Iterable[str]) -> None:
+        """Widen the column for fields."""
+        short = [text for text in texts if len(text) <= WIDEST]
+        numbers = [] if self.text else [text for text in short if text[:1] in _NUMERIC]
+        if len(numbers) < len(short):
+            words = short if self.text else (text for text in short if text[:1] not in _NUMERIC)
+            self.words = max(self.words, *map(len, words))
+        if numbers:
+            lefts = list(map(_integer, numbers))
+            rights = (len(text) - left for text, left in zip(numbers, lefts, strict=True))
+            self.take_numbers(max(lefts), max(rights))
+
+    def take_numbers(self, left: int, right: int) -> None:
+        """Widen the column for numbers of at most these lengths before their decimal point, and from there on."""
+        self.left = max(self.left, left)
+        self.right = max(self.right, right)
+
+    def shape(self) -> Shape:
+        """The alignment of all fields so far."""
+        width = max(self.left + self.right, self.words)
+        return Shape(width, width - self.right if self.left or self.right else 0, self.right)
+
+
+@dataclass(slots=True)
+class Columns:
+    """The columns of rows of one kind."""
+
+    kind: RowKind
+    columns: list[Column] = field(default_factory=list)
+
+    def upto(self, count: int) -> Sequence[Column]:
+        """At least `count` columns."""
+        for number in range(len(self.columns), count):
+            self.columns.append(Column(self.kind.is_text(number)))
+        return self.columns
+
+    def shapes(self) -> list[Shape]:
+        """The shape of each column."""
+        return [column.shape() for column in self.columns]
+
+
+@dataclass(slots=True)
+class WordRows:
+    """Rows as lists of fields."""
+
+    rows: list[list[str]]
+
+    def measure(self, columns: Columns) -> None:
+        """Widen the columns for the rows."""
+        texts = list(zip_longest(*self.rows, fillvalue=""))
+        for column, fields in zip(columns.upto(len(texts)), texts, strict=False):
+            column.take(fields)
+
+    def lines(self, shapes: Sequence[Shape]) -> str:
+        """The lines of the rows, each with a LF."""
+        return "".join(f"{line(row, shapes)}\n" for row in self.rows)
+
+
+def cut(fields: list[str]) -> list[str]:
+    """The fields of a row without empty ones at its end; at least one stays."""
+    length = len(fields)
+    while length > 1 and not fields[length - 1]:
+        length -= 1
+    return fields[:length]
+
+
+def line(row: Sequence[str], shapes: Iterable[Shape]) -> str:
+    """A row, indented by one blank; a row of one empty field is a comma, as an empty line would not be a row."""
+    *first, last = map(Shape.padded, shapes, row)
+    return ("".join(first) + last[: last.rindex(",")]).rstrip(" ") or " ,"
+
+
+_GAP = re.compile(rb"(?<=[^ \t\r\n])[ \t]+(?=[^ \t\r\n])")
+_TAB, _LF, _CR, _BLANK, _PLUS, _COMMA, _POINT, _SLASH, _DIGIT, _LETTERS = 9, 10, 13, 32, 43, 44, 46, 47, 57, 65
+_WITHOUT_CASE, _D_OR_E = 0xDE, 0x44
+"""D and E, d and e, are the characters that differ from D in the other bits only."""
+
+_Array = NDArray[np.integer]
+
+
+@dataclass(slots=True)
+class PlainRows:
+    """Rows of numbers: the characters of all fields laid end to end, each with the comma or the LF behind it.
+
+    `sizes` and `lefts` (fields,) are the characters of a field, and those before its decimal point or exponent;
+    `column` (fields,) counts from 0 in each row.
+    """
+
+    characters: NDArray[np.uint8]
+    sizes: _Array
+    lefts: _Array
+    column: _Array
+
+    @classmethod
+    def read(cls, text: str, most: int) -> Self | None:
+        """The rows of some whole lines, cut to `most` fields; None for anything but plain numbers."""
+        data = text.encode("utf-8")
+        if b"\r" in data:
+            data = data.replace(b"\r\n", b"\n")
+        if b"," not in data:
+            data = _GAP.sub(b",", data)
+        characters = _without_blanks(np.frombuffer(data if data.endswith(b"\n") else data + b"\n", dtype=np.uint8))
+        if characters is None:
+            return None
+        marks = (characters == _COMMA) | (characters == _LF)
+        letters = (characters & _WITHOUT_CASE) == _D_OR_E
+        numerals = (characters >= _PLUS) & (characters <= _DIGIT) & (characters != _SLASH)
+        if not (marks | letters | numerals).all():
+            return None
+        stops = np.flatnonzero(marks | letters | (characters == _POINT))
+        closing = np.flatnonzero(marks[stops])  # the stops that end fields: behind each the next field begins
+        ends = stops[closing]
+        starts = np.concatenate(([0], ends[:-1] + 1))
+        sizes = ends - starts
+        if (characters[starts] >= _LETTERS).any():
+            return None
+        lefts = stops[np.concatenate(([0], closing[:-1] + 1))] - starts
+        last = characters[ends] == _LF
+        opens = np.flatnonzero(np.concatenate(([True], last[:-1])))
+        column = np.arange(len(ends)) - np.repeat(opens, np.diff(opens, append=len(ends)))
+        if not sizes.all():
+            rows = cls(characters, sizes, lefts, column)
+            return rows._cut(ends, opens, most)
+        return None if column.max() >= most else cls(characters, _small(sizes), _small(lefts), _small(column))
+
+    def _cut(self, ends: _Array, opens: _Array, most: int) -> Self | None:
+        """The rows, each of which begins at one of the fields `opens`, without the empty fields at their ends.
+
+        `ends` are the places of the commas and LFs among the characters.
+        """
+        filled = np.maximum.reduceat(np.where(self.sizes > 0, self.column, -1), opens)
+        if filled.min() < 0 or filled.max() >= most:
+            return None
+        last = np.repeat(filled, np.diff(opens, append=len(self.column)))
+        kept = self.column <= last
+        characters = self.characters.copy()
+        characters[ends[self.column == last]] = _LF
+        fields = (_small(values[kept]) for values in (self.sizes, self.lefts, self.column))
+        return type(self)(np.delete(characters, ends[~kept]), *fields)
+
+    def measure(self, columns: Columns) -> None:
+        """Widen the columns for the rows."""
+        short = self.sizes <= WIDEST
+        for number, column in enumerate(columns.upto(int(self.column.max()) + 1)):
+            here = short & (self.column == number)
+            lefts = self.lefts[here]
+            column.take_numbers(int(lefts.max(initial=0)), int((self.sizes[here] - lefts).max(initial=0)))
+
+    def lines(self, shapes: Sequence[Shape]) -> str:
+        """The lines of the rows, each with a LF."""
+        width = np.array([shape.width for shape in shapes])[self.column]
+        point = np.array([shape.point for shape in shapes])[self.column]
+        before = np.maximum(point - self.lefts, 0)
+        after = np.maximum(width - before - self.sizes, 0)
+        blanks = before + 1
+        blanks[1:] += np.where(self.column[1:] > 0, after[:-1], 0)
+        counts = np.column_stack([blanks, self.sizes.astype(np.intp) + 1]).ravel()
+        inked = np.repeat(np.tile([False, True], len(blanks)), counts)
+        out = np.full(len(inked), _BLANK, dtype=np.uint8)
+        out[inked] = self.characters
+        return out.tobytes().decode("ascii")
+
+
+def _without_blanks(codes: NDArray[np.uint8]) -> NDArray[np.uint8] | None:
+    """The characters that are not blank; None where blanks stand inside of a field."""
+    blank = (codes == _BLANK) | (codes == _TAB) | (codes == _CR)
+    inked = ~blank & (codes != _COMMA) & (codes != _LF)
+    if (inked[:-1] & blank[1:]).any():  # blanks behind a field: often there are none
+        places = np.flatnonzero(~blank)
+        within = inked[places]
+        if (within[:-1] & within[1:] & (np.diff(places) > 1)).any():
+            return None
+    kept: NDArray[np.uint8] = codes[~blank]
+    return kept
+
+
+def _small(values: _Array) -> _Array:
+    """Numbers in as little memory as they need: those of all rows of a table are kept until it is measured."""
+    return values.astype(np.min_scalar_type(int(values.max())))
+
+
+_SHORT = 1000
+"""Characters of a table from which on arrays are faster than lists."""
+
+
+class Run(NamedTuple):
+    """Lines of a table, which may be very many."""
+
+    text: str
+    span: Span
+
+    def parts(self, kind: RowKind, plain: dict[int, PlainRows | None]) -> Iterator[WordRows | PlainRows]:
+        """The rows in pieces of some thousand.
+
+        Plain ones are kept in `plain`, by where they begin, when they are read, and taken from there the second time;
+        others take so much memory that they are read twice.
+        """
+        start, end = self.span
+        most = len(kind.columns)
+        while start < end:
+            stop = self.text.find("\n", min(start + PIECE, end), end) + 1 or end
+            if start in plain:
+                found = plain.pop(start)
+            else:
+                found = PlainRows.read(self.text[start:stop], most) if stop - start > _SHORT else None
+                plain[start] = found
+            yield found or word_rows(self.text[start:stop], most)
+            start = stop
+
+
+def word_rows(text: str, most: int) -> WordRows:
+    """The rows of some whole lines, cut to `most` fields, with any content."""
+    rows: list[list[str]] = []
+    for line in line_spans(text, Span(0, len(text))):
+        body = text[slice(*line)]
+        if "," not in body or GROUPED.search(body):
+            rows.append(cut([given.text for given in row_fields(text, line, most)]))
+        else:
+            rows.append(cut([piece.strip(" \t\r") for piece in body.split(",")[:most]]))
+    return WordRows(rows)
+
+
+class Single(NamedTuple):
+    """A row cut into its fields, and its line."""
+
+    fields: list[str]
+    span: Span
+
+    def parts(self, _kind: RowKind, _plain: dict[int, PlainRows | None]) -> Iterator[WordRows | PlainRows]:
+        """The row."""
+        yield WordRows([self.fields])
+
+
+@dataclass(slots=True)
+class Rows:
+    """Rows of one kind with nothing but comments and blank lines between them."""
+
+    kind: RowKind
+    members: list[Run | Single] = field(default_factory=list)
+
+    def laid_out(self) -> Iterator[tuple[Span, str]]:
+        """The lines of each member in aligned columns, each with a LF."""
+        columns = Columns(self.kind)
+        plain: dict[int, PlainRows | None] = {}
+        for member in self.members:
+            for part in member.parts(self.kind, plain):
+                part.measure(columns)
+        shapes = columns.shapes()
+        for member in self.members:
+            yield member.span, "".join(part.lines(shapes) for part in member.parts(self.kind, plain))

@@ -1,0 +1,224 @@
+"""What stops a migration: misspelt seabed keywords, what the new family cannot express, and decks that continue one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from mudline.basics.limits import LARGEST_NEIGHBOUR
+from mudline.language.codes import MIG001
+from mudline.language.deck.forms import SUFFIXES
+from mudline.language.deck.loading import load_path
+from mudline.language.deck.model import Deck, Opaque
+from mudline.language.diagnostics import DeckError, Problem, Where
+from mudline.language.keywords.catalogue import (
+    facts_of,
+    in_order,
+    is_superseded,
+    sections_of,
+    suggest_keyword,
+    supersedes,
+)
+from mudline.language.keywords.model import Block
+from mudline.language.keywords.surfaces import Surface
+from mudline.language.keywords.values import Equation
+from mudline.language.syntax.tree import canonical_name
+from mudline.model.scene.deck_values import LARGEST_MOBILISATION
+from mudline.model.scene.laws import DIRECTIONS
+from mudline.model.scene.model import Scene
+from mudline.model.scene.restart import decks_before
+
+_MISSPELT = "{} may be meant as *{}{}: correct or remove it first"
+
+
+def superseded_blocks(deck: Deck) -> list[tuple[Where, Block]]:
+    """The blocks of superseded keywords: surfaces first, then curves by set."""
+    present = filter(is_superseded, in_order(deck.keywords()))
+    first = sorted(present, key=lambda keyword: not facts_of(keyword, "MODEL").seabed_type)
+    return [found for keyword in first for found in deck.blocks(keyword)]
+
+
+def surfaces(deck: Deck) -> list[tuple[Where, Surface]]:
+    """The legacy surfaces of a deck, in the order of the file."""
+    return list(deck.blocks_that(lambda declared: declared.facts.seabed_type))
+
+
+def misspelt(deck: Deck) -> Iterator[Problem]:
+    """Keywords of the model that are not known and spelt nearly as a legacy one; for a deck that has no other."""
+    for i, section in enumerate(deck.sections):
+        for j, block in enumerate(section.blocks if section.name == "MODEL" else ()):
+            unknown = isinstance(block, Opaque) and sections_of(block.keyword) is None
+            if unknown and is_superseded(meant := suggest_keyword(block.keyword)):
+                yield _refusal(_MISSPELT.format(f"*{block.keyword}, which is not known,", meant, ""), Where(i, j))
+
+
+def refusals(deck: Deck, scene: Scene, continued_by: Sequence[str] = ()) -> Iterator[Problem]:
+    """The reasons why a deck without errors cannot be migrated; `deck` has its equations as written.
+
+    `scene` is the resolved deck; `continued_by` names decks that continue this one with seabed keywords of their own.
+    """
+    yield from misplaced_keywords(scene)
+    yield from _mixed_families(deck)
+    yield from _restarts(deck)
+    yield from _continued(deck, continued_by)
+    yield from _varied_keywords(deck)
+    found = surfaces(deck)
+    for where, block in found[1:]:
+        yield _refusal(f"a second surface: remove all but one, then migrate *{block.keyword}", where)
+    for where, block in found[:1]:
+        yield from _lengths(block, where, deck.units)
+        yield from _shapes(deck, block, where)
+
+
+def _refusal(message: str, where: Where) -> Problem:
+    return Problem(MIG001, message, where=where)
+
+
+def misplaced_keywords(scene: Scene) -> Iterator[Problem]:
+    """Keywords that are misspelt or stand where they are not read, and that matter to the laws.
+
+    Those of the seabed do, and those for want of which an error is a warning.
+    """
+    for keyword in filter(None, scene.context.misplaced_keywords):
+        depend = sorted({found.code.code for found in scene.findings if found.maybe_defined_by == keyword})
+        if depend or is_superseded(keyword) or supersedes(keyword):
+            words, where = scene.context.misplaced_place(keyword)
+            codes = f" ({', '.join(depend)})" if depend else ""
+            yield _refusal(_MISSPELT.format(words, keyword, codes), where)
+
+
+def _mixed_families(deck: Deck) -> Iterator[Problem]:
+    """Which of the two families applies to an element cannot be decided by rewriting."""
+    for where, _ in deck.blocks("SEABED PROPERTIES"):
+        message = "*SEABED PROPERTIES is used beside legacy keywords: decide which applies and remove the other"
+        yield _refusal(message, where)
+
+
+def _restarts(deck: Deck) -> Iterator[Problem]:
+    """A deck that continues another one, whose seabed applies as well."""
+    for section, found in enumerate(deck.sections):
+        for block, restart in enumerate(found.blocks):
+            if found.name == "LOAD CASE" and restart.keyword == "RESTART":
+                message = "*RESTART continues another deck, whose seabed applies as well: put the model in one deck"
+                yield _refusal(message, Where(section, block))
+
+
+def _continued(deck: Deck, continued_by: Sequence[str]) -> Iterator[Problem]:
+    """The keywords of a deck that continues this one would be combined with others than before."""
+    where, _ = superseded_blocks(deck)[0]
+    for name in continued_by:
+        message = (
+            f"{name} continues this deck and has seabed keywords of its own, which would apply differently: "
+            "leave both decks unchanged"
+        )
+        yield _refusal(message, where)
+
+
+def _varied_keywords(deck: Deck) -> Iterator[Problem]:
+    """Actions of `*VARIATION` on keywords that a migration removes or adds."""
+    for where, block in deck.blocks("VARIATION", "PREPROCESSOR"):
+        for i, variation in enumerate(block.variations):
+            for j, item in enumerate(variation.blocks):
+                keyword = canonical_name("*" + ",".join(item.keyword))
+                if is_superseded(keyword) or supersedes(keyword):
+                    message = f"a variation adds or removes *{keyword}, which migration changes: remove the action"
+                    yield _refusal(message, where.inside("variations", i, "blocks", j))
+
+
+def _lengths(block: Surface, where: Where, units: str) -> Iterator[Problem]:
+    """Largest characteristic lengths that bound the mobilisation length and are not the default.
+
+    One has no effect where the mobilisation length is given or the friction coefficient is 0. The value of an equation
+    may change: it is taken neither as 0 nor as the default.
+    """
+    values: Any = block.properties
+    for direction in DIRECTIONS:
+        name = f"{direction}_length"
+        length = getattr(values, name)
+        if length is None or getattr(values, f"{direction}_mobilisation") is not None:
+            continue
+        if getattr(values, direction) not in (None, 0.0) and length != LARGEST_MOBILISATION.get(units):
+            message = (
+                f"the largest {direction} characteristic length bounds the mobilisation length of each element, "
+                "and the new family has no field for it: give the mobilisation length instead"
+            )
+            yield _refusal(message, where.inside("properties", name))
+
+
+def _shapes(deck: Deck, block: Surface, where: Where) -> Iterator[Problem]:
+    """A slope or profile that `*SEABED PROFILE` cannot take over."""
+    shaped = block.slope is not None or block.profile is not None
+    if block.slope is not None and block.profile is not None:
+        yield _refusal("a slope and a profile: remove one of them", where.inside("slope"))
+    for keyword in ("SEABED PROFILE", "SEABED PLANES") if shaped else ():
+        for other, _ in deck.blocks(keyword):
+            yield _refusal(f"*{keyword} and the slope or profile of *{block.keyword}: remove one of them", other)
+    for (row, column), word in (block.profile.words if block.profile is not None else {}).items():
+        if isinstance(word, Equation):
+            message = "an equation in a profile, whose points go to a text file: write the number"
+            yield _refusal(message, where.inside("profile", row, column))
+
+
+# ---------------------------------------------------------------------------------------------- decks that continue one
+
+_NEWER = {"SEABED PROPERTIES", "SEABED STIFFNESS"}
+"""New keywords whose laws would be combined with those of a migrated deck."""
+
+
+class Continuations:
+    """The decks that continue a deck, among those to be migrated and those in its folder."""
+
+    def __init__(self, files: Iterable[Path]) -> None:
+        self._visited: set[Path] = set()
+        self._by_base: dict[Path, set[str]] = {}
+        self._extended: set[Path] = set()
+        for file in files:
+            self._visit(file)
+
+    def of(self, file: Path) -> list[str]:
+        """Names of the decks that continue a deck and have seabed keywords of their own."""
+        if file.parent not in self._visited:
+            self._visited.add(file.parent)
+            for other in sorted(file.parent.iterdir()):
+                if other.suffix.lower() in SUFFIXES:
+                    self._visit(other)
+        return sorted(self._by_base.get(file.resolve(), ()))
+
+    def extend(self, file: Path) -> bool:
+        """Whether a deck that continues a deck, among those visited, has a model of its own: more elements or sets."""
+        return file.resolve() in self._extended
+
+    def _visit(self, file: Path) -> None:
+        if file in self._visited:
+            return
+        self._visited.add(file)
+        try:
+            if file.stat().st_size > LARGEST_NEIGHBOUR or b"RESTART" not in file.read_bytes().upper():
+                return
+            deck = load_path(file)
+        except (OSError, DeckError):
+            return  # an unreadable deck continues nothing; where it is to be migrated itself, that is an error
+        keywords = deck.keywords()
+        if not keywords:
+            return
+        bases = [base.resolve() for base in decks_before(deck)]
+        self._extended.update(bases)
+        if keywords & _NEWER or any(map(is_superseded, keywords)):
+            for base in bases:
+                self._by_base.setdefault(base, set()).add(file.as_posix())
+
+
+def continuations_beside(deck: Deck) -> tuple[list[str], bool]:
+    """What `Continuations.of` and `extend` give for a deck and its folder; the decks of a folder are read once."""
+    if deck.folder is None or not deck.folder.is_dir():
+        return [], False
+    found, file = _continuations_in(deck.folder), deck.folder / Path(deck.file).name
+    return found.of(file), found.extend(file)
+
+
+@lru_cache(maxsize=1)
+def _continuations_in(_: Path) -> Continuations:
+    """Those of a folder, whose decks are read when they are asked for."""
+    return Continuations(())

@@ -1,0 +1,246 @@
+"""The edits that turn the legacy keywords of a text into the new family; every other byte stays."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from itertools import count
+from pathlib import PurePath
+from typing import NamedTuple, cast
+
+import numpy as np
+
+from mudline.editing.migration.refusals import surfaces
+from mudline.language.deck.model import Deck
+from mudline.language.deck.parameters import folded
+from mudline.language.deck.reading import TextOrigin
+from mudline.language.diagnostics import Span, Where
+from mudline.language.keywords.library.embedment import Embedment
+from mudline.language.keywords.model import record_schema
+from mudline.language.keywords.surfaces import Surface
+from mudline.language.keywords.text import reads_as_name
+from mudline.language.syntax.edits import TextEdit
+from mudline.language.syntax.fields import trimmed
+from mudline.language.syntax.rows import line_spans
+from mudline.language.syntax.tree import Kind, RawBlock
+from mudline.model.scene.laws import DIRECTIONS
+from mudline.model.scene.model import Scene
+from mudline.model.scene.representatives import shows_elements
+from mudline.model.scene.sets import ALL, set_key
+
+_UNSAFE = re.compile(r"[^\w.-]+")
+_FRICTION = ("longitudinal", "transverse", "longitudinal_mobilisation", "transverse_mobilisation", "constant")
+
+
+class Rewriting(NamedTuple):
+    """Edits of a text, and the content of the files that the new text names, by name."""
+
+    edits: list[TextEdit]
+    files: dict[str, str]
+
+
+def rewrite(deck: Deck, unused: Container[Where]) -> Rewriting:
+    """The edits for a deck that was read from text and that has no refusals; `unused` is left out."""
+    return _Rewriter(deck, unused).rewrite()
+
+
+def unused_definitions(scene: Scene, *, extended: bool = False) -> set[Where]:
+    """Where the surface and the curves stand that no element follows.
+
+    One of a set that a later curve is for, or that stands before a curve for ALL, has no element in any case; others
+    are known not to have one only where the deck shows all its elements, and no deck that continues it has more
+    (`extended`).
+    """
+    shown = shows_elements(scene) and not extended
+    later: set[str] = set()
+    unused: set[Where] = set()
+    legacy = [(i, law) for i, law in enumerate(scene.laws.set_laws) if law.family == "legacy" and law.curve >= 0]
+    followed = set(np.unique(scene.laws.of_element).tolist())
+    for index, law in reversed(legacy):
+        key = set_key(law.set_.name)
+        unheld = shown and not law.set_.open and index not in followed
+        if key in later or ALL in later or unheld:
+            unused.add(law.where)
+        later.add(key)
+    on_curves = shown and followed <= {index for index, _ in legacy}
+    if ALL in later or on_curves:
+        unused.update(Where(where.section, where.block) for where, _ in surfaces(scene.deck))
+    return unused
+
+
+class _Rewriter:
+    def __init__(self, deck: Deck, unused: Container[Where]) -> None:
+        self.deck = deck
+        self.unused = unused
+        self.origin = cast("TextOrigin", deck.origin)
+        self.text = self.origin.source.unified
+        self.edits: list[TextEdit] = []
+        self.files: dict[str, str] = {}
+
+    def rewrite(self) -> Rewriting:
+        curves: list[tuple[Where, int, str]] = []
+        for where, block in self.deck.blocks("EMBEDMENT"):
+            given = [(where, i, one.set_name or "ALL") for i, one in enumerate(cast("Embedment", block).curves)]
+            used = [one for one in given if where.inside("curves", one[1]) not in self.unused]
+            self._head(where, "SEABED STIFFNESS" if used else "")
+            for _, index, _ in given:
+                if where.inside("curves", index) in self.unused:
+                    self._leave_out(where, index)
+            curves += used
+        taken = [curve.name for _, block in self.deck.blocks("SEABED STIFFNESS") for curve in block.curves]
+        sets = [set_name for _, _, set_name in curves]
+        names = curve_names(sets, taken)
+        for (where, index, _), name in zip(curves, names, strict=True):
+            self._curve(where, index, name)
+        for where, block in surfaces(self.deck):
+            self._surface(where, block, list(zip(sets, names, strict=True)))
+        return Rewriting(self.edits, self.files)
+
+    def _edit(self, span: Span, text: str) -> None:
+        self.edits.append(TextEdit(span, text))
+
+    def _insert(self, offset: int, text: str) -> None:
+        self._edit(Span(offset, offset), text)
+
+    def _raw(self, where: Where) -> RawBlock:
+        return self.origin.tree.sections[where.section].blocks[where.block]
+
+    def _head(self, where: Where, keyword: str) -> None:
+        """Write a keyword in the place of that of a block; "" makes the line a comment."""
+        head = trimmed(self.text, *self._raw(where).head.span)
+        if keyword:
+            self._edit(head, f"*{keyword}")
+        else:
+            self._insert(self._line_start(head.start), "C ")
+
+    def _rows(self, where: Where) -> list[Span]:
+        """The lines of a block without comments and blank lines, and without the blanks at their ends."""
+        leaves = (leaf for leaf in self._raw(where).leaves if leaf.kind is not Kind.COMMENT)
+        return [trimmed(self.text, *line) for leaf in leaves for line in line_spans(self.text, leaf.span)]
+
+    def _leave_out(self, where: Where, index: int) -> None:
+        """Make comments of the lines of a curve that no element follows."""
+        spans = self.origin.read[where.section, where.block].places.spans
+        first, following = spans["curves", index], spans.get(("curves", index + 1))
+        comment = "C left out, as no element is on this curve:\n"
+        for row in self._rows(where):
+            if first.start <= row.start and (following is None or row.start < following.start):
+                self._insert(self._line_start(row.start), f"{comment}C ")
+                comment = ""
+
+    def _line_start(self, offset: int) -> int:
+        return self.text.rfind("\n", 0, offset) + 1
+
+    def _indent(self, offset: int) -> str:
+        """As many blanks as stand before the first character of a line; one at least, as a key may begin with C."""
+        return " " * max(offset - self._line_start(offset), 1)
+
+    def _row(self, row: Span, lines: str) -> None:
+        """Settings in the place of a row, indented as it is or by a blank."""
+        self._edit(row, lines if self._line_start(row.start) < row.start else f" {lines}")
+
+    def _curve(self, where: Where, index: int, name: str) -> None:
+        """Replace SET= by CURVE=, or insert CURVE= before points that have no SET=."""
+        places = self.origin.read[where.section, where.block].places
+        first = places.spans[("curves", index)]
+        if places.has(("curves", index, "set")):
+            self._row(first, f"CURVE={name}")
+        else:
+            self._insert(self._line_start(first.start), f"{self._indent(first.start)}CURVE={name}\n")
+
+    def _surface(self, where: Where, block: Surface, curves: Sequence[tuple[str, str]]) -> None:
+        """Replace a surface by a block for ALL with its linear law, then one for each curve, so that curves win.
+
+        Every block gives all values, as it inherits none. That for ALL is left out where every element is on a curve.
+        On a rigid seabed it is needed in any case: it says that the elements lie on that seabed.
+        """
+        self._head(where, "SEABED PROPERTIES")
+        rows = self._rows(where)
+        fields = self._fields(where, block)
+        stiffness, others = fields.get("stiffness", ""), _other_lines(fields)
+        type_ = block.facts.seabed_type
+        lines = [f"TYPE={type_}"]
+        if Where(where.section, where.block) in self.unused:
+            if stiffness:
+                comment = f"C stiffness {stiffness} left out, as every element is on a curve\n"
+                self._insert(self._line_start(rows[0].start), comment)
+        elif type_ == "RIGID" or stiffness or others:
+            lines += ["SET=ALL", *([f"STIFFNESS={stiffness}"] if stiffness else []), *others]
+        for set_name, curve in curves:
+            lines += [f"SET={set_name}", f"STIFFNESS={curve}", *others]
+        indent = self._indent(rows[0].start)
+        self._row(rows[0], f"\n{indent}".join(lines))
+        lengths = ((direction, fields.get(f"{direction}_length")) for direction in DIRECTIONS)
+        if listed := ", ".join(f"{direction} {length}" for direction, length in lengths if length):
+            comment = f"C largest characteristic lengths ({listed}) left out: the default, or without effect\n"
+            self._insert(self._line_start(rows[0].start), comment)
+        if len(rows) > 1:
+            self._profile(block, rows, indent)
+
+    def _fields(self, where: Where, block: Surface) -> dict[str, str]:
+        """The fields of the first line as they are written."""
+        spans = self.origin.read[where.section, where.block].places.spans
+        columns = [slot.json for slot in record_schema(type(block.properties)).columns]
+        found = {name: spans.get(("properties", name), Span(0, 0)) for name in columns}
+        return {name: self.text[slice(*span)].strip(" \t\r\n,") for name, span in found.items()}
+
+    def _profile(self, block: Surface, rows: Sequence[Span], indent: str) -> None:
+        """Turn the lines behind the first into a `*SEABED PROFILE`, comments between them included."""
+        self._insert(self.text.index("\n", rows[0].end) + 1, "*SEABED PROFILE\n")
+        if block.profile is None:
+            value = self.text[slice(*rows[1])].strip(" \t,")
+            self._row(rows[1], f"TYPE=SLOPING\n{indent}SLOPE={value}")
+            return
+        name = self._file_name()
+        self._row(rows[1], f"TYPE=2D\n{indent}INTERPOLATION=LINEAR\n{indent}FILE={name}")
+        for row in rows[2:]:
+            end = self.text.find("\n", row.end)
+            self._edit(Span(self._line_start(row.start), len(self.text) if end < 0 else end + 1), "")
+        points = zip(block.profile.column(0).tolist(), block.profile.column(1).tolist(), strict=True)
+        lines = [f"{y!r}, {elevation!r}\n".upper() for y, elevation in points]
+        head = f"C Y, elevation: profile of *{block.keyword} of {self.deck.source}\n"
+        self.files[name] = head + "".join(lines)
+
+    def _file_name(self) -> str:
+        """A name for the file of the profile that no other file beside the deck has."""
+        stem = _UNSAFE.sub("-", PurePath(self.deck.source).stem).strip("-.") or "deck"
+        name, number = f"{stem}-profile.txt", 2
+        while self.deck.folder is not None and (self.deck.folder / name).exists():
+            name, number = f"{stem}-profile-{number}.txt", number + 1
+        return name
+
+
+def _other_lines(fields: Mapping[str, str]) -> list[str]:
+    """The lines of a surface besides its stiffness: fields by name, as they are written, "" for an empty one."""
+    lines: list[str] = []
+    friction = [fields.get(name, "") for name in _FRICTION]
+    if any(friction):
+        friction[:2] = [value or "0" for value in friction[:2]]
+        lines.append("FRICTION=" + ", ".join(friction).rstrip(", "))
+    if fields.get("lateral"):
+        lines.append(f"LATERAL={fields['lateral']}")
+    suction = [fields.get("suction_stiffness", ""), fields.get("suction_extent", "")]
+    if any(suction):
+        lines.append("SUCTION=" + ", ".join([suction[0] or "0", suction[1]]).rstrip(", "))
+    return lines
+
+
+def curve_names(sets: Iterable[str], taken: Iterable[str]) -> list[str]:
+    """A name for each curve of `*EMBEDMENT`: that of its set, with ` curve` and a number behind it where needed.
+
+    A name that another curve has, in any case of letters, would name both; one that reads as a number or an equation
+    would be taken for a stiffness.
+    """
+    used = {folded(name) for name in taken}
+    names: list[str] = []
+    for name in sets:
+        chosen = next(one for one in _candidates(name) if folded(one) not in used and reads_as_name(one))
+        used.add(folded(chosen))
+        names.append(chosen)
+    return names
+
+
+def _candidates(name: str) -> Iterator[str]:
+    base = f"{name} curve" if reads_as_name(f"{name} curve") else "curve"
+    yield from (name, base)
+    yield from (f"{base} {number}" for number in count(2))

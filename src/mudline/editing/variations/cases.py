@@ -1,0 +1,387 @@
+"""The parameters of a deck, and `*VARIATION` to cases: their values, and the blocks that actions add or remove."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from decimal import Decimal
+from pathlib import Path
+from typing import TYPE_CHECKING, cast
+
+from mudline.basics.limits import LARGEST_FILE, MOST_DECKS
+from mudline.basics.outside import without_text
+from mudline.basics.spelling import Effort
+from mudline.editing.variations.names import name_key, undefined_parameter, unquoted
+from mudline.language.codes import EXP001
+from mudline.language.codes.references import REF013
+from mudline.language.deck.model import Deck
+from mudline.language.deck.parameters import NoValueError, Parameters, folded, list_items
+from mudline.language.deck.reading import TextOrigin
+from mudline.language.diagnostics import Problem, Severity, Span, Where
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.model import Block
+from mudline.language.keywords.text import shown, suggestion
+from mudline.language.keywords.values import Equation
+from mudline.language.syntax.fields import is_one_field
+from mudline.language.syntax.rows import read_number
+from mudline.language.syntax.source import Source
+from mudline.language.syntax.tree import Kind, canonical_name, parse
+from mudline.model.scene.deck_values import find_file, not_found
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.parameters import Parameters as Block_
+    from mudline.language.keywords.library.variation import NamedVariation, ValueRange, VariedBlock, VariedParameter
+
+
+_PLANNING = "PREPROCESSOR"
+"""The section of keywords that describe the decks; actions do not add or remove them."""
+
+
+Values = Mapping[str, str]
+"""Values as they are written in `*PARAMETERS`, by the name of the parameter there."""
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """A parameter: its name and the text of its value, both as written, and the place of the value."""
+
+    name: str
+    text: str
+    span: Span
+    in_list: bool = False
+
+    def field(self, value: str) -> str | None:
+        """A value as it is written in the place of the old one, or None when it cannot be written there."""
+        field = parameter_field(value)
+        bare = field is not None and field == unquoted(field) and Equation.match(field) is None
+        if not self.in_list or not bare or read_number(value) is not None:
+            return field
+        return f'"{field}"'  # a colon or a slash would mean something else in a list
+
+
+class Targets:
+    """The parameters of a deck that was read from text; of several with one name the last, which holds."""
+
+    def __init__(self, deck: Deck) -> None:
+        self.deck = deck
+        self.parameters = Parameters(deck)
+        self._targets: dict[str, Target] = {}
+        self._effort = Effort()
+        for where, block in deck.blocks("PARAMETERS", "PREPROCESSOR"):
+            for index, parameter in enumerate(cast("Block_", block).parameters):
+                place = where.inside("parameters", index, "value")
+                self._targets |= {folded(target.name): target for target in self._written(parameter.name, place)}
+
+    def _written(self, name: str, where: Where) -> Iterator[Target]:
+        """The parameters that a line of `*PARAMETERS` defines."""
+        origin = cast("TextOrigin", self.deck.origin)
+        span = origin.read[where.section, where.block].places.find(where.path)
+        text = origin.source.text[slice(*span)]
+        if not text.startswith("/"):
+            yield Target(name, text, span)
+            return
+        for item in list_items(name, text)[0]:
+            start = span.start + item.start
+            yield Target(item.name, item.value, Span(start, start + len(item.value)), in_list=True)
+
+    def target(self, name: str) -> Target:
+        """A parameter that is known to exist."""
+        return self._targets[folded(name)]
+
+    def undefined(self, name: str, where: Where) -> Problem | None:
+        """The problem of a name that is not a parameter, else None."""
+        if folded(name) in self._targets:
+            return None
+        return undefined_parameter(name, (target.name for target in self._targets.values()), self._effort, where)
+
+    def in_a_name(self, name: str, values: Values) -> str | None:
+        """A parameter's value for the name of a file: as written, without quotes; None where an equation has none."""
+        key = folded(name)
+        given = next((text for other, text in values.items() if folded(other) == key), self._targets[key].text)
+        if Equation.match(given) is None:
+            return unquoted(given)
+        found = Parameters(with_values(self.deck, values)).values.get(key)
+        if isinstance(found, float) and found.is_integer() and abs(found) < 1e15:
+            return str(int(found))
+        return None if found is None else str(found)
+
+
+def with_values(deck: Deck, values: Values) -> Deck:
+    """The deck with other parameter values, for its equations only: its text is not that of the new one.
+
+    They are defined again after all others, as the last definition of a parameter applies.
+    """
+    where, block = [found for found in deck.blocks("PARAMETERS", "PREPROCESSOR") if found[1].parameters][-1]
+    known = cast("Block_", block).parameters
+    more = [known[-1].model_copy(update={"name": name, "value": text}) for name, text in values.items()]
+    sections = list(deck.sections)
+    blocks = list(sections[where.section].blocks)
+    blocks[where.block] = cast("Block", block).model_copy(update={"parameters": [*known, *more]})
+    sections[where.section] = replace(sections[where.section], blocks=blocks)
+    return replace(deck, sections=sections)
+
+
+def parameter_field(text: str) -> str | None:
+    """A value as a field of `*PARAMETERS`, a text with blanks or commas in quotes; None when it cannot be written."""
+    if read_number(text) is not None or Equation.match(text):
+        return text
+    if not text:
+        return None
+    if is_one_field(text) and (unquoted(text) != text or not (set(text) & set(' \t"') or text[0] in "/=")):
+        return text
+    return None if '"' in text else f'"{text}"'
+
+
+# -------------------------------------------------------------------------------------------------------------- actions
+
+
+@dataclass(frozen=True, slots=True)
+class Removal:
+    """Blocks to leave out, by section and block."""
+
+    blocks: frozenset[tuple[int, int]]
+
+
+@dataclass(frozen=True, slots=True)
+class Addition:
+    """Lines to put at the end of a section, each with a LF."""
+
+    section: int
+    text: str
+
+
+Action = Removal | Addition
+
+
+@dataclass(frozen=True, slots=True)
+class Cases:
+    """A variation: names of parameters, a row of their values for each case, and the actions in every case."""
+
+    name: str
+    where: Where
+    parameters: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    actions: Sequence[Action]
+
+
+class RefusedError(Exception):
+    """An action that cannot be carried out; the message says why."""
+
+
+def action_of(deck: Deck, varied: VariedBlock, where: Where) -> Action | Problem:
+    """The effect of an ACTION= line on a deck that was read from text, or why it has none."""
+    try:
+        keyword = _keyword(varied)
+        section = _section(deck, varied, keyword)
+        if varied.action == "REMOVE":
+            return _removal(deck, keyword, section)
+        return _addition(deck, varied, keyword, section)
+    except RefusedError as reason:
+        return Problem(EXP001, str(reason), None, None, where)
+
+
+def _keyword(varied: VariedBlock) -> str:
+    keyword = canonical_name("*" + ",".join(unquoted(word) for word in varied.keyword))
+    if _PLANNING in (catalogue.sections_of(keyword) or ()):
+        raise RefusedError(f"*{keyword} describes the decks: a variation cannot add or remove it")
+    return keyword
+
+
+def _section(deck: Deck, varied: VariedBlock, keyword: str) -> str:
+    """The section of an action, which the deck has."""
+    there = [section.name for section in deck.sections]
+    if varied.section is not None:
+        name = canonical_name("$" + unquoted(varied.section).removeprefix("$"))
+    else:
+        belongs = catalogue.sections_of(keyword) or ()
+        if len(belongs) != 1:
+            known = " or ".join(f"${name}" for name in belongs)
+            raise RefusedError(f"missing SECTION= for *{keyword}{f': {known}' if known else ''}")
+        name = belongs[0]
+    if name not in there:
+        raise RefusedError(f"the deck has no section ${name}{suggestion(name, there)} for *{keyword}")
+    return name
+
+
+def _removal(deck: Deck, keyword: str, section: str) -> Removal:
+    blocks = [
+        (index, number, block.keyword)
+        for index, found in enumerate(deck.sections)
+        if found.name == section
+        for number, block in enumerate(found.blocks)
+    ]
+    gone = frozenset((index, number) for index, number, name in blocks if name == keyword)
+    if not gone:
+        hint = suggestion(keyword, {name for _, _, name in blocks})
+        raise RefusedError(f"${section} has no *{keyword}{hint} that could be removed")
+    return Removal(gone)
+
+
+def _addition(deck: Deck, varied: VariedBlock, keyword: str, section: str) -> Addition:
+    last = max(index for index, found in enumerate(deck.sections) if found.name == section)
+    if varied.file is None:
+        return Addition(last, f"*{keyword}\n")
+    if deck.folder is None:
+        raise RefusedError(
+            f"FILE={varied.file} lies beside the deck, which came from standard input: give the deck as a file"
+        )
+    path = find_file(deck.folder, varied.file)
+    if path is None:
+        why, refused = not_found(deck.folder, unquoted(varied.file))
+        raise RefusedError(why if refused else f"file {shown(unquoted(varied.file))} was not found beside the deck")
+    try:
+        text = _block_text(_content(path, varied.file), keyword)
+    except RefusedError as error:
+        raise RefusedError(without_text(str(error), path, deck.folder)) from error
+    try:
+        text.encode(cast("TextOrigin", deck.origin).source.encoding)
+    except UnicodeEncodeError as error:
+        raise RefusedError(f"{varied.file} holds {text[error.start]!r}, which the encoding of the deck lacks") from None
+    return Addition(last, text)
+
+
+def _content(path: Path, name: str) -> Source:
+    try:
+        if path.stat().st_size > LARGEST_FILE:
+            raise RefusedError(f"{name} has more than {LARGEST_FILE // 10**6} million bytes: expected a block")
+        source = Source.from_bytes(path.read_bytes(), name)
+    except OSError as error:
+        raise RefusedError(f"{name} cannot be read: {(error.strerror or str(error)).lower()}") from error
+    faults = [problem.message for problem in source.problems if problem.weight is Severity.ERROR]
+    if faults:
+        raise RefusedError(f"{name}: {faults[0]}")
+    return source
+
+
+def _block_text(source: Source, keyword: str) -> str:
+    """The lines of a file as blocks of a keyword; the head is added where the file has none."""
+    tree = parse(source)
+    if tree.sections:
+        raise RefusedError(f"{source.name} opens the section ${tree.sections[0].name}: expected only the block")
+    others = [block.name for block in tree.preamble.blocks if block.name != keyword]
+    if others:
+        raise RefusedError(f"{source.name} holds *{others[0]}, expected *{keyword} only")
+    text = source.unified.replace("\r\n", "\n")
+    text = text if text.endswith("\n") or not text else f"{text}\n"
+    if all(leaf.kind in (Kind.BLANK, Kind.COMMENT) for leaf in tree.preamble.leaves) and tree.preamble.blocks:
+        return text
+    return f"*{keyword}\n{text}"
+
+
+_NOISE = Decimal("1e-9")
+"""Share of a step by which a range may miss its last value: ends may come from equations."""
+
+
+class CaseReader:
+    """Reads the variations of a deck that was read from text; faults are added to `problems`."""
+
+    def __init__(self, deck: Deck, targets: Targets) -> None:
+        self.deck = deck
+        self.targets = targets
+        self.problems: list[Problem] = []
+
+    def read(self) -> dict[str, Cases]:
+        """Every variation by its name as names compare."""
+        found: dict[str, Cases] = {}
+        for where, block in self.deck.blocks("VARIATION", "PREPROCESSOR"):
+            for index, variation in enumerate(block.variations):
+                place = where.inside("variations", index)
+                cases = self._cases(variation, place)
+                if name_key(cases.name) in found:
+                    message = f"variation {shown(cases.name)} is already defined: choose another name"
+                    self._report(message, place.inside("name"))
+                found[name_key(cases.name)] = cases
+        return found
+
+    def _report(self, message: str, where: Where) -> None:
+        self.problems.append(Problem(EXP001, message, None, None, where))
+
+    def _cases(self, variation: NamedVariation, where: Where) -> Cases:
+        name = unquoted(variation.name)
+        columns: dict[str, list[str]] = {}
+        for index, varied in enumerate(variation.parameters):
+            place = where.inside("parameters", index)
+            if problem := self.targets.undefined(unquoted(varied.parameter), place):
+                self.problems.append(problem)
+                continue
+            target = self.targets.target(unquoted(varied.parameter))
+            if target.name in columns:
+                self._report(f"{shown(target.name)} varies twice in {shown(name)}: keep one of its lines", place)
+                continue
+            columns[target.name] = self._values(varied, target, place)
+        self._check_counts(name, columns, where)
+        rows = list(zip(*columns.values(), strict=False)) if columns else [()]
+        return Cases(name, where, list(columns), rows, list(self._actions(variation, where)))
+
+    def _actions(self, variation: NamedVariation, where: Where) -> Iterator[Action]:
+        for index, varied in enumerate(variation.blocks):
+            action = action_of(self.deck, varied, where.inside("blocks", index))
+            if isinstance(action, Problem):
+                self.problems.append(action)
+            else:
+                yield action
+
+    def _check_counts(self, name: str, columns: dict[str, list[str]], where: Where) -> None:
+        """Check that the parameters of a variation, which change together, have a value for every case each."""
+        counts = {len(values) for values in columns.values() if values}
+        if len(counts) > 1:
+            listed = ", ".join(f"PARA={target} has {len(values)}" for target, values in columns.items() if values)
+            message = (
+                f"the parameters of variation {shown(name)} change together and need equally many values: {listed}. "
+                "Put those that vary independently into separate variations"
+            )
+            self._report(message, where)
+
+    def _values(self, varied: VariedParameter, target: Target, where: Where) -> list[str]:
+        """The values as fields of `*PARAMETERS`; none when they are faulty."""
+        if varied.generate is not None:
+            return self._range(varied.generate, where.inside("generate"))
+        if not varied.values:
+            self._report(f"PARA={varied.parameter} has no value", where)
+        values: list[str] = []
+        for index, text in enumerate(varied.values or []):
+            place = where.inside("values", index)
+            field = target.field(text)
+            if field is None:
+                self._report(
+                    f"value {index + 1} of PARA={varied.parameter}, {shown(text)}, cannot be a value: correct it",
+                    place,
+                )
+                return []
+            self._defined(field, place)
+            values.append(field)
+        return values
+
+    def _defined(self, field: str, where: Where) -> None:
+        """Check that an equation uses defined parameters; whether it has a value depends on the case."""
+        if equation := Equation.match(field):
+            try:
+                self.targets.parameters.evaluate(equation, where)
+            except NoValueError as reason:
+                if reason.problem and reason.problem.code == REF013:
+                    self.problems.append(reason.problem)
+
+    def _range(self, given: ValueRange, where: Where) -> list[str]:
+        ends = (given.start, given.end, 1.0 if given.increment is None else given.increment)
+        numbers = [self.targets.parameters.number(end) for end in ends]
+        known = [Decimal(repr(number)) for number in numbers if number is not None]
+        if len(known) < len(numbers):
+            self._report("GEN= needs numbers, or equations that give numbers", where)
+            return []
+        start, end, step = known
+        steps = (end - start) / step + _NOISE if step else Decimal(-1)
+        if steps < 0:
+            self._report(f"GEN= gives no value: from {start} to {end} in steps of {step}", where)
+            return []
+        if steps >= MOST_DECKS:
+            self._report(f"GEN= gives more than {MOST_DECKS} values: correct the increment", where)
+            return []
+        return [_spelled(start + step * index) for index in range(int(steps) + 1)]
+
+
+def _spelled(number: Decimal) -> str:
+    """A number in digits, a whole one without a point; of a very large or small one the shortest form."""
+    if not number:
+        return "0"
+    plain = number.normalize()
+    return format(plain, "f") if -15 < plain.adjusted() < 16 else repr(float(plain)).upper()

@@ -1,0 +1,368 @@
+"""The files of an expansion: their paths, the text of each new deck, the manifest, and files in the way."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import unicodedata
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import chain
+from pathlib import Path, PurePath
+from typing import NamedTuple, cast
+
+from mudline.basics.overwriting import is_read
+from mudline.basics.short_repr import short_repr
+from mudline.editing.variations.cases import Action, Removal, Targets, Values
+from mudline.editing.variations.names import filled
+from mudline.language.deck.forms import SUFFIXES, form_of
+from mudline.language.deck.loading import dump
+from mudline.language.deck.model import Deck
+from mudline.language.deck.reading import TextOrigin, read_source
+from mudline.language.diagnostics import Span
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.model import Block
+from mudline.language.keywords.naming import names_given
+from mudline.language.keywords.reader import all_keys
+from mudline.language.keywords.text import shown
+from mudline.language.keywords.values import Names
+from mudline.language.syntax.edits import TextEdit, edited_bytes
+from mudline.language.syntax.fields import first_key, read_line
+from mudline.language.syntax.source import Source
+from mudline.language.syntax.tree import Kind, Leaf, RawBlock
+from mudline.model.scene.deck_values import file_name, find_file
+
+_FORBIDDEN = re.compile(r'[\x00-\x1f\x7f<>:"|?*]')
+_DRIVE = re.compile(r"[A-Za-z]:")
+_DEVICES = frozenset(["CON", "PRN", "AUX", "NUL", *(f"{name}{n}" for name in ("COM", "LPT") for n in range(1, 10))])
+PART_BYTES = 240
+"""Bytes of a folder's or a file's name; the systems in use end at 255."""
+PATH_BYTES = 1000
+"""Bytes of a path within the output folder."""
+
+
+_ENDINGS = (*SUFFIXES, ".json", ".yaml", ".yml")
+"""What a file name of a deck ends with; another name gets the suffix of the source."""
+
+
+class Template(NamedTuple):
+    """The names that a combination gives its files, without quotes; None where it gives none."""
+
+    directory: str | None
+    subdirectory: str | None
+    filename: str | None
+
+
+class Namer:
+    """Names the decks that come from one source."""
+
+    def __init__(self, deck: Deck, targets: Targets) -> None:
+        own = PurePath(deck.file).name
+        self.source = PurePath("deck" if path_fault(own) else own)
+        self.suffix = self.source.suffix or ".keyx"
+        self.targets = targets
+
+    def path(self, template: Template, values: Values, counter: str) -> tuple[str, str]:
+        """The path of a deck with `/` in the output folder, and why it may not be used, "" when it may.
+
+        `counter` distinguishes decks whose combination gives no name at all.
+
+        A deck without a name of its own has that of the source, in a folder of its own or with the counter behind it.
+        """
+        missing: list[str] = []
+
+        def value_of(name: str) -> str:
+            value = self.targets.in_a_name(name, values)
+            if value is None:
+                missing.append(name)
+            return value or ""
+
+        folders = [filled(text, value_of) for text in (template.directory, template.subdirectory) if text is not None]
+        if template.filename is not None:
+            name = filled(template.filename, value_of)
+        else:
+            name = self.source.name if template.subdirectory is not None else f"{self.source.stem} {counter}"
+        file = name if name.lower().endswith(_ENDINGS) else name + self.suffix
+        path = "/".join([*(folder.removesuffix("/") or "/" for folder in folders), file])
+        if missing:
+            return path, f"needs the value of {shown(missing[0])}, which has none"
+        if "/" in name:
+            return path, "has a / in FILENAME=: folders belong in SUBDIRECTORY="
+        if "" in folders:
+            return path, "has a folder without a name"
+        return path, path_fault(name) or path_fault(path)
+
+
+def path_fault(path: str) -> str:
+    """Why a path may not be used within the output folder, on any system; "" when it may."""
+    if "\\" in path:
+        return "holds a backslash: separate folders by /"
+    if path.startswith("/") or _DRIVE.match(path):
+        return "is absolute: it would leave the output folder"
+    if len(path.encode(errors="replace")) > PATH_BYTES:
+        return f"is longer than {PATH_BYTES} bytes"
+    return next((fault for part in path.split("/") if (fault := _part_fault(part))), "")
+
+
+def _part_fault(part: str) -> str:
+    """Why a folder or a file may not have this name."""
+    device = part.partition(".")[0].strip(" ")
+    sign = next(iter(_FORBIDDEN.findall(part)), "")
+    shown = sign if sign.isprintable() else f"U+{ord(sign):04X}"
+    faults = {
+        "leads out of the output folder with ..": part == "..",
+        "has a part without a name": not part.strip(" ."),
+        f"holds {shown}, which not every system has in names of files": bool(sign),
+        "has a part that ends with a space or a dot, which some systems drop": part.endswith((" ", ".")),
+        f"has the part {device}, which is a device on some systems": device.upper() in _DEVICES,
+        f"has a part that is longer than {PART_BYTES} bytes": len(part.encode(errors="replace")) > PART_BYTES,
+    }
+    return next((fault for fault, found in faults.items() if found), "")
+
+
+def same_place(path: str) -> str:
+    """A key that is the same for paths that some systems confuse: neither case nor Unicode composition counts."""
+    return unicodedata.normalize("NFC", unicodedata.normalize("NFC", path).casefold())
+
+
+class Taken:
+    """The paths that are taken so far, each with who took it."""
+
+    def __init__(self) -> None:
+        self._files: dict[str, int] = {}
+        self._folders: dict[str, int] = {}
+
+    def take(self, path: str, number: int) -> int | None:
+        """Take a path for a number; the number that has it, or needs it as a folder, when it is not free."""
+        place = same_place(path)
+        parts = place.split("/")
+        folders = ["/".join(parts[:length]) for length in range(1, len(parts))]
+        holders = chain((self._files.get(name) for name in (place, *folders)), [self._folders.get(place)])
+        holder = next((one for one in holders if one is not None), None)
+        if holder is None:
+            self._files[place] = number
+            for folder in folders:
+                self._folders.setdefault(folder, number)
+        return holder
+
+
+# ------------------------------------------------------------------------------------------------------- other files
+
+_KEYS = ("FILE", "LAST")
+"""Settings that name a file in blocks that have no model."""
+
+
+def companions(deck: Deck) -> list[str]:
+    """The files that a deck names and that are there, relative to the deck, each once.
+
+    Those of `$PREPROCESSOR` are needed to make the new decks, not by the new decks.
+    """
+    found: dict[str, None] = {}
+    for written in _written(deck):
+        name = file_name(written)
+        if name and not path_fault(name) and find_file(deck.folder, name):
+            found[name] = None
+    return list(found)
+
+
+def _written(deck: Deck) -> Iterator[str]:
+    origin = cast("TextOrigin", deck.origin)
+    text = origin.source.unified
+    for section, raw in zip(deck.sections, origin.tree.sections, strict=True):
+        for block, lines in zip(section.blocks, raw.blocks, strict=True) if section.name != "PREPROCESSOR" else ():
+            if isinstance(block, Block):
+                yield from (name for what in (Names.FILE, Names.DECK) for _, name in names_given(block, what))
+            else:
+                yield from _in_lines(text, lines)
+
+
+def _in_lines(text: str, block: RawBlock) -> Iterator[str]:
+    for leaf in block.leaves:
+        if leaf.kind is Kind.SETTING:
+            groups = read_line(text, leaf.span).groups
+            yield from (group.fields[0].text for group in groups if group.key in _KEYS and group.fields)
+
+
+# ------------------------------------------------------------------------------------------------ the text of each deck
+
+
+@dataclass(frozen=True, slots=True)
+class PlannedDeck:
+    """A deck to write: its path with `/` in the output folder, and its description.
+
+    `variations` are the names of those combined in it, `values` its varied parameters as they will be written.
+    """
+
+    path: str
+    description: str
+    variations: Sequence[str]
+    values: Mapping[str, str]
+    actions: Sequence[Action] = field(default=(), repr=False)
+
+    __repr__ = short_repr
+
+
+class Rewriter:
+    """Makes the decks of a source that was read from text."""
+
+    def __init__(self, deck: Deck, targets: Targets) -> None:
+        self.deck = deck
+        self.targets = targets
+        origin = cast("TextOrigin", deck.origin)
+        self.source = origin.source
+        self.tree = origin.tree
+        self._left_out = frozenset(
+            (index, number)
+            for index, section in enumerate(self.tree.sections)
+            if section.name == "PREPROCESSOR"
+            for number, block in enumerate(section.blocks)
+            if (declared := catalogue.block_class(section.name, block.name)) and declared.facts.plans_decks
+        )
+
+    def content(self, planned: PlannedDeck) -> bytes:
+        """A new deck, in the form of its path's suffix."""
+        content = edited_bytes(self.source, self.edits(planned))
+        form = form_of(planned.path)
+        if form == "keyword":
+            return content
+        read = read_source(Source.from_bytes(content, self.deck.file), units=self.deck.units)
+        return dump(replace(read, source=planned.path.rpartition("/")[2]), form).encode()
+
+    def edits(self, planned: PlannedDeck) -> list[TextEdit]:
+        """What is changed in the text of the source."""
+        edits: list[TextEdit] = []
+        for name, text in planned.values.items():
+            target = self.targets.target(name)
+            if text != target.text:
+                edits.append(TextEdit(target.span, text))
+        gone = set(self._left_out)
+        for action in planned.actions:
+            if isinstance(action, Removal):
+                gone |= action.blocks
+            else:
+                edits.append(self._insertion(action.section, action.text))
+        edits += (TextEdit(self._lines_of(*place), "") for place in sorted(gone))
+        return edits
+
+    def _lines_of(self, section: int, number: int) -> Span:
+        """A block without the comments and blank lines behind it, which belong to what follows."""
+        block = self.tree.sections[section].blocks[number]
+        return Span(block.head.span.start, self._end(section, block))
+
+    def _insertion(self, section: int, text: str) -> TextEdit:
+        """Lines inserted after the last ones of a section that are not a comment."""
+        raw = self.tree.sections[section]
+        head = cast("Leaf", raw.head)
+        at = self._end(section, raw.blocks[-1]) if raw.blocks else max(leaf.span.end for leaf in (head, *raw.leaves))
+        lacks_end = not self.source.unified.endswith("\n", 0, at)
+        return TextEdit(Span(at, at), f"\n{text}" if lacks_end else text)
+
+    def _end(self, section: int, block: RawBlock) -> int:
+        declared = catalogue.block_class(self.tree.sections[section].name, block.name)
+
+        def is_data(leaf: Leaf) -> bool:
+            if leaf.kind is Kind.UNDECIDED:
+                return declared is None or first_key(self.source.unified, leaf.span) in all_keys(declared)
+            return leaf.kind not in (Kind.COMMENT, Kind.BLANK)
+
+        return max(leaf.span.end for leaf in (block.head, *block.leaves) if leaf is block.head or is_data(leaf))
+
+
+@dataclass(frozen=True, slots=True)
+class ExpansionPlan:
+    """The decks in the order of `*COMBINATIONS`, and the rewriter that makes their texts.
+
+    `source` is the name of the file that they come from, `notes` are remarks for a reader. `companions` are files
+    beside the source that the new decks name too.
+    """
+
+    source: str
+    decks: Sequence[PlannedDeck]
+    rewriter: Rewriter
+    notes: Sequence[str] = ()
+    companions: Sequence[str] = ()
+
+    __repr__ = short_repr
+
+    def content(self, planned: PlannedDeck) -> bytes:
+        """The content of a planned deck."""
+        return self.rewriter.content(planned)
+
+
+# ------------------------------------------------------------------------------------------------------ what is written
+
+
+FORMAT = "mudline-expand/1"
+MANIFEST = "manifest.json"
+"""The file's name in the output folder."""
+
+
+def manifest_text(source: str, decks: Iterable[PlannedDeck]) -> str:
+    """The list of the new decks as JSON text: the same for the same deck, whenever and wherever it is written."""
+    listed = [
+        {
+            "file": deck.path,
+            "description": deck.description,
+            "variations": list(deck.variations),
+            "parameters": dict(deck.values),
+        }
+        for deck in decks
+    ]
+    manifest = {"format": FORMAT, "source": source, "decks": listed}
+    return json.dumps(manifest, indent=1, ensure_ascii=False) + "\n"
+
+
+def conflicts(folder: Path, planned: ExpansionPlan, *, force: bool) -> list[str]:
+    """Why files of a plan may not be written into a folder, as messages; `force` lets files be overwritten.
+
+    Links are not followed out of the folder, and files that the run reads are never overwritten.
+    """
+    try:
+        return list(_conflicts(folder, planned, force=force))
+    except (OSError, ValueError) as error:
+        return [f"{folder.as_posix()}: cannot be inspected: {str(error).lower()}"]
+
+
+def lacking(folder: Path, planned: ExpansionPlan) -> list[str]:
+    """The files that the new decks name and that one of them would not find."""
+    parents = {(folder / deck.path).parent for deck in planned.decks} if planned.companions else set()
+    return [
+        name
+        for name in planned.companions
+        if not all(os.path.exists(parent / name) for parent in parents)  # noqa: PTH110 - Path raises where it may not look
+    ]
+
+
+def _conflicts(folder: Path, planned: ExpansionPlan, *, force: bool) -> Iterator[str]:
+    if folder.exists() and not folder.is_dir():
+        yield f"{folder.as_posix()}: is a file: expected a folder for the decks"
+        return
+    root = os.path.realpath(folder)
+    inside: dict[Path, bool] = {}
+    for name in (*(deck.path for deck in planned.decks), MANIFEST):
+        path = folder / name
+        if path.parent not in inside:
+            inside[path.parent] = os.path.commonpath([root, os.path.realpath(path.parent)]) == root
+        if not inside[path.parent]:
+            yield f"{path.as_posix()}: a link in its path leads out of the folder"
+        elif os.path.lexists(path):
+            yield from _there(path, force=force)
+        elif (file := _file_above(folder, path)) is not None:
+            yield f"{path.as_posix()}: {file.as_posix()} is a file, not a folder"
+
+
+def _there(path: Path, *, force: bool) -> Iterator[str]:
+    """What is wrong with a path that exists."""
+    if path.is_symlink() or not path.is_file():
+        yield f"{path.as_posix()}: exists already and is not a regular file: it is not overwritten"
+    elif is_read(path):
+        yield f"{path.as_posix()}: this run reads the file, which is not overwritten"
+    elif not force:
+        yield f"{path.as_posix()}: exists already: --force overwrites it"
+
+
+def _file_above(folder: Path, path: Path) -> Path | None:
+    """A file where a folder is needed."""
+    above = (parent for parent in path.parents if parent != folder and folder in parent.parents)
+    return next((parent for parent in above if parent.exists() and not parent.is_dir()), None)

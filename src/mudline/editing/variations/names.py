@@ -1,0 +1,188 @@
+"""Names in `*VARIATION` and `*COMBINATIONS`: how they compare, and which of them are undefined."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Iterator
+from typing import TYPE_CHECKING, cast
+
+from mudline.basics.spelling import Effort, nearest
+from mudline.language.codes.lines import SYN009, SYN010
+from mudline.language.codes.references import REF001, REF013
+from mudline.language.deck.model import Deck, Opaque
+from mudline.language.deck.parameters import DEFINING, PLACEHOLDER, Parameters, folded
+from mudline.language.diagnostics import Problem, Severity, Where
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.text import hint, shown, suggestion
+from mudline.language.keywords.unknown import is_unknown, known_name
+from mudline.language.syntax.tree import canonical_name
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.combinations import Combinations
+    from mudline.language.keywords.library.parameters import Parameters as ParameterBlock
+    from mudline.language.keywords.library.variation import Variation, VariedBlock
+
+
+def unquoted(text: str) -> str:
+    """A text without the double quotes around it."""
+    return text[1:-1] if len(text) > 1 and text[0] == text[-1] == '"' else text
+
+
+def name_key(name: str) -> str:
+    """The name of a variation as names compare."""
+    return folded(" ".join(unquoted(name).split()))
+
+
+def placeholders(template: str) -> list[str]:
+    """The names between `%` in a template, in their order."""
+    return [match[1].strip(" \t") for match in PLACEHOLDER.finditer(template)]
+
+
+def filled(template: str, value_of: Callable[[str], str]) -> str:
+    """A template with every `%name%` replaced by what `value_of` says of the name."""
+    return PLACEHOLDER.sub(lambda match: value_of(match[1].strip(" \t")), template)
+
+
+def undefined_parameter(name: str, known: Iterable[str], effort: Effort, where: Where) -> Problem:
+    """A parameter that is not among the known ones."""
+    near = suggestion(name, known, effort)
+    return Problem(REF013, f"parameter {shown(name)} is not defined{near}: define it in *PARAMETERS", where=where)
+
+
+def undefined_variation(name: str, known: Iterable[str], effort: Effort, where: Where) -> Problem:
+    """A variation that is not among the known ones; their names are without quotes."""
+    name = unquoted(name)
+    near = suggestion(name, known, effort)
+    return Problem(REF001, f"there is no variation {shown(name)}{near}: define it in *VARIATION", where=where)
+
+
+# ------------------------------------------------------------------------------------------------------ in any deck
+
+_Named = tuple[str, Where]
+"""A name, and where it stands."""
+
+
+def may_vary(deck: Deck) -> bool:
+    """Whether a deck has a section in which variations and their names may stand."""
+    return any(section.name == DEFINING for section in deck.sections)
+
+
+def undefined_parameters(deck: Deck) -> Iterator[Problem]:
+    """Parameters in PARA= or as `%name%` in a folder or file name that `*PARAMETERS` does not define."""
+    named = [*_varied(deck), *_in_names(deck)]
+    known = _parameters(deck) if named else None
+    effort = Effort()
+    for name, where in named:
+        if known is not None and folded(name) not in known:
+            yield undefined_parameter(name, known.values(), effort, where)
+
+
+def undefined_variations(deck: Deck) -> Iterator[Problem]:
+    """Variations in VARIATIONS= that no `*VARIATION` defines; `*EXCEL VARIATIONS`, not read, may define any."""
+    called = list(_called(deck))
+    present = deck.keywords(DEFINING)
+    if not called or "EXCEL VARIATIONS" in present or _unsure(deck, "VARIATION"):
+        return
+    variations = [known_name(variation.name) for _, block in _variations(deck) for variation in block.variations]
+    if None in variations:
+        return
+    known = {name_key(name): unquoted(name) for name in variations if name is not None}
+    effort = Effort()
+    for name, where in called:
+        if name_key(name) not in known and name_key(name) != "all":
+            yield undefined_variation(name, known.values(), effort, where)
+
+
+def misspelt_keywords(deck: Deck) -> Iterator[Problem]:
+    """Warn of an unknown keyword in KEYWORD= of an action whose spelling is close to a known one."""
+    effort = Effort()
+    for varied, where in _actions(deck):
+        words = cast("list[str] | None", varied.keyword) or ()
+        name = canonical_name("*" + ",".join(map(unquoted, words)))
+        if near := _similar(name, catalogue.keywords(), effort):
+            message = f"keyword *{name} is not known{hint(near)}: correct it"
+            yield Problem(SYN009, message, None, Severity.WARNING, where.inside("keyword", 0))
+
+
+def misspelt_sections(deck: Deck) -> Iterator[Problem]:
+    """Warn of an unknown section in SECTION= of an action whose spelling is close to a known one."""
+    effort = Effort()
+    for varied, where in _actions(deck):
+        name = canonical_name("$" + unquoted(varied.section or "").removeprefix("$"))
+        if near := _similar(name, catalogue.SECTIONS, effort):
+            message = f"section ${name} is not known{hint(near)}: correct it"
+            yield Problem(SYN010, message, None, Severity.WARNING, where.inside("section"))
+
+
+def _similar(name: str, known: Collection[str], effort: Effort) -> str:
+    """The known name that is close to an unknown one, or ""."""
+    return "" if not name or name in known else nearest(name, known, effort)
+
+
+def _actions(deck: Deck) -> Iterator[tuple[VariedBlock, Where]]:
+    for where, block in _variations(deck):
+        for i, variation in enumerate(block.variations):
+            for j, varied in enumerate(variation.blocks):
+                yield varied, where.inside("variations", i, "blocks", j)
+
+
+def _variations(deck: Deck) -> Iterable[tuple[Where, Variation]]:
+    return deck.blocks("VARIATION", DEFINING)
+
+
+def _combinations(deck: Deck) -> Iterable[tuple[Where, Combinations]]:
+    return deck.blocks("COMBINATIONS", DEFINING)
+
+
+def _varied(deck: Deck) -> Iterator[_Named]:
+    """The parameters that vary."""
+    for where, block in _variations(deck):
+        for i, variation in enumerate(block.variations):
+            for j, varied in enumerate(variation.parameters):
+                if known_name(varied.parameter) is not None:
+                    place = where.inside("variations", i, "parameters", j, "parameter")
+                    yield unquoted(varied.parameter), place
+
+
+def _in_names(deck: Deck) -> Iterator[_Named]:
+    """The parameters in names of folders and files."""
+    for where, block in _combinations(deck):
+        given = [(block.directory, where.inside("directory"))]
+        for i, combination in enumerate(block.combinations):
+            place = where.inside("combinations", i)
+            given.append((combination.subdirectory, place.inside("subdirectory")))
+            given.append((combination.filename, place.inside("filename")))
+        for text, place in given:
+            yield from ((name, place) for name in placeholders(unquoted(text or "")))
+
+
+def _called(deck: Deck) -> Iterator[_Named]:
+    """The variations that combinations call."""
+    for where, block in _combinations(deck):
+        for i, combination in enumerate(block.combinations):
+            for j, line in enumerate(combination.variations):
+                for number, name in enumerate(cast("list[str] | None", line.names) or ()):
+                    yield name, where.inside("combinations", i, "variations", j, "names", number)
+
+
+def _parameters(deck: Deck) -> dict[str, str] | None:
+    """Names of parameters by their folded form; None where a line that could not be read may define more."""
+    blocks: Iterable[tuple[Where, ParameterBlock]] = deck.blocks("PARAMETERS", DEFINING)
+    listed = [parameter for _, block in blocks for parameter in block.parameters]
+    unread = any(is_unknown(parameter.name) for parameter in listed)
+    if unread or _unsure(deck, "PARAMETERS"):
+        return None
+    defined = {key: found.name for key, found in Parameters(deck).definitions.items()}
+    without_value = [parameter.name for parameter in listed if is_unknown(parameter.value)]
+    return {folded(name): name for name in without_value} | defined
+
+
+def _unsure(deck: Deck, keyword: str) -> bool:
+    """Whether a line of a keyword could not be used, or a block with a misspelt name may be meant for one."""
+    for i, section in enumerate(deck.sections):
+        for j, block in enumerate(section.blocks):
+            if block.keyword == keyword and section.name == DEFINING:
+                if deck.origin.lost(i, j):
+                    return True
+            elif isinstance(block, Opaque) and nearest(block.keyword, [keyword]):
+                return True
+    return False

@@ -1,0 +1,18 @@
+"""Codes that lint's rules and the warnings of an evaluated deck share, and those that such warnings alone have.
+
+The pages of the shared ones are the docstrings of their rules.
+RUN003 to RUN005 are no rules: they depend on positions.
+"""
+
+from __future__ import annotations
+
+from mudline.language.diagnostics import Code, Severity
+
+REF003 = Code("REF003", "unused-curve", Severity.WARNING)
+SBD006 = Code("SBD006", "no-vertical-restraint", Severity.WARNING)
+SBD017 = Code("SBD017", "curve-named-as-number", Severity.WARNING)
+SBD025 = Code("SBD025", "law-without-effect", Severity.WARNING)
+GEO005 = Code("GEO005", "not-on-the-seabed", Severity.WARNING)
+RUN003 = Code("RUN003", "no-equilibrium", Severity.WARNING)
+RUN004 = Code("RUN004", "floating-pipe", Severity.WARNING)
+RUN005 = Code("RUN005", "rigid-reaction", Severity.WARNING)

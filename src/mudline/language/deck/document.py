@@ -1,0 +1,366 @@
+"""A deck as a document of plain values, the form behind JSON and YAML, and back; the JSON Schema of that form."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from typing import Any
+
+from pydantic import BaseModel, TypeAdapter, ValidationError
+from pydantic.json_schema import models_json_schema
+
+from mudline.basics.quantities import UNIT_SYSTEMS
+from mudline.language.deck import MARK
+from mudline.language.deck.faults import DocumentPath, Faults, Locate, document_path, refusal, shown
+from mudline.language.deck.model import START, Deck, Opaque, Origin, Range, Section
+from mudline.language.deck.reading import Findings
+from mudline.language.deck.respelling import respelt
+from mudline.language.diagnostics import Problem, Severity, Where
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.keeping import is_read
+from mudline.language.keywords.model import Block, Comment
+from mudline.language.keywords.reader import read_block
+from mudline.language.keywords.table import AS_TABLES
+from mudline.language.keywords.text import hint
+from mudline.language.keywords.values import Text
+from mudline.language.keywords.writer import block_lines
+from mudline.language.syntax.source import Source
+from mudline.language.syntax.tree import Kind, Leaf, canonical_name, mark_of, parse
+
+FORMAT = f"{MARK}1"
+
+Document = dict[str, Any]
+
+
+def to_document(deck: Deck) -> Document:
+    """The deck as dicts and lists, its tables as listings; empty things are left out.
+
+    A file name that is not UTF-8 is escaped: JSON and YAML cannot hold its bytes.
+    """
+    source = deck.source.encode("utf-8", "backslashreplace").decode()
+    document: Document = {"format": FORMAT, "source": source, "units": deck.units}
+    if deck.preamble:
+        document["preamble"] = deck.preamble
+    document |= _comments(deck.comments)
+    document["sections"] = [_section(section) for section in deck.sections]
+    return document
+
+
+def _section(section: Section) -> Document:
+    document: Document = {"name": section.name} | _comments(section.comments)
+    if section.lines:
+        document["lines"] = section.lines
+    document["blocks"] = [_block(block) for block in section.blocks]
+    return document
+
+
+def _block(block: Block | Opaque) -> Document:
+    values = block.model_dump(exclude={"keyword"}, exclude_unset=True, context=AS_TABLES)
+    return {"keyword": block.keyword, **values}
+
+
+def _comments(comments: list[Comment]) -> Document:
+    return {"comments": [comment.model_dump() for comment in comments]} if comments else {}
+
+
+class DocumentOrigin(Origin):
+    """Where the values of a deck are in a JSON or YAML text. A document is whole or refused."""
+
+    def __init__(self, locate: Locate) -> None:
+        self.locate = locate
+
+    def place(self, problem: Problem) -> Range:
+        """Lines and columns of a problem."""
+        if problem.where is None:
+            return START
+        section, block, path = problem.where
+        if path[:1] == ("lines",):  # a piece of a line has no place of its own
+            path = path[:2]
+        elif path[-3:-2] == ("text",):
+            path = path[:-2]
+        return self.locate(document_path(Where(section, block, path)))
+
+
+def decoded(data: bytes, file: str, form: str) -> str:
+    """The text of a JSON or YAML file; raises DeckError when it is not UTF-8."""
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        before = Source("", error.object[: error.start].decode())
+        line, column = before.position(len(before.text))
+        message = f"byte 0x{error.object[error.start]:02X} is not UTF-8, which {form} has to be: save the file as UTF-8"
+        raise refusal(file, message, Range(line, column, line, column + 1)) from error
+
+
+def from_document(document: object, file: str, locate: Locate) -> Deck:
+    """The deck of a document; raises DeckError with the path and place of everything that breaks the schema."""
+    return _Reader(document, file, locate).read()
+
+
+@cache
+def _adapter(wanted: Any) -> TypeAdapter[Any]:
+    return TypeAdapter(wanted)
+
+
+class _Reader:
+    def __init__(self, document: object, file: str, locate: Locate) -> None:
+        self.document = document
+        self.faults = Faults(file, locate, document)
+        self.deck = Deck(file, origin=DocumentOrigin(locate))
+        self.findings = Findings(self.deck.problems)
+
+    def read(self) -> Deck:
+        document = self._format()
+        deck = self.deck
+        self._only(document, ("format", "source", "units", "preamble", "comments", "sections"), ())
+        deck.source = self._checked(str, document.get("source", ""), ("source",), "")
+        deck.units = document.get("units", "user")
+        if deck.units not in UNIT_SYSTEMS:
+            self.faults.add(("units",), f"expected one of {', '.join(UNIT_SYSTEMS)}, found {shown(deck.units)}")
+        deck.preamble = self._lines(document.get("preamble", []), ("preamble",), "$")
+        if deck.preamble:
+            self._stray(deck.preamble, "before the first section", Where(path=("preamble",)))
+        deck.comments = self._checked(list[Comment], document.get("comments", []), ("comments",), [])
+        sections = document.get("sections")
+        if isinstance(sections, list):
+            for index, given in enumerate(sections):
+                deck.sections.append(self._section(given, index))
+        else:
+            self.faults.add(("sections",), "expected a list of sections")
+        self.faults.raise_any()
+        normalise_comments(deck)
+        self.faults.raise_respelt(deck)
+        return deck
+
+    def _format(self) -> dict[str, Any]:
+        if isinstance(self.document, dict):
+            found = self.document.get("format")
+            if found == FORMAT:
+                return self.document
+            self.faults.add(("format",), f"expected {FORMAT!r}, found {shown(found)}")
+        else:
+            found = type(self.document).__name__
+            self.faults.add((), f"expected an object whose format is {FORMAT!r}, found {found}")
+        self.faults.raise_any()
+        raise AssertionError
+
+    def _only(self, given: dict[str, Any], known: tuple[str, ...], path: DocumentPath) -> None:
+        for key in given:
+            if key not in known:
+                self.faults.add((*path, key), f"unknown key: expected {', '.join(known)}")
+
+    def _checked(self, wanted: Any, value: object, path: DocumentPath, otherwise: Any) -> Any:
+        """The value as a type; `otherwise` when it is none."""
+        try:
+            return _adapter(wanted).validate_python(value, strict=True)
+        except ValidationError as error:
+            self.faults.extend(path, error)
+            return otherwise
+
+    def _lines(self, value: object, path: DocumentPath, openers: str) -> list[str]:
+        """Raw lines, none of which opens a section or a block."""
+        lines: list[str] = self._checked(list[Text], value, path, [])
+        for index, line in enumerate(lines):
+            mark = mark_of(line)
+            if mark and mark in openers:
+                self.faults.add((*path, index), f"a line that begins with {mark} opens a section or a block")
+        return lines
+
+    def _stray(self, lines: list[str], words: str, where: Where) -> tuple[list[str], list[str]]:
+        """Report lines under no keyword or in no section; data lines, and the texts of comments."""
+        text = "\n".join(lines)
+        tree = parse(Source("", text)).preamble
+
+        def place(leaf: Leaf) -> Where:
+            return where._replace(path=(*where.path, text.count("\n", 0, leaf.span.start)))
+
+        def inner(leaf: Leaf) -> list[str]:
+            return text[slice(*leaf.span)].removesuffix("\n").split("\n")
+
+        data = [leaf for leaf in tree.leaves if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
+        stray = [line for leaf in data for line in inner(leaf)]
+        if data:
+            self.findings.stray(len(stray), words, None, place(data[0]))
+        for block in tree.blocks:
+            self.findings.before_sections(block.name, None, place(block.head))
+        return stray, [inner(leaf)[0][1:] for leaf in tree.leaves if leaf.kind is Kind.COMMENT]
+
+    def _section(self, given: object, index: int) -> Section:
+        path: DocumentPath = ("sections", index)
+        section = Section("")
+        if not isinstance(given, dict):
+            self.faults.add(path, "expected a section: an object with name and blocks")
+            return section
+        self._only(given, ("name", "lines", "comments", "blocks"), path)
+        section.name = canonical_name("$" + self._checked(Text, given.get("name"), (*path, "name"), ""))
+        section.lines = self._lines(given.get("lines", []), (*path, "lines"), "$*")
+        section.comments = self._checked(list[Comment], given.get("comments", []), (*path, "comments"), [])
+        if section.name not in catalogue.SECTIONS:
+            self.findings.unknown_section(section.name, Where(index))
+        if section.lines:
+            section.lines, texts = self._stray(section.lines, f"of ${section.name}", Where(index, -1, ("lines",)))
+            section.comments[:0] = [Comment(before=0, text=text) for text in texts]
+        blocks = given.get("blocks")
+        if not isinstance(blocks, list):
+            self.faults.add((*path, "blocks"), "expected a list of blocks")
+            return section
+        for number, block in enumerate(blocks):
+            read = self._block(section.name, block, (*path, "blocks", number))
+            if isinstance(read, Opaque):
+                read = self._with_model(read, section, Where(index, number, ("lines",)))
+            elif read is not None and not is_read(read):
+                lines = [*block_lines(read)][1:]
+                read = self._with_model(Opaque(keyword=read.keyword, lines=lines), section, Where(index, number))
+            if read is not None:
+                section.blocks.append(read)
+        return section
+
+    def _with_model(self, block: Opaque, section: Section, where: Where) -> Block | Opaque:
+        """The model that raw lines describe, as keyword text is read, if their keyword has one.
+
+        `where` is the block, or the lines in it if the document has it as these.
+        """
+        declared = catalogue.block_class(section.name, block.keyword)
+        if declared is None:
+            self.findings.no_model(block.keyword, section.name, where._replace(path=()))
+            return block
+        source = Source("", "\n".join(["$S", f"*{block.keyword}", *block.lines, ""]))
+        raw = parse(source).sections[0].blocks[0]
+        read = read_block(source.text, raw, declared, last=False)
+        if read.opaque:
+            self.findings.no_model(block.keyword, section.name, where._replace(path=()))
+        for problem in read.problems:
+            line = source.position(problem.span.start)[0] if problem.span else 0
+            inside = where.inside(max(line - 3, 0)) if where.path else where
+            if problem.weight is Severity.ERROR:
+                self.faults.add(document_path(inside), problem.message)
+            else:
+                self.deck.problems.append(replace(problem, span=None, where=inside, repair=None))
+        if read.opaque:
+            return block
+        section.comments[:0] = [Comment(before=where.block + 1, text=text) for text in read.trailing]
+        return read.model
+
+    def _block(self, section: str, given: object, path: DocumentPath) -> Block | Opaque | None:
+        if not isinstance(given, dict) or not isinstance(given.get("keyword"), str):
+            self.faults.add(path, "expected a block: an object with its keyword")
+            return None
+        declared = None if "lines" in given else catalogue.block_class(section, given["keyword"])
+        if declared is None and "lines" not in given:
+            message = f"*{given['keyword']} in ${section} has no model: expected its raw lines under `lines`"
+            meant = catalogue.meant_in(given["keyword"], section)
+            declared = catalogue.block_class(section, meant) if meant else None
+            if declared is None:
+                self.faults.add(path, message)
+                return None
+            self.faults.respell((*path, "keyword"), f"{message}{hint(meant)}")
+            given = {**given, "keyword": meant}
+        try:
+            if declared:
+                return declared.model_validate(given)
+            block = Opaque.model_validate(given)
+        except ValidationError as error:
+            if declared and (found := respelt(given, declared, error)):
+                for inner, message in found.faults:
+                    self.faults.respell((*path, *inner), message)
+                return found.block
+            self.faults.extend(path, error)
+            return None
+        block.keyword = canonical_name("*" + block.keyword)
+        self._lines(block.lines, (*path, "lines"), "$*")
+        return block
+
+
+def normalise_comments(deck: Deck) -> None:
+    """Move comments so that they belong to what keyword text gives them to; what is written of the deck is the same.
+
+    Before the first section they are lines of the preamble, behind a block without a model they are lines of it, and
+    at the end of a section they stand before the next one. An index beyond the last item means behind it.
+    """
+    waiting = sorted(deck.comments, key=lambda comment: comment.before)[::-1]
+    deck.comments = []
+    while waiting and (waiting[-1].before == 0 or not deck.sections):
+        deck.preamble.append(f"C{waiting.pop().text}")
+    for number, section in enumerate(deck.sections, 1):
+        following = _normalise_section(section)
+        while waiting and (waiting[-1].before <= number or number == len(deck.sections)):
+            following.append(waiting.pop().text)
+        last = section.blocks[-1] if section.blocks else None
+        if last is None:
+            section.comments += [Comment(before=0, text=text) for text in following]
+        elif isinstance(last, Opaque):
+            last.lines += [f"C{text}" for text in following]
+        else:
+            deck.comments += [Comment(before=number, text=text) for text in following]
+
+
+def _normalise_section(section: Section) -> list[str]:
+    """The texts of the comments behind the last block."""
+    following: list[str] = []
+    comments = sorted(section.comments, key=lambda comment: comment.before)
+    section.comments = []
+    for comment in comments:
+        before = min(comment.before, len(section.blocks))
+        owner = section.blocks[before - 1] if before else None
+        if before and before == len(section.blocks):
+            following.append(comment.text)
+        elif isinstance(owner, Opaque):
+            owner.lines.append(f"C{comment.text}")
+        else:
+            section.comments.append(Comment(before=before, text=comment.text))
+    return following
+
+
+DIALECT = "https://json-schema.org/draft/2020-12/schema"
+_REFERENCE = "#/$defs/{model}"
+
+
+def json_schema() -> dict[str, Any]:
+    """The schema: document, sections, every block with a model, the block without one.
+
+    In which section a keyword belongs is left to reading, as a deck may hold a keyword in the wrong one.
+    """
+    blocks = [catalogue.load(module) for module in catalogue.modules()]
+    models: list[type[BaseModel]] = [*blocks, Opaque, Comment]
+    made, schema = models_json_schema([(model, "validation") for model in models], ref_template=_REFERENCE)
+    references = {model: made[model, "validation"] for model in models}
+    for block in blocks:
+        definition = schema["$defs"][references[block]["$ref"].rsplit("/", 1)[1]]
+        definition["required"] = sorted({"keyword", *definition.get("required", [])})
+        definition["description"] = block.summary
+    comments = {"type": "array", "items": references[Comment]}
+    line = TypeAdapter(Text).json_schema()
+    lines = {"type": "array", "items": line}
+    section = _object(
+        {
+            "name": {**line, "description": "section name without the $"},
+            "lines": {**lines, "description": "stray lines before the first keyword"},
+            "comments": comments,
+            "blocks": {
+                "type": "array",
+                "items": {"anyOf": [references[model] for model in models if model is not Comment]},
+            },
+        },
+        required=("name", "blocks"),
+    )
+    document = _object(
+        {
+            "format": {"const": FORMAT},
+            "source": {"type": "string", "description": "name of the file that the deck was read from"},
+            "units": {"enum": list(UNIT_SYSTEMS)},
+            "preamble": {**lines, "description": "lines before the first section"},
+            "comments": comments,
+            "sections": {"type": "array", "items": {"$ref": "#/$defs/Section"}},
+        },
+        required=("format", "sections"),
+    )
+    return {
+        "$schema": DIALECT,
+        "title": "mudline deck",
+        **document,
+        "$defs": {**schema["$defs"], "Section": section},
+    }
+
+
+def _object(properties: dict[str, Any], required: tuple[str, ...]) -> dict[str, Any]:
+    return {"type": "object", "properties": properties, "required": list(required), "additionalProperties": False}

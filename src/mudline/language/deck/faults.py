@@ -1,0 +1,193 @@
+"""What breaks the schema in a document: every fault with its path and its place in the file."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Sequence
+from typing import Any, NoReturn
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from mudline.basics.limits import MOST_REPORTED, SHOWN_LETTERS
+from mudline.language.codes import DOC001, DOC002
+from mudline.language.deck.model import START, Deck, Origin, Range
+from mudline.language.diagnostics import MORE, DeckError, Diagnostic, Problem, Span, Where
+from mudline.language.keywords.values import Equation, Label
+
+DocumentPath = tuple[str | int, ...]
+Locate = Callable[[DocumentPath], Range]
+
+
+def refusal(file: str, message: str, place: Range = START) -> DeckError:
+    """Why a text is not a document at all."""
+    return DeckError([Diagnostic(file, DOC001.code, DOC001.slug, DOC001.severity, message, *place)])
+
+
+def path_text(path: DocumentPath) -> str:
+    """A path as people write it: `sections[0].blocks[2].curves[0].points`."""
+    text = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)
+    return text.removeprefix(".") or "the document"
+
+
+def document_path(where: Where) -> DocumentPath:
+    """The path of a place in a document."""
+    section, block, path = where
+    start: DocumentPath = () if section < 0 else ("sections", section)
+    return (*start, *(() if block < 0 else ("blocks", block)), *path)
+
+
+def shown(value: object) -> str:
+    """A value of a document in a message, cut when long."""
+    if isinstance(value, dict | list):
+        return "an object" if isinstance(value, dict) else "a list"
+    text = repr(value[:SHOWN_LETTERS] if isinstance(value, str) else value)
+    return text if len(text) <= SHOWN_LETTERS else text[:SHOWN_LETTERS] + "..."
+
+
+_WANTED = {
+    "float_type": "a number",
+    "finite_number": "a finite number",
+    "int_type": "a whole number",
+    "int_from_float": "a whole number",
+    "string_type": "a text",
+    "list_type": "a list",
+    "model_type": "an object",
+    "model_attributes_type": "an object",
+}
+_FORMS = {Equation.form: "an equation =[...]", Label.form: "a {label}"}
+
+
+def _message(faults: list[ErrorDetails]) -> str:
+    """The faults of one value in a sentence: what any of its forms would need, then what else there is."""
+    wanted: list[str] = []
+    others: list[str] = []
+    for fault in faults:
+        match fault["type"]:
+            case "string_pattern_mismatch":
+                wanted.append(_FORMS.get(fault["ctx"]["pattern"], "a text without line ends"))
+            case "literal_error":
+                wanted.append(fault["ctx"]["expected"])
+            case "missing":
+                others.append("is missing")
+            case "extra_forbidden":
+                others.append("unknown key")
+            case kind if kind in _WANTED:
+                wanted.append(_WANTED[kind])
+            case _:
+                others.append(fault["msg"].removeprefix("Value error, "))
+    if wanted:
+        value = faults[0]["input"]
+        large = ", too large for double precision" if isinstance(value, int) and abs(value) > sys.float_info.max else ""
+        others.insert(0, f"expected {' or '.join(dict.fromkeys(wanted))}, found {shown(value)}{large}")
+    return "; or ".join(dict.fromkeys(others))
+
+
+class _Numbered(Origin):
+    """Places of problems whose span is the number of the place."""
+
+    def __init__(self, places: list[Range]) -> None:
+        self.places = places
+
+    def place(self, problem: Problem) -> Range:
+        return self.places[problem.span.start] if problem.span else START
+
+
+class MisspeltDeckError(DeckError):
+    """A document in which only names are misspelt; `meant` is the deck with those that were meant."""
+
+    def __init__(self, diagnostics: Sequence[Diagnostic], meant: Deck) -> None:
+        super().__init__(diagnostics)
+        self.meant = meant
+
+    def __reduce__(self) -> tuple[type[DeckError], tuple[tuple[Diagnostic, ...]]]:
+        return DeckError, (self.diagnostics,)
+
+
+class Faults:
+    """Collects the faults of a document; when there are too many, it is refused at once."""
+
+    def __init__(self, file: str, locate: Locate, document: object) -> None:
+        self.file = file
+        self.locate = locate
+        self.document = document
+        self.found: list[tuple[Range, str]] = []
+        self.respelt = 0
+
+    def add(self, path: DocumentPath, message: str) -> None:
+        """One fault; raises DeckError when it is one too many."""
+        if len(self.found) == MOST_REPORTED:
+            self.found.append((self.locate(path), MORE))
+            self._refuse()
+        self.found.append((self.locate(path), f"{path_text(path)}: {message}"))
+
+    def extend(self, path: DocumentPath, error: ValidationError) -> None:
+        """The faults of a model; of a choice between forms, those of the form that fits best."""
+        known: dict[DocumentPath, list[ErrorDetails]] = {}
+        placed = [((*path, *fault["loc"]), fault) for fault in error.errors(include_url=False)]
+        steps = {loc: self._alternatives(loc, len(path), fault["type"]) for loc, fault in placed}
+        unfit = _unfit(placed, steps)
+        for loc, fault in placed:
+            if all(loc[: step + 1] not in unfit for step in steps[loc]):
+                real = tuple(part for index, part in enumerate(loc) if index not in steps[loc])
+                known.setdefault(real, []).append(fault)
+        deepest = max(known, key=len)
+        around = {inner[:length] for inner in known for length in range(len(inner))}
+        for inner, faults in known.items():
+            if inner not in around or inner == deepest:
+                self.add(inner, _message(faults))
+
+    def respell(self, path: DocumentPath, message: str) -> None:
+        """A fault of spelling, in spite of which the rest is read as it was meant."""
+        self.respelt += 1
+        self.add(path, message)
+
+    def raise_any(self) -> None:
+        """DeckError when there were any, unless all are of spelling."""
+        if len(self.found) > self.respelt:
+            self._refuse()
+
+    def raise_respelt(self, meant: Deck) -> None:
+        """MisspeltDeckError when there were faults of spelling; `meant` is the deck without them."""
+        if self.found:
+            raise MisspeltDeckError(self._diagnosed(), meant)
+
+    def _refuse(self) -> NoReturn:
+        raise DeckError(self._diagnosed())
+
+    def _diagnosed(self) -> list[Diagnostic]:
+        places = [place for place, _ in self.found]
+        problems = [Problem(DOC002, message, Span(number, number)) for number, (_, message) in enumerate(self.found)]
+        return Deck(self.file, origin=_Numbered(places)).diagnose(problems)
+
+    def _alternatives(self, loc: DocumentPath, given: int, kind: str) -> set[int]:
+        """Which steps of a path, behind the given ones, are names of alternatives that pydantic puts in."""
+        found: set[int] = set()
+        value: Any = self.document
+        for index, part in enumerate(loc):
+            if _holds(value, part):
+                value = value[part]
+            elif isinstance(value, str) and isinstance(part, int):
+                pass  # a row or a cell of a table that is a text
+            elif index >= given and (kind != "missing" or index < len(loc) - 1):
+                found.add(index)
+        return found
+
+
+def _unfit(placed: list[tuple[DocumentPath, ErrorDetails]], steps: dict[DocumentPath, set[int]]) -> set[DocumentPath]:
+    """The alternatives whose mandatory key is missing, where another one has all of its mandatory keys."""
+    lacking: dict[DocumentPath, bool] = {}
+    for loc, fault in placed:
+        for step in steps[loc]:
+            below = [index for index in range(step + 1, len(loc)) if index not in steps[loc]]
+            wrong = not below or (len(below) == 1 and fault["type"] == "missing")
+            lacking[loc[: step + 1]] = wrong or lacking.get(loc[: step + 1], False)
+    choices = {inner[:-1] for inner, wrong in lacking.items() if not wrong}
+    return {inner for inner, wrong in lacking.items() if wrong and inner[:-1] in choices}
+
+
+def _holds(value: object, part: str | int) -> bool:
+    """Whether a document has something at a key or an index."""
+    if isinstance(value, dict):
+        return part in value
+    return isinstance(value, list) and isinstance(part, int) and part < len(value)

@@ -1,0 +1,60 @@
+"""A file in any form to a deck, and back."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
+from typing import cast
+
+from mudline.basics.limits import LARGEST_FILE
+from mudline.language.deck import forms
+from mudline.language.deck.faults import refusal
+from mudline.language.deck.forms import KEYWORD, form_of
+from mudline.language.deck.model import Deck
+from mudline.language.deck.reading import read_source
+from mudline.language.keywords.reader import BlockReader, read_block
+from mudline.language.syntax.source import Source
+
+
+def load_path(path: Path, name: str | None = None, *, form: str | None = None, units: str | None = None) -> Deck:
+    """The deck of a file; raises OSError, or DeckError for a JSON or YAML file that holds no deck."""
+    return load_bytes(path.read_bytes(), name or path.as_posix(), form=form, units=units, folder=path.parent)
+
+
+def load_bytes(
+    data: bytes,
+    name: str,
+    *,
+    form: str | None = None,
+    units: str | None = None,
+    folder: Path | None = None,
+    read: BlockReader = read_block,
+) -> Deck:
+    """The deck of a file's content. A keyword text never fails: what is wrong is in the deck's problems.
+
+    `folder` is where files that the deck names stand; without it none of them is looked for. `read` reads the blocks of
+    a keyword text.
+    """
+    form = form or form_of(name)
+    if form == KEYWORD:
+        source = Source.from_bytes(data, name)
+        del data  # where nobody else has it, its memory is free for the tables
+        deck = read_source(source, units=units, read=read)
+    else:
+        if len(data) > LARGEST_FILE:
+            raise refusal(name, f"more than {LARGEST_FILE} bytes: is this a deck? Write a large one as keyword text")
+        deck = cast("Deck", _form(form).read(data, name))
+        deck.units = units or deck.units
+    deck.folder = folder
+    return deck
+
+
+def dump(deck: Deck, form: str) -> str:
+    """The text of a deck in a form."""
+    return cast("str", _form(form).write(deck))
+
+
+def _form(form: str) -> ModuleType:
+    """The module of a form, imported when a file has it: keyword decks need neither JSON nor YAML."""
+    return import_module(f"{forms.__name__}.{form}")

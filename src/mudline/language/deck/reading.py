@@ -1,0 +1,413 @@
+"""Keyword text to a deck: sections, keywords, comments that belong to what follows them, and the unit system."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from pathlib import PurePath
+from typing import TYPE_CHECKING, cast
+
+from mudline.basics.limits import MOST_REPORTED
+from mudline.basics.short_repr import counted, short_repr
+from mudline.language.codes.fields import SYN002, SYN006
+from mudline.language.codes.lines import SYN007, SYN008, SYN009, SYN010, SYN011, SYN012, SYN014
+from mudline.language.deck.model import START, Deck, Opaque, Origin, Range, Section
+from mudline.language.deck.parameters import Parameters
+from mudline.language.diagnostics import MORE, Code, Problem, Severity, Span, Where
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.catalogue import meant_in, meant_section, suggest_keyword, words_behind
+from mudline.language.keywords.model import Comment
+from mudline.language.keywords.reader import BlockReader, ReadBlock, read_block
+from mudline.language.keywords.text import hint, instead
+from mudline.language.syntax.fields import trimmed
+from mudline.language.syntax.source import Source
+from mudline.language.syntax.tree import Kind, Leaf, RawBlock, RawSection, SyntaxTree, parse
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.ocean import Ocean
+    from mudline.language.keywords.library.units import Units
+
+
+_DATA = re.compile(r"[-+.,\d\s]+(?:[eEdD][-+]?\d+[-+.,\d\s]*)*$|\s*[A-Z][A-Z ]*=")
+"""A line of numbers, or a setting: no title."""
+
+
+_DEEPLINES = frozenset({"SOIL", "TRENCH"})
+"""Keywords of another program, whose columns are separated by blanks."""
+_NOT_READ = ("lines", "unread")
+"""The first step to a line that is not read: of a block without a model, or one that a model keeps."""
+_ENDS = 2
+_OF_EVERY_BLOCK = {"keyword", "comments"}
+
+
+class Findings:
+    """Adds to the problems of a deck; each method takes the place as a span of the text or as one among the values."""
+
+    def __init__(self, problems: list[Problem]) -> None:
+        self.problems = problems
+        self.reported: Counter[str] = Counter()
+
+    def unknown_section(self, name: str, where: Where, head: Span | None = None) -> None:
+        """A section that is not in the catalogue; `head` is its line in a text."""
+        if not self._reports(SYN010, None, where):
+            return
+        near = "" if catalogue.sections_of(name) else meant_section(name)
+        instead_ = f"*{name}" if catalogue.sections_of(name) else f"${near}" if near else ""
+        meant = f" (did you mean *{name}?)" if catalogue.sections_of(name) else _meant(name, near)
+        message = f"section ${name} is not known{meant}: it is passed through unchanged"
+        self._misspelt(SYN010, message, where, instead_, head)
+
+    def no_model(self, keyword: str, section: str, where: Where, head: Span | None = None) -> None:
+        """A block that is passed through: no finding if its keyword is known and allowed in the section.
+
+        `head` is its first line in a text.
+        """
+        sections = catalogue.sections_of(keyword)
+        if sections is None:
+            if self._reports(SYN009, None, where):
+                near = _suggested(keyword, section)
+                message = f"keyword *{keyword} is not known{_meant(keyword, near)}: it is passed through unchanged"
+                meant = f"*{near}" if near else ""
+                if keyword.startswith("*"):
+                    message = f"*{keyword[:40]} ends the block before it: begin a comment with C and a space"
+                    meant = f"C {keyword.lstrip('* ')}"
+                self._misspelt(SYN009, message, where, meant, head)
+        elif (
+            sections
+            and section not in sections
+            and section in catalogue.SECTIONS
+            and self._reports(SYN008, None, where)
+        ):
+            near = meant_in(keyword, section)
+            message = f"*{keyword} does not belong in ${section}{hint(near)}: it belongs in {_belongs(keyword)}"
+            repair = instead(f"*{near}", head) if head and near else None
+            certain = section in catalogue.CERTAIN_SECTIONS and (near or catalogue.has_certain_section(keyword))
+            self.problems.append(Problem(SYN008, message, None, None if certain else Severity.INFO, where, repair))
+
+    def _misspelt(self, code: Code, message: str, where: Where, meant: str, head: Span | None) -> None:
+        """A name that is not known, which is a warning where another one was meant."""
+        repair = instead(meant, head) if head else None
+        self.problems.append(Problem(code, message, None, Severity.WARNING if meant else None, where, repair))
+
+    def before_sections(self, keyword: str, span: Span | None = None, where: Where | None = None) -> None:
+        """A block before the first section."""
+        if self._reports(SYN007, span, where):
+            message = f"*{keyword} stands before any $SECTION: put it in its section, {_belongs(keyword)}"
+            self.problems.append(Problem(SYN007, message, span, None, where))
+
+    def stray(
+        self, count: int, place: str, span: Span | None = None, where: Where | None = None, *, title: bool = False
+    ) -> None:
+        """Data lines of a place under no keyword, the first of which is given: one finding for all of them.
+
+        `title` says that they are words above the first section, or of one that is not known: a note.
+        """
+        if self._reports(SYN011, span, where):
+            lines = counted(count, "line")
+            message = f"{lines} {place} under no keyword: not read; write a title as a comment, C and a space"
+            self.problems.append(Problem(SYN011, message, span, Severity.INFO if title else None, where))
+
+    def _reports(self, code: Code, span: Span | None, where: Where | None) -> bool:
+        """Whether one more finding of a code is reported: a file of another kind would have as many as it has lines."""
+        self.reported[code.code] += 1
+        count = self.reported[code.code]
+        if count == MOST_REPORTED + 1:
+            self.problems.append(Problem(code, MORE, span, None, where))
+        return count <= MOST_REPORTED
+
+
+@lru_cache(256)
+def _suggested(keyword: str, section: str) -> str:
+    """`suggest_keyword`, of keywords that stand in many decks, or in a deck that is read several times."""
+    return suggest_keyword(keyword, section)
+
+
+def _meant(name: str, near: str) -> str:
+    behind = ", with nothing after the name" if near and words_behind(name, near) else ""
+    return f" (did you mean {near}{behind}?)" if near else ""
+
+
+def _belongs(keyword: str) -> str:
+    sections = catalogue.sections_of(keyword)
+    return " or ".join(f"${name}" for name in sections) if sections else "such as $MODEL"
+
+
+@dataclass
+class TextOrigin(Origin):
+    """Where the values of a deck are in its text."""
+
+    tree: SyntaxTree
+    read: dict[tuple[int, int], ReadBlock] = field(default_factory=dict)
+    no_equations: bool = False
+
+    __repr__ = short_repr
+
+    @property
+    def source(self) -> Source:
+        """The text."""
+        return self.tree.source
+
+    def span(self, where: Where) -> Span | None:
+        """The span of a value, of its block or section where it has none."""
+        block = self.read.get((where.section, where.block))
+        if where.path and where.path[0] in _NOT_READ:
+            return self._not_read(where)
+        if block is not None and where.path:
+            return block.places.find(where.path)
+        return self.head(where)
+
+    def head(self, where: Where) -> Span | None:
+        """The line that begins the section or block of a place; None where there is none."""
+        sections = self.tree.sections
+        if not 0 <= where.section < len(sections):
+            return None
+        section = sections[where.section]
+        if where.block >= len(section.blocks):
+            return None
+        leaf = section.head if where.block < 0 else section.blocks[where.block].head
+        return trimmed(self.source.unified, *leaf.span) if leaf else None
+
+    def kept_lines(self, section: int, block: int) -> list[str]:
+        """The lines that a block keeps as they are, in the order of the file."""
+        text = self.source.unified
+        return [text[slice(*span)].rstrip("\r\n") for span in self._kept_spans(section, block)]
+
+    def _kept_spans(self, section: int, block: int) -> list[Span]:
+        return [self._line_at(start) for start in sorted(self.read[section, block].places.kept)]
+
+    def _line_at(self, start: int) -> Span:
+        end = self.source.unified.find("\n", start)
+        return Span(start, len(self.source.unified) if end < 0 else end)
+
+    def _not_read(self, where: Where) -> Span:
+        """The place of a line that is not read, by its number, or of a piece of it, by where that begins and ends."""
+        part, number, *piece = where.path
+        at = int(number)
+        if part == "unread":
+            line = self._kept_spans(where.section, where.block)[at]
+        else:
+            line = self._line_at(self.tree.sections[where.section].blocks[where.block].leaves[0].span.start)
+            for _ in range(at):
+                line = self._line_at(line.end + 1)
+        if len(piece) == _ENDS:
+            return Span(line.start + int(piece[0]), line.start + int(piece[1]))
+        return trimmed(self.source.unified, *line)
+
+    def place(self, problem: Problem) -> Range:
+        """Lines and columns of a problem."""
+        span = problem.span
+        if span is None and problem.where is not None:
+            span = self.span(problem.where)
+        if span is None:
+            return START
+        return Range(*self.source.position(span.start), *self.source.position(max(span.start, span.end)))
+
+    def lost(self, section: int, block: int) -> int:
+        """How many lines of a block could not be used at all."""
+        found = self.read.get((section, block))
+        return found.lost if found else 0
+
+    def written(self, where: Where) -> bool:
+        """Whether exactly this value stands in the file."""
+        block = self.read.get((where.section, where.block))
+        return block is not None and block.own.has(where.path)
+
+
+def read_source(source: Source, *, units: str | None = None, read: BlockReader = read_block) -> Deck:
+    """The deck of a keyword text, as far as it can be read; what was wrong is in its `problems`."""
+    reader = _Reader(parse(source), read)
+    return reader.read(units)
+
+
+def _own_name(path: str) -> str:
+    """The name of a file without its folder: what `PurePath` says, which takes long for each of many decks."""
+    name = path.rpartition("/")[2]
+    return PurePath(path).name if name in ("", ".") or "\\" in name or ":" in name else name
+
+
+class _Reader:
+    def __init__(self, tree: SyntaxTree, read: BlockReader) -> None:
+        self.tree = tree
+        self.read_block = read
+        self.text = tree.source.unified
+        self.origin = TextOrigin(tree)
+        self.problems: list[Problem] = list(tree.source.problems)
+        self.findings = Findings(self.problems)
+        self.deck = Deck(tree.source.name, _own_name(tree.source.name), origin=self.origin)
+
+    def read(self, units: str | None) -> Deck:
+        self._preamble()
+        for index, raw in enumerate(self.tree.sections):
+            self._section(index, raw)
+        self._truncated()
+        self._with_control_characters()
+        self.deck.problems = self.problems
+        self.deck.units = units or units_of(self.deck)
+        return self.deck
+
+    def _lines(self, span: Span) -> list[str]:
+        lines = self.text[slice(*span)].replace("\r\n", "\n").removesuffix("\n").split("\n")
+        return [line.removesuffix("\r") for line in lines]
+
+    def _preamble(self) -> None:
+        preamble = self.tree.preamble
+        if self.tree.source.readable:
+            self._stray(
+                preamble.leaves, "before the first section", title=bool(self.tree.sections) and not preamble.blocks
+            )
+        if other := self._of_deeplines():
+            place = trimmed(self.text, *other.head.span)
+            message = (
+                f"this seems to be a deck of DeepLines: it has *{other.name.split()[0]} and no $SECTION, and its "
+                "values are separated by blanks; mudline does not read such decks"
+            )
+            self.problems.append(Problem(SYN007, message, place))
+        for block in preamble.blocks if not other else ():
+            self.findings.before_sections(block.name, trimmed(self.text, *block.head.span))
+        first = self.tree.sections[0].head if self.tree.sections else None
+        end = first.span.start if first else len(self.text)
+        self.deck.preamble = self._lines(Span(0, end)) if end else []
+
+    def _of_deeplines(self) -> RawBlock | None:
+        """The first block that only decks of DeepLines have, in a text without sections and commas."""
+        blocks = self.tree.preamble.blocks if not self.tree.sections and "," not in self.text else []
+        return next((block for block in blocks if block.name.partition(" ")[0] in _DEEPLINES), None)
+
+    def _stray(self, leaves: list[Leaf], where: str, *, title: bool = False) -> None:
+        """One finding for all data lines of a place; where these may be a title, they are one if none is data."""
+        data = [leaf for leaf in leaves if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
+        if data:
+            first = data[0].span
+            end = self.text.find("\n", *first)
+            count = sum(len(self._lines(leaf.span)) for leaf in data)
+            place = trimmed(self.text, first.start, first.end if end < 0 else end)
+            title = title and not any(_DATA.match(line) for leaf in data for line in self._lines(leaf.span))
+            self.findings.stray(count, where, place, title=title)
+
+    def _section(self, index: int, raw: RawSection) -> None:
+        section = Section(raw.name)
+        self.deck.sections.append(section)
+        known = raw.name in catalogue.SECTIONS
+        if not known:
+            self.findings.unknown_section(raw.name, Where(index), self.origin.head(Where(index)))
+        self._stray(raw.leaves, f"of ${raw.name}", title=not known)
+        for leaf in raw.leaves:
+            line = self._lines(leaf.span)
+            if leaf.kind is Kind.COMMENT:
+                section.comments.append(Comment(before=0, text=line[0][1:]))
+            elif leaf.kind is not Kind.BLANK:
+                section.lines += line
+        for block in raw.blocks:
+            self._block(section, index, block)
+
+    def _block(self, section: Section, index: int, raw: RawBlock) -> None:
+        number = len(section.blocks)
+        declared = catalogue.block_class(section.name, raw.name)
+        if declared is None:
+            self._opaque(section, Where(index, number), raw)
+            return
+        tree = self.tree
+        final = tree.sections[-1].blocks
+        last = bool(final) and raw is final[-1]
+        read = self.read_block(self.text, raw, declared, last=last)
+        head = trimmed(self.text, *raw.head.span) if last and not raw.leaves else None
+        empty = head and not read.problems and head.end == len(self.text)
+        if empty and set(declared.model_fields) - _OF_EVERY_BLOCK:
+            message = f"the file ends after *{raw.name}: it seems to be cut off, add what is missing"
+            self.problems.append(Problem(SYN014, message, head, Severity.WARNING))
+        self.problems += read.problems
+        if read.opaque:
+            self._opaque(section, Where(index, number), raw)
+            return
+        self.origin.read[index, number] = read
+        section.blocks.append(read.model)
+        if read.trailing:
+            ends = raw is tree.sections[index].blocks[-1]
+            target = self.deck.comments if ends else section.comments
+            before = index + 1 if ends else number + 1
+            target += [Comment(before=before, text=text) for text in read.trailing]
+
+    def _opaque(self, section: Section, where: Where, raw: RawBlock) -> None:
+        lines = [line for leaf in raw.leaves for line in self._lines(leaf.span)]
+        section.blocks.append(Opaque(keyword=raw.name, lines=lines))
+        head = trimmed(self.text, *raw.head.span)
+        if head.end == len(self.text) and catalogue.begins_keyword(raw.name):
+            message = f"the file ends inside *{raw.name}: it seems to be cut off, add what is missing"
+            self.problems.append(Problem(SYN014, message, head))
+            return
+        self.findings.no_model(raw.name, section.name, where, head)
+
+    def _truncated(self) -> None:
+        """A fault in the very last token of a file without a last line end means that the file was cut."""
+        end = len(self.text.rstrip(" \t"))
+        if self.text.endswith("\n") or not self.problems:
+            return
+        for index, problem in enumerate(self.problems):
+            span = problem.span
+            unclosed = problem.code is SYN006
+            if span is None or problem.code not in (SYN002, SYN006) or (span.end != end and not unclosed):
+                continue
+            if unclosed and "\n" in self.text[span.start :]:
+                continue
+            piece = self.text[span.start : end]
+            if unclosed or piece[-1:] in "+-.eEdD" or piece in ("=", "=["):
+                message = f"the file ends inside {piece!r}: it seems to be cut off, add what is missing"
+                self.problems[index] = replace(problem, code=SYN014, message=message)
+
+    def _with_control_characters(self) -> None:
+        """A control character in a value that cannot be read is why: it is said there."""
+        for control in [one for one in self.problems if one.code is SYN012 and one.span]:
+            for index, problem in enumerate(self.problems):
+                span = problem.span
+                if problem.code is SYN002 and span and control.span and span.start <= control.span.start < span.end:
+                    self.problems[index] = replace(problem, message=f"{problem.message}; {control.message}")
+                    self.problems.remove(control)
+                    break
+
+
+_SUFFIXES = {".keyxm": "metric", ".keyxi": "imperial"}
+GRAVITIES = {"metric": 9.81, "imperial": 32.2}
+_NEAR = 0.02
+
+
+def units_of(deck: Deck) -> str:
+    """The system, "metric", "imperial" or "user": by suffix, else `*UNITS`, else the gravity of `*OCEAN` within 2 %.
+
+    A file of user units whose water has the density of water in t/m3 is not metric: its forces are in kN.
+    """
+    at = deck.source.rfind(".")  # a path would take longer, for each of many decks
+    suffix = deck.source[at:].lower() if at > 0 else ""
+    if suffix in _SUFFIXES:
+        return _SUFFIXES[suffix]
+    for _, block in deck.blocks("UNITS", "ANALYSIS"):
+        if units := cast("Units", block).units:
+            return units.lower()
+    gravity = gravity_of(deck)
+    system = next((name for name, g in GRAVITIES.items() if gravity and abs(gravity - g) <= _NEAR * g), "user")
+    return "user" if system == "metric" and suffix == ".keyx" and _is_in_tonnes(deck) else system
+
+
+_TONNES = (0.9, 1.3)
+"""Densities of water and brines in t/m3."""
+
+
+def _is_in_tonnes(deck: Deck) -> bool:
+    density = _of_ocean(deck, "density")
+    return density is not None and _TONNES[0] <= density <= _TONNES[1]
+
+
+def gravity_of(deck: Deck) -> float | None:
+    """Gravity of the last `*OCEAN` that gives one, evaluated; None when there is none."""
+    return _of_ocean(deck, "gravity")
+
+
+def _of_ocean(deck: Deck, name: str) -> float | None:
+    """A value of the last `*OCEAN` that gives it, evaluated; None when there is none."""
+    parameters = Parameters(deck)
+    found: float | None = None
+    for _, ocean in deck.blocks("OCEAN"):
+        value = parameters.number(getattr(cast("Ocean", ocean), name))
+        found = value if value is not None else found
+    return found

@@ -1,0 +1,371 @@
+"""The value of an equation: what its operators and functions do, and when they refuse.
+
+A part is evaluated by a generator that yields the parts whose values it needs, one after the other. So no depth of
+nesting can exhaust the interpreter's stack, and a part that is not asked for is not evaluated.
+
+The manual of the language names `if` and CONVERT and says that others exist; their list is not public. INFERRED: the
+functions here are the usual ones under their usual names, angles are radians, `log` is base 10 beside `ln` as in
+spreadsheets, `mod`, `int`, `round` and `atan2` follow Fortran. CONVERT is left out: how it is called is not public.
+"""
+
+from __future__ import annotations
+
+import math
+import operator as python
+import sys
+from collections.abc import Callable, Generator, Mapping, Sequence
+from dataclasses import dataclass
+from decimal import ROUND_HALF_UP, Context, Decimal
+from types import MappingProxyType
+from typing import Final, NamedTuple, assert_never, cast
+
+from mudline.basics.limits import LONGEST_TEXT
+from mudline.language.diagnostics import Span
+from mudline.language.expression.nodes import (
+    LEAVES,
+    Call,
+    Chain,
+    Comparison,
+    EvaluationError,
+    Expression,
+    Group,
+    Logical,
+    Name,
+    Node,
+    Number,
+    Power,
+    Prefix,
+    Text,
+    UndefinedName,
+    UnknownFunction,
+    shorten,
+)
+
+CONSTANTS: Final[Mapping[str, float]] = MappingProxyType({"pi": math.pi})
+"""Names that have a value when no parameter bears them; in lower case, and compared without case."""
+
+
+@dataclass(frozen=True, slots=True)
+class Form:
+    """How a function is called; `most` None means any number of arguments."""
+
+    name: str
+    least: int
+    most: int | None
+    meaning: str
+
+    @property
+    def wants(self) -> str:
+        """The number of arguments in words."""
+        if self.most is None:
+            return f"at least {_arguments(self.least)}"
+        if self.most > self.least:
+            return f"{self.least} or {_arguments(self.most)}"
+        return _arguments(self.least)
+
+    def takes(self, count: int) -> bool:
+        """Whether that many arguments are right."""
+        return self.least <= count and (self.most is None or count <= self.most)
+
+
+@dataclass(frozen=True, slots=True)
+class Function(Form):
+    """A function of numbers; `call` may raise ValueError, ZeroDivisionError or OverflowError, or return inf."""
+
+    call: Callable[..., float]
+
+
+def _arguments(count: int) -> str:
+    return "1 argument" if count == 1 else f"{count} arguments"
+
+
+def _log(x: float, base: float = 10.0) -> float:
+    return math.log10(x) if base == 10.0 else math.log(x, base)
+
+
+def _round(x: float, digits: float = 0.0) -> float:
+    if not digits.is_integer() or abs(digits) > 308:
+        raise ValueError(digits)
+    exact = Decimal(x)
+    return float(exact.quantize(Decimal((0, (1,), -int(digits))), ROUND_HALF_UP, Context(prec=700)))
+
+
+def _sign(x: float) -> float:
+    return float((x > 0.0) - (x < 0.0))
+
+
+def _table(*functions: Function) -> Mapping[str, Function]:
+    return MappingProxyType({function.name: function for function in functions})
+
+
+FUNCTIONS: Final = _table(
+    Function("abs", 1, 1, "absolute value", abs),
+    Function("acos", 1, 1, "arc cosine in radians, 0 to pi", math.acos),
+    Function("asin", 1, 1, "arc sine in radians, -pi/2 to pi/2", math.asin),
+    Function("atan", 1, 1, "arc tangent in radians, -pi/2 to pi/2", math.atan),
+    Function("atan2", 2, 2, "atan2(y, x): angle of the point (x, y) in radians, -pi to pi", math.atan2),
+    Function("ceil", 1, 1, "smallest whole number not below the argument", lambda x: float(math.ceil(x))),
+    Function("cos", 1, 1, "cosine of radians", math.cos),
+    Function("cosh", 1, 1, "hyperbolic cosine", math.cosh),
+    Function("deg", 1, 1, "radians to degrees", math.degrees),
+    Function("exp", 1, 1, "e to the power of the argument", math.exp),
+    Function("floor", 1, 1, "largest whole number not above the argument", lambda x: float(math.floor(x))),
+    Function("int", 1, 1, "whole part: the fraction is cut off, towards zero", lambda x: float(math.trunc(x))),
+    Function("ln", 1, 1, "natural logarithm", math.log),
+    Function("log", 1, 2, "log(x) to base 10, log(x, base) to the base given", _log),
+    Function("log10", 1, 1, "logarithm to base 10", math.log10),
+    Function("max", 1, None, "largest argument", lambda *x: max(x)),
+    Function("min", 1, None, "smallest argument", lambda *x: min(x)),
+    Function("mod", 2, 2, "mod(a, b): remainder of a/b, with the sign of a", math.fmod),
+    Function("pi", 0, 0, "3.14159...", lambda: math.pi),
+    Function("pow", 2, 2, "pow(a, b): a to the power b", math.pow),
+    Function("rad", 1, 1, "degrees to radians", math.radians),
+    Function("round", 1, 2, "round(x) to a whole number, round(x, n) to n decimals; halves away from zero", _round),
+    Function("sign", 1, 1, "-1, 0 or 1", _sign),
+    Function("sin", 1, 1, "sine of radians", math.sin),
+    Function("sinh", 1, 1, "hyperbolic sine", math.sinh),
+    Function("sqrt", 1, 1, "square root", math.sqrt),
+    Function("tan", 1, 1, "tangent of radians", math.tan),
+    Function("tanh", 1, 1, "hyperbolic tangent", math.tanh),
+)
+"""The functions of numbers, by their names in lower case; equations call them in any case."""
+
+FORMS: Final[Mapping[str, Form]] = MappingProxyType(
+    {
+        "and": Form("and", 1, None, "1 if no argument is 0, else 0; stops at the first that is 0"),
+        "if": Form("if", 3, 3, "if(condition, a, b): a if the condition is not 0, else b; the other is not evaluated"),
+        "or": Form("or", 1, None, "0 if every argument is 0, else 1; stops at the first that is not 0"),
+    },
+)
+"""What is called like a function but evaluates only the arguments it needs, by name in lower case."""
+
+
+Value = float | str
+
+
+ARITHMETIC: Final[Mapping[str, Callable[[float, float], float]]] = {
+    "+": python.add,
+    "-": python.sub,
+    "*": python.mul,
+    "/": python.truediv,
+}
+_ORDER: Final[Mapping[str, Callable[[float, float], bool]]] = {
+    "<": python.lt,
+    "<=": python.le,
+    ">": python.gt,
+    ">=": python.ge,
+    "=": python.eq,
+    "<>": python.ne,
+}
+
+
+class Operand(NamedTuple):
+    """A value and the part of the equation it came from."""
+
+    value: Value
+    span: Span
+
+    @property
+    def number(self) -> float:
+        """The value as a number; text raises EvaluationError."""
+        if isinstance(self.value, str):
+            raise EvaluationError("expected a number, found text", *self.span)
+        return self.value
+
+    @property
+    def truth(self) -> bool:
+        """Whether the value is a number other than 0; text raises EvaluationError."""
+        return self.number != 0.0
+
+
+def _across(left: Operand, right: Operand) -> Span:
+    return Span(left.span.start, right.span.end)
+
+
+def finite(value: float, span: Span) -> float:
+    """The value, unless it is beyond the range of a double."""
+    if not math.isfinite(value):
+        raise EvaluationError("the result is too large", *span)
+    return value
+
+
+def arithmetic(operator: str, left: Operand, right: Operand) -> Operand:
+    """Sum, difference, product or quotient of two numbers; + also joins two texts."""
+    whole = _across(left, right)
+    if operator == "+" and isinstance(left.value, str) and isinstance(right.value, str):
+        return Operand(_joined(left.value, right.value, whole), whole)
+    a, b = left.number, right.number
+    if operator == "/" and b == 0.0:
+        raise EvaluationError("division by zero", *right.span)
+    return Operand(finite(ARITHMETIC[operator](a, b), whole), whole)
+
+
+def _joined(left: str, right: str, span: Span) -> str:
+    if len(left) + len(right) > LONGEST_TEXT:
+        raise EvaluationError(f"the text would be longer than {LONGEST_TEXT} characters", *span)
+    return left + right
+
+
+def power(base: Operand, exponent: Operand) -> float:
+    """A number to the power of another."""
+    a, b = base.number, exponent.number
+    whole = _across(base, exponent)
+    try:
+        return math.pow(a, b)
+    except OverflowError:
+        raise EvaluationError("the result is too large", *whole) from None
+    except ValueError:
+        reason = "0 has no negative power" if a == 0.0 else "a negative number has no fractional power"
+        raise EvaluationError(reason, *whole) from None
+
+
+def compare(operator: str, left: Operand, right: Operand) -> float:
+    """1 if the comparison holds, else 0; texts are equal or not, without regard to case."""
+    if isinstance(left.value, str) and isinstance(right.value, str):
+        if operator not in {"=", "<>"}:
+            raise EvaluationError("text has no order, expected = or <>", *_across(left, right))
+        return float((left.value.casefold() == right.value.casefold()) == (operator == "="))
+    return float(_ORDER[operator](left.number, right.number))
+
+
+def apply(function: Function, arguments: Sequence[Operand], span: Span) -> float:
+    """The value of a function; the number of arguments has been checked."""
+    values = [argument.number for argument in arguments]
+    try:
+        result = function.call(*values)
+    except OverflowError:
+        raise EvaluationError("the result is too large", *span) from None
+    except (ValueError, ZeroDivisionError):
+        shown = ", ".join(f"{value:.6g}" for value in values)
+        raise EvaluationError(f"{function.name}({shown}) has no value", *span) from None
+    return finite(result, span)
+
+
+Lookup = Callable[[str], float | str]
+Steps = Generator[Node, Value, Value]
+
+
+def evaluate(expression: Expression, lookup: Lookup) -> float | str:
+    """The value of an equation: a finite number, or text.
+
+    A comparison, `and`, `or` and `not` give 1 or 0; any number but 0 counts as true. `if`, `and` and `or` evaluate
+    only the parts they need.
+
+    Args:
+        expression: the equation, from `parse`.
+        lookup: gives the value of a parameter by its name as written, or raises KeyError where there is none; then
+            the constants (`pi`) are tried. Whatever else it raises passes through.
+
+    Raises:
+        UndefinedName: no parameter and no constant has this name.
+        UnknownFunction: a function is not in `FUNCTIONS` or `FORMS`.
+        EvaluationError: a part has no finite value, text is found where a number is expected, or a function has
+            too many or too few arguments.
+    """
+    value: Value | None = None
+    waiting: list[Steps] = []
+    steps = _steps(expression.root, lookup)
+    while True:
+        try:
+            part = next(steps) if value is None else steps.send(value)
+        except StopIteration as done:
+            value = cast("Value", done.value)
+            if not waiting:
+                return value
+            steps = waiting.pop()
+        else:
+            value = None
+            waiting.append(steps)
+            steps = _steps(part, lookup)
+
+
+def _steps(node: Node, lookup: Lookup) -> Steps:
+    """Evaluate one part: yields the parts it needs, is sent their values, returns its own."""
+    match node:
+        case Number() | Text() | Name():
+            return _leaf(node, lookup)
+        case Group():
+            return (yield node.inner)
+        case Prefix() | Power() | Comparison():
+            return (yield from _operation(node))
+        case Chain():
+            return (yield from _chain(node, lookup))
+        case Logical():
+            return (yield from _logical(node.operator, node.operands))
+        case Call():
+            return (yield from _call(node))
+        case _:
+            assert_never(node)
+
+
+def _leaf(node: Number | Text | Name, lookup: Lookup) -> Value:
+    if isinstance(node, Name):
+        return _parameter(node, lookup)
+    if isinstance(node, Number) and not math.isfinite(node.value):
+        raise EvaluationError("the number is too large", *node.span)
+    return node.value
+
+
+def _parameter(node: Name, lookup: Lookup) -> Value:
+    try:
+        value = lookup(node.name)
+    except KeyError:
+        constant = CONSTANTS.get(node.name.lower())
+        if constant is None:
+            raise UndefinedName(f"the parameter '{shorten(node.name)}' is not defined", *node.span) from None
+        return constant
+    if isinstance(value, str):
+        return value
+    if not -sys.float_info.max <= value <= sys.float_info.max:
+        raise EvaluationError(f"the parameter '{shorten(node.name)}' is not a finite number", *node.span)
+    return float(value)
+
+
+def _operation(node: Prefix | Power | Comparison) -> Steps:
+    if isinstance(node, Prefix):
+        return _prefixed(node.operator, Operand((yield node.operand), node.operand.span))
+    first, second = (node.base, node.exponent) if isinstance(node, Power) else (node.left, node.right)
+    left = Operand((yield first), first.span)
+    right = Operand((yield second), second.span)
+    return power(left, right) if isinstance(node, Power) else compare(node.operator, left, right)
+
+
+def _prefixed(operator: str, operand: Operand) -> float:
+    if operator == "not":
+        return float(not operand.truth)
+    return -operand.number if operator == "-" else operand.number
+
+
+def _chain(node: Chain, lookup: Lookup) -> Steps:
+    total: Operand | None = None
+    for operator, part in zip(("", *node.operators), node.operands, strict=True):
+        value = _leaf(part, lookup) if isinstance(part, LEAVES) else (yield part)
+        operand = Operand(value, part.span)
+        total = operand if total is None else arithmetic(operator, total, operand)
+    return cast("Operand", total).value
+
+
+def _logical(operator: str, operands: Sequence[Node]) -> Steps:
+    decisive = operator == "or"
+    for operand in operands:
+        if Operand((yield operand), operand.span).truth is decisive:
+            return float(decisive)
+    return float(not decisive)
+
+
+def _call(node: Call) -> Steps:
+    name = node.name.lower()
+    form = FORMS.get(name) or FUNCTIONS.get(name)
+    if form is None:
+        raise UnknownFunction(f"the function '{shorten(node.name)}' is not known", *node.name_span)
+    if not form.takes(len(node.arguments)):
+        raise EvaluationError(f"{name} needs {form.wants}, found {len(node.arguments)}", *node.span)
+    if name == "if":
+        condition, then, otherwise = node.arguments
+        return (yield then if Operand((yield condition), condition.span).truth else otherwise)
+    if name in FORMS:
+        return (yield from _logical(name, node.arguments))
+    arguments = []
+    for argument in node.arguments:
+        arguments.append(Operand((yield argument), argument.span))  # noqa: PERF401 - a comprehension cannot yield
+    return apply(FUNCTIONS[name], arguments, node.span)

@@ -1,0 +1,204 @@
+"""Reading an equation: the grammar, the limits, and what is said of a text that does not fit.
+
+Lark reads every equation by `grammar/expression.lark` and makes its nodes while it reads, so nesting costs no stack.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from collections.abc import Set as AbstractSet
+from typing import Any, cast
+
+from lark import Lark, Token, Transformer, UnexpectedCharacters, UnexpectedInput, UnexpectedToken, v_args
+
+from mudline.basics.limits import DEEPEST, LONGEST_EQUATION
+from mudline.language.diagnostics import Span
+from mudline.language.expression.nodes import (
+    Call,
+    Chain,
+    Comparison,
+    Expression,
+    ExpressionError,
+    Group,
+    Logical,
+    Name,
+    NameSpan,
+    Node,
+    Number,
+    Power,
+    Prefix,
+    Text,
+    shorten,
+)
+from mudline.language.syntax.grammars import parser
+
+SAME_OPERATOR = {"==": "=", "!=": "<>"}
+"""The one spelling of operators that have two."""
+
+FORTRAN_EXPONENT = str.maketrans("dD", "ee")
+"""The letters of an exponent as `float` reads them."""
+
+
+def parse(text: str) -> Expression:
+    """Read an equation: `text` is what stands between `=[` and `]`.
+
+    Raises:
+        ExpressionError: the text is not an equation, too long, or nested too deep (`docs/limits.md`).
+    """
+    if len(text) > LONGEST_EQUATION:
+        raise ExpressionError(f"the equation is longer than {LONGEST_EQUATION} characters", LONGEST_EQUATION, len(text))
+    if not text.strip():
+        raise ExpressionError("the equation is empty", 0, len(text))
+    try:
+        root = cast("Node", equation_grammar().parse(text))
+    except UnexpectedToken as error:
+        raise _unexpected_token(text, error.token, _accepted(error)) from None
+    except UnexpectedCharacters as error:
+        raise _unexpected_character(text, cast("int", error.pos_in_stream), _accepted(error)) from None
+    names: list[NameSpan] = []
+    functions: dict[str, None] = {}
+    for node in _nodes(text, root):
+        if isinstance(node, Name):
+            names.append(NameSpan(node.name, *node.span))
+        elif isinstance(node, Call):
+            functions[node.name] = None
+    return Expression(text, tuple(names), tuple(functions), root)
+
+
+def equation_grammar() -> Lark:
+    """Return the parser of equations; it gives nodes."""
+    return parser("expression", "disjunction", _Nodes)
+
+
+# ----------------------------------------------------------------------------------------------------------- the nodes
+
+
+@v_args(inline=True)
+class _Nodes(Transformer[Token, Node]):
+    """Nodes of the rules of the grammar, a method for each; a token that the grammar names is one of the parts."""
+
+    def number(self, token: Token) -> Number:
+        return Number(_span(token), float(token.translate(FORTRAN_EXPONENT)))
+
+    def text(self, token: Token) -> Text:
+        return Text(_span(token), token[1:-1])
+
+    def name(self, token: Token) -> Name:
+        return Name(_span(token), str(token))
+
+    def group(self, opening: Token, inner: Node, closing: Token) -> Group:
+        return Group(_span(opening, closing), inner)
+
+    def call(self, name: Token, _opening: Token, *others: Node | Token) -> Call:
+        return Call(_span(name, others[-1]), str(name), _span(name), cast("tuple[Node, ...]", others[:-1]))
+
+    def prefix(self, operator: Token, operand: Node) -> Prefix:
+        return Prefix(_span(operator, operand), operator.lower(), operand)
+
+    def power(self, base: Node, _operator: Token, exponent: Node) -> Power:
+        return Power(_span(base, exponent), base, exponent)
+
+    def comparison(self, left: Node, operator: Token, right: Node) -> Comparison:
+        return Comparison(_span(left, right), SAME_OPERATOR.get(operator, str(operator)), left, right)
+
+    def chain(self, *parts: Node | Token) -> Chain:
+        operators = tuple(str(token) for token in parts[1::2])
+        return Chain(_span(parts[0], parts[-1]), operators, cast("tuple[Node, ...]", parts[::2]))
+
+    def logical(self, *parts: Node | Token) -> Logical:
+        operator = str(parts[1]).lower()
+        return Logical(_span(parts[0], parts[-1]), operator, cast("tuple[Node, ...]", parts[::2]))
+
+
+MAKES = _Nodes
+"""What makes an equation of the parts that the grammar names."""
+
+
+def _span(first: Token | Node, last: Token | Node | None = None) -> Span:
+    """Place from the start of one part to the end of another, or of itself."""
+    start = first.start_pos if isinstance(first, Token) else first.span.start
+    last = last or first
+    end = last.end_pos if isinstance(last, Token) else last.span.end
+    return Span(cast("int", start), cast("int", end))
+
+
+def _nodes(text: str, root: Node) -> Iterator[Node]:
+    """Yield all nodes in the order of the text; raises ExpressionError where they are nested too deep."""
+    waiting = [(root, 0, 0)]
+    while waiting:
+        node, level, opening = waiting.pop()
+        if level > DEEPEST:
+            start = len(text) - len(text[opening:].lstrip())
+            raise ExpressionError(f"the equation is nested more than {DEEPEST} levels deep", start, len(text))
+        yield node
+        waiting += reversed([(part, level + deeper, opening) for part, deeper, opening in _parts(node)])
+
+
+def _parts(node: Node) -> list[tuple[Node, bool, int]]:
+    """The parts of a node, whether each is one level further inside, and the place from which its opening follows."""
+    match node:
+        case Group(inner=part) | Prefix(operand=part):
+            return [(part, True, node.span.start)]
+        case Power():
+            return [(node.base, False, 0), (node.exponent, True, node.base.span.end)]
+        case Comparison():
+            return [(node.left, False, 0), (node.right, False, 0)]
+        case Chain() | Logical():
+            return [(part, False, 0) for part in node.operands]
+        case Call(arguments=parts):
+            before = [node.name_span.end, *(part.span.end for part in parts)]
+            return [(part, True, end) for part, end in zip(parts, before, strict=False)]
+        case _:
+            return []
+
+
+# ----------------------------------------------------------------------------------------------------------- the words
+
+
+def _accepted(error: UnexpectedInput) -> AbstractSet[str]:
+    """The names of the tokens that could have stood where the reading failed."""
+    parser: Any = error.interactive_parser  # has no types
+    return frozenset(parser.accepts())
+
+
+def _unexpected_token(text: str, token: Token, accepted: AbstractSet[str]) -> ExpressionError:
+    if token.type == "$END":
+        return ExpressionError(f"the equation is incomplete, missing {_expected(accepted)}", len(text), len(text))
+    message = f"found {_found(token)}, expected {_expected(accepted)}"
+    if token.type == "COMPARE" and "AND" in accepted and "NUMBER" not in accepted:
+        message = f"found a second comparison '{token}', expected AND or OR between two comparisons"
+    return ExpressionError(message, cast("int", token.start_pos), cast("int", token.end_pos))
+
+
+def _unexpected_character(text: str, place: int, accepted: AbstractSet[str]) -> ExpressionError:
+    if text[place] == '"':
+        return ExpressionError("text opens with a quotation mark and does not close", place, len(text))
+    return ExpressionError(f"found {text[place]!r}, expected {_expected(accepted)}", place, place + 1)
+
+
+def _found(token: Token) -> str:
+    """A token in plain words."""
+    match token.type:
+        case "NUMBER":
+            return f"the number {shorten(token)}"
+        case "NAME":
+            return f"the name '{shorten(token)}'"
+        case "TEXT":
+            return "text in quotation marks"
+        case "AND" | "OR" | "NOT":
+            return token.upper()
+        case _:
+            return f"'{token}'"
+
+
+def _expected(accepted: AbstractSet[str]) -> str:
+    """What may stand next, in plain words, from the names of the tokens that may."""
+    if "NUMBER" in accepted:
+        choices = ["a number", "a name", "'('"]
+    else:
+        choices = ["'('"] if accepted == {"LPAR"} else ["an operator"]
+    if "COMMA" in accepted:
+        choices.append("','")
+    if "RPAR" in accepted:
+        choices.append("')'")
+    return " or ".join(filter(None, [", ".join(choices[:-1]), choices[-1]]))

@@ -1,0 +1,123 @@
+"""Comments, and lines that are passed through unchanged, to the records among whose lines they stand."""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from collections.abc import Sequence
+from operator import attrgetter
+from typing import NamedTuple
+
+from mudline.language.diagnostics import Span
+from mudline.language.keywords.parsed import ParsedRecord
+
+
+class Between(NamedTuple):
+    """A comment, as what follows its C, or a line that is `kept`: where it begins, its text, its place."""
+
+    position: int
+    text: str
+    span: Span
+    kept: bool = False
+
+
+class _Held(NamedTuple):
+    """What a record holds before the item of an index."""
+
+    before: int
+    line: Between
+
+
+def attach(comments: Sequence[Between], kept: Sequence[Between], block: ParsedRecord) -> list[str]:
+    """Give each comment to the innermost record whose lines stand on both sides of it, before the item it precedes.
+
+    A line that is kept goes to the innermost record that can keep it and begins before it, and so does a comment that
+    follows it there. Returns the texts of the comments behind the last line of the block: they belong to what follows.
+    """
+    trailing: list[str] = []
+    whole = _Places(block)
+    held: dict[int, tuple[ParsedRecord, list[_Held]]] = {}
+    for line in sorted(kept):
+        path = whole.begun(line.position)
+        while len(path) > 1 and "unread" not in path[-1].record.part.model_fields:
+            path.pop()
+        _hold(held, path[-1], line)
+        for places in path:
+            places.record.reach(line.position)
+    for comment in comments:
+        if block.last is not None and comment.position < block.last:
+            _hold(held, whole.owner(comment.position), comment)
+        else:
+            trailing.append(comment.text)
+    for record, lines in held.values():  # a setting may be read in another place than it is written back to
+        _write(record, sorted(lines))
+    return trailing
+
+
+def _hold(held: dict[int, tuple[ParsedRecord, list[_Held]]], places: _Places, line: Between) -> None:
+    record = places.record
+    held.setdefault(id(record), (record, []))[1].append(_Held(places.index(line.position), line))
+
+
+def _write(record: ParsedRecord, lines: list[_Held]) -> None:
+    """Add what a record holds to its values: comments, then the lines from the first kept one on."""
+    kept_before = -1
+    for before, line in lines:
+        kept_before = before if line.kept else kept_before
+        if kept_before == before:
+            texts = [each.removesuffix("\r") for each in line.text.removesuffix("\n").split("\n")]
+            texts = texts if line.kept else [f"C{line.text}"]
+            record.values.setdefault("unread", []).extend({"before": before, "text": text} for text in texts)
+        else:
+            record.values.setdefault("comments", []).append({"before": before, "text": line.text})
+
+
+class _Places:
+    """The places for comments and kept lines in a record, in tables that are made once for all of them."""
+
+    def __init__(self, record: ParsedRecord) -> None:
+        self.record = record
+        self.within = sorted(
+            (child for children in record.children.values() for child in children if child.last is not None),
+            key=attrgetter("first"),
+        )
+        self.starts = [child.first for child in self.within]
+        self.inner: dict[int, _Places] = {}
+        self.items = sorted(record.items, key=attrgetter("position"))
+        self.positions = [item.position for item in self.items]
+        self.count, self.before = self._counts()
+
+    def _counts(self) -> tuple[int, dict[tuple[int, int], int]]:
+        """The number of items, and how many are written before those of an order and position."""
+        before: dict[tuple[int, int], int] = {}
+        count = 0
+        for item in sorted(self.record.items, key=attrgetter("order", "position")):
+            before.setdefault((item.order, item.position), count)
+            count += item.size
+        return count, before
+
+    def begun(self, position: int) -> list[_Places]:
+        """Those of the records around a position, and of those that end before it, from this one to the innermost."""
+        at = bisect_left(self.starts, position) - 1
+        return [self] if at < 0 else [self, *self._inner(at).begun(position)]
+
+    def owner(self, position: int) -> _Places:
+        """Those of the innermost record that has lines on both sides of a position."""
+        at = bisect_left(self.starts, position) - 1
+        if at < 0:
+            return self
+        last = self.within[at].last
+        if last is None or last <= position:
+            return self
+        return self._inner(at).owner(position)
+
+    def _inner(self, at: int) -> _Places:
+        if at not in self.inner:
+            self.inner[at] = _Places(self.within[at])
+        return self.inner[at]
+
+    def index(self, position: int) -> int:
+        """Index, in the order in which the record is written, of the first item behind a position, or their number."""
+        at = bisect_right(self.positions, position)
+        if at == len(self.items):
+            return self.count
+        return self.before[self.items[at].order, self.items[at].position]

@@ -1,0 +1,393 @@
+"""The tree of a block to plain values; every fault of a field is one problem."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import cast
+
+from lark import Tree
+
+from mudline.basics.spelling import nearest
+from mudline.language.codes.fields import SYN003
+from mudline.language.codes.lines import SYN001, SYN004, SYN014
+from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span
+from mudline.language.keywords.grammar import ROW, Content, Node
+from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Record, record_schema
+from mudline.language.keywords.numbers import cut_number
+from mudline.language.keywords.parsed import Item, ParsedRecord, Written
+from mudline.language.keywords.runs import TableBuilder
+from mudline.language.keywords.table import fewest_fields, row_format
+from mudline.language.keywords.text import (
+    MIXED_FIELDS,
+    UnreadableError,
+    Value,
+    decimal_comma,
+    hint,
+    instead,
+    mixed_commas,
+    read_value,
+    semicolons,
+)
+from mudline.language.keywords.unknown import UNKNOWN, Partly
+from mudline.language.keywords.values import Kind, Names
+from mudline.language.syntax.fields import Field, Group, read_line, split, trimmed
+from mudline.language.syntax.rows import blank_separated
+
+_OTHER, _TITLE, _IDENT = Kind.OTHER, Kind.TITLE, Kind.IDENT
+
+
+class Builder:
+    """Reads the lines of one block; `end` is where the file ends behind a last line that has no line end, or -1."""
+
+    def __init__(self, text: str, problems: list[Problem], *, slashes: bool, end: int = -1) -> None:
+        self.text = text
+        self.end = end
+        self.slashes = slashes
+        self.problems = problems
+        self.lost = 0
+        self.unclosed: Span | None = None
+
+    def build(self, part: type[Record], node: Node, last: object = None) -> ParsedRecord:
+        """Return a record; `last` is what the sticky field of the records before it gave."""
+        built = ParsedRecord(part)
+        found = record_schema(part)
+        row_number = 0
+        for child in node.children:
+            if isinstance(child, Tree):
+                self._child(built, found.children[child.data], child)
+                continue
+            if built.last is None:
+                built.opening = child.span
+            if child.type == ROW:
+                self._row(built, child, last, row_number)
+                row_number += 1
+            else:
+                self._settings(built, child)
+        if found.table and found.table.required:
+            built.tables.setdefault(found.table.json, TableBuilder(self, found.table))
+        for name, table in built.tables.items():
+            built.values[name] = table.finish()
+        return built
+
+    def report(self, code: Code, message: str, span: Span, repair: Repair | None = None) -> None:
+        """Note a fault."""
+        self.problems.append(Problem(code, message, span, repair=repair))
+
+    def short(self, message: str, span: Span) -> None:
+        """A value or more is missing in a row; at the very end of the file it was cut off."""
+        if 0 <= self.end <= span.end:
+            message = f"the file ends before this row is complete, it seems to be cut off: {message}"
+            self.report(SYN014, message, span)
+        else:
+            self.report(SYN003, message, span)
+
+    def _brackets(self, problems: list[Problem], built: ParsedRecord) -> None:
+        """The bracket that a line does not close; it reaches to the end of the line, so there is one at most."""
+        self.unclosed = None
+        for problem in problems:
+            self.problems.append(problem)
+            self.unclosed = problem.span
+            built.unsure = True
+
+    def _unreadable(self, problem: Problem) -> None:
+        """A field without a value; one with an open bracket has been reported as such."""
+        if not (self.unclosed and problem.span and self.unclosed.start < problem.span.end):
+            self.problems.append(problem)
+
+    def _child(self, built: ParsedRecord, slot: FieldSpec, node: Node) -> None:
+        before = built.children.setdefault(slot.json, [])
+        last = before[-1].sticky if before else None
+        child = self.build(slot.record[node.data], node, last)
+        if child.part.sticky:
+            child.sticky = child.part.carries(child.known, last)
+        if child.last is None:
+            return
+        before.append(child)
+        built.values.setdefault(slot.json, []).append(child.values)
+        built.items.append(Item(slot.order, child.first, 1))
+        built.reach(child.first)
+        built.reach(child.last)
+
+    def _settings(self, built: ParsedRecord, content: Content) -> None:
+        line = read_line(self.text, content.span, slashes=self.slashes)
+        self.unclosed = None
+        if line.problems:
+            self._brackets(line.problems, built)
+        if built.last is not None or issubclass(built.part, Block):
+            keys = record_schema(built.part).keys
+            order = min((keys[group.key].order for group in line.groups if group.key in keys), default=0)
+            built.items.append(Item(order, content.span.start, 1))
+        self._groups(built, line.groups)
+        built.reach(content.span.start)
+
+    def _groups(self, built: ParsedRecord, groups: list[Group]) -> None:
+        """Settings that stand on one line."""
+        found = record_schema(built.part)
+        first = found.keys.get(groups[0].key) if groups else None
+        if (
+            first
+            and first.kind is _OTHER
+            and first.json not in built.values
+            and self._of_other_form(built, first, groups)
+        ):
+            return
+        if first and first.kind is _TITLE and groups[0].fields[0].text:
+            self._rest_of_line(built, first, groups)
+            return
+        for group in groups:
+            slot = found.keys.get(group.key)
+            if slot and slot.json in built.values:  # a key that may stand twice has a field for each
+                slot = next((s for s in found.slots if s.key == group.key and s.json not in built.values), slot)
+            if slot is None:
+                self._unknown_key(group, found.keys)
+            elif slot.json in built.values:
+                self.report(SYN001, f"{group.key}= is given twice", group.span)
+            else:
+                self._setting(built, slot, group)
+
+    def _unknown_key(self, group: Group, known: Iterable[str]) -> None:
+        near = nearest(group.key, known)
+        expected = ", ".join(f"{key}=" for key in known)
+        message = f"{group.key}= does not belong on this line{hint(near)}: expected {expected}"
+        key = trimmed(self.text, group.span.start, self.text.find("=", group.span.start))
+        self.report(SYN004, message, group.span, instead(near, key))
+
+    def _of_other_form(self, built: ParsedRecord, slot: FieldSpec, groups: list[Group]) -> bool:
+        """Read a line that says that it has a form which is not known: all behind its key is one value."""
+        fields = groups[0].fields
+        if slot.about.opaque is None or not fields[0].text or (len(groups) == 1 and len(fields) == 1):
+            return False
+        value = read_value(fields[0], slot, [])
+        if value in slot.choices and value not in slot.about.opaque:
+            return False
+        read_value(fields[0], slot, self.problems)
+        self._rest_of_line(built, slot, groups)
+        return True
+
+    def _rest_of_line(self, built: ParsedRecord, slot: FieldSpec, groups: list[Group]) -> None:
+        """Read all behind the key of a setting as its value."""
+        start = self.text.index("=", groups[0].span.start) + 1
+        whole = trimmed(self.text, start, groups[-1].span.end)
+        built.written.append(Written(slot.json, whole, (), ()))
+        built.values[slot.json] = self.text[slice(*whole)]
+
+    def _setting(self, built: ParsedRecord, slot: FieldSpec, group: Group) -> None:
+        fields = group.fields
+        if slot.row and not _alone(slot, fields):
+            self.lost += issubclass(slot.row, ListRow) and built.unsure
+            self._inner_row(built, slot, fields, group.span)
+            return
+        if slot.many and any(given.text for given in fields):
+            self._list(built, slot, fields, group.span)
+            return
+        while len(fields) > 1 and not fields[-1].text:
+            fields.pop()
+        if len(fields) > 1:
+            message = f"{slot.label} takes one value, found {len(fields)}"
+            place = Span(fields[0].span.start, fields[-1].span.end)
+            self.problems.append(decimal_comma(fields, [slot.kind], 1) or Problem(SYN003, message, place))
+        if not fields[0].text:
+            built.written.append(Written(slot.json, group.span, (), ()))
+            built.values[slot.json] = UNKNOWN
+            self.report(SYN003, f"{slot.label} has no value{_value_of(slot)}", group.span)
+            return
+        self._value(built, slot, fields)
+
+    def _value(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field]) -> None:
+        """Read the value of a setting; of several the first one, where it names a new thing."""
+        built.written.append(Written(None, None, (slot.json,), fields))
+        built.values[slot.json] = UNKNOWN
+        if self.end >= 0 and fields[0].span.end == self.end and cut_number(fields[0].text):
+            message = f"the file ends inside {fields[0].text!r}: it seems to be cut off, add what is missing"
+            self.report(SYN014, message, fields[0].span)
+            return
+        try:
+            value = read_value(fields[0], slot, self.problems)
+            if len(fields) == 1 or slot.about.defines:
+                built.values[slot.json] = value
+        except UnreadableError as fault:
+            self._unreadable(fault.problem)
+            built.unchosen |= bool(slot.choices) and slot.name == built.part.sticky
+
+    def _row(self, built: ParsedRecord, content: Content, last: object, number: int) -> None:
+        """Read a row, or a run of rows that is a table."""
+        found = record_schema(built.part)
+        start, count = content.span.start, 1
+        if built.unchosen and sum(column.row is not None for column in found.columns) > 1:
+            built.reach(start)
+            return
+        behind: list[Group] = []
+        if found.table and not found.columns:
+            slot, fields = found.table, list[Field]()
+        else:
+            fields, behind = self._cut(built, content.span, keys=bool(found.keys))
+            slot = self._slot_of_row(built, number, len(fields), last)
+        if slot is found.table:
+            table = built.tables.setdefault(slot.json, TableBuilder(self, slot))
+            count = table.add(content.span)
+        else:
+            self._fill(built, slot, fields, trimmed(self.text, *content.span))
+        if behind:
+            self._groups(built, behind)
+        built.items.append(Item(slot.order, start, count))
+        built.reach(start)
+
+    def _cut(self, built: ParsedRecord, span: Span, *, keys: bool) -> tuple[list[Field], list[Group]]:
+        """Return the fields of a row, and the settings behind them on the line of a record that has `keys`."""
+        behind: list[Group] = []
+        if keys:
+            line = read_line(self.text, span, slashes=self.slashes)
+            problems = line.problems
+            fields = [given for group in line.groups if not group.key for given in group.fields]
+            behind = [group for group in line.groups if group.key]
+        else:
+            fields, problems = split(self.text, span, slashes=self.slashes)
+        self.unclosed = None
+        if problems:
+            self._brackets(problems, built)
+        if len(fields) == 1 and blank_separated(fields[0].text):
+            fields = self._apart(fields[0])
+        return fields, behind
+
+    @staticmethod
+    def _slot_of_row(built: ParsedRecord, number: int, count: int, last: object) -> FieldSpec:
+        """Return the field that a row fills, or the first one of those that it fills."""
+        found = record_schema(built.part)
+        if len(found.row_names) == 1:
+            return found.columns[0] if found.columns else cast("FieldSpec", found.table)
+        name = built.part.row_slot(number, count, built.known, last)
+        return next(slot for slot in found.slots if slot.name == name)
+
+    def _fill(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field], line: Span) -> None:
+        """Read the fields of a row."""
+        found = record_schema(built.part)
+        if slot.row and slot.json in built.values:
+            wanted = record_schema(slot.row).wanted
+            self.report(SYN001, f"one line only has its place here (`{wanted}`): remove it, or the one above", line)
+        elif slot.row:
+            self._inner_row(built, slot, fields, line)
+        elif slot.many:
+            self._list(built, slot, fields, None)
+        elif len(found.columns) == 1 or not any(column.row for column in found.columns):
+            self._columns(built, found.columns, fields, line)
+        elif slot.json in built.values:
+            self.report(SYN001, f"{slot.label} is given twice", fields[0].span)
+        else:
+            self._columns(built, [slot], fields, line)
+
+    def _columns(self, built: ParsedRecord, columns: Sequence[FieldSpec], fields: list[Field], line: Span) -> None:
+        """Read fields that are those of the record itself."""
+        values, fields = self._fields(columns, fields, line)
+        built.values |= values
+        built.written.append(Written(None, None, [slot.json for slot in columns], fields))
+
+    def _inner_row(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field], span: Span) -> None:
+        """Read fields that are those of a row in the record."""
+        row = cast("type[Part]", slot.row)
+        columns = record_schema(row).columns
+        values, fields = self._fields(columns, fields, span)
+        names: Sequence[str | int] = [column.json for column in columns]
+        if issubclass(row, ListRow):
+            self.lost += any(value is UNKNOWN for value in values.values())
+            built.values[slot.json] = [values.get(column.json) for column in columns[: len(values)]]
+            names = range(len(columns))
+        else:
+            built.values[slot.json] = values
+        built.written.append(Written(slot.json, span, names, fields))
+
+    def _fields(
+        self, columns: Sequence[FieldSpec], fields: list[Field], line: Span
+    ) -> tuple[dict[str, Value], list[Field]]:
+        """Return the values of a row, and the fields that have a place among its columns."""
+        before = len(self.problems)
+        fields = self._counted(columns, fields, line)
+        # Of a wrong count any value may be that of another column, but for the number or name that begins the row.
+        wrong = any(one.weight is Severity.ERROR for one in self.problems[before:])
+        miscounted = wrong or bool(self.unclosed)
+        values: dict[str, Value] = dict.fromkeys((slot.json for slot in columns), UNKNOWN) if miscounted else {}
+        for slot, given in zip(columns, fields, strict=False):
+            if not given.text:
+                if slot.required and not miscounted:
+                    self.short(f"{slot.label} is missing", given.span)
+                values[slot.json] = UNKNOWN if slot.required else None
+                continue
+            try:
+                value = read_value(given, slot, self.problems)
+            except UnreadableError as fault:
+                self._unreadable(fault.problem)
+                value = UNKNOWN
+            if not wrong or (slot is columns[0] and (slot.is_text or slot.kind is _IDENT)):
+                values[slot.json] = value
+        return values, fields
+
+    def _counted(self, columns: Sequence[FieldSpec], fields: list[Field], line: Span) -> list[Field]:
+        """Return the fields without trailing empty ones; a wrong number of them is a problem."""
+        required = [slot.required for slot in columns]
+        fewest = fewest_fields(required)
+        if len(fields) == 1 and len(columns) > 1 and blank_separated(fields[0].text):
+            fields = self._apart(fields[0])
+        while len(fields) > max(fewest, 1) and not fields[-1].text:
+            fields.pop()
+        if len(columns) > 1 and (problem := semicolons(self.text, fields)):
+            self.problems.append(problem)
+            return fields[:1]
+        if fewest <= len(fields) <= len(columns):
+            if len(fields) >= MIXED_FIELDS and (
+                problem := mixed_commas(fields, [slot.kind for slot in columns], fewest)
+            ):
+                self.problems.append(problem)
+            return fields
+        if self.unclosed:  # the open bracket holds the fields that are missing
+            return fields[: len(columns)]
+        if problem := decimal_comma(fields, [slot.kind for slot in columns], fewest):
+            self.problems.append(problem)
+            return fields[: len(columns)]
+        wanted = row_format([slot.label for slot in columns], required)
+        count = f"{fewest}" if fewest == len(columns) else f"{fewest} to {len(columns)}"
+        message = f"{count} fields expected (`{wanted}`), found {len(fields)}"
+        span = Span(fields[0].span.start, fields[-1].span.end) if fields else line
+        if len(fields) < fewest:
+            self.short(message, span)
+        else:
+            self.report(SYN003, message, span)
+        return fields[: len(columns)]
+
+    def _apart(self, given: Field) -> list[Field]:
+        start = given.span.start
+        fields: list[Field] = []
+        for word in given.text.split():
+            start = self.text.index(word, start)
+            fields.append(Field(word, start))
+            start += len(word)
+        return fields
+
+    def _list(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field], span: Span | None) -> None:
+        """Read fields that are the values of one field."""
+        while len(fields) > 1 and not fields[-1].text:
+            fields.pop()
+        values: list[Value] = []
+        read: list[Field] = []
+        for given in fields:
+            try:
+                values.append(read_value(given, slot, self.problems))
+                read.append(given)
+            except UnreadableError as fault:
+                self._unreadable(fault.problem)
+                values = Partly(values)
+        built.values[slot.json] = values
+        built.written.append(Written(slot.json, span, range(len(read)), read))
+
+
+def _value_of(slot: FieldSpec) -> str:
+    """What to write as the value of a setting, as far as it names something."""
+    names = getattr(slot.about, "names", None)
+    if names is Names.SET:
+        return ": write the name of a set after it (ALL is every element)"
+    return ": write the name of the set after it" if slot.key == "SET" else ""
+
+
+def _alone(slot: FieldSpec, fields: list[Field]) -> bool:
+    """Whether a setting that may hold a row holds a word or a number instead."""
+    if not (slot.choices or slot.kind) or any(given.text for given in fields[1:]):
+        return False
+    return not blank_separated(fields[0].text)

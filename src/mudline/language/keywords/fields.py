@@ -1,0 +1,93 @@
+"""What a field of a keyword means: its unit, range and default, what it names, and how it is written."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, cast
+
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
+from pydantic_core import CoreSchema, core_schema
+
+from mudline.language.keywords.json_schema import with_limits
+from mudline.language.keywords.values import Contents, Names
+
+
+@dataclass(frozen=True, slots=True)
+class FieldInfo:
+    """What a field means. Units in F (force), L, M, T, deg; "-" is dimensionless. `inferred` names our deduction.
+
+    `names` says what the field is the name or number of, `defines` of what it gives a new thing its own. `also`
+    is another name by which `mudline set` finds it, `heading` that of its column in a table of the manual. Behind a
+    setting with one of the values `opaque`, or with a value that is not known, lines stand whose form is not public:
+    they are kept in a record that can keep lines. None: what stands behind it has one form.
+    """
+
+    meaning: str
+    unit: str = ""
+    default: str = ""
+    at_least: float | None = None
+    above: float | None = None
+    at_most: float | None = None
+    inferred: str = ""
+    names: Names | None = None
+    also: str = ""
+    defines: Names | None = None
+    holds: Contents | None = None
+    heading: str = ""
+    opaque: tuple[str, ...] | None = None
+
+    def fault(self, value: float) -> str:
+        """What is wrong with a number, or nothing; NaN stands for one that could not be read."""
+        if self.at_least is not None and value < self.at_least:
+            return f"it must not be less than {self.at_least:g}"
+        if self.above is not None and value <= self.above:
+            return f"it must be greater than {self.above:g}"
+        if self.at_most is not None and value > self.at_most:
+            return f"it must not be more than {self.at_most:g}"
+        return ""
+
+    @property
+    def limits(self) -> dict[str, float]:
+        """The range as JSON Schema says it."""
+        given = {"minimum": self.at_least, "exclusiveMinimum": self.above, "maximum": self.at_most}
+        return {key: limit for key, limit in given.items() if limit is not None}
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        schema = handler(source)
+        return core_schema.with_info_after_validator_function(self._in_range, schema) if self.limits else schema
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return with_limits(handler(schema), self.limits)
+
+    def _in_range(self, value: object, info: ValidationInfo) -> object:
+        """Refuse a number out of range; the text of a deck is read as it is, and its values are reported by checks."""
+        numeric = isinstance(value, int | float) and info.context != AS_TEXT
+        if numeric and (fault := self.fault(cast("float", value))):
+            raise ValueError(f"{value!r} is out of range: {fault}")
+        return value
+
+
+AS_TEXT = "text of a deck"
+"""The context in which the values of a text are validated."""
+
+
+@dataclass(frozen=True, slots=True)
+class Setting(FieldInfo):
+    """A field written `KEY=value`; `inline` ones follow on the line of the setting before them.
+
+    `behind` names the only setting whose line an inline one may follow on; without that it has a line of its own.
+    """
+
+    key: str = ""
+    inline: bool = False
+    behind: str = ""
+
+
+def about(meaning: str, **details: Any) -> FieldInfo:
+    """A positional field."""
+    return FieldInfo(meaning, **details)
+
+
+def setting(key: str, meaning: str, **details: Any) -> Setting:
+    """A field written `KEY=value`."""
+    return Setting(meaning, key=key, **details)

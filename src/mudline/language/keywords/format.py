@@ -1,0 +1,118 @@
+"""The lines of a keyword as a user writes them, and units and ranges of its fields, from its declaration."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from mudline.language.keywords.fields import FieldInfo, Setting
+from mudline.language.keywords.model import Block, FieldSpec, Part, RecordSchema, Rows, record_schema
+from mudline.language.keywords.table import row_format
+from mudline.language.keywords.values import Kind
+
+TAKES = {
+    Kind.REAL: "number",
+    Kind.WHOLE: "whole number",
+    Kind.IDENT: "number or {label}",
+    Kind.WHOLE_OR_LABEL: "whole number or {label}",
+    Kind.REAL_OR_NAME: "number or name",
+    Kind.NAME: "name",
+    Kind.TITLE: "text",
+    Kind.OTHER: "...",
+}
+
+
+def format_lines(block: type[Block]) -> list[str]:
+    """The keyword and the lines below it, deeper ones indented."""
+    keyword = block.model_fields["keyword"].default
+    return [f"*{keyword}", *_lines(block, 1)]
+
+
+def _lines(part: type[Part], depth: int) -> list[str]:
+    """The lines of a part in the order in which they are written."""
+    lines: list[str] = []
+    found = record_schema(part)
+    for slot in found.slots:
+        if isinstance(slot.about, Setting) and slot.about.inline:
+            lines[-1] += f", {_setting(slot)}" if slot.required else f" [, {_setting(slot)}]"
+        elif slot.record:
+            for record in slot.record.values():
+                first, *rest = _lines(record, depth)
+                lines += [f"{first.removesuffix(' ...')} ...", *(f"  {line}" for line in rest)]
+        elif text := _line(slot, found):
+            lines.append("  " * depth + text)
+    return lines
+
+
+def _line(slot: FieldSpec, found: RecordSchema) -> str:
+    """The line of one field; "" for a field that another one's line holds."""
+    if isinstance(slot.about, Rows) and slot.about.row:
+        return _optional(slot, record_schema(slot.about.row).wanted) + " ..."
+    if slot.key:
+        return _optional(slot, _setting(slot))
+    if slot.row:
+        alternatives = [other for other in found.columns if other.row and not other.required]
+        return record_schema(slot.row).wanted + (" |" if slot in alternatives[:-1] else "")
+    if slot.many:
+        return f"{slot.label} [, ...]"
+    plain = [other for other in found.columns if not other.row]
+    if len(plain) < len(found.columns):
+        return _optional(slot, slot.label)
+    whole = row_format([other.label for other in plain], [other.required for other in plain])
+    return whole if slot is plain[0] else ""
+
+
+def _optional(slot: FieldSpec, text: str) -> str:
+    return text if slot.required else f"[{text}]"
+
+
+def _setting(slot: FieldSpec) -> str:
+    kind = [TAKES[slot.kind]] if slot.kind else []
+    taken = [
+        *(slot.choices if slot.kind is Kind.OTHER else kind),
+        *(kind if slot.kind is Kind.OTHER else slot.choices),
+        *([record_schema(slot.row).wanted] if slot.row else []),
+    ]
+    value = "|".join(taken)
+    return f"{slot.key}={value}" + (" [, ...]" if slot.many else "")
+
+
+def row_formats(schemas: Iterable[RecordSchema]) -> list[str]:
+    """How the rows of some records look."""
+    shapes: list[str] = []
+    for found in schemas:
+        lines = [slot for slot in found.columns if slot.row]
+        plain = [slot for slot in found.columns if not slot.row]
+        shapes += [record_schema(slot.row).wanted for slot in lines if slot.row]
+        if found.table and found.table.row:
+            shapes.append(record_schema(found.table.row).wanted)
+        if plain and not lines:
+            shapes.append(row_format([slot.label for slot in plain], [slot.required for slot in plain]))
+    return shapes
+
+
+# --------------------------------------------------------------------------------------------------- units and ranges
+
+_UNITS = {
+    "metric": {"F": "N", "L": "m", "M": "kg", "T": "s"},
+    "imperial": {"F": "lbf", "L": "ft", "M": "slug", "T": "s"},
+    "user": {"F": "force", "L": "length", "M": "mass", "T": "time"},
+}
+
+
+def unit_text(unit: str, system: str) -> str:
+    """The unit of a field in a unit system, F/L2 as N/m2; what is no dimension as it is."""
+    if not re.fullmatch(r"(?:[FLMT]\d?|/)+", unit):
+        return unit
+    names = _UNITS[system]
+    sides = [re.findall(r"([FLMT])(\d?)", side) for side in unit.split("/")]
+    return "/".join(" ".join(names[letter] + power for letter, power in side) for side in sides)
+
+
+def range_text(about: FieldInfo) -> str:
+    """The range of a field's values, or ""."""
+    if about.above is not None:
+        return f"> {about.above:g}"
+    if about.at_most is not None:
+        return f"{about.at_least:g} to {about.at_most:g}"
+    return f">= {about.at_least:g}" if about.at_least is not None else ""

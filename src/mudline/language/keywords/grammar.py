@@ -1,0 +1,146 @@
+"""Level two: lark's parser of a keyword's rule, over the lines of level one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from copy import copy
+from functools import cache, lru_cache
+from typing import Any, NamedTuple, cast
+
+from lark import Tree, UnexpectedToken
+from lark.parsers.lalr_interactive_parser import InteractiveParser
+
+from mudline.language.diagnostics import Span
+from mudline.language.syntax.grammars import parser
+
+END = "$END"
+ROW = "ROW"
+_FEW = 64
+"""Lines of a block whose tree is remembered: decks hold blocks of the same few forms."""
+
+
+class Content(NamedTuple):
+    """A line of a block, or a run of rows, as lark's token: lark asks for nothing but the `type`, its terminal."""
+
+    type: str
+    span: Span
+
+
+Node = Tree[Content]
+"""A rule with the contents and rules below it."""
+
+
+class Mismatch(NamedTuple):
+    """A line that does not fit; `found` None is the end of the block. `missing`: the line that was left out instead."""
+
+    found: Content | None
+    expected: tuple[str, ...]
+    missing: str
+
+
+@cache
+def terminal_of(key: str) -> str:
+    """Return the terminal of a setting line by its first key."""
+    return "K_" + "".join(letter if letter.isalnum() else "_" for letter in key)
+
+
+@cache
+def first_terminals(rule: str) -> frozenset[str]:
+    """Return the terminals with which the lines of a rule may begin."""
+    return frozenset(_begin(rule).accepts()) - {END}
+
+
+def _begin(rule: str) -> InteractiveParser:
+    return parser("blocks", rule).parse_interactive()
+
+
+def tree_of(rule: str, contents: Sequence[Content]) -> Node | None:
+    """Return the tree of a block under its rule, if all of its lines fit."""
+    parsed = _parsed if len(contents) <= _FEW else _parsed.__wrapped__
+    tree = parsed(rule, tuple([content.type for content in contents]))
+    return tree and _with_lines(tree, iter(contents))
+
+
+def _with_lines(tree: Node, lines: Iterator[Content]) -> Node:
+    """Return a tree with other lines, which come in the order of its leaves."""
+    return Tree(
+        tree.data, [_with_lines(child, lines) if type(child) is Tree else next(lines) for child in tree.children]
+    )
+
+
+@lru_cache(1024)
+def _parsed(rule: str, terminals: tuple[str, ...]) -> Node | None:
+    """Return the tree of lines of which only the terminals are known."""
+    state = _begin(rule)
+    try:
+        for terminal in terminals:
+            _feed(state, _placeless(terminal))
+        return cast("Node", state.feed_eof())
+    except UnexpectedToken:
+        return None
+
+
+def by_lines(rule: str, contents: Sequence[Content], *, insert: bool = True) -> tuple[Node, list[Mismatch]]:
+    """Return the tree of a block line by line, whatever fits.
+
+    A line that does not fit is left out, unless putting in a missing line before it makes it fit; each is reported.
+    In a block with lines of unknown form none is missing for certain: there nothing is to `insert`.
+    """
+    state = _begin(rule)
+    mismatches: list[Mismatch] = []
+    for content in contents:
+        if _takes(state, content):  # a parser that refuses a token has closed what it could before
+            _feed(state, content)
+            continue
+        expected = tuple(sorted(state.accepts()))
+        options = (name for name in expected if insert and name != END and _takes(state, _placeless(name), content))
+        missing = next(options, "")
+        if missing:
+            _feed(state, _placeless(missing), content)
+        mismatches.append(Mismatch(content, expected, missing))
+    if END not in (expected_last := state.accepts()):
+        mismatches.append(Mismatch(None, tuple(sorted(expected_last)), _complete(state)))
+    return _without_missing(cast("Node", state.feed_eof())), mismatches
+
+
+def _placeless(terminal: str) -> Content:
+    """Return the token of a line that is not there."""
+    return Content(terminal, Span(-1, -1))
+
+
+def _feed(state: InteractiveParser, *tokens: Content) -> None:
+    for token in tokens:
+        state.feed_token(cast("Any", token))
+
+
+def _takes(state: InteractiveParser, *tokens: Content) -> bool:
+    """Return True if a parser takes some tokens; the trial makes no tree, so that nothing has to be copied for it."""
+    present = state.parser_state
+    rules = copy(present.parse_conf)
+    rules.callbacks = {}
+    trial = type(present)(rules, present.lexer, [*present.state_stack], [*present.value_stack])
+    try:
+        for token in tokens:
+            trial.feed_token(cast("Any", token), token.type == END)
+    except UnexpectedToken:
+        return False
+    return True
+
+
+def _complete(state: InteractiveParser) -> str:
+    """Feed the mandatory lines that the end of a block lacks, and return the first.
+
+    Each is that which ends the block, or one that was not put in yet.
+    """
+    fed: list[str] = []
+    while END not in (options := sorted(state.accepts())):
+        ends = (option for option in options if _takes(state, _placeless(option), _placeless(END)))
+        fed.append(next(ends, "") or next((option for option in options if option not in fed), options[0]))
+        _feed(state, _placeless(fed[-1]))
+    return fed[0]
+
+
+def _without_missing(node: Node) -> Node:
+    """Return the tree of the lines that are there."""
+    below = [_without_missing(child) if isinstance(child, Tree) else child for child in node.children]
+    return Tree(node.data, [child for child in below if isinstance(child, Tree) or child.span.start >= 0])

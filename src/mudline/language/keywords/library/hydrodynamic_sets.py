@@ -1,0 +1,73 @@
+"""`*HYDRODYNAMIC SETS`: drag and inertia coefficients by element set."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from mudline.language.keywords.fields import about, setting
+from mudline.language.keywords.keeping import OpenBlock, OpenRecord
+from mudline.language.keywords.model import Row
+from mudline.language.keywords.values import Facts, Name, Names, Other, Real, RealOrName
+
+_ORDER = "the order, which is that of decks of a related program: the manual page of the keyword was not seen"
+_OTHERS = "other types (by Reynolds number, moonpools, buoys), whose lines are passed through unchanged"
+
+
+class ConstantCoefficients(Row):
+    """The line of TYPE=CONSTANT."""
+
+    normal_drag: Annotated[Real, about("normal drag coefficient", unit="-", at_least=0, inferred=_ORDER)]
+    tangential_drag: Annotated[Real | None, about("tangential drag coefficient", unit="-", default="0", at_least=0)] = (
+        None
+    )
+    normal_inertia: Annotated[Real | None, about("normal inertia coefficient", unit="-", default="2", at_least=0)] = (
+        None
+    )
+    normal_added_mass: Annotated[
+        Real | None,
+        about("normal added mass coefficient", unit="-", default="normal inertia - 1", at_least=0, inferred=_ORDER),
+    ] = None
+    tangential_added_mass: Annotated[
+        Real | None,
+        about("tangential added mass coefficient", unit="-", default="0", at_least=0, inferred=_ORDER),
+    ] = None
+    drag_lift: Annotated[
+        RealOrName | None,
+        about("drag lift coefficient, or a curve of *DRAG LIFT", unit="-", default="none", names=Names.DRAG_LIFT),
+    ] = None
+
+
+class HydrodynamicSet(OpenRecord):
+    """The coefficients of a set."""
+
+    rule = "hydrodynamic_set"
+    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
+    type_: Annotated[
+        Literal["CONSTANT"] | Other | None,
+        setting(
+            "TYPE", "what the coefficients depend on", default="CONSTANT", inline=True, inferred=_OTHERS, opaque=()
+        ),
+    ] = Field(default=None, alias="type")
+    constant: Annotated[ConstantCoefficients | None, about("coefficients of CONSTANT")] = None
+
+
+class HydrodynamicSets(OpenBlock):
+    """Coefficients by set."""
+
+    rule = "hydrodynamic_sets"
+    page = "theory_hydrodynamic_constant"
+    facts = Facts(later_wins=True)
+    known_forms = True
+    summary = "Drag, inertia and added mass coefficients by element set."
+    example = "*HYDRODYNAMIC SETS\n DIAMETER=DRAG\n SET=ALL, TYPE=CONSTANT\n 1.0, 0.0, 2.0, 1.0, 0.0\n"
+
+    keyword: Literal["HYDRODYNAMIC SETS"] = "HYDRODYNAMIC SETS"
+    diameter: Annotated[
+        Literal["DRAG", "BUOYANCY"] | None, setting("DIAMETER", "diameter of inertia forces", default="DRAG")
+    ] = None
+    sets: list[HydrodynamicSet] = []
+
+
+BLOCK = HydrodynamicSets

@@ -1,0 +1,33 @@
+"""`*OCEAN`: water depth, density and gravity."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from mudline.language.keywords.fields import about
+from mudline.language.keywords.model import Block
+from mudline.language.keywords.values import Facts, Real
+
+
+class Ocean(Block):
+    """The sea."""
+
+    rule = "ocean"
+    facts = Facts(tells_units=True)
+    page = "kwd_model_ocean"
+    summary = "Water depth, density of sea water, gravity."
+    example = "*OCEAN\n 500.0, 1025.0, 9.81\n"
+
+    keyword: Literal["OCEAN"] = "OCEAN"
+    depth: Annotated[Real, about("water depth", unit="L", above=0)]
+    density: Annotated[Real | None, about("density of sea water", unit="M/L3", default="1025 kg/m3", at_least=0)] = None
+    gravity: Annotated[Real | None, about("acceleration of gravity", unit="L/T2", default="9.81 m/s2", at_least=0)] = (
+        None
+    )
+    viscosity: Annotated[
+        Real | None,
+        about("kinematic viscosity", unit="L2/T", default="1.3e-6 m2/s, 1.4e-5 ft2/s, 1e-10 in user units", at_least=0),
+    ] = None
+
+
+BLOCK = Ocean

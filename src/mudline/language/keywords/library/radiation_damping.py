@@ -1,0 +1,31 @@
+"""`*RADIATION DAMPING`: radiation damping of floating bodies."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from mudline.language.keywords.matrices import BodyMatrices
+from mudline.language.keywords.model import Block
+
+
+class RadiationDamping(Block):
+    """Matrices of bodies."""
+
+    rule = "radiation_damping"
+    subject = "vessels"
+    page = "kwd_model_radiationdamping"
+    summary = (
+        "Radiation damping of floating bodies in a coupled analysis: a file, a constant matrix, or one a frequency."
+    )
+    tabular = True
+    example = (
+        "*RADIATION DAMPING\n FLOATING BODY=Buoy\n TYPE=CONSTANT\n"
+        " 9.0E4, 0.0, 0.0, 0.0, 0.0, 0.0\n 0.0, 5.0E4, 0.0, 0.0, 0.0, 0.0\n 0.0, 0.0, 5.0E4, 0.0, 0.0, 0.0\n"
+        " 0.0, 0.0, 0.0, 2.0E4, 0.0, 0.0\n 0.0, 0.0, 0.0, 0.0, 3.0E4, 0.0\n 0.0, 0.0, 0.0, 0.0, 0.0, 3.0E4\n"
+    )
+
+    keyword: Literal["RADIATION DAMPING"] = "RADIATION DAMPING"
+    bodies: list[BodyMatrices] = []
+
+
+BLOCK = RadiationDamping

@@ -1,0 +1,91 @@
+"""The names, numbers and labels that the fields of a part give: those of other things, or those of a new one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from typing import Literal, TypeGuard, cast
+
+from mudline.language.keywords.model import Block, FieldSpec, Part, Path, Wanted, fields_of, record_schema
+from mudline.language.keywords.unknown import UNKNOWN_NAME
+from mudline.language.keywords.values import Equation, Label, Names
+
+Role = Literal["names", "defines"]
+"""What a field does with a name: it uses that of another thing, or gives a thing its own."""
+
+
+@cache
+def naming(what: Names | None, role: Role = "names") -> Wanted:
+    """Return what tells of a field whether it names or defines a thing of a kind, None for any."""
+
+    def names(slot: FieldSpec) -> bool:
+        kind = getattr(slot.about, role)
+        return kind is what if what else kind is not None
+
+    return names
+
+
+@cache
+def kinds_of(part: type[Part], role: Role) -> frozenset[Names]:
+    """Return the kinds of things that the fields of a part, and of those inside it, name or define."""
+    return frozenset(kind for slot in fields_of(part) if (kind := getattr(slot.about, role)) is not None)
+
+
+def may_name(part: type[Part], what: Names) -> bool:
+    """Return True if a part has fields for names of a kind."""
+    return what in kinds_of(part, "names")
+
+
+def holds_name(slot: FieldSpec) -> bool:
+    """Return True for a field that names or defines a thing by a text."""
+    return any(True for _ in roles_of(slot))
+
+
+def roles_of(slot: FieldSpec) -> Iterator[tuple[Role, Names]]:
+    """Yield what a field does with names, and with which kind; numbers of nodes and elements are no names."""
+    for role, kind in (("names", slot.about.names), ("defines", slot.about.defines)):
+        if kind is not None and kind not in (Names.NODE, Names.ELEMENT):
+            yield cast("Role", role), kind
+
+
+def names_given(part: Part, what: Names, role: Role = "names") -> Iterator[tuple[Path, str]]:
+    """Yield the names of things of a kind that a part gives, with their paths; what is not a text is not a name."""
+    return ((path, name) for path, _, name in part.walk(naming(what, role)) if is_name(name))
+
+
+def is_name(item: object) -> TypeGuard[str]:
+    """Return True for a text that was read and is no equation."""
+    return isinstance(item, str) and item is not UNKNOWN_NAME and not isinstance(item, Equation)
+
+
+def idents_given(part: Part, what: Names) -> Iterator[tuple[Path, int | Label]]:
+    """Yield numbers and labels of nodes or elements that a part gives, with their paths; what is unreadable is none.
+
+    Those in the rows of a table are left out: a keyword with such a table looks at them itself.
+    """
+    return ((path, item) for path, _, item in part.walk(naming(what)) if isinstance(item, int | Label))
+
+
+@cache
+def set_slots(block: type[Block]) -> tuple[tuple[FieldSpec, FieldSpec], ...]:
+    """The lists of a block whose records go by element set, each with the field of these that names it."""
+    return tuple(
+        (slot, named)
+        for slot in record_schema(block).slots
+        for record in slot.record.values()
+        for named in record_schema(record).slots
+        if named.about.names is Names.SET
+    )
+
+
+def repeated_set(block: Block) -> Path:
+    """The place of the first element set that a block gives a second time with other values; () where none is."""
+    for listed, named in set_slots(type(block)) if block.facts.later_wins else ():
+        given: dict[str, Part] = {}
+        for index, entry in enumerate(getattr(block, listed.name)):
+            name = getattr(entry, named.name, None)
+            if isinstance(name, str) and name:
+                first = given.setdefault(name.casefold(), entry)
+                if first is not entry and first != entry:
+                    return listed.json, index, named.json
+    return ()

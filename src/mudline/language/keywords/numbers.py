@@ -1,0 +1,80 @@
+"""What a text that is not a number was meant as, and what is said of it."""
+
+from __future__ import annotations
+
+import re
+
+from mudline.basics.short_repr import cut
+from mudline.language.codes.fields import SYN002
+from mudline.language.diagnostics import Problem, Repair, Span
+from mudline.language.keywords.values import Equation, Kind
+from mudline.language.syntax.rows import read_number, spells_number
+
+_GROUPED = re.compile(r"[-+]?[0-9]{1,3}(?:[ '_\xa0\u202f][0-9]{3})+(?:\.[0-9]*)?")
+"""A number with its digits in groups of three."""
+_MINUS = "\u2010\u2011\u2012\u2013\u2014\u2212\ufe63\uff0d"
+"""Hyphens, dashes and minus signs of word processors."""
+_BLANKS = "\xa0\u2007\u2009\u200b\u202f\ufeff"
+"""Blanks that word processors put around a number, and marks that nobody sees."""
+
+
+def maybe_number(text: str) -> bool:
+    """Whether a text is a number or an equation, or was meant as one."""
+    return text.startswith("=") or read_number(text) is not None or looks_numeric(text)
+
+
+def looks_numeric(text: str) -> bool:
+    """Whether a text that is not a finite number was meant as one."""
+    return not_finite(text) or spells_number(text) or bool(_GROUPED.fullmatch(text) or _plain(text))
+
+
+def not_finite(text: str) -> bool:
+    """Whether a text is a NaN or an infinity."""
+    return text.lower().lstrip("+-") in ("nan", "inf", "infinity")
+
+
+def cut_number(text: str) -> bool:
+    """Whether a text is the beginning of a number: a sign, or digits with an exponent that has none."""
+    return text in ("+", "-") or (text.rstrip("+-")[-1:] in ("e", "E", "d", "D") and spells_number(f"{text}0"))
+
+
+def not_a_number(text: str, span: Span, label: str, kind: Kind | None = None) -> Problem:
+    """The problem of a field that is not a number; a number with characters of a word processor has its repair."""
+    plain = _plain(text)
+    if not plain:
+        return Problem(SYN002, _fault(text, label, kind), span)
+    odd = next(char for char in text if not char.isascii())
+    message = f"{cut(text, 60)!r} is not a number, as it has the character U+{ord(odd):04X}: write {plain} for {label}"
+    return Problem(SYN002, message, span, repair=Repair("unsafe", f"write {plain}", ((span, plain),)))
+
+
+def _plain(text: str) -> str:
+    """The number that a text is in plain characters; "" where it is none, or has no others."""
+    if text.isascii():
+        return ""
+    plain = "".join(
+        "-" if char in _MINUS else str(int(char)) if char.isdecimal() else char for char in text.strip(_BLANKS)
+    )
+    return plain if spells_number(plain) else ""
+
+
+def _fault(text: str, label: str, kind: Kind | None) -> str:
+    """Why a text is not a number, in words that say what to do."""
+    lower = text.lower().lstrip("+-")
+    if not_finite(text):
+        return f"{text!r} is not a finite number: {label} needs a number"
+    if kind is Kind.IDENT and Equation.match(text):
+        return f"{cut(text, 60)!r} is an equation: expected {kind.value} for {label}"
+    if text.startswith(("[", "=")):
+        return f"{text!r} is not an equation: write =[...] for {label}"
+    if lower[:1].isdigit() and any(mark in lower for mark in "ed"):
+        try:
+            float(lower.replace("d", "e"))
+        except ValueError:
+            pass
+        else:
+            return f"{text} is too large for a double-precision number: {label} must be below 1.8E308"
+    if _GROUPED.fullmatch(text):
+        whole = "".join(char for char in text if char in "+-.0123456789")
+        return f"{text!r} is not a number because its digits are grouped: write {whole} for {label}"
+    return f"{cut(text, 60)!r} is not a number: expected a number or an equation =[...] for {label}"

@@ -1,0 +1,75 @@
+"""Values of a block that its model refuses: numbers out of the range of their field, curves of too few points.
+
+Text is read as it is, so that a check reports such a value at its place; no document holds one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+
+from mudline.language.keywords.model import FEWEST_POINTS, FieldSpec, Part, Path, Rows, fields_of, record_schema
+from mudline.language.keywords.table import Table
+
+
+def range_fault(value: float, slot: FieldSpec) -> str:
+    """What is wrong with a number, or nothing; NaN stands for one that could not be read."""
+    fault = slot.about.fault(value)
+    return f"{_in_words(slot)} is {value!r}: {fault}" if fault else ""
+
+
+def _in_words(slot: FieldSpec) -> str:
+    """The field in words: `FRICTION=`, `water depth`, `external diameter Do`, `area of the section (A)`."""
+    meaning = slot.about.meaning.partition(";")[0]
+    if slot.key:
+        return slot.label
+    if slot.label.islower():  # words of the meaning; a symbol has capitals
+        return meaning
+    return f"{meaning} ({slot.label})" if " of " in meaning else f"{meaning} {slot.label}"
+
+
+def is_refused(part: Part) -> bool:
+    """Whether no document can hold a block that was read from text."""
+    return any(True for _ in range_faults(part)) or any(
+        len(curve) < FEWEST_POINTS for _, _, curve in part.walk(_is_curve)
+    )
+
+
+def range_faults(part: Part) -> Iterator[tuple[Path, str]]:
+    """Yield path and message of each value that is out of range."""
+    for path, slot, value in part.walk(_is_ranged):
+        if isinstance(value, Table):
+            yield from (((*path, *cell), fault) for cell, fault in _table_faults(value, slot))
+        elif isinstance(value, float | int) and (fault := range_fault(value, slot)):
+            yield path, fault
+
+
+def _is_ranged(slot: FieldSpec) -> bool:
+    """Return True for a field with a range but those of GEN=, and for a table that has a column with one."""
+    if isinstance(slot.about, Rows):
+        return bool(_ranged_columns(slot.row))
+    return bool(slot.about.limits) and not slot.of_list
+
+
+@cache
+def ranged_slots(part: type[Part]) -> tuple[FieldSpec, ...]:
+    """Return the fields with a range of a part and of those inside it."""
+    return tuple(slot for slot in fields_of(part) if slot.about.limits and not slot.of_list)
+
+
+@cache
+def _ranged_columns(row: type[Part] | None) -> tuple[tuple[int, FieldSpec], ...]:
+    columns = record_schema(row).columns if row else ()
+    return tuple((index, column) for index, column in enumerate(columns) if column.about.limits)
+
+
+def _table_faults(table: Table, slot: FieldSpec) -> Iterator[tuple[tuple[int, int], str]]:
+    """Row, column and message of each value of a table that is out of range."""
+    for index, column in _ranged_columns(slot.row):
+        for row, value in enumerate(table.column(index).tolist()):
+            if fault := range_fault(value, column):
+                yield (row, index), fault
+
+
+def _is_curve(slot: FieldSpec) -> bool:
+    return isinstance(slot.about, Rows) and bool(slot.about.curve)

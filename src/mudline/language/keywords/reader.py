@@ -1,0 +1,344 @@
+"""A raw block to the model of its keyword: contents, grammar, values, comments; every fault is one problem."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from dataclasses import dataclass, field
+from functools import cache, partial
+from typing import Protocol, cast
+
+from pydantic import ValidationError
+
+from mudline.basics.short_repr import short_repr
+from mudline.basics.spelling import nearest
+from mudline.language.codes.lines import SYN001, SYN004, SYN013, SYN014
+from mudline.language.diagnostics import Problem, Severity, Span
+from mudline.language.keywords import grammar
+from mudline.language.keywords.attaching import Between, attach
+from mudline.language.keywords.builder import Builder
+from mudline.language.keywords.constructing import construct, lose
+from mudline.language.keywords.fields import AS_TEXT
+from mudline.language.keywords.grammar import END, ROW, Content, Mismatch
+from mudline.language.keywords.keeping import is_choice, opened
+from mudline.language.keywords.kept_lines import doubtful, of_other_form
+from mudline.language.keywords.model import Block, Part, RecordSchema, record_schema
+from mudline.language.keywords.parsed import ParsedRecord
+from mudline.language.keywords.places import Places
+from mudline.language.keywords.text import hint, instead, merge_per_line, shown, suggestion
+from mudline.language.syntax.fields import first_key, trimmed
+from mudline.language.syntax.rows import line_spans
+from mudline.language.syntax.tree import Kind, Leaf, RawBlock
+
+
+@dataclass(slots=True)
+class ReadBlock:
+    """A block that was read: its model, where its values stand, what was wrong, and the comments behind its last line.
+
+    `lost` counts lines that could not be used at all: what they would have defined is unknown. `found` are the places
+    in the text that was read, or what finds them when somebody asks.
+    Where a piece was read, `whole` is the text that it belongs to and where it begins there. A block is `opaque` where
+    what its keyword demands may stand in lines of an unknown form: all of it is then passed through unchanged.
+    """
+
+    model: Block
+    found: Places | Callable[[], Places]
+    problems: list[Problem]
+    trailing: list[str] = field(default_factory=list)
+    lost: int = 0
+    whole: tuple[str, int] | None = None
+    opaque: bool = False
+
+    __repr__ = short_repr
+
+    @property
+    def own(self) -> Places:
+        """The places in the text that was read."""
+        found = self.found  # read once: decks that share a block may be read in two threads
+        if not isinstance(found, Places):
+            found = self.found = found()
+        return found
+
+    def _found(self) -> Places:
+        return self.own
+
+    @property
+    def places(self) -> Places:
+        """The places in the whole text; worked out when somebody asks."""
+        if self.whole:
+            self.found = self.own.moved(*self.whole)
+            self.whole = None
+        return self.own
+
+    def at(self, text: str, start: int, problems: list[Problem]) -> ReadBlock:
+        """The block, with its problems there, in a text in which the piece that was read begins at `start`."""
+        found = self.found if isinstance(self.found, Places) else self._found
+        return ReadBlock(self.model, found, problems, self.trailing, self.lost, (text, start), self.opaque)
+
+
+class BlockReader(Protocol):
+    """Reads a block as `read_block` does."""
+
+    def __call__(self, text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
+        """`text` is the unified text of the source; `last` says that nothing follows the block in it."""
+
+
+def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
+    """Read a block. `text` is the unified text of the source; `last` says that nothing follows the block in it."""
+    return _read(text, raw, declared, last=last)
+
+
+def _read(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
+    """Read a block, whose places are found by reading it again when somebody asks: few blocks are asked for them."""
+    read = _Reader(text, raw, declared, last=last).read()
+    read.found = partial(_places, text, raw, declared, last=last)
+    return read
+
+
+def _places(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> Places:
+    reader = _Reader(text, raw, declared, last=last)
+    reader.read()
+    return reader.places()
+
+
+def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
+    """Whether a block reads without an error, and all of it but what its declaration says to be of unknown form.
+
+    That is sooner known than what is wrong in it.
+    """
+    ends: frozenset[str] = frozenset()
+    keys = all_keys(declared)
+    for leaf in raw.leaves:
+        key = first_key(text, leaf.span) if leaf.kind is Kind.SETTING else ""
+        if key and (not ends or key in ends):
+            value = text[slice(*leaf.span)].partition("=")[2]
+            ends = opened(declared, key, value)
+            if key not in keys or (ends and not is_choice(declared, key, value)):
+                return False
+    reader = _Reader(text, raw, declared, last=False)
+    if grammar.tree_of(declared.rule, reader.contents()) is None or reader.lost:
+        return False
+    kept = len(reader.kept)
+    found = _Reader(text, raw, declared, last=False).read()
+    return found.lost == kept and not any(one.weight is Severity.ERROR for one in found.problems)
+
+
+def read_piece(piece: str, start: int, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
+    """Read a block as if its own lines were the whole text; `raw` is the block in the text, where it is at `start`."""
+    return _read(piece, _moved(raw, -start), declared, last=last)
+
+
+def _moved(raw: RawBlock, by: int) -> RawBlock:
+    leaves = [Leaf(leaf.kind, leaf.span.moved(by)) for leaf in raw.leaves]
+    return RawBlock(Leaf(raw.head.kind, raw.head.span.moved(by)), raw.name, leaves)
+
+
+class _Reader:
+    def __init__(self, text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> None:
+        self.text = text
+        self.raw = raw
+        self.declared = declared
+        self.last = last
+        self.keys = all_keys(declared)
+        self.problems: list[Problem] = []
+        self.comments: list[Between] = []
+        self.kept: list[Between] = []
+        self.lost = 0
+        self.built: ParsedRecord | None = None
+
+    def read(self) -> ReadBlock:
+        """What the lines give; of an open block without those that have another form than it knows."""
+        contents = self.contents()
+        noticed, lost = self.problems, self.lost
+        while True:
+            self.problems, self.lost = [*noticed], lost
+            found = self._attempt(contents)
+            odd = self._of_other_form(contents) if self.declared.open_lines and not self.declared.known_forms else ()
+            if not odd:
+                return found
+            noticed += doubtful(self.problems)
+            self._keep_all(odd, contents)
+
+    def _of_other_form(self, contents: list[Content]) -> set[Content]:
+        return of_other_form(self.text, self.problems, contents, tabular=self.declared.tabular)
+
+    def _attempt(self, contents: list[Content]) -> ReadBlock:
+        mismatches: list[Mismatch] = []
+        node = grammar.tree_of(self.declared.rule, contents)
+        if node is None:
+            node, mismatches = grammar.by_lines(self.declared.rule, contents, insert=not self.declared.open_lines)
+            if self.declared.open_lines:
+                self._keep_all({mismatch.found for mismatch in mismatches if mismatch.found}, contents)
+                mismatches = [mismatch for mismatch in mismatches if not mismatch.found]
+        end = len(self.text.rstrip(" \t")) if self.last and not self.text.endswith("\n") else -1
+        builder = Builder(self.text, self.problems, slashes=self.declared.slashes, end=end)
+        for mismatch in mismatches:
+            self._report(mismatch)
+        built = self.built = builder.build(self.declared, node)
+        trailing = attach(self.comments, self.kept, built) if self.comments or self.kept else []
+        self.lost += builder.lost + len(self.kept)
+        model = self._model(built)
+        problems = merge_per_line(self.text, self.problems)
+        may_keep = "unread" in self.declared.model_fields
+        if self.kept and may_keep and any(problem.code in (SYN001, SYN014) for problem in problems):
+            return ReadBlock(model, self.places, doubtful(problems), lost=self.lost, opaque=True)
+        return ReadBlock(model, self.places, problems, trailing, self.lost)
+
+    def places(self) -> Places:
+        """Return the places of the values that were read."""
+        kept = frozenset(line.start for kept in self.kept for line in line_spans(self.text, kept.span))
+        places = Places(self.text, trimmed(self.text, *self.raw.head.span), kept=kept)
+        if self.built:
+            places.add(self.built)
+        return places
+
+    def _model(self, built: ParsedRecord) -> Block:
+        """Return the validated model; of a block with faults, what could be read of it."""
+        built.values["keyword"] = self.raw.name
+        if not any(one.weight is Severity.ERROR for one in self.problems):
+            try:
+                return self.declared.model_validate(built.values, context=AS_TEXT)
+            except ValidationError as error:
+                places = self.places()
+                for fault in error.errors():
+                    place = tuple(fault["loc"])
+                    message = fault["msg"].removeprefix("Value error, ")
+                    if fault["type"] == "missing":
+                        message = f"{_label(self.declared, place)} is missing here"
+                    self.problems.append(Problem(SYN001, message, places.find(place)))
+        lost = [one.span.start for one in self.problems if one.code in (SYN001, SYN004) and one.span is not None]
+        if lost:
+            lose(built, lost)
+        return cast("Block", construct(built))
+
+    def contents(self) -> list[Content]:
+        """The lines as the terminals of the grammar; those that are none are reported."""
+        contents: list[Content] = []
+        ends: frozenset[str] = frozenset()
+        for leaf in self.raw.leaves:
+            kind, span = leaf
+            if ends and kind not in (Kind.COMMENT, Kind.BLANK):
+                if first_key(self.text, span) not in ends:
+                    self._keep(span)
+                    continue
+                ends = frozenset()
+            match kind:
+                case Kind.COMMENT:
+                    self._comment(leaf)
+                case Kind.UNDECIDED:
+                    ends = self._undecided(leaf, contents)
+                case Kind.SETTING:
+                    ends = self._setting(span, contents)
+                case Kind.RUN if not self.declared.tabular:
+                    contents += [Content(ROW, line) for line in line_spans(self.text, span)]
+                case Kind.RUN | Kind.TEXT:
+                    contents.append(Content(ROW, span))
+                case _:
+                    pass
+        return contents
+
+    def _keep_all(self, odd: Collection[Content], contents: list[Content]) -> None:
+        """Keep lines that were to be read."""
+        for content in odd:
+            self._keep(content.span)
+        contents[:] = [content for content in contents if content not in odd]
+
+    def _keep(self, span: Span) -> None:
+        self.kept.append(Between(span.start, self.text[slice(*span)], span, kept=True))
+
+    def _comment(self, leaf: Leaf) -> None:
+        line = self.text[slice(*leaf.span)].rstrip("\r\n")
+        self.comments.append(Between(leaf.span.start, line[1:], leaf.span))
+
+    def _undecided(self, leaf: Leaf, contents: list[Content]) -> frozenset[str]:
+        """A line with C and a letter in column 1: a known key makes it data, else it is a comment, with a warning."""
+        key = first_key(self.text, leaf.span)
+        if key in self.keys:
+            return self._setting(leaf.span, contents)
+        line = self.text[slice(*leaf.span)].rstrip("\r\n")
+        meant = suggestion(key, sorted(self.keys)) if key else ""
+        message = (
+            f"{shown(line)} begins with C in column 1 and is read as a comment (inferred){meant}: "
+            "put a space after the C, or indent the line if it is data"
+        )
+        self.problems.append(Problem(SYN013, message, trimmed(self.text, *leaf.span)))
+        self._comment(leaf)
+        return frozenset()
+
+    def _setting(self, span: Span, contents: list[Content]) -> frozenset[str]:
+        """A line that begins with a setting; returns the keys that end the lines to be kept behind it, if any are."""
+        key = first_key(self.text, span)
+        if key in self.keys:
+            contents.append(Content(grammar.terminal_of(key), span))
+            return opened(self.declared, key, self.text[slice(*span)].partition("=")[2])
+        known = sorted(self.keys)
+        allowed = ", ".join(f"{name}=" for name in known) or "no KEY= at all"
+        body = trimmed(self.text, *span)
+        end = self.text.find("=", body.start, body.end)
+        near = nearest(key, known)
+        advice = self.declared.facts.instead_of.get(key, "")
+        message = f"*{self.raw.name} has no setting {key}={hint(near)}: {advice or f'it takes {allowed}'}"
+        repair = instead(near, trimmed(self.text, body.start, end))
+        problem = Problem(SYN004, message, Span(body.start, end + 1), repair=repair)
+        if self.declared.open_lines:
+            self.problems += doubtful([problem])
+            self._keep(span)
+        else:
+            self.problems.append(problem)
+            self.lost += 1
+        return frozenset()
+
+    def _report(self, mismatch: Mismatch) -> None:
+        wanted = " or ".join(self._describe(terminal) for terminal in mismatch.expected if terminal != END)
+        wanted = wanted or "nothing more in this block"
+        self.lost += 1
+        if mismatch.found is None:
+            code = SYN014 if self.last else SYN001
+            where = "the file" if self.last else f"*{self.raw.name}"
+            message = f"{where} is incomplete: missing {wanted}"
+            lines = [leaf for leaf in (self.raw.head, *self.raw.leaves) if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
+            span = trimmed(self.text, *lines[-1].span)
+            self.problems.append(Problem(code, message, span))
+            return
+        span = trimmed(self.text, *mismatch.found.span)
+        if mismatch.missing:
+            wanted = self._describe(mismatch.missing)
+            message = f"expected {wanted} before this line: write {wanted} and its value above it"
+            if mismatch.missing == ROW:
+                message = f"expected {wanted} before this line"
+            self.problems.append(Problem(SYN001, message, span))
+            return
+        found = "a row" if mismatch.found.type == ROW else f"{first_key(self.text, mismatch.found.span)}="
+        message = f"*{self.raw.name} has no place for {found} here: expected {wanted}"
+        self.problems.append(Problem(SYN001, message, span))
+
+    def _describe(self, terminal: str) -> str:
+        if terminal == ROW:
+            from mudline.language.keywords.format import row_formats  # noqa: PLC0415 - only for a line that does not fit
+
+            formats = dict.fromkeys(row_formats(schemas_of(self.declared)))
+            return "a row " + " or ".join(f"`{shape}`" for shape in formats)
+        return next(f"{key}=" for key in self.keys if grammar.terminal_of(key) == terminal)
+
+
+def _label(part: type[Part], place: tuple[str | int, ...]) -> str:
+    """The name, for a reader, of the field at a place of a block."""
+    label = ""
+    for step in place:
+        slot = next((slot for slot in record_schema(part).slots if slot.json == step), None)
+        if slot is not None:
+            label = slot.label
+            part = slot.row or next(iter(slot.record.values()), part)
+    return label
+
+
+@cache
+def all_keys(part: type[Part]) -> frozenset[str]:
+    """Every KEY that the lines of a keyword may begin with or hold."""
+    return frozenset(key for found in schemas_of(part) for key in found.keys)
+
+
+def schemas_of(part: type[Part]) -> list[RecordSchema]:
+    """The schema of a part and of the records below it."""
+    own = record_schema(part)
+    below = [inner for slot in own.children.values() for record in slot.record.values() for inner in schemas_of(record)]
+    return [own, *below]

@@ -1,0 +1,441 @@
+"""Tables of rows as arrays, with the few fields that are not numbers beside them; tables and lists of documents."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import chain, islice
+from typing import Any, NamedTuple, cast
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import ValidationError
+from pydantic_core import CoreSchema, ErrorDetails, InitErrorDetails, PydanticCustomError, core_schema, to_json
+
+from mudline.basics.short_repr import counted
+from mudline.language.diagnostics import Span
+from mudline.language.keywords.values import Equation, Kind, Label
+from mudline.language.syntax.rows import Rows as RawRows
+from mudline.language.syntax.rows import read_rows
+
+Cell = float | int | str | None
+LARGEST_WHOLE = 2**53
+_ROWS_AT_ONCE = 8192
+
+
+def not_whole(written: str, value: float, label: str) -> str:
+    """Why a number cannot stand where a whole one belongs; `written` is how it stands there."""
+    if value.is_integer():
+        return f"{written} is too large: {label} needs a whole number of at most 2^53 ({LARGEST_WHOLE})"
+    return f"{written} is not a whole number: {label} needs one"
+
+
+def misfit(message: str, row: int, column: int | None = None) -> ValidationError:
+    """The fault of a cell or, without a column, of a row of a list that a table cannot hold."""
+    kind = PydanticCustomError("table", "{fault}", {"fault": message})
+    place = InitErrorDetails(type=kind, loc=(row,) if column is None else (row, column), input=None)
+    return ValidationError.from_exception_data("table", [place])
+
+
+class Part(NamedTuple):
+    """Some rows of a table as lists; `plain`: all cells are numbers, all rows as long as the table is wide."""
+
+    rows: list[list[Cell]]
+    plain: bool
+
+
+class Column(NamedTuple):
+    """What a column holds."""
+
+    label: str
+    kind: Kind
+    required: bool
+
+    @property
+    def whole(self) -> bool:
+        """Whether its numbers are whole."""
+        return self.kind in (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL)
+
+    def fault(self, word: str) -> str:
+        """Why a field that is not a number is not allowed here, or ""."""
+        if word == "":
+            return f"{self.label} is missing: expected {self.kind.value}" if self.required else ""
+        if self.kind is Kind.IDENT:
+            return "" if Label.match(word) else f"{word!r} is not allowed for {self.label}: expected {self.kind.value}"
+        return "" if Equation.match(word) else f"{word!r} is not a number: expected {self.kind.value} for {self.label}"
+
+
+class Table:
+    """Rows of a fixed number of columns.
+
+    `values` (rows, columns) float64 holds NaN in a field without a number; `words` says what it holds instead: an
+    equation, a label, or None for an empty field. A NaN without a word is a field that could not be read, or one
+    beyond the row's end. `lengths` (rows,) counts the fields given in each row; in a `full` table all are.
+    """
+
+    __slots__ = ("_lengths", "values", "words")
+
+    def __init__(
+        self,
+        values: NDArray[np.float64],
+        lengths: NDArray[np.intp] | None = None,
+        words: dict[tuple[int, int], Equation | Label | None] | None = None,
+    ) -> None:
+        self.values = values
+        self._lengths = lengths
+        self.words = words or {}
+
+    @property
+    def full(self) -> bool:
+        """Whether it is known that every row is as long as the table is wide, without a word."""
+        return self._lengths is None and not self.words
+
+    @property
+    def lengths(self) -> NDArray[np.intp]:
+        """The number of fields given in each row."""
+        if self._lengths is None:
+            self._lengths = np.full(len(self.values), self.values.shape[1], dtype=np.intp)
+        return self._lengths
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Table):
+            return NotImplemented
+        return (
+            np.array_equal(self.lengths, other.lengths)
+            and self.words == other.words
+            and self.values.shape == other.values.shape
+            and self.values.tobytes() == other.values.tobytes()
+        )
+
+    __hash__ = None  # type: ignore[assignment]  # mutable arrays inside
+
+    def __repr__(self) -> str:
+        return f"Table({len(self)} rows of {self.values.shape[1]})"
+
+    @property
+    def equations(self) -> bool:
+        """Whether any field is an equation."""
+        return bool(self.words) and any(isinstance(word, Equation) for word in self.words.values())
+
+    @property
+    def unknown(self) -> bool:
+        """Whether any field could not be read."""
+        left_out = len(self.words) + int((self.values.shape[1] - self.lengths).sum())
+        return int(np.isnan(self.values).sum()) > left_out
+
+    def column(self, index: int, default: float = math.nan) -> NDArray[np.float64]:
+        """One column as an array (rows,); `default` where the row ends before it or the field is empty."""
+        if index >= self.values.shape[1]:
+            return np.full(len(self), default)
+        values = self.values[:, index].copy()
+        if not math.isnan(default) and not self.full:
+            values[self.lengths <= index] = default
+            for (row, column), word in self.words.items():
+                if column == index and word is None:
+                    values[row] = default
+        return values
+
+    def rows(self, columns: Sequence[Column]) -> list[list[Cell]]:
+        """The rows as lists: whole numbers as int, empty fields None, equations and labels as text."""
+        return [row for part in self.parts(columns) for row in part.rows]
+
+    def parts(self, columns: Sequence[Column]) -> Iterator[Part]:
+        """The rows as lists, some thousand at a time."""
+        odd = (self.lengths != self.values.shape[1]) | np.isnan(self.values).any(axis=1)
+        words: dict[int, list[tuple[int, int]]] = {}
+        for place in self.words:
+            words.setdefault(place[0] // _ROWS_AT_ONCE, []).append(place)
+        for number, start in enumerate(range(0, len(self), _ROWS_AT_ONCE)):
+            part = slice(start, start + _ROWS_AT_ONCE)
+            plain = not odd[part].any()
+            rows = _lists(self.values[part], columns)
+            if not plain:
+                for row, column in words.get(number, ()):
+                    word = self.words[row, column]
+                    rows[row - start][column] = None if word is None else str(word)
+                for cells, length in zip(rows, self.lengths[part].tolist(), strict=True):
+                    del cells[length:]
+            yield Part(rows, plain)
+
+
+def _lists(values: NDArray[np.float64], columns: Sequence[Column]) -> list[list[Cell]]:
+    """Rows of numbers as lists."""
+    whole = [column.whole for column in columns[: values.shape[1]]]
+    if not any(whole):
+        return cast("list[list[Cell]]", values.tolist())
+    by_column: list[list[Cell]] = []
+    for column, needed in zip(values.T, whole, strict=True):
+        exact = needed and not np.isnan(column).any()
+        cells = (column.astype(np.int64) if exact else column).tolist()
+        by_column.append([cell if math.isnan(cell) else int(cell) for cell in cells] if needed and not exact else cells)
+    return [list(row) for row in zip(*by_column, strict=True)]
+
+
+def from_cells(cells: list[object], columns: Sequence[Column]) -> Table:
+    """A table from lists, as JSON holds them. Raises ValidationError for the first row or cell that does not fit."""
+    for row, fields in enumerate(cells):
+        if type(fields) is not list:
+            raise misfit(f"expected a row: a list of {_count(columns)} values", row)
+    rows = cast("list[list[object]]", cells)
+    lengths = np.fromiter(map(len, rows), dtype=np.intp, count=len(rows))
+    fewest, width = fewest_of(columns), int(lengths.max(initial=0))
+    if width > len(columns) or (len(rows) and int(lengths.min()) < fewest):
+        row = int(np.flatnonzero((lengths > len(columns)) | (lengths < fewest))[0])
+        raise misfit(f"{counted(int(lengths[row]), 'field')}, expected {_count(columns)}", row)
+    table = _numbers(rows, lengths, width) or _cells(rows, lengths, width, columns)
+    for (row, column), fault in _not_whole(table, columns).items():
+        raise misfit(fault, row, column)
+    return table
+
+
+def _numbers(rows: list[list[object]], lengths: NDArray[np.intp], width: int) -> Table | None:
+    """The table of rows that hold finite numbers only; None for others."""
+    if not set(map(type, chain.from_iterable(rows))) <= {int, float}:
+        return None
+    try:
+        flat = np.fromiter(chain.from_iterable(rows), dtype=np.float64, count=int(lengths.sum()))
+    except OverflowError:
+        return None
+    if not np.isfinite(flat).all():
+        return None
+    if len(flat) == len(rows) * width:
+        return Table(flat.reshape(len(rows), width), lengths)
+    values = np.full((len(rows), width), math.nan)
+    values[np.arange(width) < lengths[:, np.newaxis]] = flat
+    return Table(values, lengths)
+
+
+def _cells(rows: list[list[object]], lengths: NDArray[np.intp], width: int, columns: Sequence[Column]) -> Table:
+    """The table of rows among whose cells are words."""
+    values = np.full((len(rows), width), math.nan)
+    words: dict[tuple[int, int], Equation | Label | None] = {}
+    for row, fields in enumerate(rows):
+        for column, cell in enumerate(fields):
+            if isinstance(cell, int | float) and not isinstance(cell, bool):
+                values[row, column] = _finite(cell, row, column)
+            elif cell is not None and (not isinstance(cell, str) or not cell):
+                raise misfit(f"{cell!r} is not allowed here: expected {columns[column].kind.value}", row, column)
+            elif fault := columns[column].fault(cell or ""):
+                raise misfit(fault, row, column)
+            else:
+                words[row, column] = _word(cell or "")
+    return _without_empty_ends(Table(values, lengths, words), columns)
+
+
+def _finite(cell: float, row: int, column: int) -> float:
+    try:
+        value = float(cell)
+    except OverflowError:
+        value = math.inf
+    if not math.isfinite(value):
+        raise misfit("the number is not finite, or too large for double precision", row, column)
+    return value
+
+
+def from_text(text: str, columns: Sequence[Column]) -> Table:
+    """A table from a block of rows, as YAML holds a long one. Raises ValidationError for the first fault."""
+    table, faults = from_rows(read_rows(text, Span(0, len(text)), len(columns)), columns)
+    for (row, column), fault in sorted(faults.items()):
+        raise misfit(fault, row, column if column >= 0 else None)
+    return table
+
+
+def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tuple[int, int], str]]:
+    """A table from raw rows, and what is wrong in it by row and column (column -1: the whole row).
+
+    Empty fields behind the last one that holds something, as trailing commas leave them, are dropped.
+    """
+    fewest, width = fewest_of(columns), raw.values.shape[1]
+    if not raw.words and fewest <= width <= len(columns) and (raw.lengths == width).all():
+        table = Table(raw.values, raw.lengths)
+        return table, _not_whole(table, columns)
+    faults: dict[tuple[int, int], str] = {}
+    words: dict[tuple[int, int], Equation | Label | None] = {}
+    lengths = np.minimum(raw.lengths, len(columns))
+    for (row, column), word in raw.words.items():
+        if fault := columns[column].fault(word):
+            faults[row, column] = fault
+        else:
+            words[row, column] = _word(word)
+    wrong = (raw.lengths < fewest) | (raw.lengths > len(columns))
+    for row in np.flatnonzero(wrong).tolist() if wrong.any() else ():
+        faults[row, -1] = f"{counted(int(raw.lengths[row]), 'field')}, expected {_count(columns)}"
+        raw.values[row, 1:] = math.nan  # the row still defines its number
+    table = _without_empty_ends(Table(raw.values, lengths, words), columns)
+    return table, faults | _not_whole(table, columns)
+
+
+def _without_empty_ends(table: Table, columns: Sequence[Column]) -> Table:
+    """The table without empty fields at the ends of its rows, as far as they may be left out."""
+    fewest = max(fewest_of(columns), 1)
+    empty = [(row, column) for (row, column), word in table.words.items() if word is None and column >= fewest]
+    lengths = table.lengths.copy() if empty else table.lengths
+    for row, column in sorted(empty, reverse=True):
+        if column == lengths[row] - 1:
+            lengths[row] = column
+            del table.words[row, column]
+    width = int(lengths.max(initial=0)) if len(lengths) else table.values.shape[1]
+    return Table(np.ascontiguousarray(table.values[:, :width]), lengths, table.words)
+
+
+def _word(text: str) -> Equation | Label | None:
+    return None if text == "" else Label.match(text) or Equation.match(text)
+
+
+def fewest_fields(required: Iterable[bool]) -> int:
+    """How many fields a row must have: all up to the last that is required."""
+    return max((index + 1 for index, needed in enumerate(required) if needed), default=0)
+
+
+def fewest_of(columns: Sequence[Column]) -> int:
+    """How many fields a row of these columns must have."""
+    return fewest_fields(column.required for column in columns)
+
+
+def _count(columns: Sequence[Column]) -> str:
+    fewest, most = fewest_of(columns), len(columns)
+    return f"{fewest}" if fewest == most else f"{fewest} to {most}"
+
+
+def _not_whole(table: Table, columns: Sequence[Column]) -> dict[tuple[int, int], str]:
+    faults: dict[tuple[int, int], str] = {}
+    if _all_whole(table.values, columns):
+        return faults
+    for index in range(table.values.shape[1]):
+        if not columns[index].whole:
+            continue
+        values = table.values[:, index]
+        values += 0.0  # a whole number has no signed zero
+        with np.errstate(invalid="ignore"):
+            wrong = (values != np.floor(values)) & ~np.isnan(values) | (np.abs(values) > LARGEST_WHOLE)
+        for row in np.flatnonzero(wrong).tolist():
+            value = float(values[row])
+            faults[row, index] = not_whole(repr(value), value, columns[index].label)
+            values[row] = math.nan
+    return faults
+
+
+def _all_whole(values: NDArray[np.float64], columns: Sequence[Column]) -> bool:
+    """Whether the whole columns, where they are the first ones, hold nothing but whole numbers and no zero."""
+    whole = [column.whole for column in columns]
+    count = whole.index(False) if False in whole else len(whole)
+    if True in whole[count:]:
+        return False
+    for start in range(0, len(values) if count else 0, _ROWS_AT_ONCE):
+        first = values[start : start + _ROWS_AT_ONCE, :count]
+        if not ((first == np.floor(first)) & (first != 0.0) & (np.abs(first) <= LARGEST_WHOLE)).all():
+            return False
+    return True
+
+
+_ROWS_AT_ONCE = 1 << 14
+"""Rows of which what is worked out stays in the fast memory of a processor."""
+
+
+_ENTRIES_AT_ONCE = 32
+"""Entries checked at once; lists are nested three deep at most."""
+
+_UNCHECKED = PydanticCustomError("unchecked", "not checked, nor what follows: correct the entries before it first")
+
+
+def checked_by_parts(schema: CoreSchema) -> CoreSchema:
+    """The schema of a model with a limit on each of its own lists; those of the models in it have theirs."""
+    found = cast("dict[str, Any]", schema)
+    if found["type"] == "list":
+        return core_schema.no_info_wrap_validator_function(_by_parts, schema)
+    if "schema" in found:
+        found["schema"] = checked_by_parts(found["schema"])
+    if found["type"] == "model-fields":
+        for field in found["fields"].values():
+            field["schema"] = checked_by_parts(field["schema"])
+    return schema
+
+
+def _by_parts(given: object, check: core_schema.ValidatorFunctionWrapHandler) -> list[object]:
+    """All entries, or the faults of the first part that has any. Entries may be made as they are checked."""
+    if isinstance(given, list):
+        if len(given) <= _ENTRIES_AT_ONCE:
+            return cast("list[object]", check(given))
+    elif not isinstance(given, Iterator):
+        return cast("list[object]", check(given))
+    made: list[object] = []
+    entries: Iterator[object] = iter(given)
+    while part := list(islice(entries, _ENTRIES_AT_ONCE)):
+        try:
+            made += check(part)
+        except ValidationError as error:
+            start = len(made)
+            moved = [_moved(fault, start) for fault in error.errors(include_url=False)]
+            if any(True for _ in entries):
+                moved.append(InitErrorDetails(type=_UNCHECKED, loc=(start + _ENTRIES_AT_ONCE,), input=None))
+            raise ValidationError.from_exception_data(error.title, moved) from error
+    return made
+
+
+def _moved(fault: ErrorDetails, start: int) -> InitErrorDetails:
+    """A fault of a part as one of the whole list."""
+    kind = PydanticCustomError(
+        cast("Any", fault["type"]), "{message}", {**fault.get("ctx", {}), "message": fault["msg"]}
+    )
+    index, *rest = fault["loc"]
+    return InitErrorDetails(type=kind, loc=(cast("int", index) + start, *rest), input=fault["input"])
+
+
+AS_TABLES = "as tables"
+"""The serialization context in which a table becomes a Listing, not lists."""
+
+
+class Listing:
+    """A table and its columns, to be written as text at once: lists of a million rows would take half a second more."""
+
+    __slots__ = ("columns", "table")
+
+    def __init__(self, table: Table, columns: Sequence[Column]) -> None:
+        self.table = table
+        self.columns = columns
+
+    def __len__(self) -> int:
+        return len(self.table)
+
+    def rows(self) -> list[list[Cell]]:
+        """The rows as lists."""
+        return self.table.rows(self.columns)
+
+    def lines(self, spelled: Callable[[list[Cell]], str]) -> Iterator[str]:
+        """The rows as text, some thousand at a time, separated by line feeds.
+
+        Cells are separated by a comma and a space; `spelled` writes a row that is not of numbers only.
+        """
+        for rows, plain in self.table.parts(self.columns):
+            if plain:
+                text = to_json(rows).decode("ascii")
+                yield text[2:-2].replace("],[", "\n").replace(",", ", ")
+            else:
+                yield "\n".join(map(spelled, rows))
+
+
+def read_table(given: object, columns: Sequence[Column]) -> Table:
+    """The table of lists, or of a text of rows. Raises ValidationError with row and column, or ValueError."""
+    if isinstance(given, Table):
+        return given
+    if isinstance(given, list):
+        return from_cells(given, columns)
+    if isinstance(given, str):
+        return from_text(given, columns)
+    raise ValueError("expected rows: a list of lists, or a text with a row a line")
+
+
+def row_format(labels: list[str], required: list[bool]) -> str:
+    """`a, b [, c]`, with empty-able fields before the last required one in brackets."""
+    fewest = fewest_fields(required)
+    text = ""
+    for index, (label, needed) in enumerate(zip(labels, required, strict=True)):
+        comma = ", " if index else ""
+        if index >= fewest:
+            text += f" [{comma.strip()} {label}]" if index else f"[{label}]"
+        else:
+            text += comma + (label if needed else f"[{label}]")
+    return text

@@ -1,0 +1,299 @@
+"""The text of fields and of runs of rows to values, by the kind of the field; remarks behind the data of a line."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import replace
+from itertools import pairwise
+
+from mudline.basics.spelling import Effort, nearest
+from mudline.language.codes.fields import SYN002, SYN003, SYN015, SYN016
+from mudline.language.codes.lines import SYN001, SYN004, SYN005
+from mudline.language.diagnostics import Problem, Repair, Severity, Span
+from mudline.language.keywords.model import FieldSpec, record_schema
+from mudline.language.keywords.numbers import looks_numeric, maybe_number, not_a_number, not_finite
+from mudline.language.keywords.table import LARGEST_WHOLE, not_whole
+from mudline.language.keywords.values import Equation, Kind, Label
+from mudline.language.syntax.fields import Field, is_one_field, trimmed
+from mudline.language.syntax.rows import read_number, spells_number
+
+Value = float | int | str | None
+_REAL = (Kind.REAL, Kind.REAL_OR_NAME)
+MIXED_FIELDS = 4
+"""Fields of a row in which a comma can be a decimal one beside others that are not: with fewer nobody can tell."""
+_WHOLE = re.compile(r"[-+]?[0-9]+")
+_DECIMAL = re.compile(r"[-+]?[0-9]+,[0-9]+(?:[eEdD][-+]?[0-9]+)?")
+_FRACTION = re.compile(r"[0-9]+(?:[eEdD][-+]?[0-9]+)?")
+
+
+_NAME, _TITLE, _OTHER, _IDENT = Kind.NAME, Kind.TITLE, Kind.OTHER, Kind.IDENT
+_WHOLE_KINDS = (Kind.WHOLE, Kind.IDENT, Kind.WHOLE_OR_LABEL)
+
+
+class UnreadableError(Exception):
+    """A field that gives no value; the problem is the reason."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        super().__init__(problem.message)
+
+
+def read_value(field: Field, slot: FieldSpec, problems: list[Problem]) -> Value:
+    """The value of a field; raises UnreadableError. What is only doubtful is added to `problems`."""
+    kind = slot.kind
+    if kind is _NAME or kind is _TITLE:
+        return field.text
+    if kind is _OTHER:
+        return _open_choice(field, slot, problems)
+    if slot.choices and (kind is None or not maybe_number(field.text)):
+        return _choice(field, slot)
+    equation = None if kind is _IDENT or field.text[:1] != "=" else Equation.match(field.text)
+    return equation or _number(field, slot, problems)
+
+
+def _number(field: Field, slot: FieldSpec, problems: list[Problem]) -> Value:
+    number = read_number(field.text)
+    if number is None:
+        if slot.kind in (Kind.IDENT, Kind.WHOLE_OR_LABEL):
+            return _label(field, slot, problems)
+        if slot.kind is Kind.REAL_OR_NAME and not field.text.startswith("=[") and not looks_numeric(field.text):
+            return field.text
+        raise UnreadableError(not_a_number(field.text, field.span, slot.label))
+    if slot.kind not in _WHOLE_KINDS:
+        return number
+    if not number.is_integer() or abs(number) > LARGEST_WHOLE:
+        raise UnreadableError(Problem(SYN002, not_whole(field.text, number, slot.label), field.span))
+    return int(number)
+
+
+def _label(field: Field, slot: FieldSpec, problems: list[Problem]) -> Label:
+    if label := Label.match(field.text):
+        return label
+    braced = maybe_label(field.text)
+    if braced is None:
+        raise UnreadableError(not_a_number(field.text, field.span, slot.label, slot.kind))
+    message = f"{shown(field.text)} is not a number: if it is a label, write {braced}"
+    problems.append(Problem(SYN016, message, field.span, repair=in_braces(field.text, field.span)))
+    return braced
+
+
+def reads_as_name(text: str) -> bool:
+    """Whether a field where a number or a name belongs takes this text, as it stands, for a name."""
+    return is_one_field(text) and not maybe_number(text)
+
+
+def maybe_label(text: str) -> Label | None:
+    """A text that is a label if its braces were forgotten: it begins with a letter, and is no NaN or infinity."""
+    if not text[:1].isalpha() or not_finite(text):
+        return None
+    return Label.match("{" + text + "}")
+
+
+def shown(text: str) -> str:
+    """A text of the deck in quotes, cut when long."""
+    return repr(text if len(text) <= 60 else text[:57] + "...")
+
+
+def hint(near: str) -> str:
+    """` (did you mean X?)`, or nothing where no word is near."""
+    return f" (did you mean {near}?)" if near else ""
+
+
+def suggestion(word: str, known: Iterable[str], effort: Effort | None = None) -> str:
+    """` (did you mean X?)` for the nearest known word within two edits (one for a short word), or nothing."""
+    return hint(nearest(word, known, effort))
+
+
+def instead(near: str, span: Span) -> Repair | None:
+    """The repair that puts the word that was meant in the place of another; None where no word is near."""
+    return Repair("unsafe", f"write {near}", ((span, near),)) if near else None
+
+
+def in_braces(text: str, span: Span) -> Repair:
+    """The repair that makes a label of a text."""
+    return Repair("unsafe", "put the label in braces", ((span, "{" + text + "}"),))
+
+
+def decimal_comma(values: list[Field], kinds: list[Kind | None], fewest: int) -> Problem | None:
+    """The finding about a row of whole numbers whose count is right if every real one takes two fields."""
+    for length in range(max(fewest, 1), len(kinds) + 1):
+        widths = [2 if kind in _REAL else 1 for kind in kinds[:length]]
+        numbers = [field for field in values if field.text.lstrip("+-").isdecimal()]
+        names = sum(kind is Kind.NAME for kind in kinds[:length])
+        first = widths.index(2) if 2 in widths else len(values)
+        if sum(widths) == len(values) > length and len(numbers) >= len(values) - names and _is_tight(*values[first:]):
+            return _two_fields(values[first], values[first + 1], Severity.ERROR)
+    return None
+
+
+def semicolons(text: str, fields: list[Field]) -> Problem | None:
+    """The finding about numbers that semicolons separate, as a spreadsheet writes them where commas are decimal."""
+    if not fields or text.find(";", fields[0].start, fields[-1].span.end) < 0:
+        return None
+    span = Span(fields[0].span.start, fields[-1].span.end)
+    numbers = [part.strip() for part in text[span.start : span.end].split(";")]
+    numbers = [part.replace(",", ".") if _DECIMAL.fullmatch(part) else part for part in numbers]
+    if not all(map(spells_number, numbers)):
+        return None
+    message = "the numbers are separated by semicolons: write commas between them"
+    repair = Repair("unsafe", f"write {', '.join(numbers)}", ((span, ", ".join(numbers)),))
+    return Problem(SYN003, message, span, repair=repair)
+
+
+def _is_tight(one: Field, two: Field, *_: Field) -> bool:
+    """Whether two fields have a comma between them, and no blank."""
+    return one.start + len(one.text) + 1 == two.start
+
+
+def _two_fields(one: Field, two: Field, severity: Severity | None = None) -> Problem:
+    message = f"decimal comma? {one.text},{two.text} is two fields here: write {one.text}.{two.text}"
+    return Problem(SYN015, message, one.span._replace(end=two.span.end), severity)
+
+
+def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> Problem | None:
+    """The finding about a row in which some commas have no space beside them, between digits, and others have one.
+
+    One such pair may be a slip of the fingers, unless the second half begins with a zero or all other numbers have a
+    point; two of them where real numbers belong are decimal commas.
+    """
+    tight = [one.start + len(one.text) + 1 == two.start for one, two in pairwise(values)]
+    if len(values) < MIXED_FIELDS or not any(tight) or all(tight):
+        return None
+    pairs = [at for at, joined in enumerate(tight) if joined]
+    alone = all(later - at > 1 for at, later in pairwise(pairs))
+    halves = all(_WHOLE.fullmatch(values[at].text) and _FRACTION.fullmatch(values[at + 1].text) for at in pairs)
+    places = [at - before for before, at in enumerate(pairs)]
+    certain = len(pairs) > 1 or _is_split(values, pairs[0])
+    if not certain or not alone or not halves or len(values) - len(pairs) < fewest:
+        return None
+    if any(kinds[place] not in _REAL for place in places):
+        return None
+    return _two_fields(values[pairs[0]], values[pairs[0] + 1])
+
+
+def _is_split(values: list[Field], at: int) -> bool:
+    """Whether two fields are the halves of one number: `0,05`, or `9,81` among numbers that have a point."""
+    half = values[at + 1].text
+    others = [field.text for i, field in enumerate(values) if i not in (at, at + 1)]
+    pointed = sum("." in other for other in others)
+    return half.strip("0") != "" and (
+        (half[0] == "0" and len(half) > 1) or (pointed > 0 and pointed >= len(others) - 1)
+    )
+
+
+def _choice(field: Field, slot: FieldSpec) -> str:
+    word = " ".join(field.text.upper().split())
+    if word in slot.choices:
+        return word
+    known = list(slot.choices)
+    known = [*(["a number"] if slot.kind else []), *known, *([record_schema(slot.row).wanted] if slot.row else [])]
+    listed = ", ".join(known[:-1]) + f" or {known[-1]}" if len(known) > 1 else known[0]
+    near = nearest(word, slot.choices)
+    message = f"{shown(field.text)} is not allowed for {slot.label}: expected {listed}{hint(near)}"
+    raise UnreadableError(Problem(SYN005, message, field.span, repair=instead(near, field.span)))
+
+
+def _open_choice(field: Field, slot: FieldSpec, problems: list[Problem]) -> str:
+    """A known value, or another one as it is; one that is spelt nearly as a known one is a warning."""
+    word = " ".join(field.text.upper().split())
+    if word in slot.choices:
+        return word
+    if near := nearest(word, slot.choices):
+        kept = ", and what it stands for is passed through unchanged" if slot.about.opaque is not None else ""
+        message = f"{shown(field.text)} is not known for {slot.label}{hint(near)}{kept}"
+        problems.append(Problem(SYN005, message, field.span, Severity.WARNING, repair=instead(near, field.span)))
+    return field.text
+
+
+_MARK = re.compile(r"(?<=[ \t])(?:!|(?:[#;]|//|--)[ \t])")
+_LETTER = re.compile(r"[^\W\d_]")
+_COMMENT = re.compile(r"[ \t]*(?:[#!;]|//|--(?![0-9.]))")
+"""The begin of a line that is a comment in other programs."""
+_OF_FIELDS = frozenset({SYN002, SYN003, SYN005, SYN015, SYN016})
+_OF_LINES = _OF_FIELDS | {SYN001, SYN004}
+_NO_LINE = Span(0, 0)
+_ADVICE = "a line cannot end with a comment; put it on a line of its own, after C and a space"
+
+
+def remark_of(line: str) -> str:
+    """The remark behind the data of a line or a field, or nothing."""
+    mark = _MARK.search(line)
+    if mark is None or not line[: mark.start()].strip(" \t") or not _LETTER.search(line, mark.end()):
+        return ""
+    before = line[: mark.start()]
+    inside = before.count('"') % 2 or before.count("[") != before.count("]") or before.count("{") != before.count("}")
+    return "" if inside else line[mark.start() :].rstrip(" \t\r\n")
+
+
+def advice_on(name: str) -> str:
+    """What to do about a name that holds a remark, or nothing."""
+    return _ADVICE if remark_of(name) else ""
+
+
+def merge_per_line(text: str, problems: list[Problem]) -> list[Problem]:
+    """The problems of a text, with one in the place of all those that the fields of a line have by a remark."""
+    problems = _comments_named(text, problems)
+    if not any(problem.code in _OF_FIELDS for problem in problems):
+        return problems
+    remarks = _remarks(text, problems)
+    blamed: dict[Span, Problem] = {}
+    ranks: dict[Span, tuple[bool, bool]] = {}
+    for problem, remark in zip(problems, remarks, strict=True):
+        if remark is None or problem.span is None or problem.span.end <= remark.start:
+            continue
+        rank = problem.weight is Severity.ERROR, problem.span.start <= remark.start
+        if rank >= ranks.get(remark, rank):
+            blamed[remark], ranks[remark] = problem, rank
+    kept: list[Problem] = []
+    reported: set[Span] = set()
+    for problem, remark in zip(problems, remarks, strict=True):
+        if remark is None or remark not in blamed:
+            kept.append(problem)
+        elif remark not in reported:
+            reported.add(remark)
+            message = f"{shown(text[slice(*remark)])} is read as data: {_ADVICE}"
+            kept.append(replace(blamed[remark], message=message, span=remark, repair=None))
+    return kept
+
+
+def _comments_named(text: str, problems: list[Problem]) -> list[Problem]:
+    """The problems of a text, with one in the place of all those of a line that other programs take for a comment."""
+    if not problems:
+        return problems
+    kept: list[Problem] = []
+    last = _NO_LINE
+    for problem in problems:
+        span = problem.span
+        if span is None or problem.code not in _OF_LINES:
+            kept.append(problem)
+            continue
+        if span.start < last.end and span.start >= last.start:
+            continue
+        start, end = text.rfind("\n", 0, span.start) + 1, text.find("\n", span.start)
+        line = trimmed(text, start, len(text) if end < 0 else end)
+        if _COMMENT.match(text, start, line.end):
+            last = line
+            message = f"{shown(text[slice(*line)])} is read as data: begin a comment with C and a space"
+            kept.append(replace(problem, message=message, span=line, repair=None))
+        else:
+            kept.append(problem)
+    return kept
+
+
+def _remarks(text: str, problems: list[Problem]) -> list[Span | None]:
+    """The remark on the line of each problem with a field."""
+    found: list[Span | None] = []
+    line, remark = _NO_LINE, None
+    for problem in problems:
+        if problem.span is None or problem.code not in _OF_FIELDS:
+            found.append(None)
+            continue
+        if not line.start <= problem.span.start < line.end:
+            end = text.find("\n", problem.span.start)
+            line = Span(text.rfind("\n", 0, problem.span.start) + 1, (len(text) if end < 0 else end) + 1)
+            words = remark_of(text[slice(*line)])
+            start = text.find(words, line.start)
+            remark = Span(start, start + len(words)) if words else None
+        found.append(remark)
+    return found

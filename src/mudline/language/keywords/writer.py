@@ -1,0 +1,147 @@
+"""A model to the lines of its keyword, comments where they stood."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from operator import itemgetter
+from typing import Any, Protocol
+
+from pydantic_core import to_json
+
+from mudline.language.keywords.fields import Setting
+from mudline.language.keywords.model import Block, Comment, FieldSpec, Part, Record, Rows, record_schema
+from mudline.language.keywords.table import Cell, Listing, Table
+
+
+class Kept(Protocol):
+    """A line that is kept, before the item of an index."""
+
+    @property
+    def before(self) -> int:
+        """The index."""
+
+    @property
+    def text(self) -> str:
+        """The line."""
+
+
+Item = tuple[list[str], int]
+"""Lines that comments can stand before, and how many items they count for: a line each of a table, else one."""
+
+
+def block_lines(block: Block) -> Iterator[str]:
+    """The lines of a block, from its `*KEYWORD` on, without line ends."""
+    yield f"*{block.keyword}"
+    yield from with_comments(block.comments, _items(block), getattr(block, "unread", ()))
+
+
+def _record_lines(record: Record) -> Iterator[str]:
+    """The opening setting of a record, if its first field is one, then its items."""
+    items = list(_items(record))
+    if _opens(record) and items:
+        yield from items.pop(0)[0]
+    yield from with_comments(record.comments, items, getattr(record, "unread", ()))
+
+
+def _opens(record: Record) -> bool:
+    found = record_schema(type(record))
+    first = next((slot for slot in found.slots if getattr(record, slot.name) is not None), None)
+    return first is not None and isinstance(first.about, Setting)
+
+
+def with_comments(comments: list[Comment], items: Iterable[Item], kept: Iterable[Kept] = ()) -> Iterator[str]:
+    """The lines of items in their order, and between them comments and, behind these, lines that are kept."""
+    between = [*((comment.before, f"C{comment.text}") for comment in comments)]
+    between += [(line.before, line.text) for line in kept]
+    between.sort(key=itemgetter(0))
+    at = index = 0
+    for lines, count in items:
+        done = 0
+        while at < len(between) and between[at][0] < index + count:
+            before = max(between[at][0] - index, done)
+            yield from lines[done:before]
+            yield between[at][1]
+            done = before
+            at += 1
+        yield from lines[done:] if done else lines
+        index += count
+    yield from (line for _, line in between[at:])
+
+
+def _items(record: Record) -> Iterator[Item]:
+    """The items of a record in the order of its fields: a line each, a record below it, rows of a table."""
+    found = record_schema(type(record))
+    plain = [slot for slot in found.columns if not slot.row]
+    own_row = plain if len(plain) == len(found.columns) else []
+    pending: str = ""
+    for slot in found.slots:
+        if slot in own_row[1:]:
+            continue
+        value = getattr(record, slot.name)
+        if value is None and slot not in own_row:
+            continue
+        setting = slot.about if isinstance(slot.about, Setting) else None
+        joins = bool(pending) and setting is not None and _joins(setting, pending)
+        if pending and not joins:
+            yield [pending], 1
+            pending = ""
+        if slot in own_row:
+            pending = " " + _row(record, own_row) if _has_row(record, own_row) else ""
+        elif setting:
+            text = f"{setting.key}={_value(value)}"
+            pending = f"{pending}, {text}" if joins else f" {text}"
+        elif isinstance(slot.about, Rows):
+            yield from ((lines, len(lines)) for lines in table_lines(value, slot))
+        elif slot.record:
+            yield from ((list(_record_lines(child)), 1) for child in value)
+        else:
+            yield [f" {_value(value)}"], 1
+    if pending:
+        yield [pending], 1
+
+
+def _has_row(record: Record, columns: list[FieldSpec]) -> bool:
+    """Whether a record has its row, of which all values may be left out."""
+    return any(slot.required or slot.name in record.model_fields_set for slot in columns)
+
+
+def _joins(setting: Setting, line: str) -> bool:
+    """Whether a setting goes on the line before it."""
+    return setting.inline and (not setting.behind or line.startswith(f" {setting.behind}="))
+
+
+def table_lines(table: Table, slot: FieldSpec) -> Iterator[list[str]]:
+    """The rows of a table, one a line, some thousand at a time."""
+    for piece in Listing(table, slot.columns).lines(joined):
+        yield f" {piece}".replace("\n", "\n ").split("\n")
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, Part):
+        return _row(value, record_schema(type(value)).columns)
+    if isinstance(value, list):
+        return joined(value)
+    return field_text(value)
+
+
+def _row(part: Part, columns: list[FieldSpec]) -> str:
+    given = [getattr(part, slot.name) is not None for slot in columns]
+    length = max((index + 1 for index, here in enumerate(given) if here), default=1)
+    values = [getattr(part, slot.name) for slot in columns[:length]]
+    if len(values) == 1 and isinstance(values[0], list):
+        values = values[0]
+    return joined(values)
+
+
+def joined(values: list[Cell]) -> str:
+    """Fields of a line; a line of one empty field is a comma, as an empty line would be no line."""
+    text = ", ".join(field_text(value) for value in values).rstrip(" ")
+    return text or ","
+
+
+def field_text(value: Cell) -> str:
+    """A field: the shortest number that reads back to the same double, text as it is, nothing for an empty field."""
+    if value is None or (isinstance(value, float) and math.isnan(value)):
+        return ""
+    return to_json(value).decode() if isinstance(value, float | int) else str(value)

@@ -1,0 +1,169 @@
+"""What a rule is: a code, a function that finds, a docstring that becomes its page; and the registry of all rules."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from functools import cache
+from itertools import islice
+from textwrap import dedent
+from typing import Any, NamedTuple, TypeVar
+
+from mudline.basics.limits import MOST_REPORTED
+from mudline.language.diagnostics import MORE, Code, Problem
+
+Check = Callable[[Any], Iterable[Problem]]
+F = TypeVar("F", bound=Check)
+
+_HEADINGS = r"(?m)^(Example|Finds|File|Bytes|Cut|Dialect):[ \t]*(.*)$"
+RULES: dict[str, Rule] = {}
+"""The rules that are registered, by code, in the order of their registration."""
+
+
+class RulePage(NamedTuple):
+    """What the docstring of a rule says.
+
+    `title` is the first sentence, `why` the text after it, `bad` a deck that the rule finds something in at `place`
+    (line and column), `good` the deck corrected; `file` is the name that the examples are read under. `encoding` is
+    that of the bad deck's bytes, `dialect` the one under which it is at fault.
+    """
+
+    title: str
+    why: str
+    bad: str
+    good: str
+    place: tuple[int, int]
+    file: str
+    encoding: str
+    dialect: str
+
+    @property
+    def bad_bytes(self) -> bytes:
+        """The bad deck as a file."""
+        return self.bad.encode(self.encoding)
+
+    @property
+    def good_bytes(self) -> bytes:
+        """The good deck as a file."""
+        return self.good.encode()
+
+    @property
+    def remark(self) -> str:
+        """What the text of the bad deck does not show about its file, or ""."""
+        if self.dialect != "mudline":
+            return f"with --dialect {self.dialect}"
+        if self.encoding != "utf-8":
+            return f"saved as {self.encoding.upper()}"
+        return "" if self.bad.endswith("\n") else "the file ends without a line end"
+
+
+class Rule(NamedTuple):
+    """A rule: its code, the function that finds, and the docstring that becomes its page.
+
+    A rule that is `off` runs only where it is selected. The function takes the `ResolvedDeck` of a rule that `blocks`,
+    the `LintContext` of another one; it is None where reading or resolving a deck finds what the rule reports.
+    """
+
+    code: Code
+    check: Check | None
+    docstring: str
+    off: bool = False
+    blocks: bool = False
+
+    @property
+    def page(self) -> RulePage:
+        """What the docstring says; raises ValueError for one that lacks a part."""
+        return described_by(self.code, self.docstring)
+
+    def findings(self, subject: object) -> list[Problem]:
+        """Return what the function finds in its subject, without the rest where it is very much."""
+        return first_reported(self.check(subject) if self.check else ())
+
+
+def rule(code: Code, *, off: bool = False, blocks: bool = False) -> Callable[[F], F]:
+    """Register a function as the rule of a code; `off` keeps it from running unless it is selected.
+
+    A rule that `blocks` needs nothing but the resolved deck, and stands in `mudline.model.scene.rules`: each of its
+    findings says whether it keeps the deck from being evaluated. The findings of other rules never do, whatever their
+    severity.
+
+    The docstring begins with the title, a sentence on a line of its own; the text after it says why. Below `Example:`
+    are a bad and a good deck in one, indented by four spaces: a line after a space is in both, one after `-` in the bad
+    deck only, one after `+` in the good deck only. `Finds: line:column` is the place of the only finding in the bad
+    deck. `File: name` (default deck.keyxm) is the name of both decks. `Bytes: encoding` saves the bad deck in another
+    encoding than UTF-8; `Cut: yes` leaves out its last line end; `Dialect: name` reads both decks in a dialect.
+
+    Raises ValueError for a code or slug that another rule has. A docstring that lacks a part, a line of the example
+    that has no mark, and two decks that are the same are faults of a plugin, found when it is loaded.
+    """
+
+    def register(check: F) -> F:
+        add(Rule(code, check, check.__doc__ or "", off, blocks))
+        return check
+
+    return register
+
+
+def add(declared: Rule) -> None:
+    """Register a rule; raises ValueError for a code or slug that another rule has."""
+    code = declared.code
+    if code.code in RULES or any(code.slug == known.code.slug for known in RULES.values()):
+        raise ValueError(f"there is already a rule {code.code} or {code.slug}")
+    RULES[code.code] = declared
+
+
+@cache
+def described_by(code: Code, docstring: str) -> RulePage:
+    """Return what a docstring says of a rule (see `rule`); raises ValueError for a docstring that lacks a part."""
+    first, _, rest = docstring.partition("\n")
+    parts = re.split(_HEADINGS, f"{first.strip()}\n{dedent(rest)}")
+    title, _, why = parts[0].strip().partition("\n")
+    found = {name: (line, body) for name, line, body in zip(parts[1::3], parts[2::3], parts[3::3], strict=True)}
+    lacking = [name for name in ("Example", "Finds") if name not in found]
+    if lacking or not title or not why.strip():
+        raise ValueError(f"the docstring of {code.code} must have {' and '.join(lacking) or 'a title and a reason'}")
+    words = {name: line.strip() for name, (line, _) in found.items()}
+    place = re.fullmatch(r"([0-9]+):([0-9]+)", words["Finds"])
+    if place is None:
+        raise ValueError(f"Finds: {words['Finds']} of {code.code} must be line:column of the bad deck")
+    bad, good = _decks(code, found["Example"][1].replace(r"\t", "\t"))  # Python 3.13 makes blanks of TABs in docstrings
+    described = RulePage(
+        title=title.strip(),
+        why=why.strip(),
+        bad=bad.removesuffix("\n") if "Cut" in words else bad,
+        good=good,
+        place=(int(place[1]), int(place[2])),
+        file=words.get("File", "deck.keyxm"),
+        encoding=words.get("Bytes", "utf-8"),
+        dialect=words.get("Dialect", "mudline"),
+    )
+    if described.bad_bytes == described.good_bytes:
+        raise ValueError(f"the decks of the example of {code.code} must differ in a line with - or +")
+    return described
+
+
+def _decks(code: Code, example: str) -> tuple[str, str]:
+    """The bad and the good deck of an example; an empty line is in both."""
+    bad: list[str] = []
+    good: list[str] = []
+    for line in example.strip("\n").split("\n"):
+        marked = re.fullmatch(r"    ([ +-])(.*)", line or "     ")
+        if marked is None:
+            raise ValueError(
+                f"the line {line!r} of the example of {code.code} must have four spaces, then a space, - or +"
+            )
+        mark, text = marked.groups()
+        if mark != "+":
+            bad.append(f"{text}\n")
+        if mark != "-":
+            good.append(f"{text}\n")
+    return "".join(bad), "".join(good)
+
+
+def first_reported(problems: Iterable[Problem]) -> list[Problem]:
+    """As many findings as are reported one by one; the next one says that there are more."""
+    found = list(islice(problems, MOST_REPORTED + 1))
+    if len(found) > MOST_REPORTED:
+        found[-1] = replace(found[-1], message=MORE, repair=None)
+    return found

@@ -1,0 +1,128 @@
+"""Changes of a text: replacements of spans, applied all at once; untouched text keeps its bytes."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from itertools import accumulate, islice
+
+from mudline.language.diagnostics import Span
+from mudline.language.syntax.source import Source
+
+_LONE_LF = re.compile(r"(?<!\r)\n")
+
+
+@dataclass(frozen=True, slots=True)
+class TextEdit:
+    """Put `text` in the place of `span`, offsets of the text before any edit; an empty span inserts."""
+
+    span: Span
+    text: str
+
+
+class OverlapError(ValueError):
+    """Two edits that want the same characters."""
+
+    def __init__(self, first: TextEdit, second: TextEdit) -> None:
+        self.first = first
+        self.second = second
+        super().__init__(f"edits overlap: {tuple(first.span)} and {tuple(second.span)}")
+
+
+def apply_edits(text: str, edits: Iterable[TextEdit]) -> str:
+    """The text with all edits made; their texts are taken literally.
+
+    Edits may come in any order. Insertions at one place keep theirs, and stand before a replacement that begins there.
+    Raises OverlapError, or ValueError for a span that does not lie in the text.
+    """
+    pieces: list[str] = []
+    at = 0
+    before: TextEdit | None = None
+    for edit in sorted(edits, key=lambda edit: edit.span):
+        start, end = edit.span
+        if not 0 <= start <= end <= len(text):
+            raise ValueError(f"an edit of {tuple(edit.span)} does not lie in a text of {len(text)} characters")
+        if before is not None and start < at:
+            raise OverlapError(before, edit)
+        pieces += (text[at:start], edit.text)
+        at, before = end, edit
+    pieces.append(text[at:])
+    return "".join(pieces)
+
+
+class Undoing:
+    """Leads from places in a text with edits made to those in the text as it was, in little time for very many."""
+
+    def __init__(self, edits: Iterable[TextEdit]) -> None:
+        self._edits = sorted(edits, key=lambda edit: edit.span)
+        grown = [len(edit.text) - (edit.span.end - edit.span.start) for edit in self._edits]
+        self._grown = [0, *accumulate(grown)]
+        self._ends = [edit.span.end + by for edit, by in zip(self._edits, self._grown[1:], strict=True)]
+
+    def before(self, span: Span) -> Span:
+        """A span of the edited text in the text as it was."""
+        # all before the first that ends behind the start only move it
+        first = (bisect_right if span.end > span.start else bisect_left)(self._ends, span.start)
+        start, end = span.moved(-self._grown[first])
+        for edit in islice(self._edits, first, None):
+            if edit.span.start >= end:
+                break
+            grown = len(edit.text) - (edit.span.end - edit.span.start)
+            if edit.span.start < start + (not edit.text):  # what stands at the place of something left out is behind it
+                start = max(start - grown, edit.span.start)
+            end = max(end - grown, edit.span.start)
+        return Span(start, max(start, end))
+
+    def touches(self, place: Span) -> bool:
+        """Whether something in the edited text is in what an edit put in, or around it."""
+        index, new = self._at(place)
+        return index < len(self._edits) and new.start < max(place.end, place.start + 1)
+
+    def is_in_new_lines(self, place: Span) -> bool:
+        """Whether something in the edited text stands in whole lines that an edit put in."""
+        index, new = self._at(place)
+        if index == len(self._edits) or self._edits[index].span.end > self._edits[index].span.start:
+            return False
+        return self._edits[index].text.endswith("\n") and new.start <= place.start < place.end < new.end
+
+    def _at(self, place: Span) -> tuple[int, Span]:
+        """The first edit whose text ends behind the start of a place, and where that text is."""
+        index = bisect_right(self._ends, place.start)
+        if index == len(self._edits):
+            return index, Span(0, 0)
+        return index, Span(self._ends[index] - len(self._edits[index].text), self._ends[index])
+
+
+def with_line_ends(source: Source, edits: Iterable[TextEdit]) -> list[TextEdit]:
+    """The edits with every LF that they bring turned into the line end of the nearest line before (CRLF stays)."""
+    return [
+        replace(edit, text=_LONE_LF.sub(line_end_before(source, edit.span.start), edit.text))
+        if "\n" in edit.text
+        else edit
+        for edit in edits
+    ]
+
+
+def line_end_before(source: Source, offset: int) -> str:
+    """The end of the last line that ends before an offset, of the first line where there is none; LF by default."""
+    starts = source.line_starts
+    line = max(bisect_right(starts, offset) - 1, 1)
+    if line == len(starts):
+        return "\n"
+    end = starts[line]
+    return "\r\n" if source.text[end - 2 : end] == "\r\n" else source.text[end - 1]
+
+
+def edited_text(source: Source, edits: Iterable[TextEdit]) -> str:
+    """The text of a source with edits whose lines end with LF made in its own line ends. Raises as `apply_edits`."""
+    return apply_edits(source.text, with_line_ends(source, edits))
+
+
+def edited_bytes(source: Source, edits: Iterable[TextEdit]) -> bytes:
+    """`edited_text` in the encoding of the file, with its byte-order mark if it had one: untouched bytes stay.
+
+    Raises as `apply_edits`, and UnicodeEncodeError where an edit brings a character that the encoding lacks.
+    """
+    return source.to_bytes(edited_text(source, edits))

@@ -1,0 +1,215 @@
+"""Splitting a line into fields: commas part them, brackets, braces, quotes and slash lists hold together."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from functools import lru_cache
+from itertools import pairwise
+from typing import NamedTuple
+
+from mudline.basics.limits import MOST_FIELDS
+from mudline.language.codes.fields import SYN003, SYN006
+from mudline.language.diagnostics import Problem, Span
+
+_KEY = re.compile(r"[ \t]*([A-Za-z][\w \t-]*)=")
+_BLANKS = re.compile(r"[ \t]+")
+_SPECIAL = re.compile(r'[\["{/]')
+_MARKS = ',"[{/'
+_OUTER = " \t\r\n"
+_NESTING = re.compile(r'[\[\]"/]')
+_CLOSERS = {"[": "]", "{": "}", '"': '"', "/": "/"}
+
+
+class Field(NamedTuple):
+    """The text of a field without outer blanks, and where it begins."""
+
+    text: str
+    start: int
+
+    @property
+    def span(self) -> Span:
+        """Where it is."""
+        return Span(self.start, self.start + len(self.text))
+
+
+@dataclass(slots=True)
+class Group:
+    """Fields that belong together: the positional ones of a line (key ""), or a KEY with its values."""
+
+    key: str
+    span: Span
+    fields: list[Field] = field(default_factory=list)
+
+
+class Line(NamedTuple):
+    """A line cut into groups, with what was wrong in it."""
+
+    span: Span
+    groups: list[Group]
+    problems: list[Problem]
+
+
+def trimmed(text: str, start: int, end: int) -> Span:
+    """The span without blanks, tabs and line ends on both sides; an empty one stands at `start`."""
+    right = text[start:end].lstrip(_OUTER)
+    left = end - len(right) if right else start
+    return Span(left, left + len(right.rstrip(_OUTER)))
+
+
+@lru_cache(1024)
+def canonical_key(key: str) -> str:
+    """A KEY in upper case with single blanks."""
+    key = key.strip(" \t")
+    return key.upper() if key.isalpha() else _BLANKS.sub(" ", key).upper()
+
+
+def read_line(text: str, span: Span, *, slashes: bool = False) -> Line:
+    """Cut one line of `text` into groups of fields. `slashes`: `/.../` is one field."""
+    body = trimmed(text, *span)
+    fields, problems = _split(text, body, slashes=slashes)
+    if text.find("=", body.start, body.end) < 0:
+        return Line(body, [Group("", body, fields)] if fields else [], problems)
+    groups: list[Group] = []
+    for given in fields:
+        match = _KEY.match(given.text) if "=" in given.text else None
+        if match is None:
+            if not groups:
+                groups.append(Group("", body))
+            groups[-1].fields.append(given)
+            continue
+        value = given.text[match.end() :].lstrip(_OUTER)
+        first = Field(value, given.start + (len(given.text) - len(value) if value else match.end()))
+        groups.append(Group(canonical_key(match[1]), given.span, [first]))
+    for group in groups:
+        if group.key and len(group.fields) > 1:
+            group.span = Span(group.span.start, group.fields[-1].span.end)
+    return Line(body, groups, problems)
+
+
+def first_key(text: str, span: Span) -> str:
+    """The KEY that a line begins with, or ""."""
+    match = _KEY.match(text, span.start, span.end)
+    return canonical_key(match[1]) if match else ""
+
+
+def _field(text: str, piece: Span) -> Field:
+    written = text[piece.start : piece.end]
+    inner = written.strip(_OUTER)
+    return Field(inner, piece.start + (written.find(inner) if inner else 0))
+
+
+def split(text: str, span: Span, *, slashes: bool = False) -> tuple[list[Field], list[Problem]]:
+    """The fields between the top-level commas of a line, and what was wrong with its brackets."""
+    return _split(text, trimmed(text, *span), slashes=slashes)
+
+
+def _split(text: str, body: Span, *, slashes: bool) -> tuple[list[Field], list[Problem]]:
+    special = _SPECIAL.search(text, body.start, body.end)
+    if special is None and body.end - body.start < MOST_FIELDS:
+        return _parted(text[body.start : body.end], body.start), []
+    if sum(text.count(mark, *body) for mark in _MARKS) >= MOST_FIELDS:
+        message = f"more than {MOST_FIELDS} fields or brackets on one line: is this a deck?"
+        return [], [Problem(SYN003, message, Span(body.start, body.start + 1))]
+    commas = _commas(text, body)
+    problems: list[Problem] = []
+    if special:
+        commas = _outside(commas, _protected(text, body, problems, slashes=slashes))
+    edges = pairwise([body.start - 1, *commas, body.end])
+    return [_field(text, Span(left + 1, right)) for left, right in edges], problems
+
+
+def _parted(body: str, start: int) -> list[Field]:
+    """The fields of a line in which only commas have a meaning; it begins at the offset `start`."""
+    if "," not in body:
+        return [Field(body, start)]
+    fields: list[Field] = []
+    for piece in body.split(","):
+        text = piece.strip(_OUTER)
+        fields.append(Field(text, start + (piece.find(text) if text else 0)))
+        start += len(piece) + 1
+    return fields
+
+
+def _commas(text: str, body: Span) -> list[int]:
+    found: list[int] = []
+    at = text.find(",", body.start, body.end)
+    while at >= 0:
+        found.append(at)
+        at = text.find(",", at + 1, body.end)
+    return found
+
+
+def _outside(commas: list[int], protected: list[Span]) -> list[int]:
+    kept: list[int] = []
+    spans = iter(protected)
+    span = next(spans, None)
+    for comma in commas:
+        while span is not None and span.end <= comma:
+            span = next(spans, None)
+        if span is None or comma < span.start:
+            kept.append(comma)
+    return kept
+
+
+def _protected(text: str, body: Span, problems: list[Problem], *, slashes: bool) -> list[Span]:
+    """Spans of equations, labels, strings and slash lists; an unclosed one reaches to the end of the line."""
+    spans: list[Span] = []
+    at = body.start
+    while match := _SPECIAL.search(text, at, body.end):
+        at = match.end()
+        opener, start = match[0], match.start()
+        if opener == "[" and text[start - 1 : start] != "=":
+            continue
+        if opener == "/" and not (slashes and _begins_field(text, body, start)):
+            continue
+        end = _close(text, start, body.end)
+        if end < 0:
+            what = "=[" if opener == "[" else opener
+            message = f"{what} is not closed: {_CLOSERS[opener]} is missing before the end of the line"
+            problems.append(Problem(SYN006, message, Span(start - (opener == "["), start + 1)))
+            end = body.end
+        spans.append(Span(start, end))
+        at = end
+    return spans
+
+
+def _begins_field(text: str, body: Span, at: int) -> bool:
+    """Whether a slash is the first character of a field, as it must be to open a list."""
+    while at > body.start and text[at - 1] in " \t":
+        at -= 1
+    return at == body.start or text[at - 1] == ","
+
+
+def is_one_field(text: str) -> bool:
+    """Whether a text, as it stands, is one field of a line."""
+    fields, problems = split(text, Span(0, len(text)))
+    return len(fields) == 1 and not problems and fields[0].text == text
+
+
+def _close(text: str, start: int, end: int) -> int:
+    """Offset behind the mark that closes the one at `start`, or -1.
+
+    Strings and braces hold anything; square brackets nest; a slash list may hold equations and strings.
+    """
+    opener = text[start]
+    if opener in '"{':
+        at = text.find(_CLOSERS[opener], start + 1, end)
+        return at + 1 if at >= 0 else -1
+    depth = 0
+    at = start + 1
+    while match := _NESTING.search(text, at, end):
+        at, mark = match.end(), match[0]
+        if mark == '"':
+            closing = text.find('"', at, end)
+            at = closing + 1 if closing >= 0 else at
+        elif mark == "/":
+            if opener == "/" and depth == 0:
+                return at
+        elif mark == "[":
+            depth += 1
+        elif depth:
+            depth -= 1
+        elif opener == "[":
+            return at
+    return -1

@@ -1,0 +1,89 @@
+"""The grammars of the package as lark's parsers: their tables come with the package, or they are compiled."""
+
+from __future__ import annotations
+
+import pickle
+from functools import cache
+from io import BytesIO
+from pathlib import Path
+from typing import Any, cast
+
+import lark
+from lark import Lark, Transformer
+from lark.grammar import NonTerminal
+from lark.load_grammar import Grammar, load_grammar
+
+from mudline.basics.files import write_atomically
+from mudline.basics.resources import grammar_file
+
+Makes = type[Transformer[Any, Any]]
+"""A class without a state of its own, whose methods make what the parser gives in the place of a tree."""
+
+
+@cache
+def parser(name: str, start: str = "start", makes: Makes | None = None) -> Lark:
+    """Return the LALR parser of a grammar from one of its rules.
+
+    To compile a grammar takes ten times as long as to load its tables.
+    """
+    saved = _tables(name).get(start)
+    return Lark.load(BytesIO(saved)) if saved else _compiled(name, start, makes)
+
+
+def save_tables(name: str, makes: Makes | None = None) -> Path:
+    """Write the tables of the parsers from all rules of a grammar beside it; returns the file."""
+    tables: dict[str, bytes] = {}
+    for start in (str(rule) for rule, *_ in definitions(name).rule_defs if not rule.startswith("_")):
+        saved = BytesIO()
+        _compiled(name, start, makes).save(saved)
+        tables[start] = saved.getvalue()
+    path = grammar_file(f"{name}.lark").with_suffix(".tables")
+    write_atomically(path, pickle.dumps((lark.__version__, _text(name), tables)))
+    return path
+
+
+def _compiled(name: str, start: str, makes: Makes | None) -> Lark:
+    return Lark(
+        _below(definitions(name), start),
+        parser="lalr",
+        lexer="basic",
+        start=start,
+        keep_all_tokens=True,
+        maybe_placeholders=False,
+        transformer=makes and makes(),
+    )
+
+
+@cache
+def definitions(name: str) -> Grammar:
+    """Return the rules and terminals of a grammar."""
+    made, _ = load_grammar(_text(name), f"{name}.lark", [], global_keep_all_tokens=False)
+    return cast("Grammar", made)
+
+
+def _text(name: str) -> str:
+    return grammar_file(f"{name}.lark").read_text(encoding="utf-8")
+
+
+@cache
+def _tables(name: str) -> dict[str, bytes]:
+    """Return the tables that were made when the package was built; none of another lark or grammar."""
+    path = grammar_file(f"{name}.tables")
+    if not path.exists():
+        return {}
+    version, text, tables = pickle.loads(path.read_bytes())  # noqa: S301 - a file of the package
+    return tables if (version, text) == (lark.__version__, _text(name)) else {}
+
+
+def _below(grammar: Grammar, start: str) -> Grammar:
+    """Return the part of a grammar that a rule leads to: lark compiles all rules that it is given."""
+    rules = {str(rule[0]): rule for rule in grammar.rule_defs}
+    found: dict[str, None] = {}
+    wanted = [start]
+    while wanted:
+        name = wanted.pop()
+        if name not in found:
+            found[name] = None
+            inside = rules[name][2].scan_values(lambda each: isinstance(each, NonTerminal))
+            wanted += [inner.name for inner in inside if inner.name in rules]  # another name is an alias
+    return Grammar([rules[name] for name in found], grammar.term_defs, grammar.ignore)

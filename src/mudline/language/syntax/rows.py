@@ -1,0 +1,294 @@
+"""Runs of rows to arrays: rows of numbers many at once as JSON, all others field by field."""
+
+from __future__ import annotations
+
+import math
+import re
+from array import array
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import compress
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic_core import from_json
+
+from mudline.basics.limits import LONGEST_BLANK_SEPARATED, LONGEST_NUMBER
+from mudline.language.diagnostics import Span
+from mudline.language.syntax.fields import Field, split
+
+NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eEdD][-+]?[0-9]+)?")
+"""A number as decks write it."""
+_WORD = re.compile(r"[^ \t\r\n]+")
+GROUPED = re.compile(r'[\["{]')
+"""What opens an equation, a string or a label, in which a comma does not separate fields."""
+_ONLY_EQUATIONS = re.compile(r'(?:[^"{\[]++|(?<==)\[[^\[\]"{,]*+\])*+')
+"""A row whose only brackets are those of equations without commas, brackets, strings or labels inside."""
+PIECE = 256 * 1024
+"""Characters that are read at once: their arrays stay in the fast memory of a processor."""
+_BLANK = np.isin(np.arange(256), np.frombuffer(b" \t\r\n", np.uint8))
+_ROOM = 1.05
+_KEPT_BACK = 1 << 22
+_IN_NUMBERS = b"0123456789+-.eE \t\r"
+_ODD = re.compile(r"[^0-9+\-.eEdD, \t\r]")
+_D_TO_E = bytes.maketrans(b"dD", b"EE")
+_SIGNED_ZERO = re.compile(rb"-0(?![.eE])(?<![eE]-0)")
+"""A zero whose sign JSON does not keep."""
+_DIGITS = bytes.maketrans(b"123456789", b"000000000")
+_LONG = b"0" * 40
+"""Digits of a number that is left to `float`."""
+_PARTS, _SMALLEST = 8, 4096
+"""Parts of a piece that is not all numbers, and characters of a part that is not divided."""
+
+
+class Rows(NamedTuple):
+    """A run of rows.
+
+    `values` (rows, columns) holds NaN where `words` has a text that is not a number ("" for an empty field).
+
+    `lengths` (rows,) counts the fields of each row, also those beyond the last column, which are not kept.
+    """
+
+    values: NDArray[np.float64]
+    lengths: NDArray[np.intp]
+    words: dict[tuple[int, int], str]
+
+
+def read_number(text: str) -> float | None:
+    """The finite double that a field spells, or None. Fortran's D exponent is read as E."""
+    if len(text) > LONGEST_NUMBER or not NUMBER.fullmatch(text):
+        return None
+    try:
+        value = float(text)
+    except ValueError:
+        value = float(text.upper().replace("D", "E"))
+    return value if math.isfinite(value) else None
+
+
+def spells_number(text: str) -> bool:
+    """Whether a text has the form of a number, whatever its size."""
+    return NUMBER.fullmatch(text) is not None
+
+
+def read_rows(text: str, span: Span, columns: int) -> Rows:
+    """Read the lines of a run into at most `columns` columns. `text` must have LF or CRLF line ends."""
+    if span.end - span.start <= _SMALLEST:
+        values = read_numbers(text[span.start : span.end].rstrip("\r\n"), columns)
+        return read_rows_slow(text, span, columns) if values is None else _plain(values)
+    return _together(_parts(text, span, columns, PIECE), span.end - span.start)
+
+
+def _parts(text: str, span: Span, columns: int, size: int) -> Iterator[tuple[int, Rows]]:
+    """Yield the rows of one part of a text after the other, each with its characters; smaller parts around odd rows."""
+    for start, end in _pieces(text, span, size):
+        lines = text[start:end]
+        values = read_numbers(lines, columns) if end - start <= 2 * PIECE else None  # longer: one line without end
+        if values is not None:
+            yield end - start, _plain(values)
+        elif size > _SMALLEST and end - start > _SMALLEST:
+            yield from _parts(text, Span(start, end), columns, size // _PARTS)
+        else:
+            yield end - start, _mixed_rows(lines, columns)
+
+
+def _mixed_rows(lines: str, columns: int) -> Rows:
+    """Return the rows of lines of which some hold more than numbers: these one by one, the others at once."""
+    texts = lines.split("\n")
+    odd = np.array([_ODD.search(text) is not None for text in texts])
+    numbers = read_numbers("\n".join(compress(texts, ~odd)), columns)
+    if numbers is None or not odd.any():
+        return read_rows_slow(lines, Span(0, len(lines)), columns)
+    text = "\n".join(compress(texts, odd))
+    others = read_rows_slow(text, Span(0, len(text)), columns)
+    values = np.full((len(texts), max(numbers.shape[1], others.values.shape[1])), math.nan)
+    values[~odd, : numbers.shape[1]] = numbers
+    values[odd, : others.values.shape[1]] = others.values
+    lengths = np.full(len(texts), numbers.shape[1], dtype=np.intp)
+    lengths[odd] = others.lengths
+    places = np.flatnonzero(odd).tolist()
+    return Rows(values, lengths, {(places[row], column): word for (row, column), word in others.words.items()})
+
+
+def read_numbers(lines: str, columns: int) -> NDArray[np.float64] | None:
+    """Return rows of as many finite numbers each, at most `columns`; None for any other lines.
+
+    Without their numbers the lines are commas and line ends, which must be the same in each.
+    """
+    data = lines.encode("ascii", "replace").translate(_D_TO_E)
+    marks = data.translate(None, _IN_NUMBERS)
+    if not marks.strip(b"\n"):
+        rows = data.split(b"\n")
+        if max(map(len, rows)) > LONGEST_BLANK_SEPARATED:
+            return None
+        data = b"\n".join([b",".join(row.split()) for row in rows])
+        marks = data.translate(None, _IN_NUMBERS)
+    count = marks.count(b"\n") + 1
+    width = (len(marks) + 1) // count
+    if width > columns or marks + b"\n" != (b"," * (width - 1) + b"\n") * count:
+        return None
+    flat = data.replace(b"\n", b",")
+    try:
+        values = np.array(_doubles(flat))
+    except (ValueError, OverflowError):
+        return None
+    return values.reshape(count, width) if len(values) and np.isfinite(values).all() else None
+
+
+def _doubles(numbers: bytes) -> Sequence[float]:
+    """Return the numbers between commas: those that JSON has, else those that `float` reads of the same characters."""
+    if not _SIGNED_ZERO.search(numbers) and _LONG not in numbers.translate(_DIGITS):
+        try:
+            return array("d", from_json(b"[%b]" % numbers))
+        except ValueError:
+            pass
+    words = numbers.split(b",")
+    if max(map(len, words)) > LONGEST_NUMBER:
+        raise ValueError("a number is too long")
+    return [float(word) for word in words]
+
+
+def read_rows_slow(text: str, span: Span, columns: int) -> Rows:
+    """The meaning of a table, field by field."""
+    values: list[list[float]] = []
+    lengths: list[int] = []
+    words: dict[tuple[int, int], str] = {}
+    for index, line in enumerate(line_spans(text, span)):
+        row_words, length = _row_words(text[line.start : line.end], columns)
+        lengths.append(length)
+        row = [math.nan] * columns
+        for column, word in enumerate(row_words):
+            value = read_number(word)
+            if value is None:
+                words[index, column] = word
+            else:
+                row[column] = value
+        values.append(row)
+    array = np.array(values, dtype=np.float64).reshape(len(values), columns)
+    width = min(max(lengths, default=0), columns)
+    return Rows(np.ascontiguousarray(array[:, :width]), np.array(lengths, dtype=np.intp), words)
+
+
+def _plain(values: NDArray[np.float64]) -> Rows:
+    return Rows(values, np.full(len(values), values.shape[1], dtype=np.intp), {})
+
+
+def _together(parts: Iterable[tuple[int, Rows]], size: int) -> Rows:
+    """The rows of the parts of a text, which has `size` characters, one below the other; each with its own count.
+
+    They are copied to one array as they come, as large as the first part lets expect: to copy all parts at the end
+    would take twice the memory.
+    """
+    values = np.empty((0, 0))
+    lengths: list[NDArray[np.intp]] = []
+    words: dict[tuple[int, int], str] = {}
+    start = 0
+    for characters, part in parts:
+        count, width = part.values.shape
+        end = start + count
+        if end > len(values) or width > values.shape[1]:
+            expected = max(int(end * (_ROOM if start else _ROOM * size / characters)), len(values))
+            values = _grown(values[:start], expected, max(width, values.shape[1]))
+        values[start:end, :width] = part.values
+        values[start:end, width:] = math.nan
+        lengths.append(part.lengths)
+        words |= {(row + start, column): word for (row, column), word in part.words.items()}
+        start = end
+    return Rows(values[:start], _all_lengths(lengths), words)
+
+
+def _grown(values: NDArray[np.float64], rows: int, columns: int) -> NDArray[np.float64]:
+    """A larger array that begins with some values; NaN beside them, anything below."""
+    grown = np.empty((rows, columns))
+    grown[: len(values), : values.shape[1]] = values
+    grown[: len(values), values.shape[1] :] = math.nan
+    return grown
+
+
+def _all_lengths(parts: list[NDArray[np.intp]]) -> NDArray[np.intp]:
+    """The lengths of all rows; where they are equal, one number that is seen as many."""
+    found = {int(length) for part in parts if len(part) for length in (part.min(), part.max())}
+    if len(found) == 1:
+        return np.broadcast_to(np.intp(found.pop()), sum(map(len, parts)))
+    return np.concatenate(parts) if parts else np.zeros(0, dtype=np.intp)
+
+
+def _pieces(text: str, span: Span, size: int = PIECE) -> Iterator[Span]:
+    """Parts of whole lines, each but the last of about `size` characters, without the line end of the last line.
+
+    A C library that has given back a large block keeps smaller ones for the next that are asked for; otherwise every
+    array of a piece would be memory that the system has to clear.
+    """
+    start, end = span
+    while end > start and text[end - 1] in "\r\n":
+        end -= 1
+    if end - start > size:
+        np.empty(_KEPT_BACK, np.uint8)
+    while start < end:
+        stop = text.find("\n", min(start + size, end), end)
+        stop = end if stop < 0 else stop
+        yield Span(start, stop)
+        start = stop + 1
+
+
+def line_spans(text: str, span: Span) -> Iterator[Span]:
+    """The lines of a run without their ends; blank ones are not rows."""
+    start = span.start
+    while start < span.end:
+        stop = text.find("\n", start, span.end)
+        stop = span.end if stop < 0 else stop
+        if text[start:stop].strip(" \t\r"):
+            yield Span(start, stop)
+        start = stop + 1
+
+
+def row_starts(text: str, span: Span) -> array[int]:
+    """Where the rows of a run begin, as `line_spans` gives them, for a million lines in a tenth of the time."""
+    found = array("q")
+    for start, end in _pieces(text, span):
+        letters = np.frombuffer(text[start:end].encode("latin-1", "replace"), np.uint8)
+        lines = np.append(0, np.flatnonzero(letters == ord("\n")) + 1)
+        blank = _BLANK.take(letters)
+        lines = lines[: len(lines) - (lines[-1] == end - start)]
+        lines = lines[~np.logical_and.reduceat(blank, lines)] + start
+        found.frombytes(lines.astype(np.int64).tobytes())
+    return found
+
+
+def row_fields(text: str, line: Span, columns: int) -> list[Field]:
+    """The first `columns` fields of one row, with their places."""
+    body = text[line.start : line.end]
+    fields: list[Field] = []
+    at = 0
+    for word in _row_words(body, columns)[0]:
+        at = body.index(word, at)
+        fields.append(Field(word, line.start + at))
+        comma = body.find(",", at + len(word))
+        at = comma + 1 if comma >= 0 else at + len(word)
+    return fields
+
+
+def _row_words(body: str, columns: int) -> tuple[list[str], int]:
+    """The first `columns` fields of a row, and how many it has: separated by commas, or by spaces where all is numbers.
+
+    Empty fields behind the last column, as trailing commas leave them, do not count.
+    """
+    if GROUPED.search(body) and not (body.count(",") < columns and _ONLY_EQUATIONS.fullmatch(body)):
+        texts = [field.text for field in split(body, Span(0, len(body)))[0]]
+        while len(texts) > columns and not texts[-1]:
+            texts.pop()
+        return texts[:columns], len(texts)
+    if "," not in body and blank_separated(body):
+        words = _WORD.findall(body)
+        return words[:columns], len(words)
+    pieces = body.split(",", columns)
+    beyond = pieces.pop().strip(", \t\r") if len(pieces) > columns else ""
+    length = body.count(",") + 1 if beyond else len(pieces)
+    return [piece.strip(" \t\r") for piece in pieces], length
+
+
+def blank_separated(body: str) -> bool:
+    """Whether a line without commas is several numbers separated by spaces."""
+    if len(body.rstrip("\r")) > LONGEST_BLANK_SEPARATED:
+        return False
+    words = _WORD.findall(body)
+    return len(words) > 1 and all(NUMBER.fullmatch(word) for word in words)

@@ -1,0 +1,215 @@
+"""The text of one file: decoding, line ends, and the way back to the same bytes."""
+
+from __future__ import annotations
+
+import re
+from array import array
+from bisect import bisect_right
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from mudline.basics.limits import LARGEST_DECK, LONGEST_LINE, MOST_LINES, MOST_WORDED
+from mudline.basics.short_repr import short_repr
+from mudline.language.codes.lines import SYN012
+from mudline.language.diagnostics import Problem, Severity, Span
+
+_BOM = b"\xef\xbb\xbf"
+CONTROLS = "".join(map(chr, (*range(9), 11, 12, *range(14, 32), 127, 0xFEFF)))
+"""Characters that nobody sees and that are not blanks; in front of a `*` or `$` they are read over."""
+_CONTROL = re.compile(f"[{re.escape(CONTROLS)}]")
+_NO_CONTROLS = bytes(byte for byte in range(256) if chr(byte) not in CONTROLS)
+_BEFORE_HEAD = re.compile(rf"[ \t{re.escape(CONTROLS)}]++(?=[*$])")
+END_MARK = "\x1a"
+"""What old systems put behind the last character of a file (Ctrl-Z)."""
+_END = f"{END_MARK} \t\r\n"
+_CALLED = {
+    "\0": "NUL character",
+    END_MARK: "end-of-file mark (Ctrl-Z)",
+    "\ufeff": "byte-order mark inside the file",
+}
+_LONE_CR = re.compile(r"\r(?!\n)")
+_FOREIGN_DATA = re.compile(r"(?m)^(?!C(?:[^A-Za-z\r\n]|$)).*[^\x00-\x7f]")
+"""A letter beyond ASCII in a line that is not a comment."""
+_NOT_UTF8 = "{} is not UTF-8; the file is read as {}: save it as UTF-8"
+BINARY = "the file looks like binary data"
+"""How the refusal of such a file begins."""
+_BINARY_SHARE = 0.1
+_SAMPLE = 65536
+_CHUNK = 1 << 18
+_LF = ord("\n")
+_LINE_FEED = re.compile("\n")
+_SHORT = 20_000
+"""Characters of a text whose lines are found without arrays."""
+_FEW = 8
+
+
+@dataclass(frozen=True)
+class Source:
+    """A file's text without byte-order mark; `to_bytes` gives back the bytes that were read.
+
+    `readable` is False for content that is not the text of a deck (UTF-16, binary data): it is kept, but not parsed.
+    `clean` says that the text holds none of the control characters that are read over; where it does not, it may.
+    """
+
+    name: str
+    text: str
+    encoding: str = "utf-8"
+    bom: bool = False
+    readable: bool = True
+    problems: tuple[Problem, ...] = field(default=(), compare=False)
+    clean: bool = field(default=False, compare=False)
+
+    __repr__ = short_repr
+
+    @classmethod
+    def from_bytes(cls, data: bytes, name: str) -> Source:
+        """Decode as UTF-8, else the whole file as CP1252, else as Latin-1; UTF-16 and binary data are refused."""
+        bom = data.startswith(_BOM)
+        body = data[len(_BOM) :] if bom else data
+        refusal = _refusal(body)
+        if refusal:
+            problem = Problem(SYN012, refusal, Span(0, 0), Severity.ERROR)
+            return cls(name, body.decode("latin-1"), "latin-1", bom, readable=False, problems=(problem,))
+        text, encoding, problems = _decode(body)
+        clean = not body.translate(None, _NO_CONTROLS) and (body.isascii() or _BOM not in body)
+        found = [] if clean else _control_characters(text)
+        return cls(name, text, encoding, bom, problems=(*problems, *found), clean=clean)
+
+    def to_bytes(self, text: str | None = None) -> bytes:
+        """The bytes of `text` (default: the text as read) in the file's own encoding, with its mark if it had one.
+
+        Raises UnicodeEncodeError when a changed text holds a character that the encoding lacks.
+        """
+        body = (self.text if text is None else text).encode(self.encoding)
+        return _BOM + body if self.bom else body
+
+    @cached_property
+    def unified(self) -> str:
+        """A copy of equal length in which a lone CR is a LF, so that every line ends with LF.
+
+        Control characters in front of a `*` or `$` at the beginning of a line are blanks in it, and so is what old
+        systems put at the end of a file.
+        """
+        text = _LONE_CR.sub("\n", self.text) if "\r" in self.text else self.text
+        return text if self.clean else _ended(_heads_found(text))
+
+    @cached_property
+    def line_starts(self) -> array[int]:
+        """Offset of the first character of every line; CR, CRLF and LF each end one."""
+        text = self.unified
+        starts = array("q", [0])
+        if len(text) < _SHORT:
+            starts.extend(found.end() for found in _LINE_FEED.finditer(text))
+            return starts
+        import numpy as np  # noqa: PLC0415 - what lints unchanged decks, or short ones, does without arrays here
+
+        for at in range(0, len(text), _CHUNK):
+            letters = np.frombuffer(text[at : at + _CHUNK].encode("latin-1", "replace"), np.uint8)
+            starts.frombytes((np.flatnonzero(letters == _LF) + (at + 1)).astype(np.int64).tobytes())
+        return starts
+
+    def position(self, offset: int) -> tuple[int, int]:
+        """Line and column of an offset, both from 1, in code points."""
+        line = bisect_right(self.line_starts, offset)
+        return line, offset - self.line_starts[line - 1] + 1
+
+    def offset(self, line: int, column: int) -> int:
+        """Offset of a line and column, both from 1."""
+        return self.line_starts[line - 1] + column - 1
+
+    def line(self, number: int) -> str:
+        """The text of a line (from 1) without its end."""
+        start = self.line_starts[number - 1]
+        end = self.line_starts[number] if number < len(self.line_starts) else len(self.text)
+        return self.text[start:end].rstrip("\r\n")
+
+
+def _ended(text: str) -> str:
+    """A text with blanks for the end-of-file marks behind its last character."""
+    body = text.rstrip(_END)
+    return body + text[len(body) :].replace(END_MARK, " ") if END_MARK in text[len(body) :] else text
+
+
+def _heads_found(text: str) -> str:
+    """A text of LF lines with blanks for the control characters in front of its heads."""
+    pieces: list[str] = []
+    done = at = 0
+    while found := _CONTROL.search(text, at):
+        start = max(text.rfind("\n", at, found.start()) + 1, at)
+        if match := _BEFORE_HEAD.match(text, start):
+            pieces += (text[done:start], " " * (match.end() - start))
+            done = match.end()
+        at = text.find("\n", found.end()) + 1 or len(text)
+    return "".join((*pieces, text[done:])) if pieces else text
+
+
+_OF_NUMBERS = b"+-.,0123456789eEdD \t"
+_STRANGE = bytes({*range(9), 11, *range(14, 26), *range(27, 32), 127})
+"""Control characters that no text has many of."""
+
+
+def _refusal(body: bytes) -> str:
+    """Why these bytes are not read at all, or nothing."""
+    if body.startswith((b"\xff\xfe", b"\xfe\xff")) or _looks_like_utf16(body[:_SAMPLE]):
+        return "the file is UTF-16, which no deck reader takes: save it as UTF-8"
+    sample = body[:_SAMPLE]
+    strange = len(sample) - len(sample.translate(None, _STRANGE))
+    if strange > max(_BINARY_SHARE * len(sample), _FEW):
+        share = f"{strange} control characters in its first {len(sample)} bytes"
+        return f"{BINARY} ({share}): choose the keyword file, or save it as text"
+    return _excess(body) if len(body) > MOST_WORDED else ""
+
+
+def _excess(body: bytes) -> str:
+    """Which limit these bytes exceed: the memory of a deck grows with its lines, most with those of words."""
+    if len(body) > LARGEST_DECK:
+        return _divide(f"{LARGEST_DECK} bytes")
+    words = body.translate(None, _OF_NUMBERS)  # counting the lines of all would take twice the time
+    lines = words.count(b"\n") + words.count(b"\r")
+    if lines > MOST_LINES:
+        return _divide(f"{MOST_LINES} lines")
+    if lines > MOST_WORDED and len(words.split()) > MOST_WORDED:
+        return _divide(f"{MOST_WORDED} lines of keywords, settings and other words")
+    starts = range(0, len(body) - LONGEST_LINE + 1, LONGEST_LINE)
+    ends = (body.find(b"\n", at, at + LONGEST_LINE) + body.find(b"\r", at, at + LONGEST_LINE) for at in starts)
+    return _divide(f"{LONGEST_LINE} bytes on one line") if -2 in ends else ""
+
+
+def _divide(found: str) -> str:
+    return f"more than {found}: is this a deck? If so, divide it, as by *RESTART"
+
+
+def _looks_like_utf16(sample: bytes) -> bool:
+    if 0 not in sample:
+        return False
+    even, odd = sample[0::2].count(0), sample[1::2].count(0)
+    half = len(sample) // 2
+    return half > _FEW and max(even, odd) > 0.4 * half and min(even, odd) <= 0.05 * half
+
+
+def _decode(body: bytes) -> tuple[str, str, list[Problem]]:
+    try:
+        return body.decode("utf-8"), "utf-8", []
+    except UnicodeDecodeError as error:
+        start = error.start
+    for encoding, shown in (("cp1252", "CP1252"), ("latin-1", "Latin-1")):
+        try:
+            text = body.decode(encoding)
+        except UnicodeDecodeError:
+            continue
+        message = _NOT_UTF8.format(f"byte 0x{body[start]:02X}", shown)
+        severity = None if _FOREIGN_DATA.search(text) else Severity.INFO
+        return text, encoding, [Problem(SYN012, message, Span(start, start + 1), severity)]
+    raise AssertionError("Latin-1 decodes every byte")
+
+
+def _control_characters(text: str) -> list[Problem]:
+    """One finding for all control characters, at the first."""
+    first = _CONTROL.search(text)
+    if first is None:
+        return []
+    count = sum(1 for _ in _CONTROL.finditer(text))
+    more = f" (and {count - 1} more control characters)" if count > 1 else ""
+    what = _CALLED.get(first.group(), "control character")
+    message = f"{what} U+{ord(first.group()):04X}{more}: remove it"
+    return [Problem(SYN012, message, Span(*first.span()))]

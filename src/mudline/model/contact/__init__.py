@@ -1,0 +1,59 @@
+"""Contact of pipe elements with the seabed: plain arrays in, depths, forces, stiffnesses and reactions out.
+
+    model = ContactModel(ContactInput(...))
+    print(model.plan)
+    result = model.evaluate(positions)
+
+Nothing here knows decks, sets or keywords. X is up, the units are those of the input and are never converted.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from mudline.model.contact.input import ContactInput, ElementError, LawAssignment, LawKind, PositionError, Tension
+    from mudline.model.contact.model import ContactModel
+    from mudline.model.contact.plan import Plan, Stage
+    from mudline.model.contact.result import ContactResult
+    from mudline.model.contact.tables import ContactState
+
+__all__ = [
+    "ContactInput",
+    "ContactModel",
+    "ContactResult",
+    "ContactState",
+    "ElementError",
+    "LawAssignment",
+    "LawKind",
+    "Plan",
+    "PositionError",
+    "Stage",
+    "Tension",
+]
+
+_HOMES = {
+    name: home
+    for home, names in {
+        "input": ["ContactInput", "ElementError", "LawAssignment", "LawKind", "PositionError", "Tension"],
+        "model": ["ContactModel"],
+        "plan": ["Plan", "Stage"],
+        "result": ["ContactResult"],
+        "tables": ["ContactState"],
+    }.items()
+    for name in names
+}
+
+
+def __getattr__(name: str) -> object:
+    """Public names are imported when they are first used: to lint a deck takes the input alone."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module  # noqa: PLC0415 - as above
+
+    found = globals()[name] = getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+    return found
+
+
+def __dir__() -> list[str]:
+    return __all__

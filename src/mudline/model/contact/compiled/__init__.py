@@ -1,0 +1,237 @@
+"""The laws driven by compiled loops, for the extra `mudline[fast]`.
+
+`loops` makes the loops over elements and over nodes. Each takes flags and laws, which are constants of the compiled
+loop: what a scene does not have is not even compiled. A loop goes over a range of rows and all steps of a batch, writes
+its part of a result, moves the states on, and returns how many values came out that are not finite.
+
+All arrays of a result are (steps, m) for elements and (steps, n) for nodes. The numpy driver does the same operations
+in the same order, so both give the same bits.
+
+Here are what the loops read: tables of a scene with a row for each element or node, and which features it has.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from mudline.model.contact.arrays import FloatArray
+from mudline.model.contact.tables import Tables, steepest_anywhere
+
+if TYPE_CHECKING:
+    from mudline.model.curves import ForceCurve
+
+# Columns of the table of numbers of elements, before the parameters of their normal laws.
+DIAMETER, ONSET, LINE, SPRING, EXTENT, LATERAL, LAW = range(7)
+# Columns of the table of indices of elements.
+FIRST, SECOND, KIND, CURVE_START, CURVE_END, UNLOADS, PULLS, SPRINGS_BACK, PATH, INDICES = range(10)
+# Columns of the table of suction laws: the parameters of `SuctionLaw`, then these.
+PER_CYCLE, FLOOR, LEAST_DEPTH, SUCTION_COLUMNS = 9, 10, 11, 12
+# Columns of the table of numbers of nodes, before the parameters of their normal laws.
+MU_1, MU_2, CONSTANT_1, CONSTANT_2, RISING_1, RISING_2, COSINE, SINE, NODE_ONSET, NODE_LAW = range(10)
+# Columns of the table of indices of nodes.
+ACTIVE, ELLIPTIC, NODE_KIND, BREAKS_OUT, NODE_INDICES = range(5)
+# Columns of the tables of trenches.
+INNER, OUTER, STEEPNESS, AMOUNT, TRENCH_NUMBERS = range(5)
+TRENCH_KIND, TABLE_START, TABLE_END, CENTRELINE, TRENCH_INDICES = range(5)
+
+NOTHING = 2**32 - 1
+"""In tables of indices: there is none. These are unsigned, as are all indices of the loops, or each look into an array
+would first ask whether it counts from the end."""
+
+NO_LAW, ON_CURVE, FIRST_LAW = 0, 1, 2
+"""Kinds of normal laws of elements; those with an equation are numbered from the last on."""
+
+
+class Features(NamedTuple):
+    """What a scene has, as far as loops differ by it."""
+
+    flat: bool
+    curves: bool
+    paths: bool
+    cuts: bool
+    unloading: bool
+    steepens: bool
+    springs: bool
+    damping: bool
+    nodal_damping: bool
+    suction: bool
+    slides: bool
+    turns: bool
+    lateral: bool
+    nodal: bool
+    friction: bool
+    elliptic: bool
+    turned: bool
+    trench: bool
+    tables: bool
+    breakout: bool
+    embeds: bool
+
+
+def features_of(tables: Tables, *, flat: bool) -> Features:
+    """Return what a scene has, as far as the loops differ by it."""
+    friction, trench, suction = tables.friction, tables.trench, tables.suction
+    return Features(
+        flat=flat,
+        curves=any(rows.curve >= 0 for rows in tables.normal),
+        paths=any(rows.path >= 0 for rows in tables.normal),
+        cuts=tables.cuts,
+        unloading=tables.unloading is not None,
+        steepens=_steepens(tables),
+        springs=tables.springs is not None,
+        damping=tables.damping is not None,
+        nodal_damping=tables.nodal_damping is not None,
+        suction=suction is not None,
+        slides=friction is not None or tables.lateral is not None,
+        turns=tables.line.turns,
+        lateral=tables.lateral is not None,
+        nodal=bool(tables.nodal),
+        friction=friction is not None,
+        elliptic=friction is not None and bool(friction.ellipse.any()),
+        turned=friction is not None and bool(friction.turned.size),
+        trench=trench is not None,
+        tables=trench is not None and bool((trench.table >= 0).any()),
+        breakout=tables.breakout is not None,
+        embeds=tables.embeds,
+    )
+
+
+def _steepens(tables: Tables) -> bool:
+    """Whether an unloading line may be less steep than the virgin path that led to it."""
+    if tables.unloading is None:
+        return False
+    stiffness = np.full(len(tables.half), np.inf)
+    stiffness[tables.unloading.rows] = tables.unloading.columns[0]
+    return any(bool((steepest_anywhere(tables, rows) > stiffness[rows.rows]).any()) for rows in tables.normal)
+
+
+def element_tables(tables: Tables) -> tuple[Any, Any, Any]:
+    """Indices (m, c) and numbers (m, c) of the elements, and all curves.
+
+    Curves are (4, k): ratios, forces, slopes behind the points, and the steepest slopes up to there.
+    """
+    given, count = tables.given, len(tables.half)
+    formulas = [rows for rows in tables.normal if rows.curve < 0]
+    most = max((len(rows.columns) for rows in formulas), default=0)
+    index, numbers = np.full((count, INDICES), NOTHING, np.uint32), np.zeros((count, LAW + most))
+    index[:, FIRST], index[:, SECOND] = tables.line.first, tables.line.second
+    index[:, KIND] = NO_LAW
+    numbers[:, DIAMETER] = given.diameter
+    numbers[:, ONSET] = 0.0 if tables.onset is None else tables.onset
+    for kind, rows in enumerate(formulas, FIRST_LAW):
+        index[rows.rows, KIND] = kind
+        index[rows.rows, PATH] = np.arange(len(rows.rows)) + rows.path if rows.path >= 0 else NOTHING
+        for column, values in enumerate(rows.columns, LAW):
+            numbers[rows.rows, column] = values
+    knots = [np.empty((4, 0))]
+    start = 0
+    for rows in tables.normal:
+        if rows.curve >= 0:
+            curve = given.curves[rows.curve]
+            knots.append(_knots(curve))
+            index[rows.rows, KIND] = ON_CURVE
+            index[rows.rows, CURVE_START] = start
+            start += len(curve.ratios)
+            index[rows.rows, CURVE_END] = start
+    places = ((tables.unloading, UNLOADS), (tables.suction, PULLS), (tables.lateral, SPRINGS_BACK))
+    for some, column in places:
+        if some is not None:
+            index[some.rows, column] = np.arange(len(some.rows))
+    columns = ((tables.unloading, (LINE,)), (tables.springs, (SPRING, EXTENT)), (tables.lateral, (LATERAL,)))
+    for some, names in columns:
+        if some is not None:
+            for column, values in zip(names, some.columns, strict=True):
+                numbers[some.rows, column] = values
+    return read_only(index), read_only(numbers), read_only(np.concatenate(knots, axis=1))
+
+
+def _knots(curve: ForceCurve) -> FloatArray:
+    from mudline.model.contact.laws.curve import steepest_slopes  # noqa: PLC0415 - only now is it needed
+
+    steepest, slopes = steepest_slopes(curve), curve.slopes
+    return np.stack([curve.ratios, curve.forces, np.append(slopes, slopes[-1]), np.append(steepest, steepest[-1])])
+
+
+def suction_table(tables: Tables) -> Any:
+    """Suction laws (k, c)."""
+    if tables.suction is None:
+        return read_only(np.empty((0, SUCTION_COLUMNS)))
+    from mudline.model.contact.laws.suction import SuctionLaw  # noqa: PLC0415 - only now is it needed
+
+    law = SuctionLaw(*tables.suction.columns)
+    return read_only(np.column_stack([*law, law.factor_per_cycle, np.nan_to_num(law.cyclic_floor), law.least_depth]))
+
+
+def node_tables(tables: Tables) -> tuple[Any, Any]:
+    """Indices (n, c) and numbers (n, c) of the nodes."""
+    count = len(tables.given.node_ids)
+    most = max((len(rows.columns) for rows in tables.nodal), default=0)
+    index, numbers = np.full((count, NODE_INDICES), NOTHING, np.uint32), np.zeros((count, NODE_LAW + most))
+    numbers[:, COSINE] = np.nan
+    for kind, rows in enumerate(tables.nodal):
+        index[rows.rows, NODE_KIND] = kind
+        numbers[rows.rows, NODE_ONSET] = rows.law.onset(*rows.columns)
+        for column, values in enumerate(rows.columns, NODE_LAW):
+            numbers[rows.rows, column] = values
+    friction = tables.friction
+    if friction is not None:
+        index[:, ACTIVE], index[:, ELLIPTIC] = friction.active, friction.ellipse
+        pairs = ((MU_1, friction.coefficients), (CONSTANT_1, friction.fixed), (RISING_1, friction.rising))
+        for column, values in pairs:
+            numbers[:, column : column + 2] = values
+        numbers[friction.turned, COSINE], numbers[friction.turned, SINE] = friction.cosine, friction.sine
+    if tables.breakout is not None:
+        index[tables.breakout.rows, BREAKS_OUT] = np.arange(len(tables.breakout.rows))
+    return read_only(index), read_only(numbers)
+
+
+def breakout_table(tables: Tables) -> Any:
+    """Breakout laws (k, 6): the parameters, and 1 over the elements at the node."""
+    rows = tables.breakout
+    return read_only(np.empty((0, 6)) if rows is None else np.column_stack((*rows.columns, tables.shares)))
+
+
+def trench_tables(tables: Tables) -> tuple[Any, ...]:
+    """Trenches of the nodes: where those of each node start, indices, numbers, straight lines, rows of all tables."""
+    trench = tables.trench
+    if trench is None:
+        none = (np.empty((0, TRENCH_NUMBERS)), np.empty((0, 4)), np.empty((4, 0)))
+        return between(np.zeros(1)), read_only(np.zeros((0, TRENCH_INDICES), np.uint32)), *map(read_only, none)
+    from mudline.model.contact.laws.trench import table_rows  # noqa: PLC0415 - most friction has no trench
+
+    rows = [np.stack(table_rows(table)) for table in tables.given.tables]
+    starts = np.append(0, np.cumsum([table.shape[1] for table in rows]))
+    index = np.full((len(trench.nodes), TRENCH_INDICES), NOTHING, np.uint32)
+    index[:, TRENCH_KIND] = trench.kind
+    index[:, CENTRELINE] = np.where(trench.line < 0, np.uint32(NOTHING), trench.line)
+    tabled = trench.table >= 0
+    index[tabled, TABLE_START] = starts[trench.table[tabled]]
+    index[tabled, TABLE_END] = starts[trench.table[tabled] + 1]
+    numbers = np.column_stack([trench.inner, trench.outer, trench.steepness, trench.amount])
+    every = np.concatenate([np.empty((4, 0)), *rows], axis=1)
+    return between(trench.start), *map(read_only, (index, numbers, trench.lines, every))
+
+
+def read_only(array: Any) -> Any:
+    """The array as one that may not be written, without gaps: one type to compile for."""
+    view = np.ascontiguousarray(array).view()
+    view.setflags(write=False)
+    return view
+
+
+def plain(array: Any) -> Any:
+    """The array itself, or a copy of one that has gaps or may not be written: one type to compile for."""
+    return array if array.flags.c_contiguous and array.flags.writeable else np.array(array, order="C")
+
+
+def between(start: Any) -> tuple[Any, Any]:
+    """Where the rows of each node begin, and behind which they end, of `start` (n + 1,)."""
+    return read_only(start[:-1].astype(np.uint32)), read_only(start[1:].astype(np.uint32))
+
+
+def beside(ends: Any, elements_at: Any) -> tuple[Any, Any]:
+    """The nodes of elements (m, 2) and the first two elements at each node (n, 2)."""
+    found = np.where(elements_at < 0, NOTHING, elements_at)
+    return read_only(ends.astype(np.uint32)), read_only(found.astype(np.uint32))

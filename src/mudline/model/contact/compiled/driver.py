@@ -1,0 +1,319 @@
+"""The laws driven by compiled loops (numba, the extra `mudline[fast]`): the same bits as the numpy driver, sooner.
+
+A loop is compiled for the laws that a scene has, kept in numba's cache on disk, and run over ranges of elements and of
+nodes, on several threads where there is enough to do. Positions are given, so ranges do not depend on each other but
+for the sums at nodes, which come after the elements.
+"""
+
+from __future__ import annotations
+
+import itertools
+import warnings
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache
+from importlib import import_module
+from inspect import isfunction
+from typing import Any, TypeVar
+
+import numba
+import numpy as np
+from numba.extending import overload
+
+from mudline.model.contact import vectors
+from mudline.model.contact.arrays import FloatArray
+from mudline.model.contact.compiled import (
+    LAW,
+    beside,
+    between,
+    breakout_table,
+    element_tables,
+    features_of,
+    functions,
+    node_tables,
+    plain,
+    read_only,
+    suction_table,
+    trench_tables,
+)
+from mudline.model.contact.compiled.functions import Loop, edition, one_of
+from mudline.model.contact.compiled.loops import ranges_loop
+from mudline.model.contact.laws import MODULES, PathLaw, every, where
+from mudline.model.contact.result import ContactResult
+from mudline.model.contact.seabed import FlatSeabed, Seabed
+from mudline.model.contact.tables import Batch, ContactState, NormalRows, Tables
+
+_BATCH = 3 * 2**19
+"""Nodes times steps at a time, at most."""
+_RANGE, _RANGE_OF_ONE = 256, 8192
+"""Elements or nodes in a range: what they read and write over a few steps stays in the second-level cache; and of a
+single step, of which nothing is read again."""
+_STEPS = 64
+_WORTH_THREADS = 60_000
+"""Nodes times steps of a batch from which on several threads are worth their start."""
+
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def _pick(condition: bool, one: float, other: float) -> float:  # noqa: FBT001 - as `where` is called
+    """Return one of two numbers, see `where`."""
+    return one if condition else other
+
+
+_INNER: Any = {"error_model": "numpy", "no_cpython_wrapper": True, "no_cfunc_wrapper": True, "forceinline": True}
+"""For what only loops call: no contraction of products and sums, divisions as numpy does them."""
+
+overload(where, jit_options=_INNER, strict=False)(lambda *_: _pick)
+overload(every, jit_options=_INNER, strict=False)(lambda _: lambda condition: condition)
+
+
+@cache
+def callable_in_loops(function: Function) -> Function:
+    """Make a plain function one that compiled loops can call, and return it."""
+    overload(function, jit_options=_INNER, strict=False)(lambda *_: function)
+    return function
+
+
+for _module in (functions, vectors, *(import_module(f"mudline.model.contact.laws.{name}") for name in MODULES)):
+    for _function in vars(_module).values():
+        if isfunction(_function) and _function.__module__ == _module.__name__:
+            callable_in_loops(_function)
+
+
+@cache
+def _loop(make: Callable[..., Loop], *options: Any) -> Loop:
+    """The loop for options, made once; compiled at the first call, or loaded from the cache."""
+    always: Any = {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
+    loop: Any = make(*options)
+    try:
+        made: Loop = numba.njit(cache=True, **always)(loop)
+    except RuntimeError:  # there is no place where numba may write
+        made = numba.njit(**always)(loop)
+    return made
+
+
+_Task = tuple[bool, int, int]
+"""A range to be written: whether it is one of nodes, its begin and its end."""
+_Job = tuple[tuple[Any, ...], tuple[Any, ...]]
+"""What the loops over elements, and over nodes, take of a batch behind the range."""
+
+
+_NO_LOOP: type[Exception] = getattr(numba.core.errors, "UnsupportedBytecodeError", numba.core.errors.NumbaError)
+"""What numba raises for Python that it cannot compile; an older one a `NumbaError`."""
+
+
+class CompiledDriver:
+    """Evaluates batches of steps. Holds no state of a series; may be shared by threads."""
+
+    def __init__(self, tables: Tables, seabed: Seabed, threads: int) -> None:
+        """Prepare the tables of the loops, and the loops, which are compiled when they are first called."""
+        given = tables.given
+        self._tables, self._threads = tables, threads
+        self._pool: ThreadPoolExecutor | None = None
+        self._normal = None if seabed.same_normal is None else read_only(seabed.same_normal.reshape(1, 1, 3))
+        self._nodes, self._elements = len(given.node_ids), len(given.element_ids)
+        has = features_of(tables, flat=isinstance(seabed, FlatSeabed))
+        self._has = has
+        normal = [rows for rows in tables.normal if rows.curve < 0]
+        slopes = tuple((_as_reaction(rows.steepest), len(rows.law.parameters)) for rows in normal if has.steepens)
+        sources = edition(tuple(rows.law for rows in (*tables.normal, *tables.nodal)))
+        paths = tuple((law if isinstance(law := rows.law, PathLaw) else None, len(law.parameters)) for rows in normal)
+        self._loop = _loop(
+            ranges_loop,
+            callable_in_loops,
+            (has, _equations(normal), paths, _choice(slopes), sources),
+            (has, _equations(tables.nodal), sources),
+        )
+        self._index, self._numbers, self._knots = element_tables(tables)
+        self._pulls = suction_table(tables)
+        self._node_index, self._node_numbers = node_tables(tables)
+        self._trenches, self._breaks = trench_tables(tables), breakout_table(tables)
+        given_damping = tables.damping, tables.nodal_damping
+        self._damping = [read_only(np.empty(0) if each is None else each) for each in given_damping]
+        line = tables.line
+        of_line = line.elements.astype(np.uint32), line.senses, tables.half
+        self._line = between(line.start), *map(read_only, of_line)
+        ends, elements_at = (line.ends, line.beside) if has.trench else (np.empty((0, 2)), np.empty((0, 2)))
+        self._beside = beside(ends, elements_at)
+        self.steps = max(1, min(_BATCH // max(self._nodes, 1), _STEPS))
+        """How many steps at a time are fastest."""
+        width = _RANGE if self.steps > 1 else _RANGE_OF_ONE
+        sequence = _tasks(tables, range(len(range(0, self._elements, width))), width)
+        together, behind = _groups(tables, self._threads, sequence, width)
+        self._sequence, self._held = _ranges(sequence), _held(tables, sequence)
+        self._together, self._behind = (list(map(_ranges, groups)) for groups in (together, behind))
+        self.broken = False
+        """Whether a law turned out not to compile."""
+
+    def run(
+        self, batch: Batch, part: ContactResult, state: ContactState, spare: ContactState | None
+    ) -> ContactState | None:
+        """Write a batch to `part`, but for gaps and normals, which are there; return the state behind it.
+
+        `spare` is one that may be written. None: something is not finite, and the numpy driver has to say what.
+        """
+        speed = batch.speed
+        if speed is not None and not (np.isfinite(speed.sum()) or (np.isfinite(speed) | np.isnan(part.gap)).all()):
+            return None
+        after = state.blank(spare)
+        together = len(self._together) > 1 and len(batch.points) * self._nodes >= _WORTH_THREADS
+        job = self._job(batch, part, state, after, 2**64 if together else self._held)
+        try:
+            wrong = self._run(job, together=together)
+        except (numba.core.errors.NumbaError, _NO_LOOP) as error:
+            first = str(error).strip().splitlines()[0]
+            warnings.warn(f"the laws cannot be compiled and are evaluated with numpy: {first}", RuntimeWarning, 3)
+            self.broken = True
+            return None
+        return None if wrong else after
+
+    def _run(self, job: _Job, *, together: bool) -> int:
+        """Write all ranges, or several together; return how many values are not finite."""
+        if not together:
+            return self._loop(self._sequence, *job)
+        if self._pool is None:
+            self._pool = ThreadPoolExecutor(self._threads)
+        pool = self._pool
+        return sum(
+            sum(pool.map(lambda ranges: self._loop(ranges, *job), groups)) for groups in (self._together, self._behind)
+        )
+
+    def _job(self, batch: Batch, part: ContactResult, state: ContactState, after: ContactState, held: int) -> _Job:
+        """What the loops take of a batch; what elements leave for nodes is there for `held`, a power of two."""
+        steps, has = len(batch.points), self._has
+        components = 2 if has.flat else 3
+        shape = (steps, min(held, self._elements), components)
+        work = (
+            np.empty(shape) if has.slides else np.empty((0, 0, components)),
+            np.empty(shape) if has.lateral else np.empty((0, 0, components)),
+            np.uint64(held - 1),
+        )
+        none = np.zeros((0, 0), np.int8)
+        paths = np.empty((0, 0)) if after.paths is None else after.paths
+        moved = np.empty((5, 0)) if after.breakout is None else after.breakout
+        extra = (
+            part.cut if part.cut.flags.writeable else none > 0,
+            none if part.state is None else part.state,
+            none > 0 if part.regularised is None else part.regularised,
+        )
+        slips = (
+            np.empty((0, 0, 2)) if part.friction is None else part.friction,
+            np.zeros((0, 0, 2), np.int8) if part.friction_state is None else part.friction_state,
+        )
+        points, speed = read_only(batch.points), np.empty((0, 0)) if batch.speed is None else batch.speed
+        normals = read_only(part.normal) if self._normal is None else self._normal
+        written = part.depth, part.ratio, part.contact, part.force, part.slope, part.stiffness
+        elements = (
+            self._index, self._numbers, self._pulls, points, part.gap, speed, normals, self._knots, self._damping[0],
+            _of_elements(state), (*_of_elements(after), paths), written, extra, work,
+        )  # fmt: skip
+        nodes = (
+            *self._line, self._node_index, self._node_numbers, points, part.gap, normals, part.force, speed,
+            self._damping[1], work, (*self._trenches, *self._laid_tables(batch.laid, part)),
+            (self._breaks, part.ratio), _of_nodes(state), (*_of_nodes(after), moved),
+            (part.normal_force, part.reaction), slips,
+        )  # fmt: skip
+        return elements, nodes
+
+    def _laid_tables(self, laid: FloatArray, part: ContactResult) -> tuple[Any, ...]:
+        if self._tables.trench is None or part.present.all():
+            return read_only(laid), self._beside
+        line = self._tables.laid_line(laid)  # without the elements that have a node without a position
+        return read_only(laid), beside(line.ends, line.elements_at)
+
+
+def _of_elements(state: ContactState) -> tuple[Any, ...]:
+    """What elements remember, but for paths: of unloading, suction and lateral springs."""
+    lines, pulls = state.unloading, state.suction
+    return (
+        np.empty((4, 0)) if lines is None else plain(lines.numbers),
+        np.zeros((2, 0), np.int8) if pulls is None else plain(pulls.flags),
+        np.empty((3, 0)) if pulls is None else plain(pulls.numbers),
+        np.empty((3, 0)) if state.touchdown is None else plain(state.touchdown.T),
+    )
+
+
+def _of_nodes(state: ContactState) -> tuple[Any, ...]:
+    """What nodes remember of friction."""
+    if state.friction is None:
+        return np.empty((3, 0)), np.zeros((2, 0), np.int8)
+    return plain(state.friction.stick_points.T), plain(state.friction.states.T)
+
+
+def _tasks(tables: Tables, held: range, width: int) -> list[_Task]:
+    """The ranges of elements `held`, each followed by the ranges of nodes whose elements are all written by then.
+
+    All have this width. Ranges of nodes that have elements elsewhere are left out, and those without elements come
+    first.
+    """
+    line, elements, nodes = tables.line, len(tables.half), len(tables.given.node_ids)
+    found: dict[int, list[_Task]] = {number: [] for number in range(held.start - 1, held.stop)}
+    for begin in range(0, nodes, width):
+        end = min(begin + width, nodes)
+        there = line.elements[line.start[begin] : line.start[end]] // width
+        first, last = int(there.min(initial=held.stop)), int(there.max(initial=-1))
+        if not there.size and held.start == 0:
+            found[held.start - 1].append((True, begin, end))
+        elif there.size and first >= held.start and last < held.stop:
+            found[last].append((True, begin, end))
+    tasks = list(found[held.start - 1])
+    for number in held:
+        tasks.append((False, number * width, min((number + 1) * width, elements)))
+        tasks += found[number]
+    return tasks
+
+
+def _groups(
+    tables: Tables, threads: int, sequence: list[_Task], width: int
+) -> tuple[list[list[_Task]], list[list[_Task]]]:
+    """The tasks of each thread in their order; and those of nodes between two threads, which come behind."""
+    ranges = len(range(0, len(tables.half), width))
+    count = min(threads, ranges)
+    bounds = [ranges * group // max(count, 1) for group in range(count + 1)]
+    together = (
+        [_tasks(tables, range(low, high), width) for low, high in itertools.pairwise(bounds)]
+        if count > 1
+        else [sequence]
+    )
+    done = {task for tasks in together for task in tasks}
+    rest = [task for task in sequence if task not in done]
+    return together, [share for first in range(count) if (share := rest[first::count])]
+
+
+def _held(tables: Tables, sequence: list[_Task]) -> int:
+    """How many elements ranges of nodes look back, at most; the next power of two."""
+    line, far, written = tables.line, 1, 0
+    for of_nodes, begin, end in sequence:
+        if of_nodes:
+            first = line.elements[line.start[begin] : line.start[end]].min(initial=written)
+            far = max(far, written - int(first))
+        else:
+            written = end
+    return 1 << (far - 1).bit_length()
+
+
+def _ranges(tasks: list[_Task]) -> Any:
+    """Tasks as the compiled loop takes them."""
+    return read_only(np.array(tasks, np.uint64).reshape(-1, 3))
+
+
+def _equations(laws: Iterable[NormalRows]) -> tuple[tuple[Callable[..., Any], int], ...]:
+    """The reaction of each law and how many parameters it has."""
+    return tuple((rows.reaction, len(rows.law.parameters)) for rows in laws)
+
+
+@cache
+def _as_reaction(steepest: Callable[..., Any]) -> Callable[..., tuple[float, float]]:
+    """The steepest slope of a law in the form of a reaction."""
+    inner = callable_in_loops(steepest)
+
+    def slope(z: float, diameter: float, *parameters: float) -> tuple[float, float]:
+        return inner(z, diameter, *parameters), 0.0
+
+    return slope
+
+
+@cache
+def _choice(slopes: tuple[tuple[Callable[..., Any], int], ...]) -> Callable[..., Any]:
+    return one_of(callable_in_loops, slopes, LAW)

@@ -1,0 +1,84 @@
+"""Along and across the line at its nodes, and how deep trenches lower the seabed below them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.model.contact.tables import Tables
+from mudline.model.contact.vectors import dot_3, in_plane, turned_3, units
+
+if TYPE_CHECKING:
+    from mudline.model.contact.trenches import Lowered
+
+
+class Directions(NamedTuple):
+    """Directions of nodes (n,) in one step.
+
+    axes: u1 and u2, each (n, 3).
+    follows: (n,) nodes whose directions turn with the line.
+    senses: (m, 2) how the direction of each element counts at its ends.
+    size: (n,) length of the projection of the sum of the elements' directions.
+    """
+
+    axes: tuple[FloatArray, FloatArray]
+    follows: BoolArray
+    senses: FloatArray
+    size: FloatArray
+
+
+def directions_of(tables: Tables, points: FloatArray, normals: FloatArray) -> Directions:
+    """Return the directions of nodes at `points` (n, 3) with unit normals (n, 3)."""
+    line, nodes = tables.line, len(points)
+    with np.errstate(all="ignore"):
+        spans = (points[line.second] - points[line.first]).T
+        unit = units(spans)
+        total = np.stack([line.sums(_padded(axis), 0, nodes, directed=True)[0] for axis in unit], axis=1)
+        flat = total - (total * normals).sum(axis=1)[:, None] * normals
+        along = projected(total, normals)
+        follows = np.ones(nodes, np.bool_)
+        friction = tables.friction
+        if friction is not None and friction.turned.size:
+            there = tuple(normals[friction.turned].T)
+            along[friction.turned] = np.stack(turned_3(friction.cosine, friction.sine, there), axis=1)
+            follows[friction.turned] = False
+        senses = np.ones((len(line.first), 2))
+        senses[line.elements, line.sides] = line.senses
+    return Directions((along, np.cross(normals, along)), follows, senses, np.sqrt((flat * flat).sum(axis=1)))
+
+
+def lower(tables: Tables, points: FloatArray, laid: FloatArray, normal: FloatArray, gap: FloatArray) -> None:
+    """Add the depth of trenches in which the seabed is lowered to gaps (steps, n) of `points` (steps, n, 3)."""
+    for place, normals, height in zip(points, normal, gap, strict=True):
+        np.add(height, level(tables, place, laid, normals).depth, out=height)
+
+
+def level(tables: Tables, points: FloatArray, laid: FloatArray, normal: FloatArray) -> Lowered:
+    """How trenches lower the seabed below nodes at `points` (n, 3); TypeError where none does."""
+    from mudline.model.contact.trenches import level_at  # noqa: PLC0415 - few trenches do
+
+    if tables.level is None:
+        raise TypeError("no trench lowers the seabed")
+    lateral = directions_of(tables, points, normal).axes[1]
+    return level_at(tables.level, tables.laid_line(laid), points, lateral)
+
+
+def _padded(values: FloatArray) -> FloatArray:
+    return np.concatenate([[0.0], values, [0.0]])[None]
+
+
+def projected(wanted: FloatArray, normal: FloatArray) -> FloatArray:
+    """Unit vectors (k, 3) along the projections of others; the default direction for one along the normal."""
+    return np.stack(in_plane(tuple(wanted.T), tuple(normal.T)), axis=1)
+
+
+def mean_normal(tables: Tables, elements: IndexArray, normal: FloatArray) -> tuple[FloatArray, ...]:
+    """Components (steps, k) of the mean of the unit normals (steps, n, 3) at both ends of elements (k,)."""
+    if normal.strides[1] == 0:  # one for all nodes
+        return tuple(normal[:1, :1, axis] for axis in range(3))
+    one, other = (normal[:, side[elements]] for side in (tables.line.first, tables.line.second))
+    total = tuple(one[..., axis] + other[..., axis] for axis in range(3))
+    size = np.sqrt(dot_3(total, total))
+    return tuple(axis / size for axis in total)

@@ -1,0 +1,208 @@
+"""Results as tables of pandas and Arrow and as data sets of xarray, from the columns that result files have."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from importlib import import_module
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, get_args
+
+import numpy as np
+
+from mudline.basics.arguments import expect_word
+from mudline.basics.html_repr import html_page, html_table
+from mudline.basics.limits import SHOWN_ROWS
+from mudline.basics.quantities import ELEMENTS, LINES, RESULT_FORMAT, labelled, time_unit
+from mudline.basics.short_repr import counted
+from mudline.model.contact.columns import Column, ElementTable, NodeTable, Table, Values
+from mudline.model.contact.result import ContactResult, Part, TableName
+from mudline.model.contact.touchdown import LineTable, line_summaries
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import pyarrow as pa
+    import xarray as xr
+
+FORMAT_KEY, UNITS_KEY = b"mudline.format", b"mudline.units"
+"""Metadata of Arrow tables and Parquet files."""
+UNIT_KEY = b"unit"
+"""Metadata of their fields."""
+
+_COORDINATES = frozenset({"set", "law", "line", "arc_length", "diameter", "length", "node1", "node2"})
+"""What tells elements and nodes apart, beside their numbers."""
+
+_SHOWN = (
+    "first_touchdown",
+    "contact_length",
+    "largest_force",
+    "largest_force_element",
+    "reaction",
+    "submerged_weight",
+)
+"""Quantities of lines that notebooks show."""
+
+
+def dataframe(result: ContactResult, table: TableName) -> pd.DataFrame:
+    """Return a table as `ContactResult.to_dataframe` says."""
+    pandas = _library("pandas")
+    found, columns, part = _columns(result, table)
+    data: dict[str, Any] = dict(_leading(result, found.rows))
+    data |= {column.name: _series(pandas, column, part.count) for column in columns}
+    frame: pd.DataFrame = pandas.DataFrame(data)
+    frame.attrs["units"] = found.units
+    frame.attrs["unit"] = {name: unit for name, unit in _units(columns, found.units).items() if name in data and unit}
+    return frame
+
+
+def arrow_table(result: ContactResult, table: TableName) -> pa.Table:
+    """Return a table as `ContactResult.to_arrow` says."""
+    found, columns, part = _columns(result, table)
+    return arrow_of(columns, part.count, dict(_leading(result, found.rows)), found.units)
+
+
+def arrow_of(
+    columns: list[Column], steps: int, leading: Mapping[str, Values], units: str, form: str = RESULT_FORMAT
+) -> pa.Table:
+    """Return flat columns over some steps as an Arrow table, with others in front; raises ImportError."""
+    arrow = _library("pyarrow")
+    arrays = {name: arrow.array(values) for name, values in leading.items()}
+    arrays |= {column.name: _array(arrow, column, steps) for column in columns}
+    named = _units(columns, units)
+    fields = [
+        arrow.field(name, array.type, metadata={UNIT_KEY: named[name]} if named.get(name) else None)
+        for name, array in arrays.items()
+    ]
+    about = {FORMAT_KEY: form, UNITS_KEY: units}
+    return arrow.table(list(arrays.values()), schema=arrow.schema(fields, metadata=about))
+
+
+def dataset(result: ContactResult) -> xr.Dataset:
+    """Return a result as `ContactResult.to_xarray` says."""
+    xarray = _library("xarray")
+    single = result.depth.ndim == 1
+    variables: dict[str, Any] = {}
+    coordinates: dict[str, Any] = {"axis": ["x", "y", "z"]}
+    for which, kind in (("elements", "element"), ("nodes", "node")):
+        table, part = _table(result, which), Part(0, result.as_series())
+        for column in table.columns(part):
+            into = coordinates if column.name in _COORDINATES or column.name == kind else variables
+            into[array_name(which, column.name)] = _variable(column, kind, None if single else part.count)
+    if result.times is not None:
+        about = {"units": time_unit(result.known.units)}
+        coordinates["time"] = (() if single else ("time",), np.asarray(result.times), _given(about))
+    found: xr.Dataset = xarray.Dataset(variables, coordinates, {"units": result.known.units, "format": RESULT_FORMAT})
+    return found
+
+
+def html(result: ContactResult) -> str:
+    """Return the touchdown of lines at the first steps as a table for notebooks."""
+    series = result.as_series()
+    counts = [("step", len(series.depth)), ("element", series.depth.shape[1]), ("node", series.gap.shape[1])]
+    summary = ", ".join(counted(number, kind) for kind, number in counts[result.depth.ndim == 1 :])
+    if result.given is None:
+        return html_page("ContactResult", summary)
+    units = result.given.units
+    lines = _table(result, "summary").rows
+    shown = line_summaries(series.steps(0, -(-SHOWN_ROWS // max(lines, 1))))
+    headings = [labelled("time", time_unit(units)), "line"]
+    headings += [labelled(each.label or name, each.unit_name(units)) for name, each in LINES.items() if name in _SHOWN]
+    rows = (
+        (
+            one.time,
+            one.line,
+            ", ".join(f"{point.arc_length:.6g}" for point in one.touchdown),
+            one.contact_length,
+            None if one.largest_force is None else one.largest_force.force,
+            None if one.largest_force is None else one.largest_force.element,
+            one.reaction,
+            one.submerged_weight,
+        )
+        for one in shown
+    )
+    return html_page("ContactResult", f"{summary}, {units}", html_table(headings, rows, len(series.depth) * lines))
+
+
+def array_name(table: str, column: str) -> str:
+    """The name of an array: nodes have `node_` before what elements have too, lines `summary_` before all."""
+    if table == "summary":
+        return f"summary_{column}"
+    return f"node_{column}" if table == "nodes" and column in ELEMENTS else column
+
+
+def spelled(column: Column) -> Values:
+    """The values of a column, texts as numpy has them; no text is ""."""
+    if not column.names:
+        return column.values
+    return np.array([name or "" for name in column.names], dtype=np.str_)[column.values]
+
+
+def _table(result: ContactResult, name: str) -> Table:
+    given = result.known
+    elements = np.flatnonzero(result.evaluated)
+    if name == "nodes":
+        return NodeTable(given, np.flatnonzero(result.present))
+    return ElementTable(given, elements) if name == "elements" else LineTable(given, elements)
+
+
+def _columns(result: ContactResult, name: TableName) -> tuple[Table, list[Column], Part]:
+    """A table and its flat columns over all steps."""
+    expect_word(name, "table", get_args(TableName), f"one of {', '.join(get_args(TableName))}")
+    table, part = _table(result, name), Part(0, result.as_series())
+    return table, [flat for column in table.columns(part) for flat in column.flat()], part
+
+
+def _leading(result: ContactResult, rows: int) -> Iterator[tuple[str, Values]]:
+    """What tells the steps apart: their times, else their numbers from 0; nothing for a single state without a time."""
+    if result.times is not None:
+        yield "time", np.repeat(result.times, rows)
+    elif result.depth.ndim == 2:
+        yield "step", np.repeat(np.arange(len(result.depth)), rows)
+
+
+def _units(columns: list[Column], units: str) -> dict[str, str]:
+    """The unit of each column by its name; "" for none."""
+    return {"time": time_unit(units), **{column.name: column.unit for column in columns}}
+
+
+def _given(about: Mapping[str, str]) -> dict[str, str]:
+    return {name: value for name, value in about.items() if value}
+
+
+def _series(pandas: ModuleType, column: Column, steps: int) -> Any:  # noqa: ANN401 - pandas takes arrays of many kinds
+    values = column.cut(0, steps).ravel()
+    if column.names:
+        return pandas.Categorical.from_codes(values, categories=list(column.names[:-1]))
+    if column.blank is None:
+        return values
+    return pandas.arrays.IntegerArray(values.astype(np.int64), values == column.blank)
+
+
+def _array(arrow: ModuleType, column: Column, steps: int) -> pa.Array:
+    values = column.cut(0, steps).ravel()
+    if column.blank is not None:
+        return arrow.array(values, mask=values == column.blank)
+    if not column.names:
+        return arrow.array(values, from_pandas=True)  # NaN means no value
+    codes = arrow.array(values.astype(np.int32), mask=values < 0)
+    return arrow.DictionaryArray.from_arrays(codes, arrow.array(column.names[:-1], arrow.string()))
+
+
+def _variable(column: Column, kind: str, steps: int | None) -> tuple[tuple[str, ...], Values, dict[str, str]]:
+    """A column as xarray takes a variable: its dimensions, values and attributes; `steps` None for a single state."""
+    values = spelled(column)
+    dimensions = (kind, "axis") if column.vector else (kind,)
+    if steps is None:
+        values = values if column.steady else values[0]
+    elif column.over_steps and not (column.steady and column.name in _COORDINATES):
+        values = np.broadcast_to(values, (steps, *values.shape)) if column.steady else values
+        dimensions = ("time", *dimensions)
+    return dimensions, values, _given({"units": column.unit})
+
+
+def _library(name: str) -> ModuleType:
+    """An optional library, imported now; raises ImportError with what installs it."""
+    try:
+        return import_module(name)
+    except ImportError as error:
+        message = f"this needs {name}, which is not installed: pip install 'mudline[frames]'"
+        raise ImportError(message, name=name) from error

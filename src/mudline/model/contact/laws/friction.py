@@ -1,0 +1,361 @@
+"""Friction of nodes on the seabed: two directions, each a spring to the stick point, up to its Coulomb limit.
+
+`*SEABED FRICTION`, and `FRICTION=` of `*SEABED PROPERTIES`. u1 runs along the line in the plane of the seabed and
+u2 = n x u1. With the elongations e_i from the stick point, the normal force N and the springs K_i (constant, or
+mu_i N / mobilisation length):
+
+* BOX:      |f_i| <= mu_i N, each direction for itself;
+* ELLIPSE:  (f_1 / (mu_1 N))^2 + (f_2 / (mu_2 N))^2 <= 1; a trial outside is drawn back along its own direction. As
+  mu_2 goes to 0 the ellipse shrinks onto the u1 axis: with mu_2 = 0 exactly f_2 is 0 and u1 keeps its own limit, as in
+  the box, while for any mu_2 > 0 a trial with f_2 beyond its small limit lowers f_1 too.
+
+The scheme is the return mapping of elastic-plastic models: a trial force, brought back to its limit; the stick point of
+what slips is moved until the spring bears the limit. A node without normal force has no stick point. Stick points are
+points in space, resolved on the present u1 and u2: as long as a node sticks, the force depends on where it is and on
+the directions, not on how it came there. No closed loop gives work where K_1 = K_2 or where the directions stay as they
+are. Where they turn with the line and K_1 differs from K_2, turning them at an elongation g stores or releases up to
+(K_1 - K_2) g^2 / 2, like a spring whose stiffness is changed under load.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import IntEnum
+from typing import NamedTuple, Self
+
+import numpy as np
+
+from mudline.basics.short_repr import counted, short_repr
+from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray, StateArray
+from mudline.model.contact.laws import Law, Parameter, Reached, Value, where
+
+_TINY = float(np.nextafter(0.0, 1.0))
+_FAR, _DROP = 2.0**-1000, 2.0**-550
+
+
+class FrictionState(IntEnum):
+    """What a direction of a node does."""
+
+    NONE = -1
+    """There is no friction law."""
+    OPEN = 0
+    """No normal force, no stick point."""
+    STICK = 1
+    """Held by a spring to the stick point."""
+    SLIP = 2
+    """At the limit; the stick point moves along."""
+
+
+def in_box(trial: Value, limit: Value) -> tuple[Value, Value]:
+    """Return the force of one direction in its spring, and whether it slips."""
+    force = np.maximum(np.minimum(trial, limit), 0.0 - limit)
+    return force, force != trial
+
+
+def norm(one: Value, other: Value) -> Value:
+    """Return sqrt(one^2 + other^2) without squares that under- or overflow."""
+    one, other = np.abs(one), np.abs(other)
+    larger = np.maximum(one, other)
+    ratio = np.minimum(one, other) / np.maximum(larger, _TINY)
+    return larger * np.sqrt(1.0 + ratio * ratio)
+
+
+def on_ellipse(trial_1: Value, trial_2: Value, limit_1: Value, limit_2: Value) -> tuple[Value, Value, Value]:
+    """Return the forces of both directions in their springs, and whether they slip, for limits above 0."""
+    # quotients that would overflow are computed smaller by a power of two
+    far = (np.abs(trial_1) * _FAR > limit_1) | (np.abs(trial_2) * _FAR > limit_2)
+    drop = where(far, _DROP, 1.0)
+    dropped_1, dropped_2 = trial_1 * drop, trial_2 * drop
+    size = norm(dropped_1 / (limit_1 / drop), dropped_2 / (limit_2 / drop))
+    # a limit too large for a float64 makes NaN, which is refused: its part in the norm would be lost
+    share = 1.0 / np.maximum(size, 1.0) + (0.0 * limit_1 + 0.0 * limit_2)
+    force_1 = where(far, dropped_1 / size * drop, trial_1 * share)
+    force_2 = where(far, dropped_2 / size * drop, trial_2 * share)
+    return force_1, force_2, far | (size > 1.0)
+
+
+def in_ellipse(trial_1: Value, trial_2: Value, limit_1: Value, limit_2: Value) -> tuple[Value, Value, Value, Value]:
+    """Return the forces of both directions in their springs, and whether each slips."""
+    able_1, able_2 = limit_1 > 0.0, limit_2 > 0.0
+    held_1, held_2 = where(able_1, trial_1, 0.0), where(able_2, trial_2, 0.0)
+    force_1, force_2, slips = on_ellipse(held_1, held_2, where(able_1, limit_1, 1.0), where(able_2, limit_2, 1.0))
+    # a direction without a limit holds nothing
+    lost_1, lost_2 = np.logical_not(able_1) & (trial_1 != 0.0), np.logical_not(able_2) & (trial_2 != 0.0)
+    return force_1, force_2, slips | lost_1, slips | lost_2
+
+
+def slip_distance(slips: Value, elongation: Value, force: Value, stiffness: Value) -> Value:
+    """Return how far the stick point moves: until the spring bears its force."""
+    return where(slips, elongation - force / np.maximum(stiffness, _TINY), 0.0)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class FrictionLaw:
+    """The friction of nodes (n,), by direction: 0 is along u1 (axial), 1 along u2 (lateral).
+
+    Attributes:
+        coefficients: (n, 2) Coulomb coefficients mu, >= 0; the limit is mu N.
+        stiffness: (n, 2) constant spring Kt, force per length, > 0; NaN where the mobilisation length holds.
+        mobilisation: (n, 2) mobilisation lengths, > 0: the spring is mu N / length; not looked at beside a stiffness.
+        ellipse: (n,) whether one elliptic criterion holds for both directions instead of one for each.
+        active: (n,) nodes that have a law.
+        turned: nodes (k,) whose u1 is at an angle to +Y, with `cosine` and `sine` of it.
+    """
+
+    coefficients: FloatArray
+    stiffness: FloatArray
+    mobilisation: FloatArray
+    ellipse: BoolArray
+    active: BoolArray
+    turned: IndexArray = field(default_factory=lambda: np.empty(0, np.intp))
+    cosine: FloatArray = field(default_factory=lambda: np.empty(0))
+    sine: FloatArray = field(default_factory=lambda: np.empty(0))
+
+    @property
+    def constant(self) -> BoolArray:
+        """Where (n, 2) the spring is constant."""
+        return ~np.isnan(self.stiffness)
+
+    @property
+    def fixed(self) -> FloatArray:
+        """Stiffness (n, 2) of the springs that are constant, else 0."""
+        found: FloatArray = np.where(self.constant, self.stiffness, 0.0)
+        return found
+
+    @property
+    def rising(self) -> FloatArray:
+        """Stiffness (n, 2) of the springs for each unit of the normal force; 0 where they are constant."""
+        with np.errstate(all="ignore"):
+            found: FloatArray = np.where(self.constant, 0.0, self.coefficients / self.mobilisation)
+        return found
+
+    def springs(self, normal_force: FloatArray) -> FloatArray:
+        """Return the stiffness (n, 2) of the springs under normal forces (n,) >= 0."""
+        found: FloatArray = self.fixed + self.rising * normal_force[:, None]
+        return found
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class FrictionHistory:
+    """What friction remembers. It is never changed: a step gives a new one.
+
+    Attributes:
+        stick_points: (n, 3) points that the springs pull to; NaN for nodes that are open.
+        states: (n, 2) values of `FrictionState`.
+    """
+
+    stick_points: FloatArray
+    states: StateArray
+
+    __repr__ = short_repr
+
+    @classmethod
+    def initial(cls, active: BoolArray) -> FrictionHistory:
+        """Return the history of nodes (n,) that never touched the seabed; `active` ones have friction."""
+        states = np.where(active, FrictionState.OPEN, FrictionState.NONE).astype(np.int8)
+        return cls(np.full((3, len(active)), np.nan).T, np.stack([states, states]).T)
+
+
+class ExtraLimit(NamedTuple):
+    """What trenches add to the lateral limit of nodes (n,), against outward motion, and a breakout takes away.
+
+    force: added force.
+    by_offset: its derivative by an offset.
+    by_normal_force: its derivative by N.
+    outward: +1 where motion along +u2 leads out of the trench, -1 where that along -u2 does, 0 for neither.
+    gradient: (n, 3) of the offset by the node's position with u2 held, for tangents.
+    by_angle: derivative of the offset by a turn of u1 and u2 about the normal, for tangents.
+    """
+
+    force: FloatArray
+    by_offset: FloatArray
+    by_normal_force: FloatArray
+    outward: FloatArray
+    gradient: FloatArray = np.zeros((0, 3))
+    by_angle: FloatArray = np.zeros(0)
+
+    @classmethod
+    def none(cls, nodes: int) -> Self:
+        """Return that of nodes without any."""
+        force, offset, normal, outward, angle = np.zeros((5, nodes))
+        return cls(force, offset, normal, outward, np.zeros((nodes, 3)), angle)
+
+
+class FrictionForce(NamedTuple):
+    """Friction on the pipe at nodes (n,), along u1 and u2.
+
+    force: (n, 2) force on the pipe.
+    by_position: (n, 2, 2) d force[i] / d (elongation along u_j), at one normal force and limit.
+    by_offset: (n, 2) d force[i] / d (offset from the centreline of a trench).
+    by_compression: (n, 2) d force[i] / d N.
+    elongation: (n, 2) displacement from the stick point before the step, along u1 and u2.
+    trial: (n, 2) forces in the springs before they are brought back to their limits.
+    dissipated: (n,) work done against slipping in this step, >= 0.
+    history: what the next step begins with.
+    """
+
+    force: FloatArray
+    by_position: FloatArray
+    by_offset: FloatArray
+    by_compression: FloatArray
+    elongation: FloatArray
+    trial: FloatArray
+    dissipated: FloatArray
+    history: FrictionHistory
+
+
+def slide(
+    law: FrictionLaw,
+    history: FrictionHistory,
+    points: FloatArray,
+    directions: tuple[FloatArray, FloatArray],
+    compression: FloatArray,
+    extra: ExtraLimit | None = None,
+) -> FrictionForce:
+    """Move nodes to `points` (n, 3) under normal forces `compression` (n,); one step with its derivatives.
+
+    `directions` are u1 and u2, each (n, 3). A node without normal force is open and forgets its stick point; one that
+    is in contact again gets a new one where it stands. The drivers do the same without derivatives.
+    """
+    closed = law.active & (compression > 0.0)
+    before = closed & (history.states[:, 0] > FrictionState.OPEN)
+    stick_points = np.where(before[:, None], history.stick_points, points)
+    elongation = np.stack([((points - stick_points) * axis).sum(axis=1) for axis in directions], axis=1)
+    pressing = np.where(closed, compression, 0.0)
+    stiffness, limit = law.springs(pressing), law.coefficients * pressing[:, None]
+    trial = stiffness * elongation
+    against = np.zeros(len(trial), np.bool_)
+    if extra is not None:
+        against = (extra.outward != 0.0) & (np.sign(trial[:, 1]) == extra.outward)
+        limit[:, 1] += extra.force * against
+    with np.errstate(all="ignore"):
+        boxes = [in_box(trial[:, side], limit[:, side]) for side in range(2)]
+        ellipse = in_ellipse(trial[:, 0], trial[:, 1], limit[:, 0], limit[:, 1])
+    held = np.stack([np.where(law.ellipse, ellipse[side], boxes[side][0]) for side in range(2)], axis=1)
+    slips: BoolArray = np.stack([np.where(law.ellipse, ellipse[2 + side], boxes[side][1]) for side in range(2)], axis=1)
+    moved = slip_distance(slips, elongation, held, stiffness)
+    for side, axis in enumerate(directions):
+        stick_points += axis * moved[:, side, None]
+    stick_points[~closed] = np.nan
+    states = np.where(closed[:, None], slips + np.int8(FrictionState.STICK), FrictionHistory.initial(law.active).states)
+    change = _derivatives(law, _Trial(stiffness, elongation, trial, limit, slips), against, extra)
+    return FrictionForce(
+        np.subtract(0.0, held),
+        np.where(before[:, None, None], 0.0 - change[0], 0.0),  # where it touches down there is no force
+        np.where(closed[:, None], 0.0 - change[1], 0.0),
+        np.where(closed[:, None], 0.0 - change[2], 0.0),
+        elongation,
+        trial,
+        np.where(closed, (held * moved).sum(axis=1), 0.0),
+        FrictionHistory(stick_points, states.astype(np.int8)),
+    )
+
+
+class _Trial(NamedTuple):
+    """Springs (n, 2), their elongations and trial forces, the limits, and what slips."""
+
+    stiffness: FloatArray
+    elongation: FloatArray
+    trial: FloatArray
+    limit: FloatArray
+    slips: BoolArray
+
+    def rows(self, rows: BoolArray) -> _Trial:
+        return _Trial(self.stiffness[rows], self.elongation[rows], self.trial[rows], self.limit[rows], self.slips[rows])
+
+
+_Change = tuple[FloatArray, FloatArray, FloatArray]
+"""Derivatives of the forces in the springs: by position (n, 2, 2), by offset (n, 2), by normal force (n, 2)."""
+
+
+def _derivatives(law: FrictionLaw, step: _Trial, against: BoolArray, extra: ExtraLimit | None) -> _Change:
+    """A spring that sticks has its stiffness, one that slips follows its limit, which follows the normal force."""
+    rising = law.rising * step.elongation
+    limit_by_normal, limit_by_offset = law.coefficients.copy(), np.zeros(step.trial.shape)
+    if extra is not None:
+        limit_by_normal[:, 1] += np.where(against, extra.by_normal_force, 0.0)
+        limit_by_offset[:, 1] = np.where(against, extra.by_offset, 0.0)
+    side = np.sign(step.trial)
+    by_position = np.zeros((*step.slips.shape, 2))
+    for axis in range(2):
+        by_position[:, axis, axis] = np.where(step.slips[:, axis], 0.0, step.stiffness[:, axis])
+    by_offset = np.where(step.slips, side * limit_by_offset, 0.0)
+    by_normal = np.where(step.slips, side * limit_by_normal, rising)
+    curved = law.ellipse & law.active
+    if curved.any():
+        found = _ellipse(step.rows(curved), rising[curved], limit_by_offset[curved], limit_by_normal[curved])
+        for whole, values in zip((by_position, by_offset, by_normal), found, strict=True):
+            whole[curved] = values
+    return by_position, by_offset, by_normal
+
+
+def _ellipse(step: _Trial, rising: FloatArray, by_offset: FloatArray, by_normal: FloatArray) -> _Change:
+    """Both directions together; the scale is the norm g of trial / limit, the force trial / g."""
+    with np.errstate(all="ignore"):
+        able = step.limit > 0.0
+        limit = np.where(able, step.limit, 1.0)
+        trial = np.where(able, step.trial, 0.0)
+        share = trial / limit
+        size = norm(share[:, 0], share[:, 1])[:, None]
+        scale = np.maximum(size, 1.0)
+        unit = np.where((size > 1.0) & able, share / scale, 0.0)
+        # relative change of g with a trial force and, falling, with a limit
+        by_trial, by_limit = unit / (limit * scale), unit * unit / limit
+        stiffness, rising = np.where(able, step.stiffness, 0.0), np.where(able, rising, 0.0)
+        force = trial / scale
+        growth = by_trial * stiffness
+        growth_by_offset = 0.0 - (by_limit * by_offset).sum(axis=1, keepdims=True)
+        growth_by_normal = (by_trial * rising - by_limit * by_normal).sum(axis=1, keepdims=True)
+        by_position = -force[:, :, None] * growth[:, None, :]
+        for axis in range(2):
+            by_position[:, axis, axis] += stiffness[:, axis] / scale[:, 0]
+        return by_position, 0.0 - force * growth_by_offset, rising / scale - force * growth_by_normal
+
+
+def _plan(given: dict[str, FloatArray]) -> str:
+    constant = ~(np.isnan(given["axial_stiffness"]) & np.isnan(given["lateral_stiffness"]))
+    parts = []
+    if constant.any():
+        ellipses = int((constant & (given["elliptic"] > 0.0)).sum())
+        criterion = f", {ellipses} of them with an ellipse" if ellipses else ""
+        parts.append(f"{counted(int(constant.sum()), 'node')} with a constant spring{criterion}")
+    if lengths := int((~constant).sum()):
+        parts.append(f"{counted(lengths, 'node')} with a mobilisation length, Kt = mu N / length (inferred)")
+    return "; ".join(parts)
+
+
+def _largest(reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, None]:
+    """The spring of a node that sticks, the stiffer of both directions."""
+    springs = []
+    for side in ("axial", "lateral"):
+        coefficient, constant = given[f"{side}_coefficient"], given[f"{side}_stiffness"]
+        rising = coefficient / given[f"{side}_mobilisation"]
+        spring = np.where(np.isnan(constant), np.where(rising > 0.0, rising * reached.normal_force, 0.0), constant)
+        # a direction without a coefficient has no limit to stick below; trench walls add one
+        springs.append(spring if reached.walls else np.where(coefficient > 0.0, spring, 0.0))
+    return np.maximum(*springs), None
+
+
+FRICTION = Law(
+    name="friction",
+    summary="Coulomb friction in two directions",
+    stage="friction",
+    acts_on="nodes",
+    parameters=(
+        Parameter("axial_coefficient", "1", "mu_1, along the line"),
+        Parameter("lateral_coefficient", "1", "mu_2, across the line"),
+        Parameter("axial_stiffness", "F/L", "constant spring K_1", above=True, default=np.nan, optional=True),
+        Parameter("lateral_stiffness", "F/L", "constant spring K_2", above=True, default=np.nan, optional=True),
+        Parameter("axial_mobilisation", "L", "K_1 = mu_1 N / length", above=True, default=np.nan, optional=True),
+        Parameter("lateral_mobilisation", "L", "K_2 = mu_2 N / length", above=True, default=np.nan, optional=True),
+        Parameter("elliptic", "1", "1 for the ELLIPSE, 0 for the BOX", high=1.0, default=0.0),
+        Parameter(
+            "angle", "deg", "of u1 to +Y about the normal; NaN along the line", -np.inf, default=np.nan, optional=True
+        ),
+    ),
+    history=True,
+    plan=_plan,
+    largest=_largest,
+    equation="f_i = -K_i e_i, |f_i| <= mu_i N",
+    source="return mapping after Simo and Hughes (1998), Computational Inelasticity, chapter 1",
+)

@@ -1,0 +1,201 @@
+"""Laws of constant stiffness: normal laws, springs against uplift and to the side, and the rigid seabed.
+
+`STIFFNESS=number` of `*SEABED PROPERTIES` and of `*ELASTIC SURFACE`; `NODAL STIFFNESS=`, `SMOOTHING=` and `FORM=` of
+`*SEABED CONTACT`. With the stiffness K and the half width h of the zone, over the penetration z:
+
+* h = 0:      the kinked law F = K max(z, 0);
+* CENTRED:    F = K (z + h)^2 / (4 h) on -h < z < h, exactly K z beyond it, 0 below;
+* ONE-SIDED:  F = K z^2 / (4 h) on 0 < z < 2 h, K (z - h) beyond it, 0 below.
+
+Force and slope dF/dz are continuous for h > 0.
+
+`SUCTION=` of `*SEABED PROPERTIES` is a spring against uplift, up to some height above the seabed (INFERRED),
+
+    f = -k x for 0 < x <= extent, 0 elsewhere,
+
+x the height of the element above the point where its contact begins. It has no history, and acts beside an unloading
+line: where the element is above the seabed.
+
+`LATERAL=` of `*SEABED PROPERTIES` is a spring to where the element touched down (INFERRED). It acts per unit length at
+the middle of an element that is in contact, along n x t, where t is the element's direction and n the mean normal of
+the seabed at its nodes (over a break of the seabed the mean of the normals on both sides). Half of the force goes to
+each node:
+
+    f = -k ((n x t) . (x - x_touchdown)) (n x t).
+
+`TYPE=RIGID` is a constraint on the nodes, gap >= 0, and gives no force.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from mudline.basics.short_repr import counted
+from mudline.model.contact.arrays import FloatArray
+from mudline.model.contact.laws import Law, NormalLaw, Parameter, Reached, Value, where
+
+_WIDEST = 0.25 * float(np.finfo(np.float64).max)
+"""Half widths above this are halved in the sums, which would overflow."""
+_SMALL_SHARE = 2.0**-960
+_LIFT = 2.0**60
+
+
+def linear_reaction(z: Value, diameter: Value, stiffness: Value) -> tuple[Value, Value]:
+    """Return F = K z, and K."""
+    return stiffness * z, stiffness
+
+
+def linear_steepest(z: Value, diameter: Value, stiffness: Value) -> Value:
+    """Return K."""
+    return stiffness
+
+
+def smoothed_reaction(
+    z: Value, diameter: Value, stiffness: Value, half_width: Value, one_sided: Value
+) -> tuple[Value, Value]:
+    """Return force and dF/dz; in the zone K w s / 2 and K s, w the distance into the zone and s = w / (2 h).
+
+    The share s multiplies the larger of K and w first, so that no intermediate value overflows or vanishes before the
+    force does.
+    """
+    scale = where(half_width > _WIDEST, 0.5, 1.0)
+    width, shift = scale * half_width, where(one_sided > 0.0, half_width, 0.0)
+    into = scale * z + (width - scale * shift)
+    # a share too small for all of its digits is computed larger by a power of two
+    lift = where(into < _SMALL_SHARE * width, _LIFT, 1.0)
+    drop = 1.0 / lift
+    share = lift * into / where(half_width > 0.0, 2.0 * width, 1.0)
+    in_zone = np.maximum(stiffness, into) * drop * (share * (1.5 - scale)) * np.minimum(stiffness, into)
+    inside = z < half_width + shift
+    return where(inside, in_zone, stiffness * (z - shift)), where(inside, stiffness * drop * share, stiffness)
+
+
+def smoothed_steepest(z: Value, diameter: Value, stiffness: Value, half_width: Value, one_sided: Value) -> Value:
+    """Return K."""
+    return stiffness
+
+
+def zone_onset(stiffness: Value, half_width: Value, one_sided: Value) -> Value:
+    """Return the penetration at which contact begins: -h for CENTRED smoothing, else 0."""
+    return where(one_sided > 0.0, 0.0, 0.0 - half_width)
+
+
+def penetration_under(force: Value, stiffness: Value, half_width: Value, one_sided: Value) -> Value:
+    """Return the penetration at which the smoothed law has a force > 0."""
+    beyond = force / stiffness
+    shift = where(one_sided > 0.0, half_width, 0.0)
+    # K w^2 / (4 h) = F, as long as w < 2 h
+    into = 2.0 * np.sqrt(half_width) * np.sqrt(beyond)
+    return where(beyond < half_width, into - (half_width - shift), beyond + shift)
+
+
+def automatic_half_width(static_penetration: FloatArray, diameter: FloatArray) -> FloatArray:
+    """Return h of SMOOTHING=AUTO, min(0.1 Z, 0.01 D), from the static penetration Z and the diameter D of each point.
+
+    It is 0, no smoothing, where one of them is NaN (unknown) or not positive.
+    """
+    with np.errstate(all="ignore"):
+        width = np.minimum(0.1 * static_penetration, 0.01 * diameter)
+    return np.where(width > 0.0, width, 0.0)
+
+
+_STIFFNESS = Parameter("stiffness", "F/L2", "force per unit length and length of penetration")
+_HALF_WIDTH = Parameter("half_width", "L", "half width h of the quadratic zone; 0 for a kinked law", default=0.0)
+_ONE_SIDED = Parameter("one_sided", "1", "1 for a zone below the mudline only", high=1.0, default=0.0)
+
+LINEAR = NormalLaw(
+    name="linear",
+    summary="linear stiffness",
+    acts_on="elements",
+    parameters=(_STIFFNESS,),
+    reaction=linear_reaction,
+    steepest=linear_steepest,
+    equation="F = K z",
+    source="definition of STIFFNESS=",
+)
+SMOOTHED = NormalLaw(
+    name="smoothed",
+    summary="linear stiffness with a quadratic zone",
+    acts_on="elements",
+    parameters=(_STIFFNESS, _HALF_WIDTH, _ONE_SIDED),
+    reaction=smoothed_reaction,
+    steepest=smoothed_steepest,
+    onset=zone_onset,
+    equation="F = K (z + h)^2 / (4 h) in the zone, K z beyond (CENTRED); K z^2 / (4 h), K (z - h) (ONE-SIDED)",
+    source="definition of SMOOTHING= and FORM=",
+)
+NODAL = NormalLaw(
+    name="nodal",
+    summary="stiffness of a node",
+    acts_on="nodes",
+    parameters=(Parameter("stiffness", "F/L", "force per length of penetration of the node"), _HALF_WIDTH, _ONE_SIDED),
+    reaction=smoothed_reaction,
+    steepest=smoothed_steepest,
+    onset=zone_onset,
+    equation="as `smoothed`, at the node's own penetration",
+    source="definition of NODAL STIFFNESS=",
+)
+
+
+def _own_stiffness(_reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, None]:
+    return given["stiffness"], None
+
+
+def _planned(what: str) -> Callable[[dict[str, FloatArray]], str]:
+    return lambda given: f"{counted(int((given['stiffness'] > 0.0).sum()), 'element')} with a spring {what}"
+
+
+def spring_suction(uplift: Value, stiffness: Value, extent: Value) -> tuple[Value, Value]:
+    """Return the force per unit length at a height `uplift` above the seabed, and its stiffness -d force / d x."""
+    held = (uplift > 0.0) & (uplift <= extent)
+    return where(held, 0.0 - stiffness * uplift, 0.0), where(held, stiffness, 0.0)
+
+
+SUCTION_SPRING = Law(
+    name="suction spring",
+    summary="spring against uplift, without history",
+    stage="suction",
+    acts_on="elements",
+    parameters=(
+        Parameter("stiffness", "F/L2", "force per unit length and length of uplift"),
+        Parameter("extent", "L", "height above the seabed up to which it acts"),
+    ),
+    plan=_planned("up to an extent, without history (inferred)"),
+    largest=_own_stiffness,
+    equation="f = -k x for 0 < x <= extent",
+    source="SUCTION= of *SEABED PROPERTIES (INFERRED)",
+)
+
+
+def lateral_force(stiffness: Value, elongation: Value) -> Value:
+    """Return the force along n x t on each of the two nodes; `stiffness` is k times half of the element's length."""
+    return -stiffness * elongation
+
+
+LATERAL = Law(
+    name="lateral",
+    summary="spring to where the element touched down",
+    stage="lateral",
+    acts_on="elements",
+    parameters=(Parameter("stiffness", "F/L2", "force per unit length and length of lateral displacement"),),
+    history=True,
+    state="touchdown",
+    initial=lambda count, _: np.full((count, 3), np.nan, order="F"),
+    plan=_planned("to where it touched down (inferred), in place of friction"),
+    largest=_own_stiffness,
+    equation="f = -k y, y the displacement along n x t from the touchdown point",
+    source="LATERAL= of *SEABED PROPERTIES (INFERRED)",
+)
+
+
+RIGID = Law(
+    name="rigid",
+    summary="rigid seabed, a constraint",
+    acts_on="elements",
+    parameters=(),
+    plan=None,
+    equation="gap >= 0",
+    source="definition of TYPE=RIGID",
+)

@@ -1,0 +1,413 @@
+"""Suction against uplift with a history, `*SEABED SUCTION`, after Bridge et al. (2004).
+
+The largest suction and the uplift at breakout are powers of the pull-out velocity v:
+
+    F_max = cyclic alpha_f v^n_f    per unit length,
+    Delta_B = alpha_D v_max^n_D,
+
+with alpha_f = 1.12 D cu / D^n_f, n_f = 0.18, alpha_D = 0.98 D and n_D = 0.26 for a pipe of diameter D in soil of
+cohesion cu. The first law holds in any units of length, the second in SI only: Delta_B / D = 0.98 v^0.26. Over the
+uplift x, from where the compressive reaction vanishes, the suction is -F_max times a trapezoid of x / Delta_B.
+
+Below the velocity v_r (regularisation) F_max is replaced by a parabola with the value and slope of the power at v_r and
+the value 0 at rest: there it is less than alpha_f v^n_f, by 20 % at v_r / 2 and 74 % at v_r / 10 for n_f = 0.18.
+
+F_max follows the velocity of the moment: the force vanishes as the motion stops. Delta_B follows the largest velocity
+of the episode, v_max: an element that slows down does not break out for that.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import NamedTuple, Self
+
+import numpy as np
+
+from mudline.basics.short_repr import counted, short_repr
+from mudline.model.contact.arrays import BoolArray, FloatArray, StateArray
+from mudline.model.contact.laws import Law, Moving, Parameter, Reached, Value, where
+
+FORCE_EXPONENT = 0.18
+DEPTH_EXPONENT = 0.26
+_FORCE_NUMBER = 1.12
+_DEPTH_NUMBER = 0.98
+_BELOW_1 = float(np.nextafter(1.0, 0.0))
+_SLOWEST = float(np.nextafter(0.0, 1.0))
+"""Keeps 0 / 0 away at rest where there is no regularisation."""
+
+
+class SuctionState(IntEnum):
+    """State of an element with a suction law."""
+
+    FREE = 0
+    """No contact, and no suction to come: not touched yet, or broken out and come down again."""
+    COMPRESSION = 1
+    """The reaction of the seabed is compressive."""
+    SUCTION = 2
+    """Moving up, between the loss of the reaction and breakout."""
+    HOLD = 3
+    """Lifted off and not moving up: no suction, and no breakout either."""
+    BROKEN = 4
+    """Broken out, and still as far above as breakout was."""
+
+
+COMPRESSION, SUCTION, HOLD, BROKEN = 1, 2, 3, 4
+
+
+def maximum_force(v: Value, factor: Value, exponent: Value, regularisation: Value) -> tuple[Value, Value]:
+    """Return F_max per unit length and dF_max/dv at pull-out velocities v >= 0.
+
+    Below v_r the power is replaced by v_r^n ((2 - n) r + (n - 1) r^2), r = v / v_r. From n = 2 on the power is smooth
+    by itself (at n = 2 the two are one).
+    """
+    pace = np.maximum(v, where(exponent < 2.0, np.maximum(regularisation, _SLOWEST), _SLOWEST))
+    ratio = v / pace
+    at_pace = factor * np.float_power(pace, exponent)
+    linear, square = 2.0 - exponent, (exponent - 1.0) * ratio
+    return at_pace * ((linear + square) * ratio), at_pace * (linear + square + square) / pace
+
+
+def breakout_uplift(v_max: Value, factor: Value, exponent: Value, regularisation: Value) -> Value:
+    """Return Delta_B for the largest pull-out velocity of the episode; v_r is the least velocity that counts."""
+    return factor * np.float_power(np.maximum(v_max, regularisation), exponent)
+
+
+def trapezoid(share: Value, first: Value, second: Value) -> tuple[Value, Value]:
+    """Return the mobilised part of F_max, 0 to 1, and its slope, at `share` = x / Delta_B.
+
+    It rises from 0 at 0 to 1 at `first`, stays 1 up to `second` and falls to 0 at 1. At its corners the slope is that
+    of the plateau, or 0 at the ends.
+    """
+    rises, falls = share < first, share > second
+    steep, fall = 1.0 / first, 1.0 / (1.0 - second)
+    part = where(rises, share * steep, where(falls, (1.0 - share) * fall, 1.0))
+    slope = where(rises & (share > 0.0), steep, where(falls & (share < 1.0), 0.0 - fall, 0.0))
+    return np.minimum(np.maximum(part, 0.0), 1.0), slope
+
+
+def next_state(
+    armed: Value, v_max: Value, state: Value, depth: Value, uplift: Value, v: Value
+) -> tuple[Value, Value, Value]:
+    """Return armed, v_max and state of an element that is not compressed.
+
+    `v_max` is the largest velocity of the episode, that of this step included, and `depth` Delta_B for it. An armed
+    element holds where it does not move up, has broken out where uplift >= depth, and is else in suction.
+    """
+    beyond = uplift >= depth
+    moving = armed & (v > 0.0)
+    pulls = moving & np.logical_not(beyond)
+    holds = armed & np.logical_not(moving)
+    stays_broken = np.logical_not(armed) & (state == BROKEN)
+    after = where(pulls, SUCTION, where(holds, HOLD, where((moving | stays_broken) & beyond, BROKEN, 0)))
+    return pulls | holds, where(after > 0, v_max, 0.0), after
+
+
+def suction_force(
+    uplift: Value, v: Value, depth: Value, law: tuple[Value, Value, Value, Value, Value]
+) -> tuple[Value, Value]:
+    """Return the force per unit length in the state SUCTION, <= 0, and its stiffness -d force / d uplift.
+
+    `law` is the force factor (cyclic factor included), force exponent, regularisation, first and second corner.
+    """
+    force, _ = maximum_force(v, law[0], law[1], law[2])
+    inverse = 1.0 / depth
+    part, slope = trapezoid(np.maximum(uplift, 0.0) * inverse, law[3], law[4])
+    return 0.0 - force * part, force * slope * inverse
+
+
+def after_cycle(factor: Value, per_cycle: Value, floor: Value) -> Value:
+    """Return the cyclic factor after one more completed uplift cycle."""
+    return np.maximum(factor * per_cycle, floor)
+
+
+def suction_damping(
+    uplift: FloatArray, v: FloatArray, before: FloatArray, law: SuctionLaw, factor: FloatArray
+) -> FloatArray:
+    """Return d force / d v in the state SUCTION at constant uplift, for tangents.
+
+    Where the velocity is a new largest one of the episode (`before` is the largest one until then) and above v_r,
+    Delta_B grows with it, and the derivative holds that too: on the rise it may be positive. At a velocity equal to the
+    largest one so far it is that at constant Delta_B.
+    """
+    with np.errstate(all="ignore"):
+        depth = breakout_uplift(np.maximum(before, v), law.depth_factor, law.depth_exponent, law.regularisation)
+        share = np.maximum(uplift, 0.0) / depth
+        force, force_slope = maximum_force(v, law.force_factor * factor, law.force_exponent, law.regularisation)
+        part, part_slope = trapezoid(share, law.first_corner, law.second_corner)
+        # The share falls with a growing depth: d share / d v = -share n_D / v.
+        grows = v > np.maximum(before, law.regularisation)
+        growth = force * part_slope * share * law.depth_exponent / v * grows
+        found: FloatArray = growth - force_slope * part
+    return found
+
+
+class SuctionFactors(NamedTuple):
+    """The two power laws, arrays (m,), in one system of units; velocity in its length unit per second.
+
+    force_factor: alpha_f, of the largest suction per unit length.
+    force_exponent: n_f.
+    depth_factor: alpha_D, of the uplift at breakout.
+    depth_exponent: n_D.
+    """
+
+    force_factor: FloatArray
+    force_exponent: FloatArray
+    depth_factor: FloatArray
+    depth_exponent: FloatArray
+
+
+class SuctionLaw(NamedTuple):
+    """The law of each element, arrays (m,): the fields are the parameters of `SUCTION_LAW`."""
+
+    force_factor: FloatArray
+    force_exponent: FloatArray
+    depth_factor: FloatArray
+    depth_exponent: FloatArray
+    first_corner: FloatArray
+    second_corner: FloatArray
+    cyclic: FloatArray
+    regularisation: FloatArray
+    cyclic_floor: FloatArray
+
+    @property
+    def counts_cycles(self) -> BoolArray:
+        """Where the cyclic factor is applied once per completed uplift cycle, down to its floor."""
+        return ~np.isnan(self.cyclic_floor)
+
+    @property
+    def initial_factor(self) -> FloatArray:
+        """The cyclic factor before the first cycle."""
+        return np.where(self.counts_cycles, 1.0, self.cyclic)
+
+    @property
+    def least_depth(self) -> FloatArray:
+        """Delta_B before any velocity counts."""
+        depth: FloatArray = breakout_uplift(0.0, self.depth_factor, self.depth_exponent, self.regularisation)
+        return depth
+
+    @property
+    def largest_factor(self) -> FloatArray:
+        """The largest cyclic factor that can be."""
+        return np.maximum(self.initial_factor, self.cyclic)
+
+    @property
+    def factor_per_cycle(self) -> FloatArray:
+        """What each completed cycle multiplies the factor by."""
+        return np.where(self.counts_cycles, self.cyclic, 1.0)
+
+
+def from_cohesion(
+    cohesion: FloatArray, diameter: FloatArray, length_unit: float = 1.0, force_unit: float = 1.0
+) -> SuctionFactors:
+    """Return the power laws of elements (m,) from the soil's cohesion and the pipe's diameter.
+
+    `length_unit` in m and `force_unit` in N are the units of what is given and returned: 0.3048 and 4.4482216 for feet
+    and pounds. The laws are evaluated in SI and converted back.
+    """
+    with np.errstate(all="ignore"):
+        size = diameter * length_unit
+        force = _FORCE_NUMBER * size * (cohesion * (force_unit / length_unit**2)) / size**FORCE_EXPONENT
+        factor = force * (length_unit ** (1.0 + FORCE_EXPONENT) / force_unit)
+        depth = _DEPTH_NUMBER * size * (length_unit**DEPTH_EXPONENT / length_unit)
+    return SuctionFactors(factor, np.full(factor.shape, FORCE_EXPONENT), depth, np.full(depth.shape, DEPTH_EXPONENT))
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class SuctionHistory:
+    """What the elements (m,) remember. A step gives a new one and leaves the old one as it is.
+
+    Attributes:
+        flags: (2, m): `armed` and `state`.
+        numbers: (3, m): `v_max`, `factor` and `depth`.
+    """
+
+    flags: StateArray
+    numbers: FloatArray
+
+    __repr__ = short_repr
+
+    @property
+    def armed(self) -> BoolArray:
+        """There was compression since the last breakout."""
+        armed: BoolArray = self.flags[0].view(np.bool_)
+        return armed
+
+    @property
+    def state(self) -> StateArray:
+        """Values of `SuctionState`."""
+        state: StateArray = self.flags[1]
+        return state
+
+    @property
+    def v_max(self) -> FloatArray:
+        """The largest pull-out velocity of the uplift episode.
+
+        The episode begins when an armed element loses its compressive reaction and ends with the next compression or
+        with breakout. A broken element keeps that of its breakout. 0 in all other states.
+        """
+        v_max: FloatArray = self.numbers[0]
+        return v_max
+
+    @property
+    def factor(self) -> FloatArray:
+        """The cyclic factor."""
+        factor: FloatArray = self.numbers[1]
+        return factor
+
+    @property
+    def depth(self) -> FloatArray:
+        """Delta_B for `v_max`."""
+        depth: FloatArray = self.numbers[2]
+        return depth
+
+    @classmethod
+    def of(cls, law: SuctionLaw, armed: BoolArray, v_max: FloatArray, state: StateArray, factor: FloatArray) -> Self:
+        """Return the history with these properties."""
+        with np.errstate(all="ignore"):
+            depth = breakout_uplift(v_max, law.depth_factor, law.depth_exponent, law.regularisation)
+        return cls(np.stack([armed.view(np.int8), state.astype(np.int8)]), np.stack([v_max, factor, depth]))
+
+    @classmethod
+    def initial(cls, law: SuctionLaw) -> Self:
+        """Return the history of elements that never touched the seabed."""
+        nothing = np.zeros(len(law.cyclic))
+        return cls.of(law, nothing > 0.0, nothing, nothing.astype(np.int8), law.initial_factor)
+
+
+class Suction(NamedTuple):
+    """Suction of elements, arrays (m,). All but the depth are 0 outside the state SUCTION.
+
+    force: per unit length, <= 0.
+    by_uplift: d force / d uplift at constant velocity; positive on the release.
+    by_velocity: d force / d pull-out velocity at constant uplift; see `suction_damping`.
+    depth: Delta_B, the uplift at breakout.
+    """
+
+    force: FloatArray
+    by_uplift: FloatArray
+    by_velocity: FloatArray
+    depth: FloatArray
+
+
+def step(
+    law: SuctionLaw, history: SuctionHistory, uplift: FloatArray, velocity: FloatArray, compressed: BoolArray
+) -> tuple[Suction, SuctionHistory]:
+    """Return the suction and the next history of elements (m,), with its derivatives.
+
+    `uplift` is the distance x above the point where the compressive reaction vanishes, `velocity` the pull-out velocity
+    v of the element, `compressed` says whether the reaction of the seabed is compressive. All finite, in the units of
+    the law.
+    """
+    with np.errstate(all="ignore"):
+        v_max = np.where(history.armed, np.maximum(history.v_max, velocity), history.v_max)
+        depth = breakout_uplift(
+            np.where(compressed, 0.0, v_max), law.depth_factor, law.depth_exponent, law.regularisation
+        )
+        armed, v_max, state = next_state(history.armed, v_max, history.state, depth, uplift, velocity)
+        state = np.where(compressed, COMPRESSION, state).astype(np.int8)
+        pulls = state == SUCTION
+        shape = (law.force_factor * history.factor, law.force_exponent, law.regularisation)
+        force, stiffness = suction_force(uplift, velocity, depth, (*shape, law.first_corner, law.second_corner))
+        damping = suction_damping(uplift, velocity, history.v_max, law, history.factor)
+        completed = history.armed & ((compressed & (history.v_max > 0.0)) | (state == BROKEN))
+        factor = after_cycle(history.factor, law.factor_per_cycle, np.nan_to_num(law.cyclic_floor))
+    suction = Suction(
+        np.where(pulls, force, 0.0), np.where(pulls, 0.0 - stiffness, 0.0), np.where(pulls, damping, 0.0), depth
+    )
+    v_max, factor = np.where(compressed, 0.0, v_max), np.where(completed, factor, history.factor)
+    return suction, SuctionHistory.of(law, compressed | armed, v_max, state, factor)
+
+
+def _crossed(given: dict[str, FloatArray]) -> tuple[BoolArray, str]:
+    return given["first_corner"] > given["second_corner"], "its first corner is above its second"
+
+
+def suction_rates(law: SuctionLaw, v: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return F_max / (xc1 Delta_B) and dF_max / dv per unit length, at the end of the rise, at velocities v."""
+    factor = law.force_factor * law.largest_factor
+    with np.errstate(all="ignore"):
+        force, by_velocity = maximum_force(v, factor, law.force_exponent, law.regularisation)
+        uplift = breakout_uplift(v, law.depth_factor, law.depth_exponent, law.regularisation)
+        rise: FloatArray = force / (law.first_corner * uplift)
+    return rise, by_velocity
+
+
+def release_stiffness(law: SuctionLaw, velocity: FloatArray) -> FloatArray:
+    """Return |d force / d uplift| on the release of suction, per unit length, at steady pull-out velocities > 0 (m,).
+
+    F_max / ((1 - xc2) Delta_B): only a structure that is stiffer, per unit length, has one equilibrium there.
+    """
+    with np.errstate(all="ignore"):
+        force, _ = maximum_force(
+            velocity, law.force_factor * law.largest_factor, law.force_exponent, law.regularisation
+        )
+        uplift = breakout_uplift(velocity, law.depth_factor, law.depth_exponent, law.regularisation)
+        slope: FloatArray = force / ((1.0 - law.second_corner) * uplift)
+    return slope
+
+
+def _damping(step: Moving, given: dict[str, FloatArray]) -> FloatArray:
+    found = suction_damping(step.uplift, step.v, step.before.v_max, SuctionLaw(**given), step.before.factor)
+    return np.where(step.after.state == SUCTION, 0.0 - found, 0.0)
+
+
+def _plan(given: dict[str, FloatArray]) -> str:
+    slow = sorted(set(given["regularisation"].tolist()))
+    span = f"{slow[0]:g}" if len(slow) == 1 else f"{slow[0]:g} to {slow[-1]:g}"
+    capped = f", less force than alpha v^n below v = {span}" if slow[-1] > 0.0 else ""
+    elements = counted(len(given["regularisation"]), "element")
+    return f"{elements} after Bridge et al., with a state each{capped}"
+
+
+def _largest(reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, FloatArray]:
+    """The rise and the damping at the velocity that makes them largest; infinite where none does."""
+    law = SuctionLaw(**given)
+    if reached.speed is not None:
+        rise, damping = (
+            rates if rates.ndim == 1 else np.fmax.reduce(rates, axis=0) for rates in suction_rates(law, reached.speed)
+        )
+        return rise, damping
+    factor = law.force_factor * law.largest_factor
+    n, slow = law.force_exponent, law.regularisation
+    rise = suction_rates(law, slow)[0]
+    rise = np.where((n > law.depth_exponent) & (factor > 0.0), np.inf, np.where(slow > 0.0, rise, np.inf))
+    at_rest, at_slow = maximum_force(0.0 * slow, factor, n, slow)[1], maximum_force(slow, factor, n, slow)[1]
+    damping = np.where((n > 1.0) & (factor > 0.0), np.inf, np.maximum(at_rest, at_slow))
+    damping = np.where((slow > 0.0) | (n >= 1.0), damping, np.inf)
+    return np.where(factor > 0.0, rise, 0.0), np.where(factor > 0.0, damping, 0.0)
+
+
+SUCTION_LAW = Law(
+    name="suction",
+    summary="suction after Bridge et al., with a state",
+    stage="suction",
+    acts_on="elements",
+    parameters=(
+        Parameter("force_factor", "F/L (T/L)^n", "alpha_f of F_max = alpha_f v^n_f"),
+        Parameter("force_exponent", "1", "n_f"),
+        Parameter("depth_factor", "L (T/L)^n", "alpha_D of Delta_B = alpha_D v_max^n_D", above=True),
+        Parameter("depth_exponent", "1", "n_D"),
+        Parameter("first_corner", "1", "x / Delta_B up to which suction rises", above=True, high=_BELOW_1, default=0.2),
+        Parameter("second_corner", "1", "x / Delta_B from which suction falls", above=True, high=_BELOW_1, default=0.8),
+        Parameter("cyclic", "1", "factor on F_max for cyclic loading", default=1.0),
+        Parameter("regularisation", "L/T", "v_r, velocity below which F_max is capped", default=1e-3),
+        Parameter(
+            "cyclic_floor",
+            "1",
+            "least factor where `cyclic` is applied once per completed uplift cycle; NaN: always applied, once",
+            default=np.nan,
+            optional=True,
+        ),
+    ),
+    velocities=True,
+    history=True,
+    state="suction",
+    initial=lambda _, given: SuctionHistory.initial(SuctionLaw(**given)),
+    check=_crossed,
+    plan=_plan,
+    largest=_largest,
+    damping=_damping,
+    equation="F = -cyclic alpha_f v^n_f trapezoid(x / (alpha_D v_max^n_D))",
+    source="Bridge, Laver, Clukey and Evans (2004), OTC 16628",
+)

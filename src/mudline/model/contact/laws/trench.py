@@ -1,0 +1,191 @@
+"""Trenches of `*SEABED TRENCH`: resistance against sideways motion towards their walls (a phenomenological reading).
+
+y is the offset of a node from the centreline along u2. The lateral limit of its friction is raised, against outward
+motion only, by the share of each of its elements that lies in a trench, so that at the node between two blocks each
+block counts with half of the length of its own elements:
+
+* PEAK, a number: half length * PEAK * s(|y|), where s is 0 up to half of the bottom width, rises linearly to 1 at the
+  middle of the wall and falls linearly to 0 at half of the upper width;
+* PEAK, a table: half length * p(|y|), p linear between the rows of the table, that of its first row below it and 0
+  beyond its last. A third column is the curvature behind a row: so corners are rounded off by parabolas (`rounded`). A
+  peak with a residual, or with rounded corners, is such a table; one whose last offset is infinite holds on;
+* WALL: N (tan theta + mu2) / (1 - mu2 tan theta) in place of mu2 N between the two widths, the sloped wall of a trench
+  with tan theta = depth / ((upper - bottom) / 2); at a node whose elements are not all in it, by their share of the
+  length.
+
+The seabed level is the trench bottom. LOWERED makes gaps larger by the depth times w(|y|), w = 1 up to half of the
+bottom width, falling linearly to 0 at half of the upper width; the normal stays that of the seabed.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.model.contact.laws import Law, Parameter, Value, where
+
+PEAK, WALL, TABLE, LEVEL = 0, 1, 2, 3
+"""Kinds of resistance, in tables of the drivers; and of a seabed that is lowered."""
+
+
+def peak_share(distance: Value, inner: Value, outer: Value, steepness: Value) -> Value:
+    """Return s, 0 to 1, at a distance from the centreline.
+
+    `inner` and `outer` are the half widths, `steepness` is 1 over half of their difference.
+    """
+    return np.minimum(np.maximum(np.minimum(distance - inner, outer - distance) * steepness, 0.0), 1.0)
+
+
+def peak_slope(distance: Value, inner: Value, outer: Value) -> Value:
+    """Return d s / d distance; at the middle of the wall that of the inner half."""
+    half = 0.5 * (outer - inner)
+    rising = (distance > inner) & (distance <= inner + half)
+    falling = (distance > inner + half) & (distance < outer)
+    return where(rising, 1.0 / half, where(falling, -1.0 / half, 0.0))
+
+
+def on_wall(distance: Value, inner: Value, outer: Value) -> Value:
+    """Return 1 between the two half widths, else 0."""
+    return where((distance > inner) & (distance < outer), 1.0, 0.0)
+
+
+def wall_coefficient(depth: FloatArray, bottom: FloatArray, upper: FloatArray, friction: FloatArray) -> FloatArray:
+    """Return (tan theta + mu2) / (1 - mu2 tan theta) - mu2; negative or infinite where the wall locks itself."""
+    with np.errstate(all="ignore"):
+        tangent = depth / (0.5 * (upper - bottom))
+        found: FloatArray = (tangent + friction) / (1.0 - friction * tangent) - friction
+    return found
+
+
+def lowered(distance: Value, inner: Value, outer: Value) -> tuple[Value, Value]:
+    """Return w, the share of the depth by which the seabed lies lower, and its slope."""
+    part = np.minimum(np.maximum((outer - distance) / (outer - inner), 0.0), 1.0)
+    return part, where((distance > inner) & (distance < outer), -1.0 / (outer - inner), 0.0)
+
+
+def diagram(inner: float, outer: float, peak: float, residual: tuple[float, float] | None) -> FloatArray:
+    """Return the rows (k, 2) of a peak resistance; `residual` is that beyond it, and where it is reached."""
+    rise = [(inner, 0.0), (0.5 * (inner + outer), peak)]
+    return np.array([*rise, (outer, 0.0)] if residual is None else [*rise, residual[::-1], (np.inf, residual[0])])
+
+
+def shortest_side(points: FloatArray) -> float:
+    """Return the length of the shortest side of a diagram (k, 2), of which a half may be rounded off at each end."""
+    places = points[np.isfinite(points[:, 0]), 0]
+    sides = np.diff(places, prepend=-places[0])[0 if places[0] > 0.0 else 1 :]
+    jumps = len(places) == len(points) and points[-1, 1] > 0.0  # to 0, a side without length
+    return 0.0 if jumps else float(sides.min(initial=np.inf))
+
+
+def rounded(points: FloatArray, half_width: float) -> FloatArray:
+    """Return the rows (k, 3) of a diagram with parabolas of a half width in its corners: the third is the curvature."""
+    offset, resistance = points.T
+    slope = np.concatenate([[0.0], np.diff(resistance) / np.diff(offset), [0.0]])
+    rows = []
+    for at, (place, value) in enumerate(points.tolist()):
+        turn = slope[at + 1] - slope[at]
+        if half_width > 0.0 and turn != 0.0 and place > 0.0:
+            before, behind = value - slope[at] * half_width, value + slope[at + 1] * half_width
+            rows += [(place - half_width, before, turn / (4.0 * half_width)), (place + half_width, behind, 0.0)]
+        else:
+            rows.append((place, value, 0.0))
+    return np.array(rows)
+
+
+def in_table(distance: Value, offset: Value, resistance: Value, slope: Value, curvature: Value) -> Value:
+    """Return the resistance per unit length behind the row of a table with these numbers.
+
+    A distance below the first offset, or beyond the last, is taken as that offset.
+    """
+    return resistance + (slope + curvature * (distance - offset)) * (distance - offset)
+
+
+TableRows = tuple[FloatArray, FloatArray, FloatArray, FloatArray]
+
+
+def table_rows(table: FloatArray) -> TableRows:
+    """Return what `in_table` takes of each row of a table (k, 2) or (k, 3), with a row of zeros behind its last."""
+    offset, resistance = table[:, 0], table[:, 1]
+    curvature = table[:, 2] if table.shape[1] > 2 else np.zeros(len(table))
+    slope = np.append(np.diff(resistance) / np.diff(offset), 0.0)
+    bent = np.flatnonzero(curvature)
+    slope[bent] -= curvature[bent] * (offset[bent + 1] - offset[bent])
+    return np.append(offset, offset[-1]), np.append(resistance, 0.0), np.append(slope, 0.0), np.append(curvature, 0.0)
+
+
+def table_row(table: TableRows, distance: FloatArray) -> IndexArray:
+    """Return the row (...,) that holds at each distance; see `in_table`."""
+    offset = table[0]
+    inside = np.searchsorted(offset[1:-1], distance, side="right")
+    found: IndexArray = np.where(distance > offset[-1], len(offset) - 1, inside)
+    return found
+
+
+def share_of_piece(away: tuple[Value, Value, Value], span: tuple[Value, Value, Value], inverse: Value) -> Value:
+    """Return the share of a straight piece at which its nearest point lies, below 0 and above 1 beyond its ends.
+
+    `away` is the vector from its start to the point, `span` that to its end, `inverse` 1 over the square of that; 0 for
+    a piece without length, whose nearest point is its start. Nearest points at one end of a piece go on to the next.
+    """
+    return (away[0] * span[0] + away[1] * span[1] + away[2] * span[2]) * inverse
+
+
+_WIDTHS = (
+    Parameter("bottom", "L", "bottom width", above=True),
+    Parameter("upper", "L", "upper width", above=True),
+)
+_CENTRELINE = tuple(
+    Parameter(name, "L", "of a straight centreline; NaN for the line as laid", -np.inf, default=np.nan, optional=True)
+    for name in ("start_y", "start_z", "end_y", "end_z")
+)
+
+
+def _widths(given: dict[str, FloatArray]) -> tuple[BoolArray, str]:
+    return ~(given["upper"] > given["bottom"]), "the upper width of its trench is not above the bottom width"
+
+
+def _trench(name: str, summary: str, own: Parameter, plan: str, equation: str, *, tables: bool = False) -> Law:
+    """A law of a trench with a parameter of its own."""
+    return Law(
+        name=name,
+        summary=summary,
+        stage="trench",
+        acts_on="elements",
+        parameters=(*_WIDTHS, own, *_CENTRELINE),
+        tables=tables,
+        check=_widths,
+        plan=plan,
+        equation=equation,
+        source="trench of DeepLines as publicly described, read as a lateral limit (INFERRED)",
+    )
+
+
+TRENCH_PEAK = _trench(
+    "trench peak",
+    "trench with a peak lateral resistance",
+    Parameter("peak", "F/L", "peak lateral resistance per unit length"),
+    "with a peak resistance of the walls (inferred), where the depth has no effect (MODEL=WALL uses it)",
+    "limit = mu2 N + PEAK s(|y|) L / 2 against outward motion",
+)
+TRENCH_TABLE = _trench(
+    "trench table",
+    "trench with a tabulated lateral resistance",
+    Parameter("table", "1", "index of the table"),
+    "with a tabulated resistance of the walls (inferred), where depth and widths have no effect",
+    "limit = mu2 N + p(|y|) L / 2 against outward motion",
+    tables=True,
+)
+TRENCH_LEVEL = _trench(
+    "trench level",
+    "seabed that is lowered in a trench",
+    Parameter("depth", "L", "depth of the trench", above=True),
+    "where the seabed is lowered by depth and widths after all, along the normal of the seabed",
+    "gap + depth w(|y|)",
+)
+TRENCH_WALL = _trench(
+    "trench wall",
+    "trench with sloped walls",
+    Parameter("depth", "L", "depth of the trench", above=True),
+    "with sloped walls (inferred)",
+    "limit = N (tan theta + mu2) / (1 - mu2 tan theta) on the wall, against outward motion",
+)

@@ -1,0 +1,114 @@
+"""Unloading and reloading of `*SEABED UNLOADING`, beside the virgin loading path of a normal law.
+
+At a new largest penetration z_max the reaction is that of the virgin path. Elsewhere it is that of a straight line
+through the deepest point (z_max, F_max) with the stiffness ku', down to 0 at the trench bottom z_p and 0 above it:
+
+    F = max(0, F_max - ku' (z_max - z)),  z_p = z_max - F_max / ku'.
+
+ku' is the largest of the unloading stiffness that was given, the steepest slope that the virgin path reached, and the
+secant F_max / z_max. So the line lies nowhere above the virgin path, no closed loop gives work, and the trench bottom
+is never above the mudline. The secant counts only where the virgin path has a force F(0) > 0 at the mudline: the line
+is then steeper than the stiffness that was given, as a softer one would end above the mudline.
+
+All of it is a function of z_max alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mudline.basics.short_repr import short_repr
+from mudline.model.contact.arrays import FloatArray
+from mudline.model.contact.laws import Law, Parameter, Reached, Value, where
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class UnloadingHistory:
+    """What the elements (k,) remember. A step gives a new one and leaves the old one as it is.
+
+    Attributes:
+        numbers: (4, k), the rows of which are the properties.
+    """
+
+    numbers: FloatArray
+
+    __repr__ = short_repr
+
+    @property
+    def z_max(self) -> FloatArray:
+        """The largest penetration so far, 0 before the first contact."""
+        z_max: FloatArray = self.numbers[0]
+        return z_max
+
+    @property
+    def force_max(self) -> FloatArray:
+        """The virgin force there, F_max; 0 where the path pulls."""
+        force_max: FloatArray = self.numbers[1]
+        return force_max
+
+    @property
+    def line(self) -> FloatArray:
+        """Stiffness ku' of the line."""
+        line: FloatArray = self.numbers[2]
+        return line
+
+    @property
+    def bottom(self) -> FloatArray:
+        """Penetration z_p of the trench bottom, where the reaction vanishes."""
+        bottom: FloatArray = self.numbers[3]
+        return bottom
+
+    @classmethod
+    def initial(cls, stiffness: FloatArray) -> UnloadingHistory:
+        """Return the history of elements that never touched the seabed, of unloading stiffness `stiffness` > 0."""
+        numbers = np.zeros((4, len(stiffness)))
+        numbers[2] = stiffness
+        return cls(numbers)
+
+
+_ROUNDING = 2.0**-50
+_FINITE = float(np.finfo(np.float64).max)
+
+
+def line_stiffness(stiffness: Value, z_max: Value, force_max: Value) -> Value:
+    """Return ku' of the line through the deepest point; `stiffness` is already as steep as the virgin path."""
+    secant = np.minimum(force_max / where(z_max > 0.0, z_max, 1.0), _FINITE)
+    return np.maximum(stiffness, secant)
+
+
+def trench_bottom(line: Value, z_max: Value, force_max: Value) -> Value:
+    """Return z_p, between 0 and z_max; strictly below z_max where there is a force."""
+    # a bottom that rounds to z_max would leave no place for the reaction there
+    deepest = where(force_max > 0.0, np.nextafter(z_max, 0.0), z_max)
+    bottom = np.minimum(z_max - force_max / line, deepest)
+    # a line to the mudline ends there, whatever its quotient rounds to
+    return where(bottom > _ROUNDING * z_max, bottom, 0.0)
+
+
+def on_line(z: Value, z_max: Value, force_max: Value, line: Value, bottom: Value) -> tuple[Value, Value]:
+    """Return force and stiffness at a penetration that is not the largest so far."""
+    below = z > bottom
+    return where(below, np.maximum(force_max - line * (z_max - z), 0.0), 0.0), where(below, line, 0.0)
+
+
+def _largest(reached: Reached, given: dict[str, FloatArray]) -> tuple[FloatArray, None]:
+    """ku, or the steepest slope of the virgin path where that is steeper."""
+    return np.maximum(given["stiffness"], reached.virgin), None
+
+
+UNLOADING = Law(
+    name="unloading",
+    summary="unloading line from the deepest point so far",
+    stage="unloading",
+    acts_on="elements",
+    parameters=(Parameter("stiffness", "F/L2", "unloading stiffness ku", above=True),),
+    history=True,
+    state="unloading",
+    initial=lambda _, given: UnloadingHistory.initial(given["stiffness"]),
+    plan="on unloading lines, from the deepest point so far",
+    largest=_largest,
+    equation="F = max(0, F_max - ku' (z_max - z)) below z_max",
+    source="linear unloading and reloading as in the full cycle of pipe-soil interaction models",
+)

@@ -1,0 +1,428 @@
+"""The evaluator: from positions to contact forces, with only the laws that an input has."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from numbers import Real
+from types import NoneType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mudline.basics.arguments import as_array, expect
+from mudline.basics.short_repr import counted, outline
+from mudline.model.contact.arrays import BoolArray, FloatArray, IdArray, StepReader
+from mudline.model.contact.input import ContactInput, PositionError
+from mudline.model.contact.numpy_driver import NumpyDriver
+from mudline.model.contact.plan import Backend, BackendChoice, Plan, make_plan
+from mudline.model.contact.result import ContactResult, Part, blank_result, is_finite, refuse, refuse_pulling
+from mudline.model.contact.seabed import FlatSeabed, Seabed
+from mudline.model.contact.tables import Batch, ContactState, Tables
+
+if TYPE_CHECKING:
+    from mudline.model.contact.compiled.driver import CompiledDriver
+    from mudline.model.contact.stiffest import Stiffest
+    from mudline.model.contact.tangent import Tangent
+
+
+RealArray = NDArray[np.floating[Any] | np.integer[Any]]
+
+
+class ContactModel:
+    """Contact of the elements of an input with the seabed. Holds no state; may be shared by threads.
+
+    Laws per unit length act on an element: depth is the mean of its two nodes' depths, and each node takes half of the
+    force. (So a line whose nodes lie alternately by the same distance above and below their mean feels no change.)
+    Nodal springs, friction and trenches act on the node's own position.
+
+    Attributes:
+        input: what it was made from.
+        plan: which parts of the evaluation the input needs, which it does not, and why.
+    """
+
+    def __init__(self, given: ContactInput, *, backend: Backend = "auto", threads: int | None = None) -> None:
+        """Prepare the laws of an input.
+
+        `backend` says how steps are evaluated: "numpy", "fast" (compiled loops) or "auto": "fast" for long series if
+        the extra `mudline[fast]` is installed. Both give the same bits. What the compiled loops do not cover runs with
+        numpy, and the plan says so. `threads` is the largest number of threads of compiled loops; None: one for each
+        processor.
+
+        Raises:
+            ImportError: `backend` is "fast", but the extra is not installed.
+            ValueError: there is no such backend.
+            TypeError: `given` is not a ContactInput.
+        """
+        expect(given, "given", ContactInput, "a ContactInput")
+        self.input = given
+        self._seabed: Seabed = given.seabed or FlatSeabed()
+        with np.errstate(all="ignore"):  # what overflows is refused where a step comes to it
+            self._tables = Tables(given)
+            self._choice = BackendChoice(backend, threads, self._tables)
+            self.plan: Plan = make_plan(given, self._tables, self._choice)
+            self._numpy = NumpyDriver(self._tables, self._seabed)
+        self._compiled: CompiledDriver | None = None
+        self._nodes, self._shapes = len(given.node_ids), self._tables.initial_state().shapes
+
+    def __repr__(self) -> str:
+        nodes, elements = len(self.input.node_ids), len(self.input.element_ids)
+        size = f"{counted(nodes, 'node')}, {counted(elements, 'element')}"
+        stages = ", ".join(stage.stage for stage in self.plan if stage.active)
+        return outline("ContactModel", size, stages, self.plan.steps)
+
+    def evaluate(
+        self,
+        positions: ArrayLike | StepReader | None = None,
+        *,
+        present: ArrayLike | None = None,
+        velocities: ArrayLike | None = None,
+        times: ArrayLike | None = None,
+    ) -> ContactResult:
+        """Evaluate positions (n, 3), or a series (steps, n, 3); None stands for the input's coordinates.
+
+        Positions are real numbers of any type, in the input's length unit, X up; a memory-mapped series is read a few
+        steps at a time. `present` (n,) says which nodes have a position: what stands at the others is not looked at,
+        elements with one of them are left out, and a node's reaction is that of the elements that are evaluated.
+
+        A scene with history begins it at the first step. `velocities` are of the shape of the positions; without them
+        they are differences over `times` (steps,), 0 at the first step. Only suction and damping ask for them.
+
+        Raises:
+            PositionError: a position is NaN or infinite.
+            ElementError: a value of an element overflows.
+            ValueError: an argument does not have the shape or type it should, or a series with suction or damping has
+                neither velocities nor times.
+        """
+        given = self.input.coordinates if positions is None else positions
+        single = False
+        if not isinstance(given, StepReader):
+            given = as_array(given, "positions")
+            single = given.ndim == 2
+            given = given.copy() if single else given  # the result keeps it: the caller may write the next into theirs
+        parts = list(self.stream(given, present=present, velocities=velocities, times=times, together=True))
+        result = parts[0].result
+        return result.step(0) if single else result
+
+    def stream(
+        self,
+        positions: ArrayLike | StepReader,
+        *,
+        present: ArrayLike | None = None,
+        velocities: ArrayLike | None = None,
+        times: ArrayLike | None = None,
+        together: bool = False,
+    ) -> Iterator[Part]:
+        """Evaluate a series a few steps at a time, with memory for those; `together`: all steps in one result.
+
+        Takes and raises what `evaluate` does.
+        """
+        expect(together, "together", (bool, np.bool_), "True or False")
+        nodes = len(self.input.node_ids)
+        series, mask = _as_series(positions, nodes), _as_mask(present, nodes)
+        motion = _as_velocities(velocities, series.shape)
+        clock = _as_times(times, len(series))
+        if self.input.needs_velocities and motion is None and clock is None and len(series) > 1:
+            law = self.input.needs_velocities[0]
+            raise ValueError(f"a series with {law} needs velocities, or the times of its steps")
+        driver, state, spare = self._driver(len(series)), self._tables.initial_state(), None
+        rows = self._numpy.steps if driver is None else driver.steps
+        whole = self._blank(series[:], mask, clock) if together else None
+        for start in range(0, len(series), rows):
+            stop = min(start + rows, len(series))
+            with np.errstate(all="ignore"):  # everything that can overflow is checked
+                points = _read_steps(series, range(start, stop), self.input.node_ids, mask)
+                when = None if clock is None else clock[start:stop]
+                part = self._blank(points, mask, when) if whole is None else whole.steps(start, stop)
+                rates = None if motion is None else np.asarray(motion[start:stop], np.float64)
+                spans = None if clock is None else np.diff(clock[max(start - 1, 0) : stop])
+                before = state
+                state = self._advance(driver, points, rates, spans, part, state, start, spare=spare)
+                spare = before if driver else None
+            if whole is None:
+                yield Part(start, part)
+        if whole is not None:
+            yield Part(0, whole)
+
+    def initial_state(self) -> ContactState:
+        """Return the state before the first step: nothing has touched the seabed."""
+        return self._tables.initial_state()
+
+    def step(
+        self,
+        positions: ArrayLike,
+        velocities: ArrayLike | None,
+        state: ContactState,
+        dt: float | None = None,
+    ) -> tuple[ContactResult, ContactState]:
+        """Evaluate one step (n, 3) behind `state`; return its result and the state behind it.
+
+        Without velocities (n, 3) they are differences to the step before over `dt`, 0 at the first step.
+
+        Raises:
+            PositionError, ElementError: as `evaluate`.
+            ValueError: as `evaluate`, or `dt` is not finite and above 0, or is missing where it is needed, or `state`
+                is that of another model.
+        """
+        self._check_state(state)
+        expect(dt, "dt", (Real, NoneType), "a number")
+        if dt is not None and not 0.0 < dt < np.inf:
+            raise ValueError(f"dt must be finite and above 0, not {dt!r}")
+        nodes = len(self.input.node_ids)
+        series = _as_series(positions, nodes)
+        if len(series) != 1:
+            raise ValueError("a step takes the positions of one step")
+        mask = _as_mask(None, nodes)
+        motion = _as_velocities(velocities, series.shape)
+        if self._tables.velocities and motion is None and state.positions is not None and dt is None:
+            raise ValueError("a step without velocities needs dt > 0")
+        with np.errstate(all="ignore"):
+            # a copy: state and result keep it, and whoever steps may write the next positions into the same array
+            points = _read_steps(series, range(1), self.input.node_ids, mask).copy()
+            points.flags.writeable = False
+            part = self._blank(points, mask, None)
+            rates = None if motion is None else np.asarray(motion, np.float64)
+            spans = None if dt is None or state.positions is None else np.array([dt])
+            after = self._advance(self._driver(1), points, rates, spans, part, state, 0, kept=True)
+        return part.step(0), after
+
+    def _check_state(self, state: ContactState) -> None:
+        """Raise TypeError for what is no state, ValueError for that of another model."""
+        expect(state, "state", ContactState, "a ContactState")
+        if state.shapes != self._shapes or (state.positions is not None and len(state.positions) != self._nodes):
+            raise ValueError("state must be one of this model: it is that of other nodes, elements or laws")
+
+    def tangent(
+        self,
+        positions: ArrayLike,
+        velocities: ArrayLike | None,
+        state: ContactState,
+        dt: float | None = None,
+        *,
+        back: bool = False,
+    ) -> Tangent:
+        """Return d reactions / d positions and d reactions / d velocities of one step behind `state`, as triples.
+
+        Where the force follows a path (the law "soil"), it is that of going on as the step went, and `back` that of
+        turning round. Over curved seabeds the normal is held. Raises what `step` does.
+        """
+        from mudline.model.contact.tangent import assemble  # noqa: PLC0415 - forces alone do without it
+
+        expect(back, "back", (bool, np.bool_), "True or False")
+        result, after = self.step(positions, velocities, state, dt)
+        with np.errstate(all="ignore"):
+            points = np.array(positions, np.float64).reshape(1, -1, 3)
+            rates = None if velocities is None else np.asarray(velocities, np.float64).reshape(1, -1, 3)
+            spans = None if dt is None or state.positions is None else np.array([dt])
+            speed = self._speed(points, rates, spans, result.normal[None], state, points[..., 0])
+            return assemble(
+                self._tables, points[0], None if speed is None else speed[0], result, (state, after), back=back
+            )
+
+    def stiffest(self, positions: ArrayLike | None = None, velocities: ArrayLike | None = None) -> Stiffest:
+        """Return for each law and element the largest stiffness and the largest damping: what a time step resolves.
+
+        Without positions those that the laws can reach under the static normal force (`input.weight`) and at the worst
+        velocity; with positions (n, 3) or (steps, n, 3), and velocities of their shape, those that occur there. See
+        `mudline.model.contact.stiffest`.
+        """
+        from mudline.model.contact.stiffest import stiffest  # noqa: PLC0415 - forces alone do without it
+
+        if positions is None and velocities is not None:
+            raise ValueError("velocities need positions")
+        result = None if positions is None else self.evaluate(positions, velocities=velocities)
+        speed = None
+        if result is not None and velocities is not None:
+            rates = np.asarray(velocities, np.float64)
+            speed = (rates * result.normal).sum(axis=-1)
+        return stiffest(self._tables, result, speed)
+
+    def _driver(self, steps: int) -> CompiledDriver | None:
+        """The compiled loops, if they are to evaluate so many steps."""
+        if not self._choice.compiles(steps):
+            return None
+        if self._compiled is None:
+            from mudline.model.contact.compiled.driver import CompiledDriver  # noqa: PLC0415 - loads numba
+
+            self._compiled = CompiledDriver(self._tables, self._seabed, self._choice.threads)
+        return None if self._compiled.broken else self._compiled
+
+    def _blank(self, positions: RealArray, mask: BoolArray, times: FloatArray | None) -> ContactResult:
+        return blank_result(positions, mask, self._tables, self._seabed.same_normal, times)
+
+    def _advance(  # noqa: PLR0913, PLR0917 - what a batch is made of
+        self,
+        driver: CompiledDriver | None,
+        points: FloatArray,
+        rates: FloatArray | None,
+        spans: FloatArray | None,
+        part: ContactResult,
+        state: ContactState,
+        first_step: int,
+        *,
+        spare: ContactState | None = None,
+        kept: bool = False,
+    ) -> ContactState:
+        """Evaluate a batch into `part`; return the state behind it.
+
+        It is in the arrays of `spare`, or without a driver of `state` unless that is `kept`.
+        """
+        laid = points[0] if state.laid is None else state.laid
+        self._numpy.locate(points, part)
+        batch = Batch(points, self._speed(points, rates, spans, part.normal, state, part.gap), laid)
+        if self._tables.level is not None:
+            from mudline.model.contact.directions import lower  # noqa: PLC0415 - few trenches do
+
+            lower(self._tables, points, laid, part.normal, part.gap)
+        after = None if driver is None else driver.run(batch, part, state, spare)
+        if after is None:
+            after = state.copied() if kept or driver else state
+            self._numpy.run(batch, part, after)
+            if not is_finite(part, batch.speed):
+                refuse(part, batch.speed, first_step, self._tables)
+        refuse_pulling(part, first_step, self._tables)
+        if not part.present.all():
+            _blank_absent(part)
+        if not self.plan.history:
+            return state
+        return replace(after, positions=points[-1], laid=laid)
+
+    def _speed(
+        self,
+        points: FloatArray,
+        rates: FloatArray | None,
+        spans: FloatArray | None,
+        normal: FloatArray,
+        state: ContactState,
+        heights: FloatArray,
+    ) -> FloatArray | None:
+        """Velocities (steps, n) along the normals, where a law asks for them.
+
+        Those given, else differences over `spans`, the times since the steps before: 0 at the first step of a series.
+        `heights` (steps, n) are those over X = 0, which a horizontal seabed needs alone.
+        """
+        if not self._tables.velocities:
+            return None
+        flat, before = isinstance(self._seabed, FlatSeabed), state.positions
+        if rates is None and flat:
+            return _differences(heights, spans, None if before is None else before[:, 0])
+        if rates is None:
+            rates = _differences(points, spans, before)
+        speed: FloatArray
+        if flat:
+            speed = np.ascontiguousarray(rates[..., 0])
+        else:
+            speed = rates[..., 0] * normal[..., 0] + rates[..., 1] * normal[..., 1] + rates[..., 2] * normal[..., 2]
+        if not np.isfinite(rates.sum()):
+            speed = np.where(np.isfinite(rates).all(axis=-1), speed, np.nan)
+        return speed
+
+
+def _differences(places: FloatArray, spans: FloatArray | None, before: FloatArray | None) -> FloatArray:
+    """Velocities of places (steps, ...) over the times since the steps before: 0 at the first step of a series.
+
+    `before` (...) are those of the step before the first.
+    """
+    rates = np.empty(places.shape)
+    first = 1
+    if before is not None and spans is not None and len(spans) == len(places):
+        first = 0
+        np.subtract(places[0], before, out=rates[0])
+    else:
+        rates[0] = 0.0
+    if len(places) > 1:
+        np.subtract(places[1:], places[:-1], out=rates[1:])
+    if spans is None:
+        rates[1:] = 0.0
+    elif first < len(places):
+        rates[first:] /= spans[len(spans) - len(places) + first :].reshape(-1, *[1] * (places.ndim - 1))
+    return rates
+
+
+def _blank_absent(part: ContactResult) -> None:
+    """Leave no number where there was no position; depth, ratio and gap are NaN already."""
+    for on_elements in (part.force, part.slope, part.stiffness):
+        on_elements[:, ~part.evaluated] = np.nan
+    part.normal_force[:, ~part.present] = np.nan
+    part.reaction[:, ~part.present] = np.nan
+    if part.friction is not None:
+        part.friction[:, ~part.present] = np.nan
+
+
+def _as_series(positions: ArrayLike | StepReader, nodes: int) -> RealArray | StepReader:
+    """Return (nodes, 3) or (steps, nodes, 3) positions as (steps, nodes, 3), neither copied nor converted.
+
+    Raises:
+        ValueError: the shape or the kind of number is not one of these.
+    """
+    given: RealArray | StepReader = positions if isinstance(positions, StepReader) else as_array(positions, "positions")
+    if given.dtype.kind not in "iuf":
+        raise ValueError(f"positions must be real numbers, not {given.dtype}")
+    if given.ndim not in {2, 3} or given.shape[-2:] != (nodes, 3):
+        expected = f"({nodes}, 3) or (steps, {nodes}, 3)"
+        raise ValueError(f"positions must have the shape {expected}, not {given.shape}")
+    return given if isinstance(given, StepReader) or given.ndim == 3 else given[np.newaxis]
+
+
+def _as_mask(present: ArrayLike | None, nodes: int) -> BoolArray:
+    """Return which nodes have a position; None means all of them.
+
+    Raises:
+        ValueError: `present` is not an array (nodes,) of booleans.
+    """
+    if present is None:
+        return np.ones(nodes, np.bool_)
+    mask = as_array(present, "present").copy()
+    if mask.dtype != np.bool_ or mask.shape != (nodes,):
+        raise ValueError(f"present must be booleans of shape ({nodes},), not {mask.dtype} of shape {mask.shape}")
+    return mask
+
+
+def _read_steps(series: RealArray | StepReader, steps: range, node_ids: IdArray, present: BoolArray) -> FloatArray:
+    """Return the positions (steps, nodes, 3) of a few steps as float64, NaN for the nodes that are not present.
+
+    Raises:
+        PositionError: a position of a node that is present is NaN, infinite or too large for a float64.
+    """
+    points = np.asarray(series[steps.start : steps.stop], dtype=np.float64)
+    # a finite sum has finite terms only, and is sooner had than a look at each of them
+    if not np.isfinite(points.sum()) and (bad := np.argwhere(~np.isfinite(points).all(axis=2) & present)).size:
+        row, column = bad[0].tolist()
+        step, node = steps.start + row, int(node_ids[column])
+        place = tuple(points[row, column].tolist())
+        raise PositionError(f"node {node} at step {step}: its position {place} is not finite", node, step)
+    return points if present.all() else np.where(present[:, np.newaxis], points, np.nan)
+
+
+def _as_velocities(velocities: ArrayLike | None, shape: tuple[int, ...]) -> RealArray | None:
+    """Return velocities as (steps, nodes, 3), neither copied nor converted; None where there are none.
+
+    Raises:
+        ValueError: they are no real numbers of the shape of the positions.
+    """
+    if velocities is None:
+        return None
+    given: RealArray = as_array(velocities, "velocities")
+    same = given.shape == shape or (shape[0] == 1 and given.shape == shape[1:])
+    if given.dtype.kind not in "iuf" or not same:
+        found = f"{given.shape} of {given.dtype}"
+        raise ValueError(f"velocities must be real numbers of the shape of the positions, {shape}, not {found}")
+    return given.reshape(shape)
+
+
+def _as_times(times: ArrayLike | None, steps: int) -> FloatArray | None:
+    """Return times as (steps,) float64; None where there are none.
+
+    Raises:
+        ValueError: they are not as many finite numbers as there are steps, each later than the one before.
+    """
+    if times is None:
+        return None
+    given = as_array(times, "times")
+    if given.dtype.kind not in "iuf":
+        raise ValueError(f"times must be real numbers, not {given.dtype}")
+    given = given.astype(np.float64)
+    if given.shape != (steps,) or not np.isfinite(given).all() or not (np.diff(given) > 0.0).all():
+        raise ValueError(f"times must be {steps} finite numbers, each later than the one before")
+    return given

@@ -1,0 +1,346 @@
+"""The laws driven by numpy: ranges of elements and of nodes, batches of steps at a time.
+
+Positions are given, so all that knows no history is computed for a batch of steps at once; only the states of suction,
+stick points and touchdown points go from step to step. Nothing is checked here: `contact.result` says whether
+everything came out finite, and what did not.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import sys
+from typing import TYPE_CHECKING, NamedTuple, cast
+
+import numpy as np
+
+from mudline.model.contact import vectors
+from mudline.model.contact.arrays import BoolArray, FloatArray, Picked, add_at, as_range, taken
+from mudline.model.contact.laws import law_module
+from mudline.model.contact.numpy_elements import Elements, Work
+from mudline.model.contact.result import ContactResult
+from mudline.model.contact.seabed import FlatSeabed, Seabed
+from mudline.model.contact.tables import Batch, ContactState, Tables, rows_within
+from mudline.model.contact.vectors import Components, in_plane
+
+if TYPE_CHECKING:
+    from mudline.model.contact.laws.friction import FrictionHistory
+    from mudline.model.contact.trenches import LaidCentreline
+
+BLOCK = 32768
+"""Elements or nodes, times steps, at a time."""
+_WIDTH = 4096
+"""Elements or nodes in a range of a long line, at least: over a few steps what belongs to them stays in caches."""
+_BATCH = 2**20
+"""Nodes times steps of a batch, at most."""
+_NONE = np.empty(0, np.intp)
+_KEPT = {-3: 2**25, -1: 2**29}
+"""By the number of an option of `mallopt`: arrays that are kept at most (M_MMAP_THRESHOLD, which takes no more), and
+freed memory at the end of the heap (M_TRIM_THRESHOLD): the results of five million nodes."""
+
+
+class NumpyDriver:
+    """Evaluates batches of steps. Holds no state of a series; may be shared by threads."""
+
+    def __init__(self, tables: Tables, seabed: Seabed) -> None:
+        _keep_freed_memory()
+        self._tables, self._seabed = tables, seabed
+        elements, nodes = len(tables.half), len(tables.given.node_ids)
+        longest = max(elements, nodes, 1)
+        narrow = min(_WIDTH if tables.history else BLOCK, longest)
+        self.steps = max(1, min(BLOCK // narrow, _BATCH // longest))
+        """How many steps at a time are fastest."""
+        width = BLOCK // self.steps
+        flat = isinstance(seabed, FlatSeabed)
+        slides = tables.friction is not None or tables.lateral is not None
+        self._components = (2 if flat else 3) if slides else 0
+        starts = range(0, elements, width)
+        self._elements = [Elements(tables, start, min(start + width, elements), flat=flat) for start in starts]
+        starts = range(0, nodes, width)
+        self._nodes = [Nodes(tables, start, min(start + width, nodes), flat=flat) for start in starts]
+
+    def locate(self, points: FloatArray, part: ContactResult) -> None:
+        """Write gaps and normals of `part` (steps, n)."""
+        if self._seabed.same_normal is None:
+            self._seabed.locate(points, part.gap, part.normal)
+        else:
+            self._seabed.gaps(points, part.gap)
+
+    def run(self, batch: Batch, part: ContactResult, state: ContactState) -> None:
+        """Write a batch to `part`, but for gaps and normals, which are there; `state` is moved on in place."""
+        steps, elements = len(batch.points), len(self._tables.half)
+        lateral = self._components if self._tables.lateral is not None else 0
+        work = Work(
+            np.ascontiguousarray(batch.points.transpose(2, 0, 1)) if self._components else np.empty((0, 0, 0)),
+            np.zeros((steps, elements + 2)),
+            np.zeros((self._components, steps, elements + 2)),
+            np.zeros((lateral, steps, elements + 2)),
+            np.zeros((steps, elements + 2)) if self._tables.embeds else np.empty((0, 0)),
+        )
+        for some in self._elements:
+            some.run(batch, part, state, work)
+        laid = None if self._tables.trench is None else self._tables.laid_line(batch.laid)
+        for some_nodes in self._nodes:
+            some_nodes.run(batch.speed, part, state, work, laid)
+
+
+def _keep_freed_memory() -> None:
+    """Have the C library keep the arrays of a batch for those of the next, where it is that of GNU.
+
+    It gives large arrays back to the system as soon as they are freed, and touching new memory costs more than what is
+    computed in it: a fifth of the time of a million nodes.
+    """
+    set_option = getattr(ctypes.CDLL(None), "mallopt", None) if sys.platform == "linux" else None
+    if set_option is not None:
+        for option, size in _KEPT.items():
+            set_option(option, size)
+
+
+class _Breakout(NamedTuple):
+    """Nodes of a range with a breakout: rows of the law, columns in the range, parameters, 1 over elements."""
+
+    rows: slice
+    at: Picked
+    law: tuple[FloatArray, ...]
+    share: FloatArray
+
+
+class _Softening:
+    """The breakout of nodes over the steps of a batch.
+
+    `embedment` are their ratios z/D (steps, k), or one for all; `held` (5, k) what they remember, written in place.
+    """
+
+    def __init__(self, nodes: _Breakout, embedment: FloatArray | None, held: FloatArray) -> None:
+        self._nodes, self._embedment, self._held = nodes, embedment, held
+
+    def soften(self, step: int, scaled: tuple[FloatArray, FloatArray], points: FloatArray, across: Components) -> None:
+        """Scale the lateral springs and limits (k,) of a step to points (3, k)."""
+        from mudline.model.contact.laws.breakout import reached, shares  # noqa: PLC0415 - most friction has no breakout
+
+        (_, at, law, _), held, axes = self._nodes, self._held, len(across)
+        away = tuple(points[3 - axes :, at] - held[3 - axes : 3])
+        distance = vectors.PLANES[axes].dot(tuple(axis[at] if len(axis) > 1 else axis for axis in across), away)
+        deep = 0.0 if self._embedment is None else self._embedment[step]
+        held[3], held[4] = reached((held[3], held[4]), distance, deep, law)
+        share, _, softer = shares(held[3], held[4], law)
+        for values, factor in zip(scaled, (softer, share), strict=True):
+            values[at] *= factor
+
+    def begin(self, points: FloatArray, on: BoolArray) -> None:
+        """Forget what nodes remember that were not in contact."""
+        on = on[self._nodes.at]
+        self._held[:3] = np.where(on, self._held[:3], points[:, self._nodes.at])
+        self._held[3:] = np.where(on, self._held[3:], 0.0)
+
+    def end(self, held: BoolArray) -> None:
+        """Forget what nodes remember that are out of contact."""
+        self._held[...] = np.where(held[self._nodes.at], self._held, [[np.nan]] * 3 + [[0.0]] * 2)
+
+
+class Nodes:
+    """Nodes begin <= i < end."""
+
+    def __init__(self, tables: Tables, begin: int, end: int, *, flat: bool) -> None:
+        self._tables, self.begin, self.end, self._flat = tables, begin, end, flat
+        self._here = here = slice(begin, end)
+        self._plane = vectors.PLANES[2 if flat else 3]
+        self._nodal = []
+        for rows in tables.nodal:
+            cut = rows_within(rows.rows, begin, end)
+            columns = tuple(column[None, cut] for column in rows.columns)
+            if cut.start < cut.stop:
+                self._nodal.append((rows.reaction, as_range(rows.rows[cut] - begin), columns, rows.law.onset(*columns)))
+        self._damping = None if tables.nodal_damping is None else tables.nodal_damping[None, here]
+        friction = tables.friction
+        if friction is not None:
+            self._active, self._elliptic = friction.active[here], friction.ellipse[here]
+            self._curved = bool(self._elliptic.any())
+            self._coefficients = friction.coefficients.T[:, None, here]
+            self._fixed, self._rising = friction.fixed.T[:, None, here], friction.rising.T[:, None, here]
+            self._idle = self._active.astype(np.int8) - np.int8(1)
+            turned = rows_within(friction.turned, begin, end)
+            self._turned = friction.turned[turned] - begin
+            self._turn = friction.cosine[turned], friction.sine[turned]
+        self._breakout: _Breakout | None = None
+        if (breakout := tables.breakout) is not None:
+            cut = rows_within(breakout.rows, begin, end)
+            columns = tuple(column[cut] for column in breakout.columns)
+            self._breakout = _Breakout(cut, as_range(breakout.rows[cut] - begin), columns, tables.shares[cut])
+        if tables.trench is not None:
+            from mudline.model.contact.trenches import ranks  # noqa: PLC0415 - most friction has no trench
+
+            self._trench = tables.trench.some(rows_within(tables.trench.nodes, begin, end))
+            nodes = self._trench.nodes - begin
+            self._in_trench, self._ranks = as_range(nodes), [(rows, as_range(nodes[rows])) for rows in ranks(nodes)]
+
+    def run(
+        self,
+        speed: FloatArray | None,
+        part: ContactResult,
+        state: ContactState,
+        work: Work,
+        laid: LaidCentreline | None,
+    ) -> None:
+        """Write the nodes of a batch."""
+        line, here = self._tables.line, self._here
+        total = line.sums(work.load, self.begin, self.end)
+        for reaction, at, columns, onset in self._nodal:
+            z = 0.0 - taken(part.gap[:, here], at)
+            add_at(total, at, np.where(z > onset, reaction(z, 0.0, *columns)[0], 0.0))
+        if self._damping is not None and speed is not None:
+            total += law_module("damping").damping_force(0.0 - part.gap[:, here], speed[:, here], self._damping)
+        part.normal_force[:, here] = total
+        if part.normal.strides[1] == 0:  # one for all nodes
+            normal = tuple(part.normal[:1, :1, axis] for axis in range(3))
+        else:
+            normal = tuple(np.ascontiguousarray(part.normal[:, here, axis]) for axis in range(3))
+        reaction_here = part.reaction[:, here]
+        if not len(work.tangent):
+            if self._flat:
+                reaction_here[..., 1:] = 0.0
+            for axis in range(1 if self._flat else 3):
+                # a negative force times a zero component is -0, which is no reaction of its own
+                np.add(total * normal[axis], 0.0, out=reaction_here[..., axis])
+            return
+        wanted = self._sums(work.tangent, directed=True)
+        along = self._turned_axes(in_plane(wanted, normal), normal)
+        sideward = self._tangential_reaction(part, state, work, (along, self._plane.across(along, normal)), laid)
+        for axis, component in enumerate(self._plane.reaction(total, normal, sideward)):
+            reaction_here[..., axis] = component
+
+    def _sums(self, values: FloatArray, *, directed: bool) -> Components:
+        """Sums (steps, k) of each component (c, steps, m + 2) of vectors of the elements."""
+        found = self._tables.line.sums(values.reshape(-1, values.shape[2]), self.begin, self.end, directed=directed)
+        return tuple(found.reshape(len(values), -1, self.end - self.begin))
+
+    def _turned_axes(self, along: Components, normal: Components) -> Components:
+        """Put in u1 of the nodes that have it at an angle to +Y."""
+        if self._tables.friction is None or not self._turned.size:
+            return along
+        there = normal if normal[0].shape[1] == 1 else tuple(axis[:, self._turned] for axis in normal)
+        for axis, values in zip(along, self._plane.turned(*self._turn, there), strict=True):
+            axis[:, self._turned] = values
+        return along
+
+    def _tangential_reaction(
+        self,
+        part: ContactResult,
+        state: ContactState,
+        work: Work,
+        axes: tuple[Components, Components],
+        laid: LaidCentreline | None,
+    ) -> Components:
+        """Components of the tangential reaction: friction and lateral springs."""
+        along, across = axes
+        found: Components = tuple(np.zeros(along[0].shape) for _ in along)
+        one = other = np.zeros(along[0].shape)
+        if state.friction is not None:
+            one, other = self._friction_forces(part, state, work, axes, laid)
+            found = self._plane.blend(along, across, one, other)
+        if len(work.lateral):
+            push = self._sums(work.lateral, directed=False)
+            found = self._plane.added(found, push)
+            one, other = one + self._plane.dot(along, push), other + self._plane.dot(across, push)
+        if part.friction is not None:
+            part.friction[:, self._here, 0], part.friction[:, self._here, 1] = one, other
+        return found
+
+    def _friction_forces(
+        self,
+        part: ContactResult,
+        state: ContactState,
+        work: Work,
+        axes: tuple[Components, Components],
+        laid: LaidCentreline | None,
+    ) -> tuple[FloatArray, FloatArray]:
+        """Friction along u1 and u2 (steps, k); the stick points go from step to step."""
+        history = cast("FrictionHistory", state.friction)
+        along, across = axes
+        plane, here, first = self._plane, self._here, 3 - len(along)
+        places = work.planes[..., here]
+        pressing = np.where(self._active, np.fmax(part.normal_force[:, here], 0.0), 0.0)
+        closed = pressing > 0.0
+        springs, limits = self._fixed + self._rising * pressing, self._coefficients * pressing
+        walls = None if laid is None or not self._ranks else self._walls(places, across, pressing, laid)
+        stick = history.stick_points[here].T
+        held = history.states[here, 0] > 0
+        softening = self._softening(state, work)
+        forces, slips = np.empty(limits.shape), np.empty(limits.shape, np.bool_)
+        elongation = np.empty((2, len(self._active)))
+        for step, close in enumerate(closed):
+            on, held = held & close, close
+            (new,) = np.logical_not(on).nonzero()
+            for point, place in zip(stick, places[:, step], strict=True):
+                point[new] = place.take(new)
+            u, v = tuple(axis[step] for axis in along), tuple(axis[step] for axis in across)
+            away = places[first:, step] - stick[first:]
+            elongation[0], elongation[1] = plane.dot(u, away), plane.dot(v, away)
+            spring, limit = springs[:, step], limits[:, step]
+            if softening is not None:
+                softening.begin(places[:, step], on)
+                softening.soften(step, (spring[1], limit[1]), places[:, step], v)
+            trial = spring * elongation
+            if walls is not None:
+                limit[1] += self._added(trial[1], *(values[step] for values in walls))
+            force, slip = self._bounded(trial, limit, close)
+            moves = law_module("friction").slip_distance(slip, elongation, force, spring)
+            moved = plane.blend(u, v, moves[0], moves[1])
+            for point, way in zip(stick[first:], moved, strict=True):
+                np.add(point, way, out=point)
+            np.subtract(0.0, force, out=forces[:, step])
+            slips[:, step] = slip
+        (free,) = np.logical_not(held).nonzero()
+        for point in stick:
+            point[free] = np.nan
+        if softening is not None:
+            softening.end(held)
+        states = (slips.view(np.int8) + np.int8(1)) * closed.view(np.int8)
+        states += self._idle
+        history.states[here] = states[:, -1].T
+        if part.friction_state is not None:
+            part.friction_state[:, here] = states.transpose(1, 2, 0)
+        return forces[0], forces[1]
+
+    def _bounded(self, trial: FloatArray, limit: FloatArray, closed: BoolArray) -> tuple[FloatArray, BoolArray]:
+        """Forces (2, k) in the springs and whether they slip."""
+        law = law_module("friction")
+        force, slip = law.in_box(trial, limit)
+        (curved,) = (self._elliptic & closed).nonzero() if self._curved else (_NONE,)
+        if curved.size:
+            wanted, most = trial.take(curved, axis=1), limit.take(curved, axis=1)
+            mapped = law.on_ellipse if (most > 0.0).all() else law.in_ellipse
+            # forces, and whether both directions slip, or each
+            found = mapped(wanted[0], wanted[1], most[0], most[1])
+            for side, slipping in enumerate((found[2], found[-1])):
+                force[side][curved], slip[side][curved] = found[side], slipping
+        return force, slip
+
+    def _softening(self, state: ContactState, work: Work) -> _Softening | None:
+        nodes, held = self._breakout, state.breakout
+        if nodes is None or held is None:
+            return None
+        deep = None
+        if self._tables.embeds:
+            deep = taken(self._tables.line.sums(work.ratio, self.begin, self.end), nodes.at) * nodes.share
+        return _Softening(nodes, deep, held[:, nodes.rows])
+
+    def _walls(
+        self, places: FloatArray, across: Components, pressing: FloatArray, laid: LaidCentreline
+    ) -> tuple[FloatArray, BoolArray, BoolArray]:
+        """What trenches add to the lateral limits (steps, k), against motion along +u2, or along -u2."""
+        from mudline.model.contact.trenches import resistance  # noqa: PLC0415 - most friction has no trench
+
+        at = self._in_trench
+        there = taken(places.reshape(-1, self.end - self.begin), at).reshape(3, len(pressing), -1)
+        away = laid.away(laid.beside(self.begin, self._trench), there).vector
+        lateral = tuple(taken(axis, at) for axis in across)
+        offset = self._plane.dot(lateral, away[3 - len(lateral) :])
+        return resistance(self._trench, offset, taken(pressing, at)), offset > 0.0, offset < 0.0
+
+    def _added(self, trial: FloatArray, added: FloatArray, forward: BoolArray, back: BoolArray) -> FloatArray:
+        """What they add at nodes (k,) with these trial forces."""
+        share = np.where(np.where((trial > 0.0)[self._in_trench], forward, back), added, 0.0)
+        found = np.zeros(len(trial))
+        for rows, nodes in self._ranks:
+            found[nodes] += share.take(rows)
+        return found

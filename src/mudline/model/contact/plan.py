@@ -1,0 +1,205 @@
+"""What an input needs of the evaluator, and what is left out, with the reason."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from importlib import import_module
+from importlib.util import find_spec
+from types import NoneType
+from typing import Literal
+
+from mudline.basics.arguments import expect, expect_word
+from mudline.basics.short_repr import UnknownNameError, counted, outline
+from mudline.model.contact.arrays import FloatArray
+from mudline.model.contact.input import ContactInput, LawKind
+from mudline.model.contact.laws import known_laws
+from mudline.model.contact.tables import Tables
+
+
+@dataclass(frozen=True, slots=True)
+class Stage:
+    """A part of the evaluation: its name, whether the input needs it, and why or why not."""
+
+    stage: str
+    active: bool
+    why: str
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Plan:
+    """The stages in the order in which they are evaluated.
+
+    Attributes:
+        stages: floor, normal law, smoothing, unloading, suction, friction, lateral, trench, assembly.
+        history: whether a step's result depends on the steps before it.
+    """
+
+    stages: tuple[Stage, ...]
+    history: bool
+
+    @property
+    def steps(self) -> str:
+        """How time steps are taken."""
+        return "one step after the other" if self.history else "all steps at once"
+
+    def __repr__(self) -> str:
+        left_out = ", ".join(stage.stage for stage in self.stages if not stage.active)
+        return outline(
+            "Plan",
+            ", ".join(stage.stage for stage in self.stages if stage.active),
+            f"without {left_out}" if left_out else "",
+            self.steps,
+        )
+
+    def __iter__(self) -> Iterator[Stage]:
+        return iter(self.stages)
+
+    def __getitem__(self, name: str) -> Stage:
+        """Return the stage of this name; UnknownNameError, a KeyError, when there is none."""
+        for stage in self.stages:
+            if stage.stage == name:
+                return stage
+        raise UnknownNameError.among("stage", name, [stage.stage for stage in self.stages])
+
+    def __str__(self) -> str:
+        lines = [f"{stage.stage:<10} {'yes' if stage.active else 'no':<3} {stage.why}" for stage in self.stages]
+        return "\n".join([*lines, f"{'history':<10} {'yes' if self.history else 'no':<3} {self.steps}"])
+
+
+def make_plan(given: ContactInput, tables: Tables, choice: BackendChoice) -> Plan:
+    """Return the stages that an input needs and those it does not."""
+    forces = bool(tables.normal or tables.nodal or _beside(given, "suction"))
+    stages = (
+        Stage("floor", active=True, why=_seabed(given)),
+        Stage("normal law", bool(tables.normal or tables.nodal), _normal_law(given, tables, choice)),
+        Stage("smoothing", *_smoothing(tables)),
+        _stage(given, "unloading", "no element has an unloading stiffness"),
+        _stage(given, "suction", "no element has a suction law"),
+        _stage(given, "friction", "no node has a friction law"),
+        _stage(given, "lateral", "no element has a lateral spring"),
+        _trench(given, tables),
+        Stage("assembly", forces, _ASSEMBLED if forces else "there are no forces to assemble"),
+    )
+    return Plan(tuple(_with_reason(stage, given.left_out.get(stage.stage)) for stage in stages), tables.history)
+
+
+_ASSEMBLED = "half of each element's force to each of its nodes, along the normal of the seabed"
+
+
+def _with_reason(stage: Stage, left_out: str | None) -> Stage:
+    if left_out is None:
+        return stage
+    return Stage(stage.stage, stage.active, f"{stage.why}; {left_out}" if stage.active else left_out)
+
+
+def _seabed(given: ContactInput) -> str:
+    if given.seabed is None:
+        return "one flat seabed at X = 0"
+    held = "" if given.seabed.faceted else "; tangents hold the normal"
+    return given.seabed.describe() + held
+
+
+def _normal_law(given: ContactInput, tables: Tables, choice: BackendChoice) -> str:
+    parts = []
+    curves = [rows for rows in tables.normal if rows.curve >= 0]
+    if curves:
+        cut = ", pulling forces cut to 0" if given.tension == "cut" else ""
+        elements = counted(sum(len(rows.rows) for rows in curves), "element")
+        parts.append(f"{elements} on {counted(len(curves), 'force-embedment curve')}{cut}")
+    linear = sum(len(rows.rows) for rows in tables.normal if rows.law.name in {"linear", "smoothed"})
+    if linear:
+        parts.append(f"{counted(linear, 'element')} with a linear stiffness")
+    parts += [
+        f"{counted(len(rows.rows), 'element')} with the law {rows.law.name!r}: {rows.law.summary}"
+        for rows in tables.normal
+        if rows.curve < 0 and rows.law.name not in {"linear", "smoothed"}
+    ]
+    for rows in tables.nodal:
+        own = "its" if len(rows.rows) == 1 else "their"
+        what = f"a stiffness of {own} own" if rows.law.name == "nodal" else f"the law {rows.law.name!r}"
+        parts.append(f"{counted(len(rows.rows), 'node')} with {what}")
+    parts += _beside(given, "normal law")
+    if not parts:
+        parts.append("no element has a curve or a linear stiffness")
+    if "rigid" in given.assigned:
+        rigid = len(given.assigned["rigid"].rows)
+        parts.append(f"{counted(rigid, 'element')} on a rigid seabed: a constraint, listed as restrained nodes")
+    if none := int((given.law == LawKind.NONE).sum()):
+        parts.append(f"{counted(none, 'element')} without a law")
+    if choice.uncovered:
+        parts.append(f"evaluated with numpy: {choice.uncovered}")
+    return "; ".join(parts)
+
+
+def _smoothing(tables: Tables) -> tuple[bool, str]:
+    widths: list[FloatArray] = [
+        rows.columns[1] for rows in (*tables.normal, *tables.nodal) if rows.law.name in {"smoothed", "nodal"}
+    ]
+    smooth = sum(int((width > 0.0).sum()) for width in widths)
+    if smooth:
+        return True, f"a quadratic zone about the mudline for {smooth} of the linear laws"
+    return False, "no linear law has a quadratic zone"
+
+
+def _beside(given: ContactInput, stage: str) -> list[str]:
+    """What the plan says of each law of a stage beside the normal ones, those without a force left out."""
+    found = (given.assigned[name] for name in known_laws() if name in given.assigned)
+    return [law.planned for law in found if law.law.stage == stage and law.law.plan is not None]
+
+
+def _stage(given: ContactInput, stage: str, otherwise: str) -> Stage:
+    parts = _beside(given, stage)
+    return Stage(stage, bool(parts), "; ".join(parts) or otherwise)
+
+
+def _trench(given: ContactInput, tables: Tables) -> Stage:
+    stage = _stage(given, "trench", "no node lies in a trench")
+    if not stage.active:
+        return stage
+    if tables.trench is None and tables.level is None:
+        return replace(
+            stage, active=False, why="a trench adds to the limits of friction, and no node has a friction law"
+        )
+    return stage if tables.level else replace(stage, why=f"{stage.why}; the seabed is not lowered")
+
+
+Backend = Literal["auto", "numpy", "fast"]
+
+MOST_PARAMETERS = 9
+"""Parameters of a normal law with an equation up to which there are compiled loops for it."""
+_WORTH_COMPILING, _WORTH_COMPILING_PLAIN = 5_000_000, 50_000_000
+"""Nodes times steps from which on compiled loops are worth loading, and at the first time compiling: where a law has a
+history, and where none has, which numpy does nearly as fast."""
+
+
+class BackendChoice:
+    """How a model evaluates its series.
+
+    Attributes:
+        threads: largest number of threads of compiled loops.
+        uncovered: why there are no compiled loops for the laws; empty where there are.
+    """
+
+    def __init__(self, backend: Backend, threads: int | None, tables: Tables) -> None:
+        expect_word(backend, "backend", ("auto", "numpy", "fast"), "auto, numpy or fast")
+        if backend == "fast":
+            import_module("numba")
+        expect(threads, "threads", (int, NoneType), "a whole number")
+        if threads is not None and threads < 1:
+            raise ValueError(f"threads must be 1 or more, not {threads}")
+        self._backend, self._nodes = backend, len(tables.given.node_ids)
+        self._worth = _WORTH_COMPILING if tables.history else _WORTH_COMPILING_PLAIN
+        processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+        self.threads = threads or processors or 1
+        rich = [rows.law for rows in (*tables.normal, *tables.nodal) if len(rows.columns) > MOST_PARAMETERS]
+        self.uncovered = f"the law {rich[0].name!r} has more than {MOST_PARAMETERS} parameters" if rich else ""
+
+    def compiles(self, steps: int) -> bool:
+        """Return whether a series of so many steps is for the compiled loops."""
+        if self._backend == "numpy" or self.uncovered:
+            return False
+        if self._backend == "fast":
+            return True
+        return steps * self._nodes >= self._worth and find_spec("numba") is not None

@@ -1,0 +1,399 @@
+"""What an evaluation gives, and what is refused in it: who, at which step, and why."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields
+from importlib import import_module
+from operator import attrgetter
+from types import ModuleType, NoneType
+from typing import TYPE_CHECKING, Any, Literal, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mudline.basics.arguments import ArgumentRangeError, expect, several
+from mudline.basics.short_repr import counted, outline, short_repr
+from mudline.model.contact.arrays import BoolArray, FloatArray, IdArray, IndexArray, StateArray
+from mudline.model.contact.input import ContactInput, ElementError, PositionError
+from mudline.model.contact.tables import Tables
+
+if TYPE_CHECKING:  # each is imported when it is asked for
+    import pandas as pd
+    import pyarrow as pa
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+    from mudline.model.contact.lines import LineSummary
+
+TableName = Literal["elements", "nodes", "summary"]
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ContactResult:
+    """Arrays over elements (m) and nodes (n); over (steps, m) and (steps, n) for a series of positions.
+
+    NaN stands for "none": `ratio` and `slope` of an element without diameter, and everything of elements and nodes
+    without a position.
+
+    Attributes:
+        depth: mean distance of the element's two nodes below the seabed; negative above it.
+        ratio: embedment ratio, depth / diameter.
+        contact: depth > 0, or > -h in a centred zone.
+        force: normal force per unit length, positive pushing out of the seabed.
+        slope: d force / d ratio, per unit length.
+        stiffness: d force / d penetration, per unit length and length of penetration.
+        cut: where a pulling curve was cut; such an element is in contact with force, slope and stiffness 0.
+        gap: distance of the node above the seabed, along its normal.
+        normal: (..., n, 3) unit normal of the seabed at the node, out of the soil; may be a read-only view.
+        reaction: (..., n, 3) total force of the seabed on the node.
+        normal_force: the reaction along the normal, positive pushing out of the seabed.
+        state: (..., m) `SuctionState` of the elements, -1 without suction; None where no element has it.
+        regularised: (..., m) suction at a velocity below v_r, where the force is less than the power law gives; None
+            without suction.
+        friction: (..., n, 2) force of friction and lateral springs on the pipe along u1 and u2; None without any.
+        friction_state: (..., n, 2) `FrictionState` of the nodes; None without friction.
+        evaluated: (m,) elements whose two nodes have positions.
+        present: (n,) nodes that have a position.
+        rigid: (n,) nodes of elements on a rigid seabed, a constraint and no force; None where there are none.
+        given: nodes, elements, laws and names that were evaluated.
+        positions: (..., n, 3) what was evaluated, in any type of number; a series is the caller's own array.
+        times: (steps,) the times of a series, () of one of its steps; None where there are none.
+    """
+
+    depth: FloatArray
+    ratio: FloatArray
+    contact: BoolArray
+    force: FloatArray
+    slope: FloatArray
+    stiffness: FloatArray
+    cut: BoolArray
+    gap: FloatArray
+    normal: FloatArray
+    reaction: FloatArray
+    normal_force: FloatArray
+    evaluated: BoolArray
+    present: BoolArray
+    state: StateArray | None = None
+    regularised: BoolArray | None = None
+    friction: FloatArray | None = None
+    friction_state: StateArray | None = None
+    rigid: BoolArray | None = None
+    given: ContactInput | None = None
+    positions: NDArray[Any] | None = None
+    times: FloatArray | None = None
+
+    def __repr__(self) -> str:
+        optional = ("state", "regularised", "friction", "friction_state", "rigid")
+        present = ", ".join(name for name in optional if getattr(self, name) is not None)
+        shapes = f"elements {self.depth.shape}, nodes {self.gap.shape}"
+        return outline("ContactResult", shapes, f"with {present}" if present else "")
+
+    def _repr_html_(self) -> str:
+        """How large it is, and the touchdown of its lines at the first steps, for notebooks."""
+        found: str = _module("mudline.model.contact.frames").html(self)
+        return found
+
+    @property
+    def restrained(self) -> BoolArray | None:
+        """Nodes (..., n) that a rigid seabed restrains along their `normal`: its own, at the seabed or below it."""
+        return None if self.rigid is None else self.rigid & (self.gap <= 0.0)
+
+    def friction_state_of(self, side: int) -> StateArray:
+        """Return the states (..., n) along u1 (0) or u2 (1); -1 without friction."""
+        if _whole(side, "side") not in (0, 1):
+            raise ValueError(f"side must be 0 or 1, not {side!r}")
+        if self.friction_state is None:
+            return np.full(self.gap.shape, -1, np.int8)
+        return self.friction_state[..., side]
+
+    def step(self, index: int) -> ContactResult:
+        """Return one step of a series, as views; IndexError where it has no such step."""
+        return self._cut(_whole(index, "index"))
+
+    def to_dataframe(self, table: TableName = "elements") -> pd.DataFrame:
+        """Return the elements, nodes or lines ("summary") as a pandas frame, a row for each at each step.
+
+        Columns are those of result files; in front `time`, or `step` for a series without times. `attrs` has `units`,
+        the unit system, and `unit`, the unit of each column that has one. No value is NaN, NA or None.
+
+        Raises:
+            ImportError: pandas is not installed; the extra `frames` brings it.
+            ValueError: there is no such table, or the result does not know what was evaluated.
+        """
+        found: pd.DataFrame = _module("mudline.model.contact.frames").dataframe(self, table)
+        return found
+
+    def to_arrow(self, table: TableName = "elements") -> pa.Table:
+        """Return the elements, nodes or lines ("summary") as a pyarrow table with the columns of `to_dataframe`.
+
+        Each field has its `unit` as metadata, the table `mudline.format` and `mudline.units`; no value is null. Raises
+        what `to_dataframe` does, ImportError for want of pyarrow.
+        """
+        found: pa.Table = _module("mudline.model.contact.frames").arrow_table(self, table)
+        return found
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        """The elements for whatever takes Arrow streams: `polars.DataFrame(result)`, DuckDB, `pyarrow.table(result)`.
+
+        Raises what `to_arrow` does.
+        """
+        return self.to_arrow().__arrow_c_stream__(requested_schema)
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return all elements and nodes as an xarray data set with the dimensions `time`, `element` and `node`.
+
+        Variables are named as the arrays of NPZ files, `node_` before what elements have too; vectors have a dimension
+        `axis`. Numbers, sets, laws, lines and arc lengths are coordinates. The unit of each is its attribute `units`. A
+        single state has no `time`, except as a number where it is one of a series. Raises what `to_dataframe` does,
+        ImportError for want of xarray.
+        """
+        found: xr.Dataset = _module("mudline.model.contact.frames").dataset(self)
+        return found
+
+    @property
+    def known(self) -> ContactInput:
+        """What was evaluated.
+
+        Raises ValueError for a result that does not know it.
+        """
+        if self.given is None:
+            raise ValueError("the result does not know its nodes and elements: evaluate them with a ContactModel")
+        return self.given
+
+    def as_series(self) -> ContactResult:
+        """Return a single state as a series of one step, as views; a series as it is."""
+        return self if self.depth.ndim == 2 else self._each(lambda values: np.asarray(values)[None])
+
+    def steps(self, start: int, stop: int) -> ContactResult:
+        """Return the steps start <= step < stop of a series, as views."""
+        return self._cut(slice(_whole(start, "start"), _whole(stop, "stop")))
+
+    def plot(
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        elements: Sequence[int] = (),
+    ) -> Figure:
+        """Return a figure of the results, as `mudline evaluate --plot` draws it.
+
+        Args:
+            path: a file to write, .png, .svg or .pdf by its suffix.
+            elements: numbers of elements whose force over penetration is drawn.
+
+        Raises:
+            ValueError: the suffix or an element is unknown, or the results do not know what was evaluated.
+            OSError: the file cannot be written.
+            ImportError: matplotlib is not installed.
+        """
+        expect(path, "path", (str, os.PathLike, NoneType), "a path")
+        elements = several(elements, "elements", (int, np.integer), "several numbers of elements")
+        try:
+            plots = _module("mudline.model.results.plots")
+        except ImportError as error:
+            raise ImportError("a plot needs matplotlib: pip install 'mudline[plot]'") from error
+        found: Figure = plots.plot_result(self, path, elements=elements)
+        return found
+
+    def summary(self) -> list[LineSummary]:
+        """Return every line at each step: touchdown points, length in contact, largest forces, total reaction.
+
+        Raises ValueError for a result that does not know what was evaluated.
+        """
+        found: list[LineSummary] = _module("mudline.model.contact.touchdown").line_summaries(self)
+        return found
+
+    def _cut(self, key: int | slice) -> ContactResult:
+        if self.depth.ndim != 2:
+            raise ValueError("a single state has no steps")
+        if isinstance(key, int) and not -len(self.depth) <= key < len(self.depth):
+            raise ArgumentRangeError(f"index {key} is out of range: the series has {counted(len(self.depth), 'step')}")
+        return self._each(lambda values: values[key])
+
+    def _each(self, cut: Callable[[NDArray[Any]], NDArray[Any]]) -> ContactResult:
+        arrays: list[Any] = [None if values is None else cut(values) for values in _get_by_step(self)]
+        return ContactResult(**dict(zip((*_BY_STEP, *_OF_ALL_STEPS), (*arrays, *_get_rest(self)), strict=True)))
+
+
+def _whole(value: int, name: str) -> int:
+    expect(value, name, (int, np.integer), "a whole number")
+    return int(value)
+
+
+def _module(name: str) -> ModuleType:
+    """A module that knows results, and draws them or makes tables of them; results know it when it is asked for."""
+    return import_module(name)
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Part:
+    """Steps `start` and on of a series, with their results (steps, ...)."""
+
+    start: int
+    result: ContactResult
+
+    __repr__ = short_repr
+
+    @property
+    def count(self) -> int:
+        """Number of steps."""
+        return len(self.result.depth)
+
+    @property
+    def steps(self) -> slice:
+        """Where the steps stand among all steps."""
+        return slice(self.start, self.start + self.count)
+
+
+def total_normal_force(result: ContactResult, nodes: IndexArray | BoolArray) -> FloatArray:
+    """Return the total normal force (...) on some nodes; NaN where a rigid seabed may hold one of them.
+
+    Its force follows from the equilibrium of the line, which is not known here. Nodes without a position count 0.
+    """
+    if result.rigid is not None and result.rigid[nodes].any():
+        return np.full(result.gap.shape[:-1], np.nan)
+    return np.asarray(np.nansum(result.normal_force[..., nodes], axis=-1))
+
+
+_OF_ALL_STEPS = ("evaluated", "present", "rigid", "given")
+_BY_STEP = tuple(each.name for each in fields(ContactResult) if each.name not in _OF_ALL_STEPS)
+_get_by_step, _get_rest = attrgetter(*_BY_STEP), attrgetter(*_OF_ALL_STEPS)
+
+
+def blank_result(
+    positions: NDArray[Any],
+    present: BoolArray,
+    tables: Tables,
+    same_normal: FloatArray | None,
+    times: FloatArray | None,
+) -> ContactResult:
+    """Return the results of a series of positions (steps, n, 3), to be filled in.
+
+    Arrays for laws that are not there are left out. Where all points of the seabed share a normal, it is a view, and so
+    is `cut` where nothing is ever cut.
+    """
+    evaluated = present[tables.line.first] & present[tables.line.second]
+    on_elements, on_nodes = (len(positions), len(evaluated)), (len(positions), len(present))
+    slides = tables.friction is not None or tables.lateral is not None
+    cuts = tables.cuts and any(rows.curve >= 0 for rows in tables.normal)
+    return ContactResult(
+        depth=np.empty(on_elements),
+        ratio=np.empty(on_elements),
+        contact=np.empty(on_elements, np.bool_),
+        force=np.empty(on_elements),
+        slope=np.empty(on_elements),
+        stiffness=np.empty(on_elements),
+        cut=np.zeros(on_elements, np.bool_) if cuts else _repeated(np.zeros((), np.bool_), on_elements),
+        gap=np.empty(on_nodes),
+        normal=np.empty((*on_nodes, 3)) if same_normal is None else _repeated(same_normal, on_nodes),
+        reaction=np.empty((*on_nodes, 3)),
+        normal_force=np.empty(on_nodes),
+        evaluated=evaluated,
+        present=present,
+        state=None if tables.suction is None else np.full(on_elements, -1, np.int8),
+        regularised=None if tables.suction is None else np.zeros(on_elements, np.bool_),
+        friction=np.empty((*on_nodes, 2)) if slides else None,
+        friction_state=None if tables.friction is None else np.empty((*on_nodes, 2), np.int8),
+        rigid=tables.rigid,
+        given=tables.given,
+        positions=positions,
+        times=times,
+    )
+
+
+def _repeated(values: NDArray[Any], shape: tuple[int, int]) -> NDArray[Any]:
+    """The same values everywhere, as a view that may not be written; what np.broadcast_to does, sooner."""
+    found: NDArray[Any] = np.ndarray((*shape, *values.shape), values.dtype, values.data, 0, (0, 0, *values.strides))
+    found.setflags(write=False)
+    return found
+
+
+def is_finite(part: ContactResult, speed: FloatArray | None) -> bool:
+    """Whether nothing needs to be looked at: every value of a batch is finite.
+
+    A sum of finite values may overflow, and values are NaN where there is no position; then this is False too.
+    """
+    at_nodes = part.normal_force if part.friction is None and part.normal.strides[1] == 0 else part.reaction
+    every = [part.ratio, part.slope, part.stiffness, at_nodes, *([] if speed is None else [speed])]
+    return math.isfinite(sum(float(values.sum()) for values in every))
+
+
+def refuse(part: ContactResult, speed: FloatArray | None, first_step: int, tables: Tables) -> None:
+    """Raise for the first step of a batch with a value that must not be, if there is one.
+
+    Raises:
+        PositionError: the velocity or the distance of a node, or the reaction there, is not finite.
+        ElementError: the embedment, the force, its derivatives or the reaction of an element overflow, or its curve
+            pulls where suction acts too.
+    """
+    for step in range(len(part.depth)):
+        _refuse_step(part.step(step), None if speed is None else speed[step], first_step + step, tables)
+        refuse_pulling(part.steps(step, step + 1), first_step + step, tables)
+
+
+def _refuse_step(part: ContactResult, speed: FloatArray | None, step: int, tables: Tables) -> None:
+    given = tables.given
+    _refuse_node(np.isinf(part.gap), given.node_ids, step, "its distance to the seabed overflows")
+    if speed is not None:
+        here = ~np.isnan(part.gap)
+        _refuse_node(~np.isfinite(speed) & here, given.node_ids, step, "its velocity is not finite")
+    infinite = np.isinf(part.ratio) | np.isinf(part.depth)
+    _refuse_element(infinite, given.element_ids, step, "its embedment ratio overflows")
+    known = ~np.isnan(part.depth)
+    unbounded = ~np.isfinite(part.force) & known
+    if unbounded.any():
+        _refuse_force(part, int(np.argmax(unbounded)), step, tables)
+    for what, values in (("slope", part.slope), ("stiffness", part.stiffness)):
+        _refuse_element(np.isinf(values), given.element_ids, step, f"its {what} overflows")
+    loads = np.zeros(len(given.node_ids))
+    with np.errstate(all="ignore"):
+        load = np.where(known, part.force * tables.half, 0.0)
+        for end in (tables.line.first, tables.line.second):
+            np.add.at(loads, end, load)
+    at_node = ~(np.isfinite(loads[tables.line.first]) & np.isfinite(loads[tables.line.second]))
+    _refuse_element(at_node & known, given.element_ids, step, "the reaction at its nodes overflows")
+    wrong = ~np.isfinite(part.reaction).all(axis=-1) & part.present
+    _refuse_node(wrong, given.node_ids, step, "the reaction there overflows")
+
+
+def refuse_pulling(part: ContactResult, first_step: int, tables: Tables) -> None:
+    """Raise where the curve of an element with suction pulls, if it does.
+
+    Raises:
+        ElementError: it does so, and is neither cut nor without suction.
+    """
+    if tables.pulling is None:
+        return
+    elements = tables.pulling
+    pulls = part.contact[:, elements] & (part.force[:, elements] < 0.0)
+    if pulls.any():
+        step, column = np.argwhere(pulls)[0].tolist()
+        element, step = int(tables.given.element_ids[elements[column]]), first_step + step
+        what = "its curve pulls there, and suction acts on it too; cut the curve with tension cut, or correct it"
+        raise ElementError(f"element {element} at step {step}: {what}", element, step)
+
+
+def _refuse_force(part: ContactResult, element: int, step: int, tables: Tables) -> NoReturn:
+    number, why = int(tables.given.element_ids[element]), "its force overflows"
+    index = int(tables.given.curve_index[element])
+    if index >= 0 and part.contact[element]:
+        ratio, force, slope = part.ratio[element : element + 1], np.empty(1), np.empty(1)
+        with np.errstate(all="ignore"):
+            tables.given.curves[index].fill(ratio, force, slope)
+        if not math.isfinite(force[0]):
+            why = f"no force at ratio {float(ratio[0])!r}: the force there overflows"
+    raise ElementError(f"element {number} at step {step}: {why}", number, step)
+
+
+def _refuse_node(wrong: BoolArray, ids: IdArray, step: int, what: str) -> None:
+    if wrong.any():
+        node = int(ids[np.argmax(wrong)])
+        raise PositionError(f"node {node} at step {step}: {what}", node, step)
+
+
+def _refuse_element(wrong: BoolArray, ids: IdArray, step: int, what: str) -> None:
+    if wrong.any():
+        element = int(ids[np.argmax(wrong)])
+        raise ElementError(f"element {element} at step {step}: {what}", element, step)

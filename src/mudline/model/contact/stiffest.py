@@ -1,0 +1,223 @@
+"""The largest stiffness and the largest damping of each law on each element: what an explicit time step must resolve.
+
+Both are facts of the laws. Without positions they are the largest that a law can reach:
+
+* normal laws: the steepest slope at any penetration; unloading lines: their own stiffness, or the steepest slope of the
+  virgin path where that is steeper;
+* friction: the spring of a node that sticks; one with a mobilisation length has mu N / length under the static normal
+  force, the submerged weight of half of each of the node's elements;
+* breakout: the fall to the residual under that normal force, as an amount: it softens;
+* lateral springs and springs against uplift: their stiffness;
+* suction: F_max / (xc1 Delta_B) while it is mobilised, and dF_max/dv, both at the pull-out velocity that makes them
+  largest: with the exponents of Bridge et al. v_r for the stiffness and rest for the damping. Infinite where a law has
+  no largest value: without a regularisation, or with exponents that grow with the velocity.
+
+With positions they are those that occur there.
+"""
+
+from __future__ import annotations
+
+import math
+from decimal import ROUND_DOWN, Context
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from mudline.basics.short_repr import UnknownNameError, outline, short_repr
+from mudline.model.contact.arrays import FloatArray, IndexArray
+from mudline.model.contact.laws import Law, Reached, known_laws
+from mudline.model.contact.result import ContactResult
+from mudline.model.contact.tables import NormalRows, Tables, steepest_anywhere
+
+
+class LawStiffness(NamedTuple):
+    """One law on the elements (m,) of a model; NaN for elements without it, or where something is not known.
+
+    law: its name. stiffness: force per length, largest. damping: force per velocity, largest; 0 for laws without.
+    per: what both are for: a "length" of the element, or its stiffer "node".
+    at_nodes: stiffness of the nodes (n,), NaN for nodes without the law; None for laws of elements.
+    """
+
+    law: str
+    stiffness: FloatArray
+    damping: FloatArray
+    per: Literal["length", "node"]
+    at_nodes: FloatArray | None = None
+
+    def __repr__(self) -> str:
+        return short_repr(self)
+
+
+class Stiffest(NamedTuple):
+    """All laws of a model."""
+
+    laws: tuple[LawStiffness, ...]
+
+    def __repr__(self) -> str:
+        return outline("Stiffest", ", ".join(law.law for law in self.laws) or "no laws")
+
+    def __getitem__(self, law: str | int | slice) -> LawStiffness:  # type: ignore[override]
+        """Return a law by its name; UnknownNameError, a KeyError, when the model does not have it."""
+        for found in self.laws:
+            if found.law == law:
+                return found
+        raise UnknownNameError.among("law", law, [found.law for found in self.laws])
+
+    def per_length(self, tables_length: FloatArray) -> FloatArray:
+        """Return the largest stiffness (m,) of laws per unit length and of nodes over `tables_length` (m,)."""
+        columns = [law.stiffness / tables_length if law.per == "node" else law.stiffness for law in self.laws]
+        return np.fmax.reduce(columns) if columns else np.full(len(tables_length), np.nan)
+
+
+def stiffest(tables: Tables, result: ContactResult | None, speed: FloatArray | None) -> Stiffest:
+    """Return the largest stiffness and damping of each law.
+
+    `result` has the forces at some positions, and `speed` (..., n) the velocities along the normals there; None for the
+    largest values that the laws can reach.
+    """
+    found = []
+    with np.errstate(all="ignore"):
+        for name in dict.fromkeys(rows.law.name for rows in sorted(_normal_laws(tables), key=lambda rows: rows.curve)):
+            same = [rows for rows in _normal_laws(tables) if rows.law.name == name]
+            slopes = np.concatenate([_slope(tables, rows, result) for rows in same])
+            found.append(_of_law(tables, same[0].law, np.concatenate([rows.rows for rows in same]), slopes))
+        reached = _reached(tables, result, speed)
+        for name in known_laws():
+            given = tables.given.assigned.get(name)
+            if given is not None and given.law.largest is not None:
+                own = reached.of_rows(given.rows, given.law.acts_on)
+                found.append(_of_law(tables, given.law, given.rows, *given.law.largest(own, given.parameters)))
+    return Stiffest(tuple(found))
+
+
+def _normal_laws(tables: Tables) -> list[NormalRows]:
+    return [*tables.normal, *tables.nodal]
+
+
+def _of_law(
+    tables: Tables, law: Law, rows: IndexArray, stiffness: FloatArray, damping: FloatArray | None = None
+) -> LawStiffness:
+    """A law of some rows; where these are nodes, an element has what the node with more of it has."""
+    ends, of_nodes = tables.given.element_nodes, law.acts_on == "nodes"
+    found = np.full((2, len(tables.given.node_ids) if of_nodes else len(ends)), np.nan)
+    found[0, rows] = stiffness
+    found[1, rows] = np.where(np.isnan(stiffness), np.nan, 0.0) if damping is None else damping
+    if not of_nodes:
+        return LawStiffness(law.name, found[0], found[1], "length")
+    of_elements = np.fmax(found[:, ends[:, 0]], found[:, ends[:, 1]])
+    return LawStiffness(law.name, of_elements[0], of_elements[1], "node", found[0])
+
+
+def _largest(values: FloatArray) -> FloatArray:
+    """The largest over all steps."""
+    return values if values.ndim == 1 else np.fmax.reduce(values, axis=0)
+
+
+def _slope(tables: Tables, rows: NormalRows, result: ContactResult | None) -> FloatArray:
+    """The largest stiffness (k,) of a normal law; at positions that of its own path, whatever else acts there."""
+    if result is None:
+        return steepest_anywhere(tables, rows)
+    at: FloatArray | float = 0.0
+    if rows.law.acts_on == "nodes":
+        z = 0.0 - result.gap[..., rows.rows]
+        touches = z > rows.law.onset(*rows.columns)
+    else:
+        z, at, touches = result.depth[..., rows.rows], tables.diameter[rows.rows], result.contact[..., rows.rows]
+    if rows.curve >= 0:
+        slope = tables.given.curves[rows.curve].evaluate(np.nan_to_num(z / at))[1] / at
+    elif rows.path >= 0:  # that of turning round there, whatever came before
+        slope = rows.steepest(z, at, *rows.columns)
+    else:
+        slope = rows.reaction(z, at, *rows.columns)[1]
+    return _largest(np.where(touches, slope, 0.0))
+
+
+def _reached(tables: Tables, result: ContactResult | None, speed: FloatArray | None) -> Reached:
+    """What all elements and nodes come to."""
+    virgin, ends = np.zeros(len(tables.half)), tables.given.element_nodes
+    for rows in tables.normal:
+        virgin[rows.rows] = steepest_anywhere(tables, rows)
+    pull_out = None if speed is None else np.maximum(0.5 * speed[..., ends[:, 0]] + 0.5 * speed[..., ends[:, 1]], 0.0)
+    lateral = np.zeros(len(tables.given.node_ids)) if tables.friction is None else tables.friction.coefficients[:, 1]
+    return Reached(virgin, pull_out, _pressing(tables, result), lateral, walls=tables.trench is not None)
+
+
+def _pressing(tables: Tables, result: ContactResult | None) -> FloatArray:
+    """The largest normal force (n,) of each node, the static one where no positions are given."""
+    return static_normal_force(tables) if result is None else np.fmax(_largest(result.normal_force), 0.0)
+
+
+def static_normal_force(tables: Tables) -> FloatArray:
+    """Return the normal force (n,) of each node under the submerged weight; NaN where that is unknown or not > 0."""
+    weight, total = tables.given.weight, np.zeros(len(tables.given.node_ids))
+    if weight is None:
+        return np.full(len(total), np.nan)
+    carried = np.where(weight > 0.0, weight, np.nan) * tables.half
+    for end in tables.given.element_nodes.T:
+        np.add.at(total, end, carried)
+    return total
+
+
+_THREE_DIGITS = Context(prec=3, rounding=ROUND_DOWN)
+
+CRITICAL_OMEGA_DT = {
+    "central-difference": 2.0,
+    "velocity-verlet": 2.0,
+    "rk4": 2.0 * math.sqrt(2.0),
+    "rk2": 0.0,
+    "forward-euler": 0.0,
+}
+"""Largest omega dt at which an undamped oscillator does not grow; 0 where it grows at every step.
+
+Implicit schemes that are not here have no such limit on linear systems, which says nothing of contact that opens.
+"""
+
+ADVISED_OMEGA_DT = 0.5
+"""Up to here a landing gains up to 3 % of its speed, or loses 3.5 %, in the usual implicit schemes of second order."""
+
+
+def critical_step(scheme: str, frequency: float, rate: float = 0.0) -> float:
+    """Return the largest time step at which x'' = -omega^2 x - gamma x' does not grow under a scheme.
+
+    `frequency` is omega = sqrt(k / m), `rate` gamma = c / m of the damping c, both >= 0. Infinite without both, and
+    for schemes that are not explicit. The damping acts as the schemes see it:
+
+    * central difference, which sees the velocity of the half step before: (omega dt)^2 + 2 gamma dt < 4;
+    * velocity Verlet, which predicts it from the acceleration before the step: (omega dt)^2 + 4 gamma dt < 4;
+    * Runge-Kutta: |1 + z + ... + z^p / p!| <= 1 for the root z / dt of the equation with the larger amount.
+    """
+    if scheme not in CRITICAL_OMEGA_DT or not (frequency > 0.0 or rate > 0.0):
+        return math.inf
+    if scheme == "central-difference":
+        return 4.0 / (rate + math.hypot(rate, 2.0 * frequency))
+    if scheme == "velocity-verlet":
+        return 2.0 / (rate + math.hypot(rate, frequency))
+    half = 0.5 * rate
+    if half >= frequency:  # two real roots: this is the faster one
+        return _radius(_ORDERS[scheme], -1.0) / (half + math.sqrt((half - frequency) * (half + frequency)))
+    return _radius(_ORDERS[scheme], -half / frequency) / frequency
+
+
+_ORDERS = {"rk4": 4, "rk2": 2, "forward-euler": 1}
+_ROUNDING = 1e-14
+
+
+def _radius(order: int, cosine: float) -> float:
+    """How far the stability region of a Runge-Kutta scheme of order 1 to 4 reaches in a direction of the left half.
+
+    |R(z)|^2 - 1 on the ray z = r (cosine + i sine) is a polynomial in r without a constant.
+    """
+    direction = complex(cosine, math.sqrt(1.0 - cosine * cosine))
+    terms = np.array([direction**power / math.factorial(power) for power in range(order + 1)])
+    growth = np.convolve(terms, terms.conj()).real[1:]
+    growth[np.abs(growth) < _ROUNDING] = 0.0
+    lowest = growth[np.flatnonzero(growth)[0]]
+    if lowest > 0.0:
+        return 0.0
+    roots = np.roots(growth[::-1])
+    return float(roots.real[(np.abs(roots.imag) < 1e-6 * np.abs(roots)) & (roots.real > 0.0)].min())
+
+
+def rounded_down(step: float) -> float:
+    """Return a step > 0 with three digits that are not above it: who gives them keeps to the step."""
+    return float(_THREE_DIGITS.create_decimal_from_float(step))

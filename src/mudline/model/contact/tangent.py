@@ -1,0 +1,379 @@
+"""The tangent of the nodal reactions: one row and column for each of the 3 n coordinates, as sparse triples.
+
+    d R = A d x + B d v,   R reactions, x positions, v velocities, each (n, 3) in the order of its rows.
+
+Inside a facet of the seabed A is the exact derivative of the step with what it remembers held fixed; over a curved
+seabed the normal is held too. Friction makes A unsymmetric. B holds the velocity of the suction law.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from mudline.basics.short_repr import short_repr
+from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.model.contact.directions import Directions, directions_of, level, projected
+from mudline.model.contact.laws import Moving, PathLaw
+from mudline.model.contact.result import ContactResult
+from mudline.model.contact.tables import ContactState, Tables
+
+if TYPE_CHECKING:
+    from mudline.model.contact.laws.friction import ExtraLimit, FrictionForce, FrictionLaw
+
+
+class Triples(NamedTuple):
+    """A sparse matrix (size, size): `values` (k,) at `rows` and `columns` (k,); duplicate entries are added."""
+
+    rows: IndexArray
+    columns: IndexArray
+    values: FloatArray
+    size: int
+
+    def __repr__(self) -> str:
+        return short_repr(self)
+
+    def dense(self) -> FloatArray:
+        """Return the matrix as an array, for small ones."""
+        matrix = np.zeros((self.size, self.size))
+        np.add.at(matrix, (self.rows, self.columns), self.values)
+        return matrix
+
+
+class Tangent(NamedTuple):
+    """Derivatives of the reactions by positions, and by velocities."""
+
+    by_position: Triples
+    by_velocity: Triples
+
+    def __repr__(self) -> str:
+        return short_repr(self)
+
+
+class _Blocks:
+    """Collects 3 x 3 blocks d R_a / d x_b."""
+
+    def __init__(self, nodes: int) -> None:
+        self._size = 3 * nodes
+        self._rows: list[IndexArray] = []
+        self._columns: list[IndexArray] = []
+        self._values: list[FloatArray] = []
+
+    def add(self, at: IndexArray, by: IndexArray, blocks: FloatArray) -> None:
+        """Add blocks (k, 3, 3) of the nodes `at` (k,) by the nodes `by` (k,)."""
+        axes = np.arange(3)
+        shape = blocks.shape
+        self._rows.append(np.broadcast_to((3 * at[:, None] + axes)[:, :, None], shape).reshape(-1))
+        self._columns.append(np.broadcast_to((3 * by[:, None] + axes)[:, None, :], shape).reshape(-1))
+        self._values.append(blocks.reshape(-1))
+
+    def triples(self) -> Triples:
+        """Return all of them."""
+        nothing: IndexArray = np.zeros(0, dtype=np.intp)
+        return Triples(
+            np.concatenate([nothing, *self._rows]),
+            np.concatenate([nothing, *self._columns]),
+            np.concatenate([np.zeros(0), *self._values]),
+            self._size,
+        )
+
+
+class _Step(NamedTuple):
+    """What the parts of a tangent share.
+
+    points, normal: (n, 3). slope: (n, 3) gradient of the height above the seabed, `normal` outside of trenches.
+    ends: (m, 2) nodes of the elements. half: (m,) half lengths. before, after: the states.
+    """
+
+    tables: Tables
+    points: FloatArray
+    normal: FloatArray
+    slope: FloatArray
+    ends: IndexArray
+    half: FloatArray
+    result: ContactResult
+    before: ContactState
+    after: ContactState
+
+
+def assemble(
+    tables: Tables,
+    points: FloatArray,
+    speed: FloatArray | None,
+    result: ContactResult,
+    states: tuple[ContactState, ContactState],
+    *,
+    back: bool = False,
+) -> Tangent:
+    """Return the tangent of one step at `points` (n, 3) with velocities (n,) along the normals.
+
+    `states` are those before and behind the step, `result` what it gave. `back`: elements on a path turn round.
+    """
+    nodes = len(points)
+    normal = np.asarray(result.normal)
+    slope, laid = normal, points if states[0].laid is None else states[0].laid
+    if tables.level is not None:
+        slope = normal + level(tables, points, laid, normal).gradient
+    step = _Step(tables, points, normal, slope, tables.given.element_nodes, tables.half, result, *states)
+    stiffness, own = np.nan_to_num(_turned_round(step) if back else result.stiffness), _nodal_stiffness(step)
+    by_position, by_velocity = _Blocks(nodes), _Blocks(nodes)
+    _add_normal(step, (stiffness, own), step.slope, by_position)
+    damping, own_damping = np.zeros(len(stiffness)), np.zeros(nodes)
+    if speed is not None:
+        damping, own_damping = _damping(step, speed)
+        _add_normal(step, (damping, own_damping), normal, by_velocity)
+    if tables.lateral is not None:
+        _add_lateral(step, by_position)
+    if tables.friction is not None:
+        sliding = _friction_of(step)
+        closed = np.flatnonzero((result.friction_state_of(0) > 0) & (result.normal_force > 0.0))
+        axes = np.stack(sliding.directions.axes, axis=1)
+        push = np.einsum("nij,ni->nj", axes, sliding.friction.by_compression)
+        _add_springs(axes, sliding, closed, by_position)
+        _add_turning(step, sliding, closed, by_position)
+        _add_compression(step, push, closed, (stiffness, own), step.slope, by_position)
+        _add_compression(step, push, closed, (damping, own_damping), normal, by_velocity)
+    return Tangent(by_position.triples(), by_velocity.triples())
+
+
+_AWAY = 2.0**-40
+"""Share of the penetration of an increment: small for the stiffness, large for the rounding of forces."""
+
+
+def _turned_round(step: _Step) -> FloatArray:
+    """Stiffness (m,) of an increment against the one before, for elements whose force follows a path."""
+    found, paths = step.result.stiffness.copy(), step.after.paths
+    for rows in step.tables.normal:
+        law = rows.law
+        if paths is None or not isinstance(law, PathLaw):
+            continue
+        count = len(law.start)
+        now = tuple(paths[rows.path : rows.path + len(rows.rows), :count].T)
+        turns = law.begin(np.nextafter(now[0], np.inf), now)[2] != now[2]  # deeper is the other way
+        z = now[0] * np.where(turns, 1.0 + _AWAY, 1.0 - _AWAY)
+        turned = law.advance(z, step.tables.diameter[rows.rows], law.begin(z, now), rows.columns)[1]
+        found[rows.rows] = np.where(step.result.contact[rows.rows], turned, found[rows.rows])
+    return found
+
+
+def _nodal_stiffness(step: _Step) -> FloatArray:
+    """Stiffness (n,) of the springs of nodes."""
+    found = np.zeros(len(step.points))
+    for rows in step.tables.nodal:
+        z = 0.0 - step.result.gap[rows.rows]
+        slope = rows.reaction(z, 0.0, *rows.columns)[1]
+        found[rows.rows] = np.where(z > rows.law.onset(*rows.columns), slope, 0.0)
+    return found
+
+
+def _damping(step: _Step, speed: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Minus d force / d pull-out velocity of elements (m,) and of nodes (n,)."""
+    tables, depth = step.tables, step.result.depth
+    uplift = (0.0 if tables.onset is None else tables.onset) - depth
+    if tables.unloading is not None and step.after.unloading is not None:
+        uplift[tables.unloading.rows] = step.after.unloading.bottom - depth[tables.unloading.rows]
+    ends, states = step.ends, (step.before.suction, step.after.suction)
+    of_elements = depth, 0.5 * speed[ends[:, 0]] + 0.5 * speed[ends[:, 1]], uplift
+    of_nodes = 0.0 - step.result.gap, speed, step.result.gap
+    damping, own = np.zeros(len(depth)), np.zeros(len(speed))
+    for given in tables.given.assigned.values():
+        if given.law.damping is not None:
+            found, values = (own, of_nodes) if given.law.acts_on == "nodes" else (damping, of_elements)
+            z, v, height = (value[given.rows] for value in values)
+            found[given.rows] += given.law.damping(Moving(z, v, height, *states), given.parameters)
+    return damping, own
+
+
+def _add_normal(step: _Step, by_height: tuple[FloatArray, FloatArray], slope: FloatArray, blocks: _Blocks) -> None:
+    """Normal forces along fixed normals: by the height of the elements (m,), and of nodes (n,), which has a `slope`."""
+    stiffness, own = by_height
+    used = np.flatnonzero(stiffness)
+    share = -0.5 * step.half[used] * stiffness[used]
+    for at in step.ends[used].T:
+        for by in step.ends[used].T:
+            blocks.add(at, by, share[:, None, None] * _outer(step.normal[at], slope[by]))
+    nodes = np.flatnonzero(own)
+    blocks.add(nodes, nodes, -own[nodes, None, None] * _outer(step.normal[nodes], slope[nodes]))
+
+
+def _add_lateral(step: _Step, blocks: _Blocks) -> None:
+    """Lateral springs: along their direction, which turns with the element."""
+    lateral, before, after = step.tables.lateral, step.before.touchdown, step.after.touchdown
+    if lateral is None or before is None or after is None:
+        return
+    rows = np.flatnonzero(step.result.contact[lateral.rows])
+    new = np.isnan(before[rows, 0])
+    stiffness = np.where(new, 0.0, lateral.columns[0][rows])  # where it touches down there is no force yet
+    first, second = step.ends[lateral.rows[rows]].T
+    mean = step.normal[first] + step.normal[second]
+    mean = mean / _size(mean)[:, None]
+    span = step.points[second] - step.points[first]
+    across = np.cross(mean, projected(_unit(span)[0], mean))
+    arm = 0.5 * step.points[first] + 0.5 * step.points[second] - after[rows]
+    turn = _turning(span, mean)  # of n x t by the second end, minus that by the first
+    force = -stiffness * np.einsum("ki,ki->k", across, arm)
+    for by, sign in ((first, -1.0), (second, 1.0)):
+        by_place = 0.5 * across + sign * np.einsum("ki,kij->kj", arm, turn)
+        slope = (0.0 - stiffness)[:, None] * by_place
+        block = _outer(across, slope) + force[:, None, None] * sign * turn
+        for at in (first, second):
+            blocks.add(at, by, block)
+
+
+def _turning(span: FloatArray, normal: FloatArray) -> FloatArray:
+    """Derivative (k, 3, 3) by the end of `span` (k, 3) of the unit vector n x t, t the projection of the span."""
+    flat = span - np.einsum("ki,ki->k", span, normal)[:, None] * normal
+    along, size = _unit(flat)
+    # an element without direction takes one that does not turn
+    # d t = (I - t t - n n) d span / |flat|, and of it only n x t is left in the plane: n x (that) = -t (n x t . d span)
+    across = np.cross(normal, along)
+    return 0.0 - _outer(along, across) / np.where(size > 0.0, size, 1.0)[:, None, None]
+
+
+class _Sliding(NamedTuple):
+    """Friction of one step at nodes (n,).
+
+    directions: u1, u2 and how they turn. friction: its force along u1 and u2 with derivatives. extra: what trenches and
+    breakouts change of the lateral limit; None without them.
+    """
+
+    directions: Directions
+    friction: FrictionForce
+    extra: ExtraLimit | None
+
+
+def _friction_of(step: _Step) -> _Sliding:
+    from mudline.model.contact.laws.friction import slide  # noqa: PLC0415 - only now is it needed
+
+    tables, law, history = step.tables, step.tables.friction, step.before.friction
+    absent = np.isnan(step.result.gap)
+    places = np.where(absent[:, None], 0.0, step.points)
+    compression = np.where(absent, 0.0, step.result.normal_force)
+    directions = directions_of(tables, step.points, step.normal)
+    extra = None
+    if law is None or history is None:
+        raise TypeError("the state has no friction: it belongs to another model")
+    if tables.trench is not None:
+        from mudline.model.contact.trenches import added_limit  # noqa: PLC0415 - most friction has no trench
+
+        laid = step.points if step.before.laid is None else step.before.laid
+        trial = slide(law, history, places, directions.axes, compression).trial[:, 1]
+        pressed = np.maximum(compression, 0.0)
+        extra = added_limit(tables.trench, tables.laid_line(laid), places, directions.axes, pressed, trial > 0.0)
+    if tables.breakout is not None:
+        law, extra = _breaking_out(step, law, directions, places, compression, extra)
+        trial = slide(law, history, places, directions.axes, compression).trial[:, 1]
+        extra.outward[tables.breakout.rows] = np.sign(trial[tables.breakout.rows])
+    return _Sliding(directions, slide(law, history, places, directions.axes, compression, extra), extra)
+
+
+def _breaking_out(
+    step: _Step,
+    law: FrictionLaw,
+    directions: Directions,
+    places: FloatArray,
+    compression: FloatArray,
+    extra: ExtraLimit | None,
+) -> tuple[FrictionLaw, ExtraLimit]:
+    """What a breakout leaves of springs and limits, as less of a limit; embedments are held."""
+    from mudline.model.contact.laws.breakout import shares  # noqa: PLC0415 - most friction has no breakout
+    from mudline.model.contact.laws.friction import ExtraLimit  # noqa: PLC0415 - only now is it needed
+
+    rows = step.tables.breakout
+    if rows is None or step.before.breakout is None or step.after.breakout is None:
+        raise TypeError("the state has no breakout: it belongs to another model")
+    nodes, (first, second) = rows.rows, (axis[rows.rows] for axis in directions.axes)
+    extra = extra or ExtraLimit.none(len(places))
+    far, deep = step.after.breakout[3:]
+    share, fall, softer = shares(far, deep, rows.columns)
+    away = places[nodes] - step.after.breakout[:3].T
+    distance = (away * second).sum(axis=1)
+    grows = np.isfinite(distance) & (far > step.before.breakout[3])
+    coefficient = law.coefficients[nodes, 1]
+    pressed = coefficient * np.maximum(compression[nodes], 0.0)
+    extra.force[nodes], extra.by_normal_force[nodes] = pressed * (share - 1.0), coefficient * (share - 1.0)
+    extra.by_offset[nodes] = np.where(grows, 0.0 - pressed * fall * np.sign(distance), 0.0)
+    extra.gradient[nodes] = second
+    extra.by_angle[nodes] = np.where(grows, -(away * first).sum(axis=1), 0.0)
+    mobilisation = law.mobilisation.copy()
+    mobilisation[nodes, 1] /= softer
+    return replace(law, mobilisation=mobilisation), extra
+
+
+def _add_springs(axes: FloatArray, sliding: _Sliding, closed: IndexArray, blocks: _Blocks) -> None:
+    """Springs, and limits that follow the offset in a trench, along u1 and u2."""
+    along = np.einsum("nij,njk->nik", sliding.friction.by_position, axes)
+    if sliding.extra is not None:
+        along += sliding.friction.by_offset[:, :, None] * sliding.extra.gradient[:, None, :]
+    own = np.einsum("nij,nik->njk", axes, along)
+    blocks.add(closed, closed, own[closed])
+
+
+def _add_compression(
+    step: _Step,
+    push: FloatArray,
+    closed: IndexArray,
+    stiffness: tuple[FloatArray, FloatArray],
+    slope: FloatArray,
+    blocks: _Blocks,
+) -> None:
+    """The limits follow the normal force: `push` (n, 3) is d friction / d N."""
+    elements, own = stiffness
+    blocks.add(closed, closed, -own[closed, None, None] * _outer(push[closed], slope[closed]))
+    held = _marked(closed, len(own))
+    for at in step.ends.T:
+        used = np.flatnonzero((elements != 0.0) & held[at])
+        share = -0.5 * step.half[used] * elements[used]
+        for by in step.ends[used].T:
+            blocks.add(at[used], by, share[:, None, None] * _outer(push[at[used]], slope[by]))
+
+
+def _add_turning(step: _Step, sliding: _Sliding, closed: IndexArray, blocks: _Blocks) -> None:
+    """What changes as u1 and u2 follow the line: the directions of the forces, elongations and offsets.
+
+    A turn by an angle a about the normal makes d u1 = a u2, d u2 = -a u1.
+    """
+    first, second = sliding.directions.axes
+    by_angle = np.stack([sliding.friction.elongation[:, 1], 0.0 - sliding.friction.elongation[:, 0]], axis=1)
+    change = np.einsum("nij,nj->ni", sliding.friction.by_position, by_angle)
+    if sliding.extra is not None:
+        change += sliding.friction.by_offset * sliding.extra.by_angle[:, None]
+    turned = change[:, 0, None] * first + change[:, 1, None] * second
+    turned += sliding.friction.force[:, 0, None] * second - sliding.friction.force[:, 1, None] * first
+    held = _marked(closed, len(step.points)) & sliding.directions.follows
+    start, end = step.ends.T
+    span = step.points[end] - step.points[start]
+    unit, length = _unit(span)
+    size = sliding.directions.size
+    for side, at in enumerate((start, end)):
+        used = np.flatnonzero(held[at] & (length > 0.0) & (size[at] > 0.0))
+        node = at[used]
+        sideways = second[node] - np.einsum("ni,ni->n", second[node], unit[used])[:, None] * unit[used]
+        angle = sideways * (sliding.directions.senses[used, side] / (length[used] * size[node]))[:, None]
+        block = _outer(turned[node], angle)
+        blocks.add(node, end[used], block)
+        blocks.add(node, start[used], 0.0 - block)
+
+
+def _marked(rows: IndexArray, count: int) -> BoolArray:
+    found = np.zeros(count, np.bool_)
+    found[rows] = True
+    return found
+
+
+def _outer(one: FloatArray, other: FloatArray) -> FloatArray:
+    product: FloatArray = one[:, :, None] * other[:, None, :]
+    return product
+
+
+def _size(vectors: FloatArray) -> FloatArray:
+    size: FloatArray = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    return size
+
+
+def _unit(vectors: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Unit vectors, 0 for those without length, and the lengths (k,)."""
+    size = _size(vectors)
+    return np.divide(vectors, size[:, None], out=np.zeros_like(vectors), where=size[:, None] > 0.0), size

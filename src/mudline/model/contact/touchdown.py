@@ -1,0 +1,274 @@
+"""Touchdown of lines: where they meet the seabed, how much of them lies on it, and what carries them there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mudline.basics.quantities import LINES, finite
+from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.model.contact.columns import NO_ELEMENT, Column, Table, Values
+from mudline.model.contact.input import ContactInput, LawKind
+from mudline.model.contact.lines import ElementForce, LineSummary, TouchdownPoint
+from mudline.model.contact.result import ContactResult, Part, total_normal_force
+
+_NOWHERE = (math.nan, math.nan, math.nan)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Points:
+    """Touchdown points of a line: step, segment of the line, part of the segment, and whether contact lies behind."""
+
+    step: IndexArray
+    segment: IndexArray
+    part: FloatArray
+    after: BoolArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LineSeries:
+    """A line over some steps (s,); NaN and -1 stand for none.
+
+    Attributes:
+        number: of the line, from 0.
+        points: how many touchdown points each step has.
+        first, last: arc length of the first and the last of them.
+        contact_length, reaction, weight: as in `LineSummary`.
+        force, uplift: the largest push and the largest pull, an element's force per unit length with its sign; and
+            `force_at`, `uplift_at`: the indices of the elements.
+    """
+
+    number: int
+    points: IndexArray
+    first: FloatArray
+    last: FloatArray
+    contact_length: FloatArray
+    reaction: FloatArray
+    weight: FloatArray
+    force: FloatArray
+    force_at: IndexArray
+    uplift: FloatArray
+    uplift_at: IndexArray
+    found: _Points
+
+
+class Touchdown:
+    """Finds the touchdown of every line of an input."""
+
+    def __init__(self, given: ContactInput) -> None:
+        self.given = given
+        self.lines = given.lines
+        self._arcs = [self.lines.node_arcs(line, given.length) for line in range(len(self.lines.elements))]
+        self._own_nodes = [np.flatnonzero(self.lines.of_node == line) for line in range(len(self.lines.elements))]
+        self._carries = given.law != LawKind.NONE
+        with np.errstate(over="ignore", invalid="ignore"):
+            self._weights = None if given.weight is None else given.weight * given.length
+
+    def length(self, line: int) -> float:
+        """Length of a line; infinite where it overflows."""
+        return float(self._arcs[line][-1])
+
+    def series(self, part: Part) -> list[LineSeries]:
+        """Return what each line does over some steps; lines without an evaluated element are left out."""
+        result = part.result
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            return [
+                self._line(line, result)
+                for line, elements in enumerate(self.lines.elements)
+                if result.evaluated[elements].any()
+            ]
+
+    def _line(self, line: int, result: ContactResult) -> LineSeries:
+        elements, nodes = self.lines.elements[line], self.lines.nodes[line]
+        gap, arc = result.gap[:, nodes], self._arcs[line]
+        touches = gap < 0.0
+        if result.restrained is not None:
+            touches |= result.restrained[:, nodes]
+        known = ~np.isnan(gap)
+        between = known[:, :-1] & known[:, 1:]
+        changes = (touches[:, :-1] != touches[:, 1:]) & between
+        step, segment = np.nonzero(changes)
+        before, behind = gap[step, segment], gap[step, segment + 1]
+        portion = np.clip(before / (before - behind), 0.0, 1.0)
+        portion = np.where(np.isnan(portion), 0.5, portion)
+        points = _Points(step, segment, portion, touches[step, segment + 1])
+        steps = len(gap)
+        both = touches[:, :-1] & touches[:, 1:] & between
+        length = np.diff(arc)
+        lies = both @ length
+        np.add.at(lies, step, np.where(points.after, 1.0 - portion, portion) * length[segment])
+        at = arc[segment] + portion * length[segment]
+        first, last = np.full(steps, np.nan), np.full(steps, np.nan)
+        first[step[::-1]], last[step] = at[::-1], at
+        force = result.force[:, elements]
+        held = result.contact[:, elements] & self._carries[elements]
+        weight = np.full(steps, np.nan)
+        if self._weights is not None:
+            weight = np.where(held, self._weights[elements], 0.0).sum(axis=1)
+        own = self._own_nodes[line]
+        pushes, pulls = _extreme(force, elements, 1.0), _extreme(force, elements, -1.0)
+        counts = np.bincount(step, minlength=steps)
+        return LineSeries(
+            line,
+            counts,
+            first,
+            last,
+            lies,
+            total_normal_force(result, own),
+            weight,
+            *pushes,
+            *pulls,
+            points,
+        )
+
+    def places(self, one: LineSeries, result: ContactResult, row: IndexArray, there: BoolArray) -> FloatArray:
+        """Coordinates (s, 3) of a touchdown point of each step, by its row among the points; NaN for none."""
+        found = np.full((len(there), 3), np.nan)
+        if result.positions is None or not there.any():
+            return found
+        row, steps = row[there], np.flatnonzero(there)
+        segment, part = one.found.segment[row], one.found.part[row, np.newaxis]
+        nodes = self.lines.nodes[one.number]
+        begin, end = (np.asarray(result.positions[steps, nodes[segment + i]], np.float64) for i in (0, 1))
+        found[there] = begin + part * (end - begin)
+        return found
+
+    def summaries(self, part: Part, found: Sequence[LineSeries]) -> Iterator[LineSummary]:
+        """Yield every line at each of some steps, from its `series`: those of a step follow each other."""
+        ends = [np.searchsorted(one.found.step, np.arange(part.count + 1)).tolist() for one in found]
+        for step in range(part.count):
+            for one, cuts in zip(found, ends, strict=True):
+                with np.errstate(over="ignore", invalid="ignore"):
+                    row = self._summary(one, part.result, step, slice(cuts[step], cuts[step + 1]))
+                yield row
+
+    def _summary(self, one: LineSeries, result: ContactResult, step: int, cut: slice) -> LineSummary:
+        elements = self.lines.elements[one.number]
+        reaction, weight = float(one.reaction[step]), float(one.weight[step])
+        ids = self.given.element_ids
+        ratio = reaction / weight if weight > 0.0 else math.nan
+        return LineSummary(
+            time=None if result.times is None else float(result.times[step]),
+            line=one.number + 1,
+            first_element=int(ids[elements[0]]),
+            last_element=int(ids[elements[-1]]),
+            length=self.length(one.number),
+            touchdown=tuple(self._points(one, result, step, cut)),
+            contact_length=float(one.contact_length[step]),
+            largest_force=self._place(float(one.force[step]), int(one.force_at[step]), result, step),
+            largest_uplift=self._place(float(one.uplift[step]), int(one.uplift_at[step]), result, step),
+            reaction=finite(reaction),
+            submerged_weight=finite(weight),
+            ratio=finite(ratio),
+        )
+
+    def _points(self, one: LineSeries, result: ContactResult, step: int, cut: slice) -> Iterator[TouchdownPoint]:
+        nodes, arc, found = self.lines.nodes[one.number], self._arcs[one.number], one.found
+        for segment, part, after in zip(
+            found.segment[cut].tolist(), found.part[cut].tolist(), found.after[cut].tolist(), strict=True
+        ):
+            x, y, z = _NOWHERE
+            if result.positions is not None:
+                ends = np.asarray(result.positions[step, nodes[segment : segment + 2]], np.float64)
+                x, y, z = (ends[0] + part * (ends[1] - ends[0])).tolist()
+            at = float(arc[segment] + part * (arc[segment + 1] - arc[segment]))
+            yield TouchdownPoint(at, x, y, z, "after" if after else "before")
+
+    def _place(self, force: float, element: int, result: ContactResult, step: int) -> ElementForce | None:
+        if element < 0:
+            return None
+        x, y, z = _NOWHERE
+        if result.positions is not None:
+            ends = np.asarray(result.positions[step, self.given.element_nodes[element]], np.float64)
+            x, y, z = ends.mean(axis=0).tolist()
+        number, arc = int(self.given.element_ids[element]), float(self.lines.element_arc[element])
+        return ElementForce(force, number, arc, x, y, z)
+
+
+class LineTable(Table):
+    """The lines with an evaluated element."""
+
+    def __init__(self, given: ContactInput, elements: IndexArray) -> None:
+        lines = np.unique(given.lines.of_element[elements])
+        super().__init__(given, lines)
+        self.finder = Touchdown(given)
+        ids, along = given.element_ids, [given.lines.elements[line] for line in lines.tolist()]
+        self._fixed: dict[str, Values] = {
+            "line": lines + 1,
+            "first_element": np.array([ids[each[0]] for each in along], np.int64),
+            "last_element": np.array([ids[each[-1]] for each in along], np.int64),
+            "length": np.array([self.finder.length(line) for line in lines.tolist()], np.float64),
+        }
+
+    def columns(self, part: Part) -> list[Column]:
+        """Return the columns of `LINES`."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            found = [self._values(one, part.result) for one in self.finder.series(part)]
+        values = self._fixed | {
+            name: np.stack([each[name] for each in found], axis=1) if found else np.zeros((part.count, 0))
+            for name in LINES
+            if name not in self._fixed
+        }
+        return [
+            Column(
+                name,
+                values[name],
+                over_steps=quantity.over_steps,
+                blank=NO_ELEMENT if name.startswith("largest") and name.endswith("element") else None,
+                unit=quantity.unit_name(self.units),
+            )
+            for name, quantity in LINES.items()
+        ]
+
+    def facts(self) -> list[Column]:
+        """Return the columns that no step changes."""
+        return self._facts(LINES, self._fixed, {})
+
+    def _values(self, one: LineSeries, result: ContactResult) -> dict[str, Values]:
+        given, lines = self.finder.given, self.finder.lines
+        ids = np.append(given.element_ids, NO_ELEMENT)
+        arcs = np.append(lines.element_arc, np.nan)
+        found: dict[str, Values] = {
+            "touchdown_points": one.points,
+            "contact_length": one.contact_length,
+            "largest_force": one.force,
+            "largest_force_element": ids[one.force_at],
+            "largest_force_arc_length": arcs[one.force_at],
+            "largest_uplift": one.uplift,
+            "largest_uplift_element": ids[one.uplift_at],
+            "largest_uplift_arc_length": arcs[one.uplift_at],
+            "reaction": one.reaction,
+            "submerged_weight": one.weight,
+            "ratio": np.where(one.weight > 0.0, one.reaction / np.where(one.weight > 0.0, one.weight, 1.0), np.nan),
+        }
+        steps = np.arange(len(one.points))
+        starts = np.searchsorted(one.found.step, steps)
+        for name, arc, row in (
+            ("first_touchdown", one.first, starts),
+            ("last_touchdown", one.last, starts + one.points - 1),
+        ):
+            found[name] = arc
+            places = self.finder.places(one, result, row, one.points > 0)
+            found |= {f"{name}_{axis}": places[:, i] for i, axis in enumerate("xyz")}
+        return found
+
+
+def line_summaries(result: ContactResult) -> list[LineSummary]:
+    """Return every line of a result at each of its steps.
+
+    Raises ValueError for a result that does not know what was evaluated.
+    """
+    finder, part = Touchdown(result.known), Part(0, result.as_series())
+    return list(finder.summaries(part, finder.series(part)))
+
+
+def _extreme(force: FloatArray, elements: IndexArray, sign: float) -> tuple[FloatArray, IndexArray]:
+    """The force (steps,) that is largest in a direction, and the element; NaN and -1 where there is none."""
+    ranked = np.nan_to_num(force * sign, nan=-np.inf, neginf=-np.inf, posinf=np.inf)
+    column = ranked.argmax(axis=1)
+    found = ranked[np.arange(len(force)), column]
+    acts = found > 0.0
+    return np.where(acts, found * sign, np.nan), np.where(acts, elements[column], -1)

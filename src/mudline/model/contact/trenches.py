@@ -1,0 +1,429 @@
+"""Where nodes are in their trenches, and what these add to the lateral limits of friction; see `laws.trench`."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray, SmallIndexArray, StateArray, put_at
+from mudline.model.contact.input import AssignedLaw, ContactInput, ElementError
+from mudline.model.contact.laws.friction import ExtraLimit
+from mudline.model.contact.laws.trench import (
+    LEVEL,
+    PEAK,
+    TABLE,
+    WALL,
+    in_table,
+    lowered,
+    on_wall,
+    peak_share,
+    peak_slope,
+    share_of_piece,
+    table_row,
+    table_rows,
+    wall_coefficient,
+)
+from mudline.model.contact.line import Line
+from mudline.model.contact.vectors import LEAST_SQUARE
+
+_ENDS = ("start_y", "start_z", "end_y", "end_z")
+
+
+class TrenchRows(NamedTuple):
+    """What trenches add to the lateral limits of nodes, a row (k,) for each trench that a node lies in.
+
+    Attributes:
+        nodes: (k,) ascending.
+        start: (n + 1,) rows start[i] to start[i + 1] are those of node i.
+        kind: PEAK, WALL or TABLE.
+        inner, outer: half widths. steepness: 1 over half of their difference.
+        amount: peak force, coefficient of the normal force on the wall, or half length for a table.
+        table: which one, -1 for none.
+        line: row in `lines` of a straight centreline; -1 for the line as it was laid.
+        lines: (c, 4) place and direction (Y, Z) of each straight centreline.
+        tables: (rows, 2) offsets and resistances of each table.
+    """
+
+    nodes: IndexArray
+    start: IndexArray
+    kind: StateArray
+    inner: FloatArray
+    outer: FloatArray
+    steepness: FloatArray
+    amount: FloatArray
+    table: SmallIndexArray
+    line: SmallIndexArray
+    lines: FloatArray
+    tables: tuple[FloatArray, ...]
+
+    def some(self, rows: IndexArray | slice) -> TrenchRows:
+        """Return some rows, which have no starts."""
+        names = ("nodes", "kind", "inner", "outer", "steepness", "amount", "table", "line")
+        return self._replace(start=self.start[:0], **{name: getattr(self, name)[rows] for name in names})
+
+
+def trench_rows(given: ContactInput, friction: FloatArray, kinds: tuple[int, ...] = (PEAK, WALL, TABLE)) -> TrenchRows:
+    """The trenches of the nodes; `friction` (n,) are the lateral coefficients. LEVEL has depths as amounts.
+
+    Each end of an element counts with half of its length; equal trenches of the elements at a node are one row. A node
+    with a breakout, which is a limit of its own, has none.
+
+    Raises:
+        ValueError: the wall of a trench locks itself: mu2 tan(theta) >= 1.
+        ElementError: half of an element's length times the resistance overflows.
+    """
+    columns = [_of_law(given, kind, friction) for kind in kinds]
+    nodes, keys, ends, amounts = (np.concatenate(parts) for parts in zip(*columns, strict=True))
+    if "breakout" in given.assigned and LEVEL not in kinds:
+        held = ~np.isin(nodes, given.assigned["breakout"].rows)
+        nodes, keys, ends, amounts = nodes[held], keys[held], ends[held], amounts[held]
+    straight = ~np.isnan(ends[:, 0])
+    lines, line = _distinct(ends[straight])
+    of_line = np.full(len(ends), -1.0)
+    of_line[straight] = line
+    rows, at = _distinct(np.column_stack([nodes, keys, of_line]))
+    span = lines[:, 2:] - lines[:, :2]
+    with np.errstate(all="ignore"):
+        direction = span / np.hypot(span[:, 0], span[:, 1])[:, None]
+    node = rows[:, 0].astype(np.intp)
+    return TrenchRows(
+        node,
+        np.searchsorted(node, np.arange(len(given.node_ids) + 1)).astype(np.intp),
+        rows[:, 1].astype(np.int8),
+        rows[:, 2].copy(),
+        rows[:, 3].copy(),
+        2.0 / (rows[:, 3] - rows[:, 2]),
+        np.bincount(at, amounts, len(rows)).astype(np.float64),
+        rows[:, 4].astype(np.int32),
+        rows[:, 5].astype(np.int32),
+        np.ascontiguousarray(np.column_stack([lines[:, :2], direction])),
+        given.tables,
+    )
+
+
+def _distinct(table: FloatArray) -> tuple[FloatArray, IndexArray]:
+    """The distinct rows (n, k) in ascending order, and for each row of the table which of them it is.
+
+    As `np.unique` along an axis gives them, whose comparison of rows takes ten times as long.
+    """
+    order = np.lexsort(table.T[::-1])
+    ascending = table[order]
+    is_new = np.ones(len(table), dtype=bool)
+    is_new[1:] = (ascending[1:] != ascending[:-1]).any(axis=1)
+    which = np.empty(len(table), dtype=np.intp)
+    which[order] = np.cumsum(is_new) - 1
+    return ascending[is_new], which
+
+
+_NAMES = {PEAK: "trench peak", WALL: "trench wall", TABLE: "trench table", LEVEL: "trench level"}
+
+
+def _of_law(
+    given: ContactInput, kind: int, friction: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Of both ends (2 k,) of the elements with one law: nodes, keys, centrelines (2 k, 4) and amounts.
+
+    Keys (2 k, 4) are the kind, the half widths, and the table.
+    """
+    law = given.assigned.get(_NAMES[kind])
+    if law is None:
+        return np.empty(0), np.empty((0, 4)), np.empty((0, 4)), np.empty(0)
+    ends = given.element_nodes[law.rows]
+    half = 0.5 * given.length[law.rows]
+    table = law["table"] if kind == TABLE else np.full(len(law.rows), -1.0)
+    keys = np.column_stack([np.full(len(law.rows), float(kind)), 0.5 * law["bottom"], 0.5 * law["upper"], table])
+    lines = np.column_stack([law[name] for name in _ENDS])
+    amounts = []
+    for end in ends.T:
+        if kind == PEAK:
+            amounts.append(half * law["peak"])
+        elif kind == TABLE:
+            amounts.append(half)
+        else:
+            whole = law["depth"] if kind == LEVEL else _wall(given, law, end, friction)
+            amounts.append(whole * half / _lengths(given)[end])
+        if not np.isfinite(amounts[-1]).all():
+            element = int(given.element_ids[law.rows[np.flatnonzero(~np.isfinite(amounts[-1]))[0]]])
+            raise ElementError(f"element {element}: the resistance of its trench overflows", element)
+    nodes = ends.T.reshape(-1).astype(np.float64)
+    return nodes, np.concatenate([keys, keys]), np.concatenate([lines, lines]), np.concatenate(amounts)
+
+
+def _wall(given: ContactInput, law: AssignedLaw, nodes: IndexArray, friction: FloatArray) -> FloatArray:
+    """What the wall adds to the coefficient of friction at nodes (k,) of elements."""
+    added = wall_coefficient(law["depth"], law["bottom"], law["upper"], friction[nodes])
+    locked = np.flatnonzero(~(np.isfinite(added) & (added >= 0.0)))
+    if locked.size:
+        node = int(given.node_ids[nodes[locked[0]]])
+        raise ValueError(f"node {node} lies in a trench whose wall locks itself: mu2 tan(theta) is 1 or more")
+    return added
+
+
+def _lengths(given: ContactInput) -> FloatArray:
+    """Half of the lengths of the elements at each node; 1 where they have none."""
+    total = np.zeros(len(given.node_ids))
+    for end in given.element_nodes.T:
+        np.add.at(total, end, 0.5 * given.length)
+    return np.where(total > 0.0, total, 1.0)
+
+
+class _Pieces(NamedTuple):
+    """Straight pieces of a centreline: start and span (3, 1, k), 1 / length^2 (k,), and the shares of their ends.
+
+    A straight centreline is a piece with a span of length 1 in the plan that does not end.
+    """
+
+    start: FloatArray
+    span: FloatArray
+    inverse: FloatArray
+    first: FloatArray | float = 0.0
+    last: FloatArray | float = 1.0
+
+
+class Beside(NamedTuple):
+    """The two pieces beside each of some nodes (k,), their elements, and the shares at the ends away from the node.
+
+    These are NaN where there is nothing beyond. `straight` are the nodes with a straight centreline, `alone` those
+    without any piece.
+    """
+
+    pieces: tuple[_Pieces, _Pieces]
+    elements: tuple[IndexArray, IndexArray]
+    far: tuple[FloatArray, FloatArray]
+    straight: IndexArray
+    alone: IndexArray
+
+
+class Away(NamedTuple):
+    """Nodes (steps, k) beside a centreline.
+
+    vector: (3, steps, k) from the nearest point. element: that it is on, -1 for straight centrelines and nodes
+    without any. share: of the element.
+    """
+
+    vector: FloatArray
+    element: IndexArray
+    share: FloatArray
+
+
+class LaidCentreline:
+    """The line through the nodes as they were laid (n, 3): straight between the two nodes of an element.
+
+    A node looks for its nearest point from its own place along the line, so that a stretch of the line which happens to
+    pass nearby is not taken for its own trench. Elements with a node without a position (NaN) are no part of it.
+    """
+
+    def __init__(self, laid: FloatArray, line: Line) -> None:
+        known = ~np.isnan(laid[:, 0])
+        if not known.all():
+            line = Line(line.ends[known[line.ends].all(axis=1)], len(laid))
+        # a last piece, of no element and without length, for nodes that have none
+        self.ends, self.elements_at = np.append(line.ends, [[-1, -1]], axis=0), line.beside
+        axes = np.ascontiguousarray(laid.T)
+        start, end = line.at(axes, 0, len(line.ends))
+        span = end - start
+        with np.errstate(all="ignore"):
+            square = span[0] * span[0] + span[1] * span[1] + span[2] * span[2]
+            inverse = np.where(square > LEAST_SQUARE, 1.0 / square, 0.0)
+        pieces = np.pad(np.concatenate([start, span, inverse[None]]), ((0, 0), (0, 1)))
+        self.start, self.span, self.inverse = pieces[:3], pieces[3:6], pieces[6]
+        self._kept: dict[int, Beside] = {}
+
+    def beside(self, key: int, trench: TrenchRows) -> Beside:
+        """Return the pieces beside the nodes of some rows, kept by `key`."""
+        if key not in self._kept:
+            self._kept[key] = self.pieces_beside(trench)
+        return self._kept[key]
+
+    def pieces_beside(self, trench: TrenchRows) -> Beside:
+        """Return the pieces beside the nodes of some rows."""
+        nodes, straight = trench.nodes, trench.line >= 0
+        one, other = self.elements_at[nodes].T
+        alone = (one < 0) & ~straight
+        other = np.where(other < 0, one, other)
+        lines = trench.lines[np.maximum(trench.line, 0)] if len(trench.lines) else np.zeros((len(nodes), 4))
+        pieces, far = [], []
+        for element in (one, other):
+            piece, end = self._piece(element), np.where(self.ends[element, 1] == nodes, 0.0, 1.0)
+            far.append(np.where(straight | alone, np.nan, end))
+            pieces.append(_with_lines(piece, lines, straight) if straight.any() else piece)
+        rows = np.flatnonzero(straight), np.flatnonzero(alone)
+        return Beside((pieces[0], pieces[1]), (one, other), (far[0], far[1]), *rows)
+
+    def _piece(self, at: IndexArray) -> _Pieces:
+        return _Pieces(self.start.take(at, axis=1)[:, None], self.span.take(at, axis=1)[:, None], self.inverse[at])
+
+    def away(self, beside: Beside, points: FloatArray) -> Away:
+        """Return where `points` (3, steps, k) are from their nearest points of the centreline."""
+        share, away, square = _foot(points, beside.pieces[0])
+        second, other, distance = _foot(points, beside.pieces[1])
+        nearer = distance < square
+        share = np.where(nearer, second, share)
+        away = np.where(nearer, other, away)
+        element = np.where(nearer, beside.elements[1], beside.elements[0])
+        ends = share == np.where(nearer, beside.far[1], beside.far[0])
+        if ends.any():
+            self._walk(points, (share, away, np.where(nearer, distance, square), element), np.flatnonzero(ends))
+        if beside.straight.size:  # at the point's own elevation
+            put_at(away[0], beside.straight, 0.0)
+        if beside.alone.size:
+            away[..., beside.alone] = 0.0
+        return Away(away, element, share)
+
+    def _walk(
+        self,
+        points: FloatArray,
+        found: tuple[FloatArray, FloatArray, FloatArray, IndexArray],
+        held: IndexArray,
+    ) -> None:
+        """Go on beyond the ends of pieces that the nearest points stand on, as long as it gets nearer."""
+        shares, away, squares, elements = found
+        held = held[squares.flat[held] > 0.0]
+        while held.size:
+            share, current = shares.flat[held], elements.flat[held]
+            node = np.where(share <= 0.0, self.ends[current, 0], self.ends[current, 1])
+            one, other = self.elements_at[node].T
+            following = np.where(one == current, other, one)
+            following[(share > 0.0) & (share < 1.0)] = -1
+            held, following = held[following >= 0], following[following >= 0]
+            share, vectors, square = _foot(points.reshape(3, 1, -1)[..., held], self._piece(following))
+            nearer = square[0] < squares.flat[held]
+            held = held[nearer]
+            shares.flat[held], squares.flat[held] = share[0, nearer], square[0, nearer]
+            elements.flat[held] = following[nearer]
+            away.reshape(3, -1)[:, held] = vectors[:, 0, nearer]
+
+
+def _with_lines(piece: _Pieces, lines: FloatArray, straight: BoolArray) -> _Pieces:
+    """Straight centrelines in the place of the pieces of some nodes."""
+    places = np.pad(lines.reshape(-1, 2, 2), ((0, 0), (0, 0), (1, 0))).T[:, :, None]
+    start = np.where(straight, places[:, 0], piece.start)
+    span = np.where(straight, places[:, 1], piece.span)
+    ends = np.where(straight, -np.inf, 0.0), np.where(straight, np.inf, 1.0)
+    return _Pieces(start, span, np.where(straight, 1.0, piece.inverse), *ends)
+
+
+def _foot(points: FloatArray, piece: _Pieces) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Share (steps, k) of each piece, vector (3, steps, k) from its nearest point and the square of that."""
+    away = points - piece.start
+    share: FloatArray = share_of_piece((away[0], away[1], away[2]), tuple(piece.span), piece.inverse)
+    np.maximum(share, piece.first, out=share)
+    np.minimum(share, piece.last, out=share)
+    away -= share * piece.span
+    squares = away * away
+    return share, away, squares[0] + squares[1] + squares[2]
+
+
+def resistance(trench: TrenchRows, offset: FloatArray, normal_force: FloatArray) -> FloatArray:
+    """What each row (steps, k) adds to the lateral limit at its offset under a normal force."""
+    distance = np.abs(offset)
+    found = trench.amount * peak_share(distance, trench.inner, trench.outer, trench.steepness)
+    if not trench.kind.any():
+        return np.asarray(found)
+    walls = trench.kind == WALL
+    on = on_wall(distance, trench.inner, trench.outer)
+    found = np.where(walls, trench.amount * normal_force * on, found)
+    for index in np.unique(trench.table[trench.kind == TABLE]).tolist():
+        here = (trench.kind == TABLE) & (trench.table == index)
+        found[:, here] = trench.amount[here] * tabulated(trench.tables[index], distance[:, here])
+    return np.asarray(found)
+
+
+def tabulated(table: FloatArray, distance: FloatArray) -> FloatArray:
+    """Resistance per unit length of a table (rows, 2) at distances from the centreline."""
+    columns = table_rows(table)
+    row = table_row(columns, distance)
+    held = np.minimum(np.maximum(distance, columns[0][0]), columns[0][-1])
+    return np.asarray(in_table(held, *(column[row] for column in columns)))
+
+
+def slopes(trench: TrenchRows, offset: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Derivatives of `resistance` by the distance and by the normal force, (k,) each, for one step."""
+    distance = np.abs(offset)
+    kind, inner, outer, amount = trench.kind, trench.inner, trench.outer, trench.amount
+    by_distance = np.where(kind == PEAK, amount * peak_slope(distance, inner, outer), 0.0)
+    by_normal = np.where(kind == WALL, amount * on_wall(distance, inner, outer), 0.0)
+    for index in np.unique(trench.table[kind == TABLE]).tolist():
+        here: BoolArray = (kind == TABLE) & (trench.table == index)
+        columns = table_rows(trench.tables[index])
+        row = table_row(columns, distance[here])
+        bent = columns[2][row] + 2.0 * columns[3][row] * (np.minimum(distance[here], columns[0][-1]) - columns[0][row])
+        slope = np.where(distance[here] < columns[0][0], 0.0, bent)
+        by_distance[here] = amount[here] * slope
+    return by_distance, by_normal
+
+
+class Lowered(NamedTuple):
+    """By how much the seabed lies lower at nodes (n,), and the gradient (n, 3) of that with u2 held."""
+
+    depth: FloatArray
+    gradient: FloatArray
+
+
+def level_at(whole: TrenchRows, line: LaidCentreline, points: FloatArray, lateral: FloatArray) -> Lowered:
+    """Return the level of the seabed in trenches below nodes at `points` (n, 3) with u2 (n, 3)."""
+    found = Lowered(np.zeros(len(points)), np.zeros(points.shape))
+    for place in ranks(whole.nodes):
+        rows = whole.some(place)
+        at, beside = rows.nodes, line.pieces_beside(rows)
+        where = line.away(beside, points[at].T[:, None])
+        offset = (where.vector[:, 0].T * lateral[at]).sum(axis=1)
+        share, slope = lowered(np.abs(offset), rows.inner, rows.outer)
+        found.depth[at] += rows.amount * share
+        slope = rows.amount * slope * np.sign(offset)
+        found.gradient[at] += slope[:, None] * _offset_gradient(line, rows, beside, where, lateral[at])
+    return found
+
+
+def ranks(nodes: IndexArray) -> list[IndexArray]:
+    """Return rows of ascending nodes in groups that have each node once: the first of each node, the second, ..."""
+    rank = np.arange(len(nodes)) - np.searchsorted(nodes, nodes)
+    return [np.flatnonzero(rank == place) for place in range(int(rank.max(initial=-1)) + 1)]
+
+
+def added_limit(
+    whole: TrenchRows,
+    line: LaidCentreline,
+    points: FloatArray,
+    axes: tuple[FloatArray, FloatArray],
+    normal_force: FloatArray,
+    forward: BoolArray,
+) -> ExtraLimit:
+    """Return what trenches add at `points` (n, 3) on the side to which each node is pulled; `forward` (n,): along +u2.
+
+    `gradient` and `by_angle` are those of the force, whose derivative `by_offset` is 1.
+    """
+    count = len(points)
+    found = ExtraLimit.none(count)._replace(by_offset=np.ones(count), outward=np.where(forward, 1.0, -1.0))
+    for place in ranks(whole.nodes):
+        rows = whole.some(place)
+        at, beside = rows.nodes, line.pieces_beside(rows)
+        where = line.away(beside, points[at].T[:, None])
+        away, lateral = where.vector[:, 0].T, axes[1][at]
+        offset = (away * lateral).sum(axis=1)
+        side = np.where((offset > 0.0) == forward[at], 1.0, 0.0) * (offset != 0.0)
+        by_distance, by_normal = slopes(rows, offset)
+        found.force[at] += side * resistance(rows, offset[None], normal_force[at][None])[0]
+        found.by_normal_force[at] += side * by_normal
+        slope = side * by_distance * np.sign(offset)
+        found.gradient[at] += slope[:, None] * _offset_gradient(line, rows, beside, where, lateral)
+        found.by_angle[at] -= slope * (axes[0][at] * away).sum(axis=1)
+    return found
+
+
+def _offset_gradient(
+    line: LaidCentreline, rows: TrenchRows, beside: Beside, where: Away, lateral: FloatArray
+) -> FloatArray:
+    """Derivative (k, 3) of the offset along u2 by the position of a node: nothing along the piece it is beside."""
+    along = np.zeros(lateral.shape)
+    share, element = where.share[0], where.element[0]
+    inside = np.flatnonzero((rows.line < 0) & (share > 0.0) & (share < 1.0) & (element >= 0))
+    if inside.size:
+        span = line.span[:, element[inside]].T
+        along[inside] = span * np.sqrt(line.inverse[element[inside]])[:, None]
+    along[beside.straight, 1:] = rows.lines[rows.line[beside.straight], 2:]
+    gradient: FloatArray = lateral - (lateral * along).sum(axis=1)[:, None] * along
+    gradient[beside.straight, 0] = 0.0  # at the point's own elevation
+    gradient[beside.alone] = 0.0
+    return gradient

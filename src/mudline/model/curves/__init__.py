@@ -1,0 +1,278 @@
+"""Force-embedment curves: piecewise linear, with the end segments continued to infinity.
+
+curve = ForceCurve([(0.3, 4500.0), (0.0, 0.0), (0.1, 2000.0)])
+force, slope = curve.evaluate(0.2)
+
+The embedment ratio r is penetration / external diameter (dimensionless), the force f is per unit length, in whatever
+units the deck uses. With the points sorted by ratio and s_i = (F_(i+1) - F_i) / (r_(i+1) - r_i):
+
+* r_i <= r < r_(i+1):  f = F_i + s_i (r - r_i), slope s_i (at a point that of the segment to its right);
+* r < r_0:             the same with i = 0;
+* r >= r_n, the last:  f = F_n + s_(n-1) (r - r_n).
+
+The force is exact at every point and nothing is clamped.
+"""
+
+from __future__ import annotations
+
+from types import NoneType
+from typing import NoReturn
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mudline.basics.arguments import expect
+from mudline.basics.limits import SHOWN_ROWS
+from mudline.basics.short_repr import counted, cut
+from mudline.model.curves.points import (
+    CurveError,
+    FloatArray,
+    IndexArray,
+    checked_points,
+    difference_quotient,
+    read_only,
+    real_numbers,
+)
+from mudline.model.curves.search import BLOCK, blocks, passed
+
+__all__ = ["CurveError", "ForceCurve"]
+
+
+class ForceCurve:
+    """A force-embedment curve: force per unit length over embedment ratio. Immutable.
+
+    Attributes:
+        name: what the curve is called, or None.
+        ratios: (n,) embedment ratios, strictly ascending, read-only.
+        forces: (n,) forces per unit length at the ratios, read-only.
+        slopes: (n - 1,) d force / d ratio of each segment, read-only.
+    """
+
+    __slots__ = ("_tails", "forces", "name", "ratios", "slopes")
+
+    name: str | None
+    ratios: FloatArray
+    forces: FloatArray
+    slopes: FloatArray
+    _tails: FloatArray
+    """(n,) slopes to the right of the points."""
+
+    def __init__(self, points: ArrayLike, name: str | None = None) -> None:
+        """Sort and check `points`: pairs (ratio, force) in any order; a repeated pair counts once.
+
+        Raises:
+            CurveError: the points do not make a curve; its `code` and `index` say why and which.
+            ValueError: `points` are not pairs of real numbers.
+        """
+        expect(name, "name", (str, NoneType), "a str or None")
+        ratios, forces, slopes = (read_only(array) for array in checked_points(points))
+        fields = {
+            "name": name,
+            "ratios": ratios,
+            "forces": forces,
+            "slopes": slopes,
+            "_tails": read_only(np.concatenate((slopes, slopes[-1:]))),
+        }
+        for field, value in fields.items():
+            object.__setattr__(self, field, value)
+
+    def evaluate(
+        self, ratios: ArrayLike, *, out: tuple[FloatArray, FloatArray] | None = None
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return force and slope (d force / d ratio) at `ratios`, each of their shape.
+
+        `out=(force, slope)` receives the values in place: float64 arrays of the shape of `ratios`, which may be the
+        memory of `ratios` itself; after an error their content is undefined.
+
+        Raises:
+            ValueError: a ratio is NaN or infinite, or the force there overflows; or `ratios` are not real numbers, or
+                `out` does not fit.
+        """
+        query = real_numbers(ratios, "ratios")
+        force, slope = (np.empty(query.shape), np.empty(query.shape)) if out is None else _checked_out(out, query.shape)
+        # Where results overwrite the ratios, these are still needed to report what is wrong.
+        replaced = out is not None and any(np.may_share_memory(query, array) for array in out)
+        done = 0
+        with np.errstate(all="ignore"), blocks(query, force, slope) as pieces:
+            for block, block_force, block_slope in pieces:
+                ratio = block.copy() if replaced else block
+                if not self._fill(ratio, block_force, block_slope):
+                    bad = self._recompute_overflowed(ratio, block_force)
+                    if bad.size:
+                        _refuse(ratio, int(bad[0]), done)
+                done += len(ratio)
+        return force, slope
+
+    def fill(self, ratios: FloatArray, force: FloatArray, slope: FloatArray) -> None:
+        """Write force and slope at `ratios` (k,), for callers that check the force themselves.
+
+        Where a ratio is not finite or the force overflows, the force is not finite. All three arrays are float64 and
+        each in one piece of memory.
+        """
+        for start in range(0, len(ratios), BLOCK):
+            piece = slice(start, start + BLOCK)
+            if not self._fill(ratios[piece], force[piece], slope[piece]):
+                self._recompute_overflowed(ratios[piece], force[piece])
+
+    def _fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
+        """Write force and slope at each ratio of a block; return whether every force is finite."""
+        # below the first point the first segment goes on: what is passed is the point from which the force is computed
+        point = passed(self.ratios[1:], ratio)
+        offset = self.ratios.take(point)
+        np.subtract(ratio, offset, out=offset)
+        np.take(self._tails, point, out=slope, mode="clip")
+        np.multiply(offset, slope, out=offset)
+        np.take(self.forces, point, out=force, mode="clip")
+        np.add(force, offset, out=force)
+        return bool(np.isfinite(force).all())
+
+    def _recompute_overflowed(self, ratio: FloatArray, force: FloatArray) -> IndexArray:
+        """Compute again the forces that are not finite; return where they still are not.
+
+        Only an intermediate value may have overflowed: added in two halves the force may well be finite.
+        """
+        where = np.flatnonzero(~np.isfinite(force))
+        at = passed(self.ratios[1:], ratio[where])
+        half = self._tails[at] * (0.5 * ratio[where] - 0.5 * self.ratios[at])
+        force[where] = self.forces[at] + half + half
+        found: IndexArray = where[~np.isfinite(force[where])]
+        return found
+
+    def segment(self, ratios: ArrayLike) -> IndexArray:
+        """Return which segment applies at `ratios`, from 0: the first also below, the last also beyond the points.
+
+        Raises:
+            ValueError: a ratio is NaN or infinite.
+        """
+        query = real_numbers(ratios, "ratios")
+        found = np.empty(query.shape, np.intp)
+        done = 0
+        with np.errstate(all="ignore"), blocks(query, found) as pieces:
+            for ratio, block_found in pieces:
+                _refuse_infinite(ratio, done)
+                np.minimum(passed(self.ratios[1:], ratio), len(self.slopes) - 1, out=block_found)
+                done += len(ratio)
+        return found
+
+    def extrapolated(self, ratios: ArrayLike) -> NDArray[np.int8]:
+        """Return -1 where `ratios` lie below the first point, 1 beyond the last, 0 between them and at them.
+
+        Raises:
+            ValueError: a ratio is NaN or infinite.
+        """
+        query = real_numbers(ratios, "ratios")
+        found = np.empty(query.shape, np.int8)
+        done = 0
+        with np.errstate(all="ignore"), blocks(query, found) as pieces:
+            for ratio, block_found in pieces:
+                _refuse_infinite(ratio, done)
+                np.subtract(ratio > self.ratios[-1], ratio < self.ratios[0], out=block_found, dtype=np.int8)
+                done += len(ratio)
+        return found
+
+    def ratios_at_force(self, force: float) -> tuple[float, ...]:
+        """Return every ratio at which the curve, its continued ends included, has this force, ascending.
+
+        A flat stretch at this force is given by the points it joins. A ratio too large for a float64 is left out.
+        With the submerged weight per unit length as `force` these are the static embedments.
+
+        Raises:
+            ValueError: `force` is NaN or infinite.
+        """
+        if (shape := real_numbers(force, "force").shape) != ():
+            raise ValueError(f"force must be one number, not an array of shape {shape}")
+        if not np.isfinite(force):
+            raise ValueError(f"no ratio has the force {force}")
+        reached = self.ratios[self.forces == force]
+        found = {*reached.tolist(), *self._inside(force).tolist(), *self._beyond_ends(force)}
+        return tuple(sorted(found))
+
+    def _inside(self, force: float) -> FloatArray:
+        """The ratios of this force between points, each computed from the point that is nearer in force."""
+        low, high = self.forces[:-1], self.forces[1:]
+        segment = np.flatnonzero(((low < force) & (force < high)) | ((high < force) & (force < low)))
+        middle = 0.5 * low[segment] + 0.5 * high[segment]
+        near = segment + ((force > middle) == (high[segment] > low[segment]))
+        offset = difference_quotient(np.float64(force), self.forces[near], self.slopes[segment])
+        ratio: FloatArray = np.clip(self.ratios[near] + offset, self.ratios[segment], self.ratios[segment + 1])
+        return ratio
+
+    def _beyond_ends(self, force: float) -> list[float]:
+        """The ratios of this force below the first and beyond the last point."""
+        found = []
+        for end, outward in ((0, -1.0), (-1, 1.0)):
+            rise = outward * self.slopes[end]
+            if (rise > 0.0 and force > self.forces[end]) or (rise < 0.0 and force < self.forces[end]):
+                offset = difference_quotient(np.float64(force), self.forces[end], self.slopes[end])
+                with np.errstate(over="ignore"):
+                    ratio = self.ratios[end] + offset
+                if np.isfinite(ratio):
+                    found.append(float(ratio))
+        return found
+
+    def __setattr__(self, name: str, value: object) -> NoReturn:
+        raise AttributeError(f"a ForceCurve does not change: cannot set {name}")
+
+    def __delattr__(self, name: str) -> NoReturn:
+        raise AttributeError(f"a ForceCurve does not change: cannot delete {name}")
+
+    def __reduce__(self) -> tuple[type[ForceCurve], tuple[FloatArray, str | None]]:
+        return type(self), (np.column_stack((self.ratios, self.forces)), self.name)
+
+    def __eq__(self, other: object) -> bool:
+        """Same name and same points."""
+        if not isinstance(other, ForceCurve):
+            return NotImplemented
+        same_points = np.array_equal(self.ratios, other.ratios) and np.array_equal(self.forces, other.forces)
+        return self.name == other.name and same_points
+
+    def __hash__(self) -> int:
+        return hash((self.name, self.ratios.tobytes(), self.forces.tobytes()))
+
+    def __repr__(self) -> str:
+        count = len(self.ratios)
+        ends = [(float(self.ratios[end]), float(self.forces[end])) for end in (0, -1)]
+        shown = f"<{count} points from {ends[0]} to {ends[1]}>"
+        if count <= 8:
+            pairs = repr(list(zip(self.ratios.tolist(), self.forces.tolist(), strict=True)))
+            shown = pairs if len(pairs) <= 120 else shown
+        return f"ForceCurve({shown}, name={self.name if self.name is None else cut(self.name, 60)!r})"
+
+    def _repr_html_(self) -> str:
+        """The points with the slopes behind them, for notebooks."""
+        from mudline.basics.html_repr import html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
+
+        columns = (array[:SHOWN_ROWS].tolist() for array in (self.ratios, self.forces, np.append(self.slopes, np.nan)))
+        table = html_table(("ratio", "force", "slope"), zip(*columns, strict=True), len(self.ratios))
+        return html_page("ForceCurve", f"{self.name or ''} {counted(len(self.ratios), 'point')}".strip(), table)
+
+
+def _checked_out(out: tuple[FloatArray, FloatArray], shape: tuple[int, ...]) -> tuple[FloatArray, FloatArray]:
+    expect(out, "out", tuple, "two arrays (force, slope)")
+    if len(out) != 2:
+        raise ValueError(f"out must be two arrays (force, slope), not {len(out)}")
+    for array in out:
+        expect(array, "out", np.ndarray, "two arrays (force, slope)")
+        if not array.flags.writeable:
+            raise ValueError("out must be arrays that can be written")
+        if array.shape != shape or array.dtype != np.float64:
+            raise ValueError(f"out must be float64 of shape {shape}, not {array.dtype} of shape {array.shape}")
+    return out
+
+
+def _refuse_infinite(ratio: FloatArray, start: int) -> None:
+    """Check that ratios are finite, for queries that compute no force.
+
+    Raises:
+        ValueError: a ratio is NaN or infinite; `start` is the index of the first ratio in the query.
+    """
+    finite = np.isfinite(ratio)
+    if not finite.all():
+        _refuse(ratio, int(np.argmin(finite)), start)
+
+
+def _refuse(ratio: FloatArray, index: int, start: int) -> NoReturn:
+    """Raise the error of a ratio; `start` is the index of the first ratio in the query."""
+    value = float(ratio[index])
+    why = "the force there overflows" if np.isfinite(value) else "it is not finite"
+    raise ValueError(f"no force at ratio {value!r} (index {start + index}): {why}")

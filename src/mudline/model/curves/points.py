@@ -1,0 +1,179 @@
+"""Points of a curve: sorted and checked, with the slopes between them; the errors that curves raise."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import inf
+from typing import Any, NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mudline.basics.arguments import as_array
+
+FloatArray = NDArray[np.float64]
+IndexArray = NDArray[np.intp]
+
+Number = TypeVar("Number", bound=np.generic)
+
+
+def read_only(array: NDArray[Number]) -> NDArray[Number]:
+    """Return the array itself, from now on read-only."""
+    array.setflags(write=False)
+    return array
+
+
+def real_numbers(values: ArrayLike, what: str) -> NDArray[np.generic]:
+    """Return `values` as an array of booleans, integers or floats.
+
+    Raises:
+        ValueError: they are something else; `what` is what the message calls them.
+    """
+    array: NDArray[np.generic] = as_array(values, what)
+    if array.dtype.kind not in "biuf":
+        raise ValueError(f"{what} must be real numbers, not {array.dtype}")
+    return array
+
+
+class CurveError(ValueError):
+    """Points that do not make a curve.
+
+    Attributes:
+        code: rule code of the fault: `SYN002` (a number that is not finite), `CRV001` (fewer than two distinct
+            points), `CRV003` (two forces at one ratio), `CRV011` (a width or a slope that a float64 cannot hold).
+        index: the offending point in the order given, from 0; of two points the later one; -1 for the whole curve.
+    """
+
+    def __init__(self, code: str, index: int, message: str) -> None:
+        super().__init__(message)
+        self.code = code
+        self.index = index
+
+    def __reduce__(self) -> tuple[type[CurveError], tuple[str, int, str]]:
+        return type(self), (self.code, self.index, str(self))
+
+
+_NORMAL = float(np.finfo(np.float64).tiny)
+_SHORT = 64
+"""Points of a short curve."""
+
+
+class CurvePoints(NamedTuple):
+    """Sorted points without repeats, and the slopes between them.
+
+    ratios: (n,) strictly ascending, n >= 2; forces: (n,); slopes: (n - 1,). All finite; a slope is 0 or normal.
+    """
+
+    ratios: FloatArray
+    forces: FloatArray
+    slopes: FloatArray
+
+
+def checked_points(points: ArrayLike) -> CurvePoints:
+    """Sort and check `points`: pairs (ratio, force) in any order; a repeated pair counts once.
+
+    Raises:
+        CurveError: the points do not make a curve.
+        ValueError: they are not pairs of real numbers.
+    """
+    short = _short(points) if type(points) is np.ndarray else None
+    if short is not None:
+        return short
+    given = _pairs(points)
+    order = np.arange(len(given))
+    if np.count_nonzero(given[1:, 0] > given[:-1, 0]) < len(given) - 1:
+        order = given[:, 0].argsort(kind="stable")
+        order = order[_first_of_each_ratio(given, order)]
+    if len(order) < 2:
+        raise CurveError("CRV001", -1, f"a curve needs two distinct points or more, not {len(order)}")
+    ratios, forces = given[:, 0].take(order), given[:, 1].take(order)
+    return CurvePoints(ratios, forces, _slopes(ratios, forces, order))
+
+
+def _short(points: NDArray[Any]) -> CurvePoints | None:
+    """A short curve in order, as most are, number by number: calls of numpy take three times as long.
+
+    None for any other, and for points that make no curve.
+    """
+    if points.dtype != np.float64 or points.ndim != 2 or not 2 <= len(points) <= _SHORT or points.shape[1] != 2:
+        return None
+    pairs: list[tuple[float, float]] = points.tolist()
+    slopes: list[float] = []
+    for (before, lower), (ratio, upper) in pairwise(pairs):
+        width = ratio - before
+        slope = (upper - lower) / width if 0.0 < width < inf else 0.0
+        if not _NORMAL <= abs(slope) < inf:
+            return None
+        slopes.append(slope)
+    ratios, forces = ([pair[column] + 0.0 for pair in pairs] for column in (0, 1))
+    return CurvePoints(np.array(ratios), np.array(forces), np.array(slopes))
+
+
+def _pairs(points: ArrayLike) -> FloatArray:
+    """The points as an (n, 2) float64 array, every number finite, no negative zeros."""
+    given = real_numbers(points, "points")
+    if given.size == 0:
+        return np.empty((0, 2))
+    if given.ndim != 2 or given.shape[1] != 2:
+        raise ValueError(f"points must be pairs (ratio, force), not an array of shape {given.shape}")
+    with np.errstate(over="ignore"):
+        pairs = given.astype(np.float64) + 0.0
+    finite = np.isfinite(pairs)
+    if np.count_nonzero(finite) < finite.size:
+        index = int(finite.all(axis=1).argmin())
+        ratio, force = pairs[index].tolist()
+        raise CurveError("SYN002", index, f"point {index + 1} is not finite: ({ratio!r}, {force!r})")
+    return pairs
+
+
+def _first_of_each_ratio(given: FloatArray, order: IndexArray) -> NDArray[np.bool_]:
+    """Mask over the sorted points that drops repeats.
+
+    Raises:
+        CurveError: CRV003, one ratio with two forces.
+    """
+    ratios, forces = given[order, 0], given[order, 1]
+    repeats = ratios[1:] == ratios[:-1]
+    clashes = np.flatnonzero(repeats & (forces[1:] != forces[:-1]))
+    if clashes.size:
+        first, later = order[clashes[0]], order[clashes[0] + 1]
+        values = f"{given[first, 1].item()!r} (point {first + 1}) and {given[later, 1].item()!r} (point {later + 1})"
+        raise CurveError("CRV003", int(later), f"two forces at ratio {given[first, 0].item()!r}: {values}")
+    return np.concatenate((np.ones(min(len(order), 1), np.bool_), ~repeats))
+
+
+def _slopes(ratios: FloatArray, forces: FloatArray, order: IndexArray) -> FloatArray:
+    """Slope of each segment.
+
+    Raises:
+        CurveError: CRV011, a width or a slope overflows, or a slope is not zero but too small to be a normal number.
+    """
+    with np.errstate(all="ignore"):
+        widths = ratios[1:] - ratios[:-1]
+        plain = (forces[1:] - forces[:-1]) / widths
+    steepness = np.abs(plain)
+    if np.minimum.reduce(steepness) >= _NORMAL and np.maximum.reduce(steepness) < np.inf:
+        return plain  # as those of most curves
+    slopes = difference_quotient(forces[1:], forces[:-1], widths)
+    subnormal = (forces[1:] != forces[:-1]) & (np.abs(slopes) < _NORMAL)
+    sound = np.isfinite(widths) & np.isfinite(slopes) & ~subnormal
+    if np.count_nonzero(sound) < len(sound):
+        segment = int(sound.argmin())
+        ends = order[segment : segment + 2]
+        what = "width" if not np.isfinite(widths[segment]) else "slope"
+        fault = "is too small" if what == "slope" and subnormal[segment] else "is too large"
+        message = f"the {what} between points {ends[0] + 1} and {ends[1] + 1} {fault} for a float64"
+        raise CurveError("CRV011", int(ends.max()), message)
+    return slopes
+
+
+def difference_quotient(
+    upper: FloatArray | np.float64, lower: FloatArray | np.float64, divisor: FloatArray | np.float64
+) -> FloatArray:
+    """(upper - lower) / divisor, also where only the difference overflows."""
+    with np.errstate(all="ignore"):
+        plain = np.asarray((upper - lower) / divisor)
+        overflowed = np.isinf(plain)
+        if not np.count_nonzero(overflowed):
+            return plain
+        return np.where(overflowed, (0.5 * upper - 0.5 * lower) / divisor * 2.0, plain)

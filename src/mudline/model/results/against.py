@@ -1,0 +1,226 @@
+"""Element results of another program, from a CSV file, and how ours differ from them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mudline.model.contact.result import Part
+from mudline.model.results.evaluation import Evaluation
+from mudline.model.scene.csv_file import CsvTable, data_error, read_csv
+from mudline.model.scene.numbering import Floats, Ids, Indices
+
+COMPARED = ("force", "stiffness", "ratio")
+_NEAR = 1e-2
+"""Times are the same that are this close, as a part of the shortest step."""
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """Rows of a file that belong to elements of the deck, in the order of the steps.
+
+    `step` and `element` are indices (rows,), `values` columns (rows,) by name, NaN for an empty field. `unknown` are
+    elements that the deck lacks, `lost_times` times of the file at which nothing is evaluated, `missing_times` times
+    evaluated that the file lacks.
+    """
+
+    file: str
+    step: Indices
+    element: Indices
+    values: dict[str, Floats]
+    unknown: Ids
+    lost_times: Floats
+    missing_times: Floats
+
+
+def read_reference(path: Path, evaluation: Evaluation) -> Reference:
+    """`element` and any of `force`, `stiffness`, `ratio`, with `time` for steps; other columns are read past.
+
+    Raises OSError, or DeckError for a file with faults: numbers that are none, an element twice, times that do not
+    match those of the evaluation at all.
+    """
+    table = read_csv(path, ("element",), (), others=True)
+    names = [name for name in COMPARED if name in table.columns]
+    if not names:
+        raise data_error(table.file, f"the header has none of {', '.join(COMPARED)} to compare")
+    if not table.lines:
+        raise data_error(table.file, "no row below the header", 2)
+    ids = table.whole("element")
+    values = {name: table.numbers(name, optional=True) for name in names}
+    times = table.numbers("time") if "time" in table.columns else None
+    step = _steps(table, times, evaluation)
+    element = evaluation.scene.table.numbered.indices(ids)
+    used = np.flatnonzero((step >= 0) & (element >= 0))
+    used = used[np.lexsort((element[used], step[used]))]
+    _once(table, ids, step[used], element[used], used)
+    clock = evaluation.time if evaluation.time is not None else np.zeros(0)
+    return Reference(
+        table.file,
+        step[used],
+        element[used],
+        {name: column[used] for name, column in values.items()},
+        np.unique(ids[element < 0]),
+        np.unique(times[step < 0]) if times is not None else np.zeros(0),
+        clock[~np.isin(np.arange(len(clock)), step)],
+    )
+
+
+def _steps(table: CsvTable, times: Floats | None, evaluation: Evaluation) -> Indices:
+    """The step of each row, -1 where nothing is evaluated at its time."""
+    clock = evaluation.time
+    if times is None:
+        if evaluation.steps > 1:
+            raise data_error(table.file, f"no column time, to compare with {evaluation.steps} time steps")
+        return np.zeros(len(table.lines), dtype=np.intp)
+    if clock is None:
+        if len(np.unique(times)) > 1:
+            raise data_error(
+                table.file, "several times, to compare with one state: give --positions with the same times"
+            )
+        return np.zeros(len(table.lines), dtype=np.intp)
+    order = np.argsort(clock, kind="stable")
+    after = np.searchsorted(clock[order], times).clip(0, len(clock) - 1)
+    before = (after - 1).clip(0)
+    near = np.where(np.abs(clock[order][before] - times) < np.abs(clock[order][after] - times), before, after)
+    apart = np.diff(clock[order])
+    apart = apart[apart > 0.0]
+    allowed = _NEAR * float(apart.min()) if apart.size else _NEAR * max(1.0, float(np.abs(clock).max()))
+    found = np.where(np.abs(clock[order][near] - times) <= allowed, order[near], -1)
+    if (found < 0).all():
+        first, last = float(clock.min()), float(clock.max())
+        raise data_error(table.file, f"none of its times is evaluated: these are from {first!r} to {last!r}")
+    return found
+
+
+def _once(table: CsvTable, ids: Ids, step: Indices, element: Indices, used: Indices) -> None:
+    """An element has one row a step."""
+    again = np.flatnonzero((np.diff(step) == 0) & (np.diff(element) == 0))
+    if again.size:
+        row = int(max(used[again[0]], used[again[0] + 1]))
+        raise table.fault(
+            row,
+            "element",
+            f"element {ids[row]} is given twice"
+            + (f" at time {table.columns['time'][row]}" if "time" in table.columns else ""),
+        )
+
+
+@dataclass(slots=True)
+class Extreme:
+    """A largest difference: its value, and where it is."""
+
+    value: float = 0.0
+    element: int | None = None
+    time: float | None = None
+
+    def row(self, name: str) -> dict[str, Any] | None:
+        """As JSON holds it; None where nothing was compared."""
+        if self.element is None:
+            return None
+        return {name: self.value, "element": self.element, "time": self.time}
+
+
+@dataclass(slots=True)
+class Difference:
+    """What was found in a column: ours less theirs, and that over the larger magnitude of the two."""
+
+    column: str
+    compared: int = 0
+    absolute: Extreme = field(default_factory=Extreme)
+    relative: Extreme = field(default_factory=Extreme)
+    squares: float = 0.0
+
+    @property
+    def rms(self) -> float | None:
+        """Root of the mean square of the differences."""
+        return float(np.sqrt(self.squares / self.compared)) if self.compared else None
+
+    def row(self) -> dict[str, Any]:
+        """As JSON holds it."""
+        return {
+            "column": self.column,
+            "compared": self.compared,
+            "largest_difference": self.absolute.row("difference"),
+            "largest_relative": self.relative.row("relative"),
+            "rms": self.rms,
+        }
+
+
+class Comparison:
+    """Compares the steps of an evaluation with a file, as they come."""
+
+    def __init__(self, evaluation: Evaluation, reference: Reference) -> None:
+        self._evaluation, self.reference = evaluation, reference
+        self.differences = [Difference(name) for name in reference.values]
+        met = np.zeros(len(evaluation.scene.element_ids), dtype=bool)
+        met[reference.element] = True
+        self.missing = evaluation.scene.element_ids[evaluation.elements[~met[evaluation.elements]]]
+
+    @property
+    def timed(self) -> bool:
+        """Whether differences have a time."""
+        return self._evaluation.time is not None
+
+    def others(self, part: Part) -> list[tuple[str, Floats]]:
+        """Columns beside ours: the values of the file (steps, m), NaN where it has none."""
+        rows, step, element = self._rows(part)
+        shape = (part.count, len(self._evaluation.scene.element_ids))
+        columns = []
+        for name, theirs in self.reference.values.items():
+            values = np.full(shape, np.nan)
+            values[step, element] = theirs[rows]
+            columns.append((f"{name}_against", values))
+        return columns
+
+    def take(self, part: Part) -> None:
+        """Compare some steps."""
+        rows, step, element = self._rows(part)
+        for found, (name, theirs) in zip(self.differences, self.reference.values.items(), strict=True):
+            ours = getattr(part.result, name)[step, element]
+            self._compare(found, ours, theirs[rows], part.start + step, element)
+
+    def _rows(self, part: Part) -> tuple[slice, Indices, Indices]:
+        """The rows of the file for some steps, and where they belong."""
+        reference = self.reference
+        first, last = np.searchsorted(reference.step, [part.start, part.start + part.count]).tolist()
+        rows = slice(first, last)
+        return rows, reference.step[rows] - part.start, reference.element[rows]
+
+    def _compare(self, found: Difference, ours: Floats, theirs: Floats, step: Indices, element: Indices) -> None:
+        both = np.flatnonzero(~np.isnan(ours) & ~np.isnan(theirs))
+        if not both.size:
+            return
+        ours, theirs = ours[both], theirs[both]
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            difference = np.nan_to_num(ours - theirs)  # what overflows is as large as it can be
+            size = np.maximum(np.abs(ours), np.abs(theirs))
+            relative = np.where(size > 0.0, difference / size, 0.0)
+            found.squares = float(np.nan_to_num(found.squares + (difference * difference).sum()))
+        found.compared += int(both.size)
+        self._raise(found.absolute, difference, step[both], element[both])
+        self._raise(found.relative, relative, step[both], element[both])
+
+    def _raise(self, extreme: Extreme, values: NDArray[np.float64], step: Indices, element: Indices) -> None:
+        """Keep the largest magnitude, the first of them."""
+        largest = int(np.argmax(np.abs(values)))
+        if extreme.element is None or abs(values[largest]) > abs(extreme.value):
+            times = self._evaluation.time
+            extreme.value = float(values[largest]) + 0.0
+            extreme.element = int(self._evaluation.scene.element_ids[element[largest]])
+            extreme.time = None if times is None else float(times[step[largest]])
+
+    def summary(self) -> dict[str, Any]:
+        """What was compared, what was found, and what either side lacks."""
+        reference = self.reference
+        return {
+            "file": reference.file,
+            "columns": [found.row() for found in self.differences],
+            "elements_not_in_deck": reference.unknown.tolist(),
+            "elements_not_in_file": self.missing.tolist(),
+            "times_not_evaluated": reference.lost_times.tolist(),
+            "times_not_in_file": reference.missing_times.tolist(),
+        }

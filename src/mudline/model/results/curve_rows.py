@@ -1,0 +1,108 @@
+"""The curves of a deck by kind, as they are evaluated: points, slopes, values at ratios, static embedment."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from mudline.basics.quantities import finite
+from mudline.language.deck.parameters import folded
+from mudline.model.curves import ForceCurve
+from mudline.model.results.summary import CURVE_SIDES, followers
+from mudline.model.scene.deck_curves import OF_SEABED, other_curves
+from mudline.model.scene.force_curves import SceneCurve
+from mudline.model.scene.model import Scene
+
+
+def curve_rows(scene: Scene, ratios: tuple[float, ...], weight: float | None) -> list[dict[str, Any]]:
+    """Each usable curve with the keys of the contract; `static` only when a weight per unit length is given.
+
+    Raises ValueError for a ratio at which a force overflows, and for a ratio or a weight that is not finite.
+    """
+    seabed = [
+        _curve_row(entry.name, curve, diameters_on(scene, index), ratios, weight)
+        | {"kind": OF_SEABED, "keyword": _keyword(scene, entry), "axes": ["ratio", "force"]}
+        for index, entry, curve in used_curves(scene)
+    ]
+    others = [
+        _curve_row(one.name, made, [], ratios, None)
+        | {"kind": one.kind, "keyword": one.keyword, "axes": list(one.axes)}
+        for one in sorted(other_curves(scene.deck), key=lambda one: one.kind)
+        if (made := one.made())
+    ]
+    return seabed + others
+
+
+def curve_units(scene: Scene) -> dict[str, tuple[str, str]]:
+    """Return the dimensions of abscissa and ordinate, as `L` and `FL`, by kind of curve, but those of the seabed."""
+    return {one.kind: one.units for one in other_curves(scene.deck)}
+
+
+def _keyword(scene: Scene, entry: SceneCurve) -> str:
+    return scene.deck.sections[entry.where.section].blocks[entry.where.block].keyword
+
+
+def used_curves(scene: Scene) -> list[tuple[int, SceneCurve, ForceCurve]]:
+    """The curves that can be evaluated, with their indices."""
+    return [(index, entry, entry.curve) for index, entry in enumerate(scene.laws.curves) if entry.curve is not None]
+
+
+def diameters_on(scene: Scene, curve: int) -> list[float]:
+    """The different external diameters of the elements that follow a curve.
+
+    Where the deck does not show its elements, as those of `*LINES`, these are the diameters of the sections of the sets
+    that follow the curve, or of all sections, if none has the name of such a set.
+    """
+    follow = followers(scene, curve)
+    found = scene.diameter[follow]
+    if not follow.any() and scene.context.external_definers:
+        sets = {folded(grant.set_.name) for grant in scene.laws.set_laws if grant.curve == curve}
+        sections = scene.section_table.sections if sets else ()
+        of_sets = [section.diameter for section in sections if folded(section.name) in sets]
+        found = np.array(of_sets or [section.diameter for section in sections])
+    return [float(value) for value in np.unique(found[~np.isnan(found)])]
+
+
+def _curve_row(
+    name: str, curve: ForceCurve, sizes: list[float], ratios: tuple[float, ...], weight: float | None
+) -> dict[str, Any]:
+    points = np.column_stack([curve.ratios, curve.forces]).tolist()
+    slopes = curve.slopes.tolist()
+    row: dict[str, Any] = {
+        "name": name,
+        "points": points,
+        "segments": [{"from": points[i][0], "to": points[i + 1][0], "slope": slope} for i, slope in enumerate(slopes)],
+        "at": [_value_at(curve, ratio) for ratio in ratios],
+    }
+    if weight is not None:
+        row["static"] = [_static(curve, ratio, sizes) for ratio in curve.ratios_at_force(weight)]
+    return row
+
+
+def _value_at(curve: ForceCurve, ratio: float) -> dict[str, Any]:
+    """Force, slope, segment and whether the curve is extrapolated at a ratio."""
+    force, slope = curve.evaluate(ratio)
+    return {
+        "ratio": ratio,
+        "force": float(force),
+        "slope": float(slope),
+        "segment": int(curve.segment(ratio)),
+        "extrapolated": CURVE_SIDES[int(curve.extrapolated(ratio))],
+    }
+
+
+def _static(curve: ForceCurve, ratio: float, sizes: list[float]) -> dict[str, Any]:
+    """Static embedment: where the curve carries the weight; depth and stiffness there for each diameter.
+
+    It is stable where the force rises with the depth: where it falls, the pipe sinks on.
+    """
+    values = _value_at(curve, ratio)
+    slope = values["slope"]
+    return {
+        **values,
+        "stable": slope > 0.0,
+        "stiffness": [
+            {"diameter": size, "depth": finite(ratio * size), "stiffness": finite(slope / size)} for size in sizes
+        ],
+    }

@@ -1,0 +1,255 @@
+"""A scene evaluated at positions: the arrays of the evaluator beside the names of the deck."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Literal, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mudline.basics.short_repr import counted, cut, outline, short_repr
+from mudline.language.codes.lines import SYN009
+from mudline.model.contact import ContactModel, ElementError, PositionError
+from mudline.model.contact.columns import ElementTable, NodeTable, Others
+from mudline.model.contact.result import Part
+from mudline.model.contact.touchdown import LineTable, Touchdown
+from mudline.model.scene.deck_values import unread_makers
+from mudline.model.scene.mesh import distances
+from mudline.model.scene.model import Scene
+from mudline.model.scene.numbering import Floats, Indices, Mask
+from mudline.model.scene.positions import Positions, StepFile
+
+Tension = Literal["keep", "cut"]
+
+_HISTORY = "this deck has laws whose result depends on the steps before, which need times that rise"
+
+
+class ResultConsumer(Protocol):
+    """Takes the results of a few steps at a time."""
+
+    def take(self, part: Part) -> None:
+        """Take some steps."""
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """A scene that can be evaluated, its evaluator, and how many lengths come from the first positions."""
+
+    scene: Scene
+    model: ContactModel
+    lengths_from_positions: int
+
+    __repr__ = short_repr
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """A scene, its evaluator, and the positions (steps, n, 3) to evaluate; `present` (n,) nodes have one.
+
+    Nothing is evaluated before `parts` is asked for. `time` (steps,) is None for a single state without a time.
+    """
+
+    scene: Scene
+    model: ContactModel
+    positions: NDArray[np.floating] | StepFile
+    present: Mask
+    time: Floats | None = None
+    velocities: NDArray[np.floating] | None = None
+    lengths_from_positions: int = 0
+    own_positions: bool = False
+    """Whether the positions are the deck's own coordinates, which are not a solved shape."""
+
+    def __repr__(self) -> str:
+        elements, nodes = counted(len(self.elements), "element"), counted(len(self.nodes), "node")
+        size = f"{self.scene.units}, {counted(self.steps, 'step')}, {elements}, {nodes}"
+        return outline(f"Evaluation of {cut(self.scene.deck.file, 80)!r}", size)
+
+    @property
+    def steps(self) -> int:
+        """Number of steps; 1 for a single state."""
+        return len(self.positions)
+
+    @property
+    def length(self) -> Floats:
+        """Lengths (m,) as they were used; 0 for an element that has no spring and no finite length."""
+        return self.model.input.length
+
+    @cached_property
+    def elements(self) -> Indices:
+        """Indices of the elements that are evaluated: those with a position of both nodes."""
+        return np.flatnonzero(self.present[self.scene.element_nodes].all(axis=1))
+
+    @cached_property
+    def nodes(self) -> Indices:
+        """Indices of the nodes that have a position."""
+        return np.flatnonzero(self.present)
+
+    @cached_property
+    def lines(self) -> Indices:
+        """Indices of the lines with an evaluated element."""
+        return np.unique(self.model.input.lines.of_element[self.elements])
+
+    @property
+    def skipped(self) -> int:
+        """Elements without a position of both nodes."""
+        return len(self.scene.element_ids) - len(self.elements)
+
+    @cached_property
+    def touchdown(self) -> Touchdown:
+        """Finds the touchdown of the lines in the results of some steps."""
+        return Touchdown(self.model.input)
+
+    def element_table(self, others: Others | None = None) -> ElementTable:
+        """The rows of the elements that are evaluated, with further columns."""
+        return ElementTable(self.model.input, self.elements, others)
+
+    def node_table(self) -> NodeTable:
+        """The rows of the nodes that have a position."""
+        return NodeTable(self.model.input, self.nodes)
+
+    def line_table(self) -> LineTable:
+        """The rows of the lines: touchdown, largest forces, reaction and weight."""
+        return LineTable(self.model.input, self.elements)
+
+    def run(self, consumers: Iterable[ResultConsumer], done: Callable[[int], None] = lambda _: None) -> None:
+        """Evaluate all steps once and pass the results on; `done` is given the number of steps of each piece.
+
+        Raises what `parts` and the consumers do.
+        """
+        takers = list(consumers)
+        for part in self.parts():
+            for consumer in takers:
+                consumer.take(part)
+            done(part.count)
+
+    def parts(self) -> Iterator[Part]:
+        """Evaluate a few steps at a time; memory does not grow with the number of steps.
+
+        Raises DeckError: a position that is not finite, a value that overflows.
+        """
+        with as_deck_errors(self.scene):
+            for part in self.model.stream(
+                self.positions, present=self.present, velocities=self.velocities, times=self._clock
+            ):
+                yield self._timed(part)
+
+    @property
+    def _clock(self) -> Floats | None:
+        """The times of the steps, where a law asks for velocities."""
+        return self.time if self.model.input.needs_velocities else None
+
+    def _timed(self, part: Part) -> Part:
+        return part if self.time is None else Part(part.start, replace(part.result, times=self.time[part.steps]))
+
+
+def evaluate_scene(scene: Scene, positions: Positions | None = None, tension: Tension = "keep") -> Evaluation:
+    """A scene ready to be evaluated at its own coordinates or at positions from a file.
+
+    Raises DeckError: errors in the deck, elements without known nodes or coordinates, times that a law cannot use.
+    """
+    if positions is None:
+        _require_coordinates(scene.require_evaluable(tension))
+    ready = prepare(scene, positions, tension)
+    given = positions or Positions(scene.coordinates[np.newaxis], np.ones(len(scene.nodes), dtype=bool), None)
+    if ready.model.plan.history:
+        _require_clock(ready, given)
+    return Evaluation(
+        ready.scene,
+        ready.model,
+        given.values,
+        given.present,
+        given.time,
+        given.velocities,
+        ready.lengths_from_positions,
+        own_positions=positions is None,
+    )
+
+
+def prepare(scene: Scene, positions: Positions | None = None, tension: Tension = "keep") -> Prepared:
+    """Make the evaluator of a scene.
+
+    Raises DeckError: errors in the deck, elements without known nodes.
+    """
+    require_elements(scene.require_evaluable(tension))
+    complete, filled = _with_lengths(scene, positions)
+    with as_deck_errors(complete):
+        return Prepared(complete, complete.contact(tension), filled)
+
+
+@contextmanager
+def as_deck_errors(scene: Scene) -> Iterator[None]:
+    """Raise what the evaluator refuses as an error of the deck, at the line of the element or node."""
+    try:
+        yield
+    except ElementError as error:
+        raise scene.refusal(str(error), element=error.element) from error
+    except PositionError as error:
+        raise scene.refusal(str(error), node=error.node) from error
+
+
+def require_elements(scene: Scene) -> None:
+    """Raise DeckError for a scene without elements, or with some that end at nodes that are not known."""
+    definers = scene.set_table.context.external_definers
+    if not len(scene.element_ids):
+        hint = _maker_hint(definers, "ELEMENT") or _unknown_hint(scene)
+        raise scene.refusal(f"the deck has no elements to evaluate{hint}")
+    dangling = np.flatnonzero((scene.element_nodes < 0).any(axis=1))
+    if dangling.size:
+        count = f"{dangling.size} elements end" if dangling.size > 1 else "an element ends"
+        message = f"{count} at nodes that are not known{_maker_hint(definers, 'NODE')}"
+        raise scene.refusal(message, scene.table.numbered.where(int(dangling[0])))
+
+
+def _maker_hint(definers: Sequence[str], keyword: str) -> str:
+    makers = unread_makers(definers, keyword)
+    names = " or ".join(f"*{one}" for one in makers or definers[:1])
+    why = "may make them, and is not read" if makers else "is about lines that may make them"
+    return f": {names} {why}; give them to `mudline evaluate --elements`" if names else ""
+
+
+def _unknown_hint(scene: Scene) -> str:
+    """Where keywords are not known, those of the elements may be among them."""
+    unknown = sum(one.code == SYN009 for one in scene.deck.problems)
+    return f": {counted(unknown, 'keyword')} of it not known, `mudline lint` names them" if unknown else ""
+
+
+def _with_lengths(scene: Scene, positions: Positions | None) -> tuple[Scene, int]:
+    """Lengths that the deck's coordinates do not give come from the first step of the positions; else they are 0."""
+    unknown = np.isnan(scene.length)
+    if not unknown.any():
+        return scene, 0
+    given = scene.coordinates if positions is None else np.asarray(positions.values[0], dtype=np.float64)
+    ends = given[scene.element_nodes[unknown]]
+    between = distances(ends[:, 0], ends[:, 1])
+    length = scene.length.copy()
+    length[unknown] = np.where(np.isnan(between), 0.0, between)
+    return replace(scene, table=scene.table._replace(length=length)), int((~np.isnan(between)).sum())
+
+
+def _require_coordinates(scene: Scene) -> None:
+    missing = np.isnan(scene.coordinates).any(axis=1)
+    if missing.any():
+        example = int(scene.node_ids[np.argmax(missing)])
+        message = f"{int(missing.sum())} nodes have no coordinates, node {example} is one: give them with --positions"
+        raise scene.refusal(message)
+
+
+def _require_clock(ready: Prepared, positions: Positions) -> None:
+    """Steps that follow each other need times that rise; a law that asks for velocities needs them, or times."""
+    if positions.time is None or len(positions.time) < 2:
+        return
+    asking = ready.model.input.needs_velocities if positions.velocities is None else []
+    if not positions.timed:
+        if asking:
+            message = f"{asking[0]} needs velocities, or the times of the steps: the positions have neither"
+            raise ready.scene.refusal(message)
+        return
+    falls = np.flatnonzero(np.diff(positions.time) <= 0.0)
+    if falls.size:
+        before, after = positions.time[falls[0] : falls[0] + 2].tolist()
+        what = f"{asking[0]} needs velocities, or times that rise" if asking else _HISTORY
+        raise ready.scene.refusal(f"{what}: {after!r} follows {before!r}")

@@ -1,0 +1,220 @@
+"""The forms of result files: what each holds, and what all of them are given.
+
+A form has a module, imported when it is asked for, with `opened(output)`: a context with a `Writer`. It takes columns
+of a few steps at a time and writes them as they come, so that a long series is never in memory as text.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, field
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
+from typing import Any, BinaryIO, NamedTuple, Protocol
+
+import numpy as np
+
+from mudline.basics.quantities import RESULT_FORMAT, time_unit
+from mudline.model.contact import Plan
+from mudline.model.contact.columns import Column, Table
+from mudline.model.contact.frames import array_name
+from mudline.model.contact.result import Part
+from mudline.model.results.evaluation import Evaluation
+from mudline.model.scene.numbering import Floats
+
+
+class Form(NamedTuple):
+    """A form of result files.
+
+    Attributes:
+        summary: what is in a file, for the documentation, Markdown.
+        beside: the tables that go to files of their own.
+        library, extra: what writes it, and the extra of mudline that brings it; "" where nothing is needed.
+    """
+
+    summary: str
+    beside: tuple[str, ...] = ()
+    library: str = ""
+    extra: str = ""
+
+
+FORMS = {
+    "csv": Form("elements; the nodes in `...-nodes.csv`, the lines in `...-summary.csv`", ("nodes", "summary")),
+    "json": Form("everything: units, plan, elements, nodes, `restrained`, `summary`, `warnings`, `against`"),
+    "npz": Form(
+        "an array of each column: (elements,) or (steps, elements), (nodes,) or (steps, nodes), vectors with a last "
+        "axis of 3; `node_` before what elements have too, `summary_` before (lines,) or (steps, lines); `units` and "
+        "`format`"
+    ),
+    "parquet": Form(
+        "the same columns, in groups of rows; the nodes in `...-nodes.parquet`, the lines in `...-summary.parquet`; "
+        "`pip install 'mudline[parquet]'`",
+        ("nodes", "summary"),
+        "pyarrow",
+        "parquet",
+    ),
+    "xlsx": Form(
+        "sheets `elements`, `nodes` and `summary`, with units below the names of the columns; "
+        "`pip install 'mudline[excel]'`",
+        (),
+        "xlsxwriter",
+        "excel",
+    ),
+}
+"""By suffix."""
+TEXTS = ("csv", "json")
+"""Forms that standard output has too."""
+
+More = Mapping[str, object]
+"""Further keys of JSON with their values."""
+Columns = Mapping[str, Sequence[Column]]
+"""The columns of some steps, by the names of their tables."""
+Write = Callable[[Iterator[str]], None]
+"""Writes text in pieces."""
+
+
+class FormError(ValueError):
+    """A form has no place for so many rows."""
+
+
+@dataclass(frozen=True, slots=True)
+class Contents:
+    """What a file holds, whatever its form.
+
+    Attributes:
+        rows: the number of rows of a step, by the names of the tables.
+        units: the unit system.
+        format: name and version.
+        head: what JSON has in front of the tables.
+        times: (steps,) the time of each step; None where there are no steps.
+        array_name: gives the name of an array from those of a table and a column.
+    """
+
+    rows: Mapping[str, int]
+    units: str
+    format: str = RESULT_FORMAT
+    head: More = field(default_factory=dict)
+    times: Floats | None = None
+    array_name: Callable[[str, str], str] = array_name
+
+    @property
+    def steps(self) -> int:
+        """Number of steps; 1 without times."""
+        return 1 if self.times is None else len(self.times)
+
+    def timed(self, table: str, columns: Sequence[Column], start: int, count: int) -> list[Column]:
+        """The flat columns of a table, with one of times in front if there are any."""
+        flat = [part for column in columns for part in column.flat()]
+        if self.times is None:
+            return flat
+        times = np.broadcast_to(self.times[start : start + count, np.newaxis], (count, self.rows[table]))
+        return [Column("time", times, unit=time_unit(self.units)), *flat]
+
+
+class Writer(Protocol):
+    """Writes the columns of all tables of a file, or of several, a few steps at a time."""
+
+    def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
+        """Write the steps from `start` on; `beside` are values for each of them, for which only JSON has a place."""
+
+    def finish(self, more: More) -> None:
+        """Write what is known only after the last step."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sink:
+    """Passes the results of an evaluation on to a writer, as the columns of tables; to nothing without tables."""
+
+    evaluation: Evaluation
+    tables: Mapping[str, Table]
+    writer: Writer | None
+
+    def take(self, part: Part) -> None:
+        """Write some steps. Raises OSError."""
+        if self.writer is None:
+            return
+        columns = {name: table.columns(part) for name, table in self.tables.items()}
+        restrained, beside = part.result.restrained, {}
+        if restrained is not None:
+            ids = self.evaluation.scene.node_ids
+            beside = {"restrained": [ids[step].tolist() for step in restrained]}
+        self.writer.write(columns, part.start, part.count, beside)
+
+    def finish(self, more: More) -> None:
+        """Write what comes behind the last step. Raises OSError."""
+        if self.writer is not None:
+            self.writer.finish(more)
+
+
+def tables_of(evaluation: Evaluation, form: str, elements: Table, only: str | None = None) -> dict[str, Table]:
+    """Return the tables of results in a form, or one of CSV; JSON has the lines behind the last step."""
+    made = {"elements": lambda: elements, "nodes": evaluation.node_table, "summary": evaluation.line_table}
+    names = ("elements", "nodes") if form == "json" else made if only is None else (only,)
+    return {name: made[name]() for name in names}
+
+
+def contents_of(evaluation: Evaluation, tables: Mapping[str, Table]) -> Contents:
+    """Return what a file with these tables of results holds."""
+    rows = {name: table.rows for name, table in tables.items()}
+    plan = {"plan": plan_rows(evaluation.model.plan)}
+    return Contents(rows, evaluation.scene.units, head=plan, times=evaluation.time)
+
+
+@dataclass(frozen=True, slots=True)
+class Output:
+    """Where the contents of a file go: its form, and open files of a folder, one for each table or one for all.
+
+    `tracked` shows how far a long loop over a list is.
+    """
+
+    form: str
+    contents: Contents
+    streams: Sequence[BinaryIO]
+    folder: Path
+    tracked: Callable[[Sequence[Any]], Iterable[Any]] = iter
+
+    def opened(self) -> AbstractContextManager[Writer]:
+        """Return a context with what writes. Raises FormError, and ImportError as `form_module` does."""
+        found: AbstractContextManager[Writer] = form_module(self.form).opened(self)
+        return found
+
+
+def form_module(form: str) -> ModuleType:
+    """Return the module of a form; raises ImportError without the library that it needs."""
+    return import_module(f"{__name__}.{'text' if form in TEXTS else form}")
+
+
+def table_path(path: Path, table: str) -> Path:
+    """Return the file of another table beside that of the elements."""
+    return path.with_name(f"{path.stem}-{table}{path.suffix}")
+
+
+def plan_rows(plan: Plan) -> list[dict[str, Any]]:
+    """The stages of a plan."""
+    return [{"stage": stage.stage, "active": stage.active, "why": stage.why} for stage in plan]
+
+
+# --------------------------------------------------------------------------------------------------------- whole tables
+
+
+@dataclass(frozen=True, slots=True)
+class Tables:
+    """Tables that are whole, by their names: flat columns (rows,) without steps; `more` is what JSON has besides."""
+
+    columns: Columns
+    format: str
+    units: str
+    more: More
+
+    @property
+    def contents(self) -> Contents:
+        """What a file with them holds; arrays have the name of the table in front."""
+        rows = {name: len(columns[0].values) for name, columns in self.columns.items()}
+        return Contents(rows, self.units, self.format, self.more, array_name=lambda table, name: f"{table}_{name}")
+
+    def write(self, writer: Writer) -> None:
+        """Write them. Raises OSError."""
+        writer.write(self.columns, 0, 1, {})
+        writer.finish({})

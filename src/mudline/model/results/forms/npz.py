@@ -1,0 +1,105 @@
+"""Results as an archive of numpy arrays."""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from tempfile import TemporaryFile
+from typing import IO, Any
+
+import numpy as np
+
+from mudline.model.contact.columns import Column, Values
+from mudline.model.results.forms import Columns, More, Output, Writer
+
+_PACKED = 1 << 18
+"""Values that are packed at a time."""
+
+
+@contextmanager
+def opened(output: Output) -> Iterator[Writer]:
+    """What writes one archive."""
+    with ExitStack() as temporary:
+        yield NpzWriter(output, temporary)
+
+
+class NpzWriter:
+    """The names of the columns as arrays: elements (steps, m), nodes (steps, n), vectors (steps, n, 3).
+
+    A single state without a time has no axis for steps. Texts that are null elsewhere are empty. An archive takes one
+    array after the other, so what changes is in nameless files until the end, in the folder of the archive.
+    """
+
+    def __init__(self, output: Output, temporary: ExitStack) -> None:
+        self._output, self._contents, self._temporary = output, output.contents, temporary
+        self._arrays: dict[str, _Array] = {}
+
+    def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
+        """Keep some steps. Raises OSError."""
+        del start, count, beside
+        for table, each in columns.items():
+            for column in each:
+                name = self._contents.array_name(table, column.name)
+                if name not in self._arrays:
+                    self._arrays[name] = _Array(column, None if column.steady else self._file())
+                self._arrays[name].take(column)
+
+    def finish(self, more: More) -> None:
+        """Write the archive; it has no place for more. Raises OSError."""
+        del more
+        times, steps = self._contents.times, self._contents.steps
+        with zipfile.ZipFile(self._output.streams[0], "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
+            for name, array in self._output.tracked(list(self._arrays.items())):
+                shape = array.shape if times is None or not array.over_steps else (steps, *array.shape)
+                _pack(archive, name, array.dtype, shape, array.pieces(steps if array.over_steps else 1))
+            about = {"units": np.array(self._contents.units), "format": np.array(self._contents.format)}
+            for name, values in (about if times is None else {"time": times, **about}).items():
+                _pack(archive, name, values.dtype, values.shape, [values])
+
+    def _file(self) -> IO[bytes]:
+        return self._temporary.enter_context(TemporaryFile(dir=self._output.folder))
+
+
+class _Array:
+    """An array on its way: what no step changes in memory, the others in a file of numbers."""
+
+    def __init__(self, column: Column, file: IO[bytes] | None) -> None:
+        self.over_steps = column.over_steps
+        self.shape = column.values.shape if column.steady else column.values.shape[1:]
+        self._texts = np.array([name or "" for name in column.names], dtype=np.str_) if column.names else None
+        self._kept = column.values.dtype
+        self.dtype = self._kept if self._texts is None else self._texts.dtype
+        self._steady, self._file = column.values, file
+
+    def take(self, column: Column) -> None:
+        """Keep the values of some steps."""
+        if self._file is not None:
+            self._file.write(np.ascontiguousarray(column.values).data)
+
+    def pieces(self, steps: int) -> Iterator[Values]:
+        """All values of so many steps, in their order, flat."""
+        if self._file is None:
+            row = self._steady.ravel()
+            together = min(steps, max(1, _PACKED // max(row.size, 1)))
+            block = self._spelled(np.tile(row, together))
+            for first in range(0, steps, together):
+                yield block[: row.size * min(together, steps - first)]
+            return
+        self._file.seek(0)
+        while data := self._file.read(_PACKED * self._kept.itemsize):
+            yield self._spelled(np.frombuffer(data, self._kept))
+
+    def _spelled(self, values: Values) -> Values:
+        return values if self._texts is None else self._texts[values]
+
+
+def _pack(
+    archive: zipfile.ZipFile, name: str, kind: np.dtype[Any], shape: tuple[int, ...], pieces: Iterable[Values]
+) -> None:
+    """Write an array as a member, piece by piece."""
+    header = {"descr": np.lib.format.dtype_to_descr(kind), "fortran_order": False, "shape": shape}
+    with archive.open(f"{name}.npy", "w", force_zip64=True) as member:
+        np.lib.format.write_array_header_1_0(member, header)
+        for piece in pieces:
+            member.write(piece.tobytes())

@@ -1,0 +1,58 @@
+"""Results as tables in Parquet, a group of rows at a time; needs the extra `parquet`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from typing import BinaryIO
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from mudline.model.contact.frames import arrow_of
+from mudline.model.results.forms import Columns, Contents, More, Output, Writer
+
+GROUP = 1 << 18
+"""Rows of a group, as soon as there are so many."""
+
+
+@contextmanager
+def opened(output: Output) -> Iterator[Writer]:
+    """What writes a file for each table."""
+    with ExitStack() as files:
+        yield ParquetWriter(output.contents, dict(zip(output.contents.rows, output.streams, strict=True)), files)
+
+
+class ParquetWriter:
+    """The columns of CSV: vectors as three, no value as null; texts are kept once in each group of rows."""
+
+    def __init__(self, contents: Contents, streams: Mapping[str, BinaryIO], files: ExitStack) -> None:
+        self._contents, self._streams, self._files = contents, streams, files
+        self._writers: dict[str, pq.ParquetWriter] = {}
+        self._waiting: dict[str, list[pa.Table]] = {table: [] for table in streams}
+
+    def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
+        """Write some steps. Raises OSError."""
+        del beside
+        for table, waiting in self._waiting.items():
+            flat = self._contents.timed(table, columns[table], start, count)
+            waiting.append(arrow_of(flat, count, {}, self._contents.units, self._contents.format))
+            if sum(len(each) for each in waiting) >= GROUP:
+                self._flush(table)
+
+    def finish(self, more: More) -> None:
+        """Write what waits; a table has no place for more. Raises OSError."""
+        del more
+        for table in self._waiting:
+            self._flush(table)
+
+    def _flush(self, table: str) -> None:
+        """Write what waits as one group of rows."""
+        if not self._waiting[table]:
+            return
+        group = pa.concat_tables(self._waiting[table])
+        if table not in self._writers:
+            made = pq.ParquetWriter(self._streams[table], group.schema, compression="zstd")
+            self._writers[table] = self._files.enter_context(made)
+        self._writers[table].write_table(group, row_group_size=max(len(group), 1))
+        self._waiting[table] = []

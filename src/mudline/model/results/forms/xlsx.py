@@ -1,0 +1,122 @@
+"""Results as a workbook of spreadsheets; needs the extra `excel`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from datetime import UTC, datetime
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import xlsxwriter
+from xlsxwriter.exceptions import XlsxWriterException
+from xlsxwriter.worksheet import Worksheet
+
+from mudline.basics.quantities import finite
+from mudline.basics.short_repr import cut
+from mudline.model.contact.columns import Column
+from mudline.model.results.forms import Columns, Contents, FormError, More, Output, Writer
+from mudline.model.results.forms.text import blocks
+
+SHEET_ROWS = 1_048_576
+"""Rows of a sheet."""
+_HEADINGS = 2
+"""Rows of them: names and units."""
+_CELL_LETTERS = 32_767
+"""Characters of a cell."""
+_NARROW, _WIDE = 10, 40
+"""Widths of columns in characters."""
+_BLOCK = 4096
+"""Rows written at a time."""
+_CREATED = datetime(2000, 1, 1, tzinfo=UTC)
+"""The date in a workbook, which says nothing: the same results give the same bytes."""
+
+
+@contextmanager
+def opened(output: Output) -> Iterator[Writer]:
+    """What writes one workbook. Raises FormError where a sheet has no place for all rows of a table."""
+    contents = output.contents
+    for table, rows in contents.rows.items():
+        if contents.steps * rows > SHEET_ROWS - _HEADINGS:
+            most = f"a sheet of a workbook holds {SHEET_ROWS - _HEADINGS}; write .parquet instead"
+            raise FormError(f"{contents.steps * rows} rows of {table}: {most}")
+    with TemporaryDirectory(prefix=".mudline-", dir=output.folder, ignore_cleanup_errors=True) as temporary:
+        plain = {"strings_to_formulas": False, "strings_to_urls": False, "strings_to_numbers": False}
+        book = xlsxwriter.Workbook(output.streams[0], {"constant_memory": True, "tmpdir": temporary, **plain})
+        try:
+            yield WorkbookWriter(book, contents)
+        finally:
+            for sheet in book.worksheets():
+                sheet.row_data_fh.close()
+            book.fileclosed = True  # after a fault it must not write itself when it is thrown away
+
+
+class WorkbookWriter:
+    """A sheet of each table: names, units, then the rows; `time` in front when there are times.
+
+    Texts are texts whatever they begin with, numbers read back to the same double; no value is an empty cell. The rows
+    are in temporary files in the folder of the workbook until the end.
+    """
+
+    def __init__(self, book: Any, contents: Contents) -> None:  # noqa: ANN401 - xlsxwriter has no types
+        self._book, self._contents = book, contents
+        book.use_zip64()
+        book.set_properties({"created": _CREATED})
+        book.set_custom_property("mudline.format", contents.format)
+        book.set_custom_property("mudline.units", contents.units)
+        self._bold, self._italic = book.add_format({"bold": True}), book.add_format({"italic": True})
+        self._sheets = {name: book.add_worksheet(name, worksheet_class=_Sheet) for name in contents.rows}
+        self._rows = dict.fromkeys(contents.rows, _HEADINGS)
+
+    def write(self, columns: Columns, start: int, count: int, beside: Mapping[str, Sequence[object]]) -> None:
+        """Write some steps. Raises OSError."""
+        del beside
+        for table, sheet in self._sheets.items():
+            flat = self._contents.timed(table, columns[table], start, count)
+            if start == 0:
+                self._head(sheet, flat)
+            for first, last, block in blocks(count, self._contents.rows[table], _BLOCK):
+                for row in zip(*(_cells(column, first, last, block) for column in flat), strict=True):
+                    sheet.write_row(self._rows[table], 0, row)
+                    self._rows[table] += 1
+
+    def finish(self, more: More) -> None:
+        """Write the workbook; it has no place for more. Raises OSError."""
+        del more
+        try:
+            self._book.close()
+        except XlsxWriterException as error:
+            raise OSError(str(error)) from error
+
+    def _head(self, sheet: Any, columns: Sequence[Column]) -> None:  # noqa: ANN401 - as above
+        """Write names and units, which stay in sight as the first columns do."""
+        for place, column in enumerate(columns):
+            longest = max((len(name) for name in column.names if name), default=_NARROW)
+            sheet.set_column(place, place, min(max(_NARROW, len(column.name), longest) + 2, _WIDE))
+        sheet.write_row(0, 0, [column.name for column in columns], self._bold)
+        sheet.write_row(1, 0, [f"[{column.unit}]" if column.unit else None for column in columns], self._italic)
+        sheet.freeze_panes(_HEADINGS, 1 + (self._contents.times is not None))
+
+
+class _Sheet(Worksheet):  # type: ignore[misc] # xlsxwriter has no types
+    """A sheet whose numbers have all their digits; those of xlsxwriter have 16."""
+
+    def _xml_number_element(self, number: float, attributes: Sequence[tuple[str, object]] = ()) -> None:
+        about = "".join(f' {key}="{value}"' for key, value in attributes)
+        self.fh.write(f"<c{about}><v>{number!r}</v></c>")
+
+
+def _cells(column: Column, first: int, last: int, block: slice) -> Sequence[object]:
+    """The values of some rows of some steps; None for no value."""
+    values: list[Any] = column.cut(first, last)[:, block].ravel().tolist()
+    if column.names:
+        texts = [None if name is None else _text(name) for name in column.names]
+        return [texts[code] for code in values]
+    if column.blank is not None:
+        return [None if value == column.blank else value for value in values]
+    return [finite(value) for value in values] if column.values.dtype.kind == "f" else values
+
+
+def _text(name: str) -> str:
+    """A name as a cell can hold it; half a surrogate pair is escaped."""
+    return cut(name.encode("utf-8", "backslashreplace").decode(), _CELL_LETTERS)

@@ -1,0 +1,265 @@
+"""What is kept of an evaluation whose steps come and go, to draw it: memory does not grow with the number of steps.
+
+One step whole, the extents of all steps, and bins of what changes over time; nothing here needs matplotlib.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mudline.basics.short_repr import listed_numbers
+from mudline.model.contact import ContactInput, ContactResult
+from mudline.model.contact.lines import TouchdownPoint
+from mudline.model.contact.result import Part
+from mudline.model.contact.touchdown import Touchdown
+from mudline.model.results.evaluation import Evaluation
+from mudline.model.results.totals import traces
+from mudline.model.scene.numbering import Floats, Indices, Mask
+
+_BINS = 2000
+"""Pieces of time of which the least and the largest value are drawn."""
+_POINTS = 4000
+"""Evaluated points that are drawn on the curves."""
+_LOOP_STEPS = 5000
+"""Steps of a force-penetration loop that are drawn."""
+_FOLLOWED_LINES = 64
+"""Lines whose touchdown is followed over time."""
+MOST_LOOPS = 6
+"""Elements whose force-penetration loop can be asked for."""
+
+
+class Points(NamedTuple):
+    """Evaluated points of elements on a curve: its index, ratio, force, and the step."""
+
+    curve: Indices
+    ratio: Floats
+    force: Floats
+    step: Indices
+
+
+class Chosen(NamedTuple):
+    """A step that is drawn, and its result."""
+
+    step: int
+    result: ContactResult
+
+    @property
+    def part(self) -> Part:
+        """The step as a series of one."""
+        return Part(self.step, self.result.as_series())
+
+    @property
+    def heights(self) -> Floats:
+        """The heights (n,) of the nodes, NaN where they are not known."""
+        if self.result.positions is None:
+            return np.full(self.result.gap.shape, np.nan)
+        return np.asarray(self.result.positions[:, 0], dtype=np.float64)
+
+    @property
+    def seabed(self) -> Floats:
+        """The height (n,) of the seabed right below each node."""
+        with np.errstate(all="ignore"):
+            found: Floats = self.heights - self.result.gap / self.result.normal[..., 0]
+        return found
+
+
+class Extents:
+    """The least and the largest of several values over the steps, NaN where there is none."""
+
+    def __init__(self, count: int) -> None:
+        self.least = np.full(count, np.nan)
+        self.most = np.full(count, np.nan)
+
+    def take(self, values: Floats) -> None:
+        """Look at each value at some steps (steps, count)."""
+        self.least = np.fmin(self.least, np.fmin.reduce(values, axis=0))
+        self.most = np.fmax(self.most, np.fmax.reduce(values, axis=0))
+
+    def take_bins(self, bins: Indices, values: Floats) -> None:
+        """Look at one value at some steps (steps,), which belong to these bins."""
+        np.fmin.at(self.least, bins, values)
+        np.fmax.at(self.most, bins, values)
+
+
+class Cycle(NamedTuple):
+    """An element over the steps: penetration, force per unit length, and state of suction, None without."""
+
+    penetration: Floats
+    force: Floats
+    state: NDArray[np.int8] | None
+
+
+class PlotData:
+    """What is drawn of results: steps with the largest figures, envelopes, points on curves, times, loops.
+
+    Parts are given to `take` in the order of the steps.
+
+    Attributes:
+        given: what was evaluated.
+        steps, times: number of steps, and their times (steps,); None for a single state without a time.
+        elements: indices of those that are evaluated.
+        looped: indices of the elements whose force-penetration loop is kept.
+        largest: the step with the largest total `reaction`; with the largest `pull` of an element and the largest
+            `friction` on a node, if there is any.
+        touched: (m,) elements that are in contact at some step.
+        force, depth: extents of the elements over the steps.
+        lines, more_lines: numbers of the evaluated lines, from 0, and how many are not followed.
+        reaction, touchdown: extents of the total reaction, and of the arc length of the first and the last touchdown
+            point of a line, in bins of steps; `touchdown` is empty for a single state.
+    """
+
+    def __init__(
+        self,
+        given: ContactInput,
+        evaluated: Mask,
+        steps: int,
+        times: Floats | None = None,
+        *,
+        elements: Sequence[int] = (),
+    ) -> None:
+        """Prepare for the results of an input.
+
+        `elements` are the numbers of those whose loop is wanted. Raises ValueError for numbers that no evaluated
+        element has, for too many of them, and for a single state, which has no loop.
+        """
+        self.given, self.steps, self.times = given, steps, times
+        self.elements: Indices = np.flatnonzero(evaluated)
+        self.looped = self._looped(elements)
+        self.largest: dict[str, Chosen] = {}
+        self.touched: Mask = np.zeros(len(evaluated), np.bool_)
+        self.force, self.depth = Extents(len(evaluated)), Extents(len(evaluated))
+        self.on_curve: Indices = self.elements[given.curve_index[self.elements] >= 0]
+        self._bins = min(_BINS, steps)
+        self.reaction = Extents(self._bins)
+        lines = np.unique(given.lines.of_element[self.elements]).tolist()
+        self.lines: list[int] = lines[:_FOLLOWED_LINES]
+        self.more_lines = len(lines) - len(self.lines)
+        followed = self.lines if steps > 1 else []
+        self.touchdown = {line: (Extents(self._bins), Extents(self._bins)) for line in followed}
+        self._finder = Touchdown(given)
+        self._sizes: dict[str, float] = {}
+        self._points: list[Points] = []
+        self._seen, self._every = 0, max(1, steps * len(self.on_curve) // _POINTS)
+        self._loops: list[Cycle] = []
+
+    @classmethod
+    def of_evaluation(cls, evaluation: Evaluation, elements: Sequence[int] = ()) -> PlotData:
+        """Prepare for the parts of an evaluation; raises as the class does."""
+        evaluated: Mask = np.all(evaluation.present[evaluation.scene.element_nodes], axis=1)
+        return cls(evaluation.model.input, evaluated, evaluation.steps, evaluation.time, elements=elements)
+
+    @classmethod
+    def of_result(cls, result: ContactResult, elements: Sequence[int] = ()) -> PlotData:
+        """Return the data of a whole result, of a state or a series.
+
+        Raises ValueError for a result that does not know what was evaluated, and as the class does.
+        """
+        series = result.as_series()
+        data = cls(result.known, series.evaluated, len(series.depth), series.times, elements=elements)
+        data.take(Part(0, series))
+        return data
+
+    def _looped(self, elements: Sequence[int]) -> Indices:
+        if elements and self.steps == 1:
+            raise ValueError("force over penetration needs time steps, and this is one state")
+        places = {int(self.given.element_ids[index]): index for index in self.elements.tolist()}
+        wanted = list(dict.fromkeys(elements))
+        if unknown := [number for number in wanted if number not in places]:
+            numbers = listed_numbers(unknown)
+            raise ValueError(f"no evaluated element has the number {numbers}: give numbers of elements in the results")
+        if len(wanted) > MOST_LOOPS:
+            raise ValueError(f"{len(wanted)} elements are too many to draw: give at most {MOST_LOOPS}")
+        return np.array([places[number] for number in wanted], np.intp)
+
+    # ------------------------------------------------------------------------------------------- as the parts come
+
+    def take(self, part: Part) -> None:
+        """Look at some steps."""
+        result, of_part = part.result, traces(part)
+        bins = np.arange(part.start, part.start + part.count) * self._bins // self.steps
+        self.reaction.take_bins(bins, of_part["reaction"].values)
+        self._choose("reaction", part, of_part["reaction"].values)
+        self._choose("pull", part, of_part["pull"].values)
+        if result.friction is not None:
+            self._choose("friction", part, np.nan_to_num(np.abs(result.friction)).max(axis=(1, 2), initial=0.0))
+        self.touched |= result.contact.any(axis=0) & result.evaluated
+        self.force.take(result.force)
+        self.depth.take(result.depth)
+        for line in self._finder.series(part) if self.touchdown else ():
+            if line.number in self.touchdown:
+                for extents, values in zip(self.touchdown[line.number], (line.first, line.last), strict=True):
+                    extents.take_bins(bins, values)
+        if self.looped.size:
+            every = -(-self.steps // _LOOP_STEPS)
+            at = np.ix_(np.arange(-part.start % every, part.count, every), self.looped)
+            states = None if result.state is None else result.state[at]
+            self._loops.append(Cycle(result.depth[at], result.force[at], states))
+        size = part.count * len(self.on_curve)
+        taken = np.arange(-self._seen % self._every, size, self._every)
+        self._seen += size
+        if taken.size:
+            step, row = np.divmod(taken, len(self.on_curve))
+            self._points.append(self._points_of(part, step, self.on_curve[row]))
+
+    def _choose(self, name: str, part: Part, values: Floats) -> None:
+        """Keep the step with the largest of these values (steps,), if no earlier step has a larger one.
+
+        Only the total reaction may be 0 or less, or unknown at all steps.
+        """
+        step = int(np.argmax(np.nan_to_num(values, posinf=np.inf)))
+        first = name == "reaction" and name not in self.largest
+        if first or values[step] > self._sizes.get(name, 0.0):
+            self._sizes[name] = float(values[step])
+            self.largest[name] = Chosen(part.start + step, part.result.step(step))
+
+    def _points_of(self, part: Part, step: Indices, element: Indices) -> Points:
+        found = part.result.ratio[step, element], part.result.force[step, element]
+        return Points(self.given.curve_index[element], *found, part.start + step)
+
+    # ------------------------------------------------------------------------------------------------ what there is
+
+    @property
+    def drawn(self) -> Chosen:
+        """The step with the largest total reaction."""
+        return self.largest["reaction"]
+
+    @property
+    def known(self) -> bool:
+        """Whether the total reaction is known at some step."""
+        return not np.isnan(self.reaction.most).all()
+
+    @property
+    def bin_times(self) -> Floats:
+        """The time of the first step of each bin; the number of the step where there are no times."""
+        first = -(-np.arange(self._bins) * self.steps // self._bins)
+        return first.astype(np.float64) if self.times is None else self.times[first]
+
+    def points(self) -> Points:
+        """Return evaluated points on curves, at even distances: of the drawn step, and of all steps.
+
+        Those in contact, if there are any.
+        """
+        element = self.on_curve[:: max(1, -(-len(self.on_curve) // _POINTS))]
+        of_drawn = self._points_of(self.drawn.part, np.zeros(len(element), np.intp), element)
+        every = Points(*(np.concatenate(columns) for columns in zip(*self._points, of_drawn, strict=True)))
+        known = ~np.isnan(every.ratio)
+        touching = known & ((every.ratio > 0.0) | (every.force != 0.0))
+        shown = touching if touching.any() else known
+        return Points(every.curve[shown], every.ratio[shown], every.force[shown], every.step[shown])
+
+    def loop(self, place: int) -> Cycle:
+        """Return the path of one of the chosen elements."""
+        depth = np.concatenate([cycle.penetration[:, place] for cycle in self._loops])
+        force = np.concatenate([cycle.force[:, place] for cycle in self._loops])
+        states = [cycle.state[:, place] for cycle in self._loops if cycle.state is not None]
+        state = np.concatenate(states) if states else None
+        return Cycle(depth, force, None if state is None or (state < 0).all() else state)
+
+    def touchdown_points(self, lines: Collection[int]) -> list[TouchdownPoint]:
+        """Return where these lines come down on the seabed or leave it, at the drawn step."""
+        wanted = [one for one in self._finder.series(self.drawn.part) if one.number in lines]
+        return [point for row in self._finder.summaries(self.drawn.part, wanted) for point in row.touchdown]

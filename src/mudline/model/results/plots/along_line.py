@@ -1,0 +1,312 @@
+"""Panels over arc length: the line on the seabed; forces, embedment and stiffness of a step, extents of all steps."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from mudline.basics.quantities import ELEMENTS, NODES, SLIDING, STATES, labelled, time_unit, unit_names
+from mudline.model.results.plot_data import Chosen, Extents, PlotData
+from mudline.model.results.plots.style import (
+    COLORS,
+    LIGHT,
+    SEABED,
+    STATE_STYLES,
+    Style,
+    draw_line,
+    gapped,
+    is_number,
+    legend,
+    style_of,
+    thinned,
+    widen,
+    zero_line,
+)
+from mudline.model.scene.numbering import Floats, Indices
+
+MOST_LINES = 6
+"""Lines that are drawn."""
+_BESIDE = 0.15
+"""Part of the stretch in contact that is drawn on both sides of it."""
+_MARKED = 80
+"""Slipping nodes of a line that are marked."""
+
+
+class DrawnLine(NamedTuple):
+    """A line within the stretch and one element beside it: its number, from 0, its style, elements and nodes.
+
+    `elements` are the evaluated ones, `element_arcs` the arc lengths of their middles, `node_arcs` those of the nodes.
+    """
+
+    number: int
+    style: Style
+    elements: Indices
+    element_arcs: Floats
+    nodes: Indices
+    node_arcs: Floats
+
+
+class Stretch:
+    """The lines that are drawn, and the stretch of arc length that all panels along them show.
+
+    Attributes:
+        limits: the least and the largest arc length that is drawn.
+        lines: the drawn lines: those that touch the seabed first.
+        left_out: the number of lines that are not drawn.
+    """
+
+    def __init__(self, data: PlotData) -> None:
+        self.data, lines = data, data.given.lines
+        of_touched = set(lines.of_element[data.touched].tolist())
+        drawn = sorted(sorted(data.lines, key=lambda line: (line not in of_touched, line))[:MOST_LINES])
+        self.left_out = data.more_lines + len(data.lines) - len(drawn)
+        evaluated = np.zeros(len(data.given.element_ids), np.bool_)
+        evaluated[data.elements] = True
+        shown = np.isin(lines.of_element, drawn) & evaluated
+        half = 0.5 * data.given.length
+        begin, end = lines.element_arc - half, lines.element_arc + half
+        self.limits = (float(begin[shown].min()), float(end[shown].max())) if drawn else (0.0, 1.0)
+        if (touching := shown & data.touched).any():
+            low, high = float(begin[touching].min()), float(end[touching].max())
+            beside = max(_BESIDE * (high - low), 2.0 * float(data.given.length[touching].max()))
+            self.limits = max(self.limits[0], low - beside), min(self.limits[1], high + beside)
+        self.lines = []
+        for place, line in enumerate(drawn):
+            elements = lines.elements[line][evaluated[lines.elements[line]]]
+            arcs, node_arcs = lines.element_arc[elements], lines.node_arcs(line, data.given.length)
+            here, near = self._within(arcs), self._within(node_arcs)
+            style = style_of(place) if len(drawn) > 1 else Style(COLORS[0], "-", "o")
+            self.lines.append(
+                DrawnLine(line, style, elements[here], arcs[here], lines.nodes[line][near], node_arcs[near])
+            )
+
+    def name(self, line: DrawnLine) -> str:
+        """Return what a line is called in a legend."""
+        ids = self.data.given.element_ids[self.data.given.lines.elements[line.number]]
+        return f"line {line.number + 1}: elements {ids[0]} to {ids[-1]}"
+
+    def _within(self, arcs: Floats) -> slice:
+        inside = np.flatnonzero((arcs >= self.limits[0]) & (arcs <= self.limits[1]))
+        return slice(max(0, int(inside[0]) - 1), int(inside[-1]) + 2) if inside.size else slice(0, 0)
+
+    def show(self, axes: Axes) -> None:
+        """Set the horizontal axis."""
+        low, high = self.limits
+        beside = 0.01 * (high - low) or 0.5
+        if is_number(low, high):
+            axes.set_xlim(low - beside, high + beside)
+        axes.set_xlabel(labelled("arc length along the line", unit_names(self.data.given.units).length))
+
+
+def force(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+    """Draw the seabed reaction of the elements; that on the nodes, where only springs of nodes act."""
+    result, units = data.drawn.result, data.given.units
+    _extents(axes, data, data.force, stretch)
+    if not np.nan_to_num(result.force).any() and np.nan_to_num(result.normal_force).any():
+        for line in stretch.lines:
+            draw_line(axes, line.node_arcs, result.normal_force[line.nodes], line.style)
+        axes.set_ylabel(labelled("seabed reaction\non a node", unit_names(units).force))
+    else:
+        _of_elements(axes, result.force, stretch)
+        axes.set_ylabel(ELEMENTS["force"].axis(units))
+    zero_line(axes)
+
+
+def embedment(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+    """Draw the embedment of the elements, downwards; what hangs high above does not hide how deep the rest lies."""
+    _extents(axes, data, data.depth, stretch)
+    _of_elements(axes, data.drawn.result.depth, stretch)
+    axes.axhline(0.0, color=SEABED, linewidth=1.2, zorder=1)
+    deepest = float(np.nan_to_num(data.depth.most).max(initial=0.0))
+    top, bottom = axes.get_ylim()
+    if deepest > 0.0:
+        top, bottom = min(max(top, -0.6 * deepest), -0.06 * deepest), 1.08 * deepest
+    if is_number(top, bottom):
+        axes.set_ylim(bottom, top)
+    axes.set_ylabel(ELEMENTS["depth"].axis(data.given.units))
+
+
+def stiffness(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+    """Draw the stiffness of the seabed under the elements."""
+    _of_elements(axes, data.drawn.result.stiffness, stretch)
+    axes.set_ylabel(ELEMENTS["stiffness"].axis(data.given.units))
+
+
+def suction(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+    """Draw what holds the line down per unit length, with the states of suction, when the pull is largest."""
+    chosen = data.largest["pull"]
+    pull, states = np.maximum(0.0 - chosen.result.force, 0.0), chosen.result.state
+    _of_elements(axes, pull, stretch, mark=False)
+    if states is not None:
+        drawn = np.concatenate([line.elements for line in stretch.lines])
+        for name, style in STATE_STYLES.items():
+            mine = drawn[states[drawn] == STATES.index(name)]
+            if mine.size:
+                shown = mine[thinned(pull[mine], 400)]
+                points = data.given.lines.element_arc[shown], pull[shown]
+                axes.plot(*points, style.marker, markersize=4, color=style.color, label=name, zorder=4)
+    legend(axes, note=_step_note(data, chosen))
+    axes.set_ylabel(labelled("suction\nper unit length", unit_names(data.given.units).line_force))
+
+
+def friction(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+    """Draw the axial and the lateral force on the nodes, crossed where they slip, when the largest of them acts."""
+    chosen = data.largest["friction"]
+    forces, slips = chosen.result.friction, False
+    if forces is None:
+        return
+    for side, name in enumerate(("axial", "lateral")):
+        style = style_of(side)._replace(marker="")
+        for line in stretch.lines:
+            values = forces[line.nodes, side]
+            draw_line(axes, line.node_arcs, values, style, name if line is stretch.lines[0] else None)
+            at = np.flatnonzero(chosen.result.friction_state_of(side)[line.nodes] == SLIDING.index("slip"))
+            at = at[:: max(1, len(at) // _MARKED)]
+            slips = slips or bool(at.size)
+            axes.plot(line.node_arcs[at], values[at], "x", markersize=4, color=style.color)
+    if slips:
+        axes.plot([], [], "x", markersize=4, color="0.2", label="slips")
+    zero_line(axes)
+    axes.set_ylabel(labelled("friction on a node", unit_names(data.given.units).force))
+    legend(axes, note=_step_note(data, chosen))
+
+
+def _of_elements(axes: Axes, values: Floats, stretch: Stretch, *, mark: bool = True) -> None:
+    """Draw values (m,) of the elements over the arc length of their middles."""
+    for line in stretch.lines:
+        style = line.style if mark else line.style._replace(marker="")
+        draw_line(axes, line.element_arcs, values[line.elements], style)
+    widen(axes, np.concatenate([np.zeros(0), *(values[line.elements] for line in stretch.lines)]))
+
+
+def _extents(axes: Axes, data: PlotData, found: Extents, stretch: Stretch) -> None:
+    """Shade what lies between the least and the largest values of the elements over the steps of a series."""
+    if data.steps == 1:
+        return
+    for line in stretch.lines:
+        kept = thinned(found.most[line.elements])
+        least, most = found.least[line.elements[kept]], found.most[line.elements[kept]]
+        label = "least to largest of all steps" if line is stretch.lines[0] else None
+        axes.fill_between(
+            line.element_arcs[kept], least, most, color=line.style.color, alpha=0.2, linewidth=0.0, label=label
+        )
+    legend(axes)
+
+
+def when(data: PlotData, step: int) -> str:
+    """Return the time of a step, in words; "" for a state without one."""
+    if data.times is None:
+        return "" if data.steps == 1 else f"step {step}"
+    return f"time {float(data.times[step]):.6g} {time_unit(data.given.units)}".rstrip()
+
+
+def _step_note(data: PlotData, chosen: Chosen) -> str:
+    """The time of a step, for a panel of a series that shows another one than the others do."""
+    return f"at {when(data, chosen.step)}" if data.steps > 1 else ""
+
+
+# ----------------------------------------------------------------------------------------------- the line on the seabed
+
+_HIGHEST = (25.0, 5.0)
+"""How high above the seabed a line is drawn, as a multiple of the deepest embedment and of the largest diameter."""
+_LABELLED_POINTS = 3
+"""Touchdown points whose arc length is written beside them, if there are no more."""
+
+
+def line(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+    """Draw the lines on the seabed, thick where they touch it, with their touchdown points."""
+    heights, seabed, touching = data.drawn.heights, data.drawn.seabed, False
+    for one in stretch.lines:
+        drawn = thinned(data.drawn.result.gap[one.nodes])
+        arcs, nodes = one.node_arcs[drawn], one.nodes[drawn]
+        axes.plot(arcs, seabed[nodes], color=SEABED, linewidth=1.2, zorder=1)
+        axes.plot(arcs, heights[nodes], linewidth=1.1, zorder=3, **one.style.line)
+        touching |= _thick(axes, data, one)
+    _crop(axes, data, stretch)
+    _touchdown_points(axes, data, stretch)
+    if len(stretch.lines) == 1:
+        _soil(axes, data.drawn, stretch.lines[0])
+    axes.set_ylabel(NODES["x"].axis(data.given.units))
+    handles: list[Artist] = [
+        Line2D([], [], **one.style.line, marker=one.style.marker, label=stretch.name(one))
+        for one in (stretch.lines if len(stretch.lines) > 1 else ())
+    ]
+    if stretch.left_out:
+        handles.append(Line2D([], [], linestyle="none", label=f"and {stretch.left_out} more lines"))
+    if touching:
+        handles.append(Line2D([], [], color=stretch.lines[0].style.color, linewidth=3.5, label="in contact"))
+    handles.append(Line2D([], [], color=SEABED, linewidth=1.2, label="seabed"))
+    legend(axes, [*handles, *axes.get_legend_handles_labels()[0]])
+
+
+def _crop(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+    """Leave out what hangs so high that nothing would be seen of how the line lies on the seabed."""
+    sizes = (np.nan_to_num(data.depth.most), np.nan_to_num(data.given.diameter))
+    most = max(times * float(values.max(initial=0.0)) for times, values in zip(_HIGHEST, sizes, strict=True))
+    nodes = np.concatenate([line.nodes for line in stretch.lines])
+    near = nodes[data.drawn.result.gap[nodes] <= most]
+    if not 0 < len(near) < len(nodes):
+        return
+    drawn = np.concatenate([data.drawn.heights[near], data.drawn.seabed[near]])
+    low, high = float(np.nanmin(drawn)), float(np.nanmax(drawn))
+    if is_number(low, high) and high > low:
+        axes.set_ylim(low - 0.05 * (high - low), high)
+
+
+def _thick(axes: Axes, data: PlotData, one: DrawnLine) -> bool:
+    """Draw the elements of a line that touch the seabed over it; return whether there are any."""
+    lines, heights = data.given.lines, data.drawn.heights
+    here = np.flatnonzero(data.drawn.result.contact[lines.elements[one.number]])
+    arcs, along = lines.node_arcs(one.number, data.given.length), heights[lines.nodes[one.number]]
+    here = here[thinned(np.nan_to_num(along[here]))] if here.size else here
+    x, y = (gapped(values[here], values[here + 1]) for values in (arcs, along))
+    axes.plot(x, y, color=one.style.color, linewidth=3.5, solid_capstyle="butt", zorder=2)
+    return bool(here.size)
+
+
+def _touchdown_points(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+    """Mark where the lines come down on the seabed or leave it."""
+    low, high = stretch.limits
+    found = data.touchdown_points([line.number for line in stretch.lines])
+    points = sorted((one for one in found if low <= one.arc_length <= high), key=lambda one: one.arc_length)
+    mark_touchdown(axes, [one.arc_length for one in points], [one.x for one in points])
+    unit = unit_names(data.given.units).length
+    for number, point in enumerate(points if len(points) <= _LABELLED_POINTS else ()):
+        right, above = point.arc_length < 0.5 * (low + high), number % 2 == 0
+        axes.annotate(
+            f"TDP {point.arc_length:.5g} {unit}".rstrip(),
+            (point.arc_length, point.x),
+            (8.0 if right else -8.0, 9.0 if above else -9.0),
+            textcoords="offset points",
+            ha="left" if right else "right",
+            va="bottom" if above else "top",
+            fontsize="small",
+            bbox={"boxstyle": "square,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.8},
+            zorder=6,
+        )
+
+
+def mark_touchdown(axes: Axes, x: list[float], y: list[float]) -> None:
+    """Mark touchdown points, if there are any."""
+    if x:
+        size = 8.0 if len(x) <= 12 else 5.0
+        axes.plot(x, y, "v", color="black", markerfacecolor="white", markersize=size, label="touchdown point", zorder=5)
+
+
+def _soil(axes: Axes, chosen: Chosen, one: DrawnLine) -> None:
+    """Fill what lies below the seabed."""
+    drawn = thinned(chosen.result.gap[one.nodes])
+    level = chosen.seabed[one.nodes[drawn]]
+    if not np.isfinite(level).any():
+        return
+    lowest, highest = axes.get_ylim()
+    least = float(np.nanmin(level))
+    bottom = min(lowest, least - 0.12 * (highest - least))
+    if is_number(bottom, highest):
+        axes.fill_between(one.node_arcs[drawn], level, bottom, color=LIGHT, linewidth=0.0, zorder=0)
+        room = 0.1 if len(axes.texts) > 1 else 0.04  # of the labels of touchdown points at the top
+        axes.set_ylim(bottom, highest + room * (highest - bottom))

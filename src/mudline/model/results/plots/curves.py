@@ -1,0 +1,238 @@
+"""Force over embedment, and other curves of a deck; evaluated points on their curves, paths of chosen elements."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+
+from mudline.basics.quantities import ELEMENTS, STATES, labelled, unit_names
+from mudline.language.keywords.format import unit_text
+from mudline.model.results.plot_data import Cycle, PlotData
+from mudline.model.results.plots.style import (
+    COLORS,
+    MOST_MARKED,
+    STATE_STYLES,
+    Style,
+    drawing,
+    finish,
+    legend,
+    legend_name,
+    new_figure,
+    style_of,
+    zero_line,
+)
+from mudline.model.scene.deck_curves import OF_SEABED
+from mudline.model.scene.numbering import Floats, Indices, Mask
+
+_MARGIN = 0.15
+"""Part of its largest ratio by which a curve is drawn beyond its last point."""
+_MARKS = {"values asked for": ("at", "x", 8.0), "static embedment": ("static", "D", 7.0)}
+"""Points of a curve that are marked: their key in a row, marker and size."""
+
+
+@drawing()
+def curves_figure(
+    rows: Iterable[dict[str, Any]], units: str, units_of: Mapping[str, tuple[str, str]] | None = None
+) -> Figure:
+    """Return a figure of curves by kind, dashed beyond their points, with the values asked for.
+
+    Args:
+        rows: as of `curve_rows`: name, kind, points, values asked for, and axes, but of curves of the seabed.
+        units: system of units.
+        units_of: `curve_units` of the deck, where there are other curves than those of the seabed.
+    """
+    kinds: dict[str, list[dict[str, Any]]] = {}
+    for row in rows:
+        kinds.setdefault(row["kind"], []).append(row)
+    heights = [2.9 + 0.085 * (len(own) + 4) for own in kinds.values()]
+    figure = new_figure(max(sum(heights), 4.0))
+    grid = figure.add_gridspec(max(1, len(kinds)), 1, height_ratios=heights or None)
+    for place, (kind, own) in enumerate(kinds.items()):
+        axes = figure.add_subplot(grid[place])
+        for number, row in enumerate(own):
+            _curve(axes, row, style_of(number))
+        _explain(axes, own)
+        zero_line(axes)
+        axes.axvline(0.0, color="0.4", linewidth=0.8, zorder=1)
+        if kind == OF_SEABED:
+            names, dimensions = (ELEMENTS["ratio"].label, ELEMENTS["force"].label), ("-", "F/L")
+        else:
+            names, dimensions = own[0]["axes"], (units_of or {})[kind]
+        axes.set_xlabel(_label(names[0], dimensions[0], units))
+        axes.set_ylabel(_label(names[1], dimensions[1], units))
+        finish(axes)
+        legend(axes, title=f"{kind[:1].upper()}{kind[1:]}s", columns=2)
+    figure.align_ylabels()
+    return figure
+
+
+def _label(name: str, dimension: str, units: str) -> str:
+    """The label of an axis with its unit: `1/L` becomes `1/m`."""
+    one = "1" if dimension.startswith("1/") else ""
+    return labelled(name, one + unit_text(dimension.removeprefix(one), units))
+
+
+def _curve(axes: Axes, row: dict[str, Any], style: Style) -> None:
+    """Draw a curve with its marks."""
+    ratios, forces = np.array(row["points"]).T
+    marker = style.marker if len(ratios) <= MOST_MARKED else ""
+    name = legend_name(row["name"])
+    axes.plot(ratios, forces, color=style.color, linewidth=1.3, marker=marker, markersize=3.5, label=name)
+    marked = []
+    for key, shape, size in _MARKS.values():
+        for one in row.get(key, ()):
+            axes.plot(one["ratio"], one["force"], shape, **_mark(style.color, size))
+            marked.append(one["ratio"])
+    far = ratios[-1] * (1.0 + _MARGIN)
+    for end, inner, to in ((0, 1, min([0.0, *marked])), (-1, -2, max([far, *marked]))):
+        with np.errstate(all="ignore"):
+            part = (to - ratios[end]) / (ratios[end] - ratios[inner])
+            force = forces[end] + part * (forces[end] - forces[inner])
+        if part > 0.0 and np.isfinite(force):
+            axes.plot([ratios[end], to], [forces[end], force], color=style.color, linestyle="--", linewidth=1.0)
+
+
+def _mark(color: str, size: float) -> dict[str, Any]:
+    return {"color": color, "markersize": size, "markeredgewidth": 1.5, "markerfacecolor": "none"}
+
+
+def _explain(axes: Axes, rows: list[dict[str, Any]]) -> None:
+    """Add what dashes and marks mean to the legend."""
+    axes.plot([], [], color="0.3", linestyle="--", linewidth=1.0, label="beyond the points")
+    for label, (key, shape, size) in _MARKS.items():
+        if any(row.get(key) for row in rows):
+            axes.plot([], [], shape, **_mark("0.3", size), label=label)
+
+
+# ------------------------------------------------------------------------------------------- with evaluated points
+
+_NAMED = 6
+_SHORT_NAME = 24
+_PALEST = 0.65
+"""How much of the colour of a point is white at the first step; none is at the last."""
+
+
+def on_curves(axes: Axes, data: PlotData) -> None:
+    """Draw the curves with the evaluated points on them, which darken in the order of the steps."""
+    every = data.points()
+    used = np.unique(every.curve)
+    for place, index in enumerate(used.tolist()):
+        style, curve = style_of(place), data.given.curves[index]
+        mine = np.flatnonzero(every.curve == index)
+        mine = mine[np.argsort(every.step[mine], kind="stable")]
+        ratio, force = every.ratio[mine], every.force[mine]
+        far = max(float(ratio.max(initial=0.0)), float(curve.ratios[-1]))
+        knots = curve.ratios[(curve.ratios > 0.0) & (curve.ratios < far)]
+        knots = np.unique(np.concatenate([knots, [0.0, far]]))
+        axes.plot(knots, curve.evaluate(knots)[0], **style.line, linewidth=1.2, zorder=2)
+        axes.scatter(
+            ratio,
+            force,
+            s=16,
+            c=_shades(style.color, every.step[mine], data.steps),
+            marker=style.marker,
+            edgecolors=style.color,
+            linewidths=0.3,
+            zorder=3,
+            rasterized=len(mine) > 1000,
+        )
+        label = legend_name(str(curve.name), _SHORT_NAME) if place < _NAMED else None
+        axes.plot([], [], **style.line, marker=style.marker, markersize=4, label=label)
+    if len(used) > _NAMED:
+        axes.plot([], [], " ", label=f"and {len(used) - _NAMED} more curves")
+    axes.set_xlabel(labelled(ELEMENTS["ratio"].label, "-"))
+    axes.set_ylabel(ELEMENTS["force"].axis(data.given.units))
+    legend(axes, note="pale: first steps, dark: last" if data.steps > 1 else "", columns=2)
+
+
+def _shades(color: str, steps: Indices, count: int) -> Floats:
+    """The colour (k, 3) of each point: pale at the first step, full at the last."""
+    part = steps / max(1, count - 1) if count > 1 else np.ones(len(steps))
+    pale = _PALEST * (1.0 - part[:, np.newaxis])
+    shades: Floats = pale + (1.0 - pale) * np.array(to_rgb(color))
+    return shades
+
+
+# ----------------------------------------------------------------------------------------------- force over penetration
+
+_ARROWS = 12
+"""Arrow heads on a path."""
+_GOING = (("moving down", Style(COLORS[0], "-", "")), ("moving up", Style(COLORS[1], "--", "")))
+
+
+def loop(axes: Axes, data: PlotData, place: int) -> None:
+    """Draw the path of one of the chosen elements."""
+    draw_path(axes, data.loop(place))
+    names = unit_names(data.given.units)
+    number = int(data.given.element_ids[data.looped[place]])
+    axes.set_xlabel(labelled(f"penetration of element {number}", names.length))
+    axes.set_ylabel(labelled("seabed reaction\nper unit length", names.line_force).replace(" [", "\n["))
+    legend(axes)
+
+
+def draw_path(axes: Axes, path: Cycle) -> None:
+    """Draw a path with arrow heads: by state where there are states, else by whether the pipe moves down or up.
+
+    A pipe that hangs still (`hold`) is a point of its path, and marked as one.
+    """
+    groups: list[tuple[str, Style, Mask]] = []
+    if path.state is not None:
+        for name, style in STATE_STYLES.items():
+            look = style if name == "hold" else style._replace(marker="")
+            groups.append((name, look, path.state == STATES.index(name)))
+    else:
+        down = np.diff(path.penetration, prepend=path.penetration[0]) >= 0.0
+        groups = [(name, style, way) for (name, style), way in zip(_GOING, (down, ~down), strict=True)]
+    arrows = _arrow_steps(path)
+    for name, style, mine in groups:
+        here = np.flatnonzero(mine)
+        if here.size:
+            _ways(axes, path, here, style, name)
+            for at in arrows[mine[arrows]].tolist():
+                start, end = ((path.penetration[k], path.force[k]) for k in (at - 1, at))
+                shape = {"arrowstyle": "-|>", "color": style.color, "mutation_scale": 13.0, "shrinkA": 0, "shrinkB": 0}
+                axes.annotate("", end, start, arrowprops=shape, zorder=4)
+    limits = axes.axis()
+    zero_line(axes)
+    axes.axvline(0.0, color="0.4", linewidth=0.8, linestyle=":", zorder=1)
+    axes.axis(limits)  # the path fills the panel, wherever 0 is
+
+
+def _ways(axes: Axes, path: Cycle, here: Indices, style: Style, name: str) -> None:
+    """Draw the way to each of some steps, from the step before; a stop is a point."""
+    runs = np.split(here, np.flatnonzero(np.diff(here) > 1) + 1)
+    x, y = (
+        np.concatenate([np.append(values[[max(run[0] - 1, 0), *run]], np.nan) for run in runs])
+        for values in (path.penetration, path.force)
+    )
+    axes.plot(
+        x,
+        y,
+        **style.line,
+        linewidth=1.8,
+        marker=style.marker,
+        markersize=5,
+        markevery=[-2] if style.marker else None,
+        label=name,
+        zorder=3 if style.marker else 2,
+    )
+
+
+def _arrow_steps(path: Cycle) -> Indices:
+    """Steps at even distances on the path, as it is seen: each direction is a part of its span."""
+    with np.errstate(all="ignore"):
+        both = (np.nan_to_num(values) for values in (path.penetration, path.force))
+        moves = np.hypot(*(np.diff(values) / (float(np.ptp(values)) or 1.0) for values in both))
+    far = np.append(0.0, np.cumsum(np.nan_to_num(moves)))
+    places = (np.arange(_ARROWS) + 0.5) / _ARROWS * far[-1]
+    steps = np.unique(np.searchsorted(far, places))
+    steps = steps[(steps > 0) & (steps < len(far))]
+    moved = np.diff(far)[steps - 1] > 0.0
+    known = np.isfinite(path.force[steps]) & np.isfinite(path.force[steps - 1])
+    found: Indices = steps[moved & known]
+    return found

@@ -1,0 +1,179 @@
+"""The figure of results: which panels it has, where they stand, what they share, the title; panels over time."""
+
+from __future__ import annotations
+
+import os
+import textwrap
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Literal, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from mudline.basics.files import PLOT_FORMS, replacement, suffix_of
+from mudline.basics.limits import LONGEST_MESSAGE
+from mudline.basics.quantities import STEPS, labelled, time_unit, unit_names
+from mudline.model.contact import ContactResult
+from mudline.model.results.plot_data import Extents, PlotData
+from mudline.model.results.plots import along_line
+from mudline.model.results.plots.along_line import Stretch, when
+from mudline.model.results.plots.curves import loop, on_curves
+from mudline.model.results.plots.style import (
+    COLORS,
+    Style,
+    draw_line,
+    drawing,
+    finish,
+    legend,
+    new_figure,
+    printable,
+    save,
+    widen,
+)
+
+MOST_PANELS = 6
+"""More have letters that nobody reads on half a page."""
+_HEIGHT = 2.3
+"""Of a row of panels, inch."""
+_CAPTION = 100
+"""Characters of a line of the caption."""
+
+
+class Panel(NamedTuple):
+    """A panel: its name, its horizontal axis, and what draws it."""
+
+    name: str
+    axis: Literal["arc length", "time", "own"]
+    draw: Callable[[Axes], None]
+
+
+def panels_of(data: PlotData) -> list[Panel]:
+    """Return the panels that the results have something to show in, at most `MOST_PANELS`, as they are drawn.
+
+    Of more than that, those are left out that an engineer would miss least: the last ones below.
+    """
+    stretch, touched, lined = Stretch(data), bool(data.touched.any()), data.elements.size > 0
+
+    def along(name: str, draw: Callable[[Axes, PlotData, Stretch], None]) -> Panel:
+        return Panel(name, "arc length", lambda axes: draw(axes, data, stretch))
+
+    loops = [Panel("loop", "own", partial(loop, data=data, place=place)) for place in range(len(data.looped))]
+    others = (
+        (lined, along("line", along_line.line)),
+        (touched, along("force", along_line.force)),
+        (touches_down(data), Panel("touchdown", "time", partial(touchdown, data=data, stretch=stretch))),
+        (data.steps > 1 and data.known, Panel("reaction", "time", partial(reaction, data=data))),
+        (lined and "pull" in data.largest, along("suction", along_line.suction)),
+        (lined and "friction" in data.largest, along("friction", along_line.friction)),
+        (touched and data.on_curve.size, Panel("curves", "own", partial(on_curves, data=data))),
+        (lined, along("embedment", along_line.embedment)),
+        (touched and data.steps == 1, along("stiffness", along_line.stiffness)),
+    )
+    found = [*loops, *(panel for needed, panel in others if needed)][:MOST_PANELS]
+    return sorted(found, key=lambda panel: ("arc length", "own", "time").index(panel.axis))
+
+
+@drawing()
+def evaluation_figure(data: PlotData, caption: str = "") -> Figure:
+    """Return the figure of results; `caption` is what is doubtful, below the title."""
+    panels, stretch = panels_of(data), Stretch(data)
+    columns = 1 if len(panels) <= 2 else 2
+    wide = len(panels) % columns
+    """An odd number of panels: the first one is as wide as the figure."""
+    rows = max(1, -(-len(panels) // columns))
+    title = "\n".join([_title(data, panels), *textwrap.wrap(printable(caption, LONGEST_MESSAGE), _CAPTION)])
+    figure = new_figure(0.2 + 0.17 * (1 + title.count("\n")) + _HEIGHT * rows)
+    grid = figure.add_gridspec(rows, columns)
+    drawn: list[list[Axes]] = [[] for _ in range(columns)]
+    for place, panel in enumerate(panels):
+        column, row = divmod(place - wide, rows - wide)
+        at = grid[0, :] if place < wide else grid[row + wide, column]
+        axes = figure.add_subplot(at)
+        panel.draw(axes)
+        if panel.axis == "arc length":
+            stretch.show(axes)
+        finish(axes)
+        drawn[max(column, 0)].append(axes)
+        before = panels[place - 1] if row > 0 and place > wide else None
+        if before is not None and before.axis == panel.axis != "own":  # the one above leaves the labels to it
+            drawn[column][-2].tick_params(labelbottom=False)
+            drawn[column][-2].set_xlabel("")
+    for group in drawn:
+        figure.align_ylabels(group)
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        engine.set(h_pad=0.04, w_pad=0.06)  # type: ignore[call-arg]
+    figure.suptitle(title, fontsize="medium").set_parse_math(False)
+    return figure
+
+
+def _title(data: PlotData, panels: Sequence[Panel]) -> str:
+    """What is drawn, and which step panels along the line show."""
+    source = "" if data.given.names is None else data.given.names.source
+    title = f"Seabed contact of {printable(source, _CAPTION)}" if source else "Seabed contact"
+    at = when(data, data.drawn.step)
+    if not at or not any(panel.axis == "arc length" for panel in panels):
+        return title
+    which = "along the line: at " if data.steps > 1 else "at "
+    return f"{title}\n{which}{at}" + (", when the total reaction is largest" if data.steps > 1 else "")
+
+
+def plot_result(
+    result: ContactResult, path: str | os.PathLike[str] | None = None, *, elements: Sequence[int] = ()
+) -> Figure:
+    """Return the figure of a result, and write it to a file if a path is given; see `ContactResult.plot`."""
+    form = "" if path is None else suffix_of(path)
+    if path is not None and form not in PLOT_FORMS:
+        forms = f".{', .'.join(PLOT_FORMS[:-1])} or .{PLOT_FORMS[-1]}"
+        raise ValueError(f"{path}: unknown file format: give a name ending in {forms}")
+    figure = evaluation_figure(PlotData.of_result(result, elements))
+    if path is not None:
+        with replacement(Path(path)) as stream:
+            save(figure, form, stream)
+    return figure
+
+
+# ----------------------------------------------------------------------------------------------------- panels over time
+
+
+def touches_down(data: PlotData) -> bool:
+    """Return True if a line has a touchdown point at some step of a series."""
+    return any(np.isfinite(first.most).any() for first, _ in data.touchdown.values())
+
+
+def touchdown(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+    """Draw the arc length of the first and the last touchdown point of each line over time."""
+    several = len(stretch.lines) > 1
+    for line in stretch.lines:
+        first, last = data.touchdown[line.number]
+        two = not np.array_equal(first.most, last.most, equal_nan=True)
+        name = f"line {line.number + 1}" if several else "first touchdown point" if two else "touchdown point"
+        _band(axes, data, first, line.style, name)
+        if two:
+            other = Style(line.style.color if several else COLORS[1], ":" if several else "--", line.style.marker)
+            _band(axes, data, last, other, None if several else "last touchdown point")
+    axes.set_ylabel(labelled("arc length of touchdown", unit_names(data.given.units).length))
+    legend(axes)
+
+
+def reaction(axes: Axes, data: PlotData) -> None:
+    """Draw the total reaction over time."""
+    _band(axes, data, data.reaction, Style(COLORS[0], "-", "o"), None)
+    axes.set_ylabel(STEPS["reaction"].axis(data.given.units))
+
+
+def _band(axes: Axes, data: PlotData, values: Extents, style: Style, label: str | None) -> None:
+    """Draw a figure over time; where steps are too many, the band between its least and largest values."""
+    times = data.bin_times
+    if np.array_equal(values.least, values.most, equal_nan=True):
+        draw_line(axes, times, values.most, style, label, most_marked=25)
+    else:
+        axes.fill_between(times, values.least, values.most, color=style.color, linewidth=0.6, label=label)
+    widen(axes, np.concatenate([values.least, values.most]))
+    last = float(data.steps - 1) if data.times is None else float(data.times[-1])
+    beside = 0.01 * (last - float(times[0])) or 0.5
+    axes.set_xlim(float(times[0]) - beside, last + beside)
+    axes.set_xlabel("step [-]" if data.times is None else labelled("time", time_unit(data.given.units)))

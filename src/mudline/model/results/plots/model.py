@@ -1,0 +1,114 @@
+"""The line of a deck in its own coordinates: elevation over the seabed and plan, by set. Needs matplotlib."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from mudline.basics.quantities import labelled, unit_names
+from mudline.model.results.plot_data import PlotData
+from mudline.model.results.plots.along_line import mark_touchdown
+from mudline.model.results.plots.style import (
+    MOST_POINTS,
+    SEABED,
+    drawing,
+    finish,
+    gapped,
+    legend,
+    legend_name,
+    new_figure,
+    style_of,
+    thinned,
+)
+from mudline.model.scene.model import Scene
+from mudline.model.scene.numbering import Indices
+
+_MOST_SETS = 7
+_WIDTHS = (3.2, 2.2, 1.2)
+"""Of the lines of the sets, in turn: they differ without colours."""
+_AXES = "XYZ"
+
+
+class _Side(NamedTuple):
+    """A view: the axes along the paper and up, and its title."""
+
+    along: int
+    up: int
+    title: str
+
+
+def can_draw(scene: Scene) -> bool:
+    """Whether some element has two nodes with coordinates."""
+    return bool(_drawn(scene).size)
+
+
+@drawing()
+def model_figure(scene: Scene, data: PlotData | None) -> Figure:
+    """Return elevation and plan; `data` has the seabed and the touchdown points, if they are known."""
+    figure = new_figure(5.6)
+    upper, lower = figure.subplots(2, 1, height_ratios=(3, 2))
+    span = np.ptp(scene.coordinates[_nodes(scene)], axis=0)
+    along, across = (1, 2) if span[1] >= span[2] else (2, 1)
+    groups = _by_set(scene)
+    for axes, side in ((upper, _Side(along, 0, "Elevation")), (lower, _Side(along, across, "Plan"))):
+        for number, (name, elements) in enumerate(groups):
+            kept = elements[:: max(1, -(-len(elements) // MOST_POINTS))]
+            ends = scene.coordinates[scene.element_nodes[kept]]
+            x, y = (gapped(*ends[:, :, axis].T) for axis in (side.along, side.up))
+            color, width = style_of(number).color, _WIDTHS[number % len(_WIDTHS)]
+            axes.plot(x, y, color=color, linewidth=width, label=legend_name(name), solid_capstyle="butt", zorder=3)
+        if data is not None:
+            _draw_ground(axes, data, side)
+        unit = unit_names(scene.units).length
+        axes.set_title(side.title, loc="right", fontsize="medium")
+        axes.set_xlabel(labelled(_AXES[side.along], unit))
+        axes.set_ylabel(labelled(_AXES[side.up], unit))
+        finish(axes)
+    if not span[across]:
+        lower.set_ylim(
+            *(scene.coordinates[_nodes(scene)[0], across] + np.array([-0.5, 0.5]) * max(span[along] / 20, 1))
+        )
+    legend(upper)
+    return figure
+
+
+def _drawn(scene: Scene) -> Indices:
+    known = np.flatnonzero((scene.element_nodes >= 0).all(axis=1))
+    ends = scene.coordinates[scene.element_nodes[known]]
+    return known[np.isfinite(ends).all(axis=(1, 2))]
+
+
+def _nodes(scene: Scene) -> Indices:
+    return np.unique(scene.element_nodes[_drawn(scene)])
+
+
+def _by_set(scene: Scene) -> list[tuple[str, Indices]]:
+    """The elements by the set that gives them their law, the largest sets first; the rest last, as one."""
+    drawn = _drawn(scene)
+    names = np.array([scene.law_sets[index] or "without a law" for index in drawn.tolist()])
+    found, counts = np.unique(names, return_counts=True)
+    order = found[np.argsort(-counts, kind="stable")]
+    groups = [(str(name), drawn[names == name]) for name in order[:_MOST_SETS]]
+    others = drawn[np.isin(names, order[_MOST_SETS:])]
+    return [*groups, (f"{len(order) - _MOST_SETS} more sets", others)] if others.size else groups
+
+
+def _draw_ground(axes: Axes, data: PlotData, side: _Side) -> None:
+    """The seabed below the line, in elevation, and the touchdown points."""
+    positions = data.drawn.result.positions
+    if positions is None:
+        return
+    if side.up == 0:
+        for number in data.lines:
+            nodes = data.given.lines.nodes[number]
+            level = data.drawn.seabed[nodes]
+            kept = thinned(np.nan_to_num(level))
+            place = np.asarray(positions)[nodes[kept], side.along]
+            axes.plot(place, level[kept], color=SEABED, linewidth=1.2, linestyle="--", zorder=1)
+        axes.plot([], [], color=SEABED, linestyle="--", label="seabed")
+    points = data.touchdown_points(data.lines)
+    x, y = ([(one.x, one.y, one.z)[axis] for one in points] for axis in (side.along, side.up))
+    mark_touchdown(axes, x, y)

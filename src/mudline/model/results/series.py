@@ -1,0 +1,348 @@
+"""Figures that are followed over the steps of an evaluation, and the tables of a long series.
+
+Of each figure the extremes are kept, with the steps where they first were; of a condition the number of steps. Memory
+does not grow with the number of steps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mudline.basics.quantities import ELEMENTS, LINES, NODES, SLIDING, STEPS, Quantity, time_unit
+from mudline.model.contact.columns import NO_ELEMENT, Column, ElementTable, NodeTable, Values, kept
+from mudline.model.contact.input import LawKind
+from mudline.model.contact.result import Part
+from mudline.model.contact.touchdown import LineSeries, LineTable
+from mudline.model.results.evaluation import Evaluation
+from mudline.model.results.forms import Tables, plan_rows
+from mudline.model.results.totals import HELD, traces
+from mudline.model.results.warnings import ContactWarning
+from mudline.model.scene.numbering import Floats, Mask
+
+_NO_STEP = -1
+
+
+class Followed(NamedTuple):
+    """Values (steps, k) of some steps: numbers, NaN for none, or a condition, whose steps are counted.
+
+    `at` (steps, k) goes with the numbers, as the index of the element that a number is of.
+    """
+
+    values: NDArray[np.floating] | NDArray[np.bool_]
+    at: Values | None = None
+
+
+Figures = Mapping[str, Followed]
+
+
+def _of_elements(evaluation: Evaluation, part: Part) -> Figures:
+    result, chosen = part.result, evaluation.elements
+    held = np.zeros((1, len(chosen)), np.bool_)
+    if result.state is not None:
+        held = np.isin(kept(result.state, chosen), HELD)
+    return {
+        **{name: Followed(kept(getattr(result, name), chosen)) for name in ("force", "depth", "stiffness")},
+        "contact_steps": Followed(kept(result.contact, chosen)),
+        "suction_steps": Followed(held),
+    }
+
+
+def _of_nodes(evaluation: Evaluation, part: Part) -> Figures:
+    result, chosen = part.result, evaluation.nodes
+    gap = kept(result.gap, chosen)
+    touches = gap < 0.0
+    if result.restrained is not None:
+        touches |= kept(result.restrained, chosen)
+    friction = np.zeros((1, len(chosen), 2))  # as in the results without friction
+    if result.friction is not None:
+        friction = kept(result.friction, chosen)
+    slips = np.zeros((1, len(chosen)), np.bool_)
+    if result.friction_state is not None:
+        slips = kept((result.friction_state == SLIDING.index("slip")).any(axis=-1), chosen)
+    return {
+        "gap": Followed(gap),
+        "normal_force": Followed(kept(result.normal_force, chosen)),
+        "axial_force": Followed(friction[..., 0]),
+        "lateral_force": Followed(friction[..., 1]),
+        "contact_steps": Followed(touches),
+        "slip_steps": Followed(slips),
+    }
+
+
+LINE_FIGURES = ("first", "last", "contact_length", "force", "uplift", "reaction")
+"""Figures of `LineSeries` that are followed."""
+
+
+def _of_lines(evaluation: Evaluation, part: Part) -> Figures:
+    found = evaluation.touchdown.series(part)
+    values = {name: Followed(_side_by_side(found, name, part)) for name in LINE_FIGURES}
+    return values | {
+        "contact_steps": Followed(values["contact_length"].values > 0.0),
+        "touchdown_steps": Followed(_side_by_side(found, "points", part) > 0),
+    }
+
+
+def _side_by_side(lines: Sequence[LineSeries], name: str, part: Part) -> Values:
+    return np.stack([getattr(line, name) for line in lines], axis=1) if lines else np.zeros((part.count, 0))
+
+
+def _of_all(_: Evaluation, part: Part) -> Figures:
+    """The figures of `STEPS`."""
+    return {
+        name: Followed(values[:, np.newaxis], None if at is None else at[:, np.newaxis])
+        for name, (values, at) in traces(part).items()
+    }
+
+
+def _of_case(evaluation: Evaluation, part: Part) -> Figures:
+    """The figures of `CASES`: over all lines that may lie on the seabed, or all lines if none may."""
+    law = evaluation.model.input.law
+    found = evaluation.touchdown.series(part)
+    lying = [line for line in found if (law[evaluation.touchdown.lines.elements[line.number]] != LawKind.NONE).any()]
+    lines = lying or found  # others may be held in soil
+    touching = np.count_nonzero(part.result.contact[:, evaluation.elements], axis=1)
+    figures = {"in_contact": Followed(touching.astype(np.float64)[:, np.newaxis])}
+    if not lines:
+        return figures
+    with np.errstate(over="ignore", invalid="ignore"):
+        length, reaction, weight = (
+            _side_by_side(lines, name, part).sum(axis=1, keepdims=True)
+            for name in ("contact_length", "reaction", "weight")
+        )
+    return figures | {
+        "touchdown_from": Followed(_side_by_side(lines, "first", part)),
+        "touchdown_to": Followed(_side_by_side(lines, "last", part)),
+        "contact_length": Followed(length),
+        "largest_force": Followed(_side_by_side(lines, "force", part), _side_by_side(lines, "force_at", part)),
+        "largest_uplift": Followed(_side_by_side(lines, "uplift", part), _side_by_side(lines, "uplift_at", part)),
+        "reaction": Followed(np.where(np.isnan(reaction), np.inf, reaction), weight),  # one that is not known stays so
+    }
+
+
+def _of_suction(_: Evaluation, part: Part) -> Figures:
+    """Where suction is pulled at velocities below REGULARISATION."""
+    slow = part.result.regularised
+    if slow is None:
+        return {}
+    some: Mask = np.logical_or.reduce(slow, axis=1, keepdims=True)
+    return {
+        "slow": Followed(np.where(some, 1.0, np.nan), slow.argmax(axis=1, keepdims=True)),
+        "slow_steps": Followed(some),
+    }
+
+
+FIGURES: Mapping[str, Callable[[Evaluation, Part], Figures]] = {
+    "elements": _of_elements,
+    "nodes": _of_nodes,
+    "summary": _of_lines,
+    "totals": _of_all,
+    "case": _of_case,
+    "suction": _of_suction,
+}
+"""What gives the figures of some steps, by table; one column for each row of the table."""
+
+
+class Peak(NamedTuple):
+    """A least or largest value over all steps, the step where it first was, and what went with it."""
+
+    value: float
+    step: int
+    at: float = np.nan
+
+
+class Best:
+    """The least (`sign` 1) or the largest (-1) values of columns (k,) over steps.
+
+    Attributes:
+        values: the values; infinite for none.
+        steps: where each of them first was, -1 for none.
+        at: what went with each of them, NaN for nothing.
+    """
+
+    def __init__(self, columns: int, sign: float) -> None:
+        self._sign = sign
+        self.values, self.at = np.full(columns, sign * np.inf), np.full(columns, np.nan)
+        self.steps = np.full(columns, _NO_STEP, np.int64)
+
+    def take(self, start: int, found: Followed) -> None:
+        """Look at the values of the steps `start` and on."""
+        best = (np.fmin if self._sign > 0.0 else np.fmax).reduce(found.values, axis=0)
+        column = np.flatnonzero(best * self._sign < self.values * self._sign)
+        if column.size:
+            row = (found.values[:, column] == best[column]).argmax(axis=0)
+            self.values[column], self.steps[column] = found.values[row, column], start + row
+            if found.at is not None:
+                self.at[column] = found.at[row, column]
+
+    def peak(self) -> Peak | None:
+        """Return the best of all columns, the first of several; None without any."""
+        known = np.flatnonzero(self.steps >= 0)
+        if not known.size:
+            return None
+        at = known[np.lexsort((self.steps[known], self._sign * self.values[known]))[0]]
+        return Peak(float(self.values[at]), int(self.steps[at]), float(self.at[at]))
+
+
+class Extremes:
+    """The least and the largest values of columns over steps."""
+
+    def __init__(self, columns: int) -> None:
+        self.least, self.largest = Best(columns, 1.0), Best(columns, -1.0)
+
+    def take(self, start: int, found: Followed) -> None:
+        """Look at the values of the steps `start` and on."""
+        self.least.take(start, found)
+        self.largest.take(start, found)
+
+    def farthest(self) -> Peak | None:
+        """Return the value with the largest magnitude; None without any."""
+        found = [peak for peak in (self.least.peak(), self.largest.peak()) if peak is not None]
+        return min(found, key=lambda peak: (-abs(peak.value), peak.step), default=None)
+
+    def extent(self, column: int, times: Floats | None) -> tuple[float, float, float, float] | None:
+        """Return the least value of a column, its time, the largest value and its time; None without any."""
+        if times is None or self.least.steps[column] < 0:
+            return None
+        low, high = self.least, self.largest
+        return (
+            float(low.values[column]),
+            float(times[low.steps[column]]),
+            float(high.values[column]),
+            float(times[high.steps[column]]),
+        )
+
+
+class SeriesSummary:
+    """Takes the steps of an evaluation a few at a time, and keeps the extremes and counts of the figures of tables.
+
+    Attributes:
+        extremes: by table and figure. counts: numbers of steps, by table and condition.
+    """
+
+    def __init__(self, evaluation: Evaluation, *tables: str) -> None:
+        self.evaluation = evaluation
+        self._tables = tables
+        self.extremes: dict[tuple[str, str], Extremes] = {}
+        self.counts: dict[tuple[str, str], NDArray[np.int64]] = {}
+
+    def take(self, part: Part) -> None:
+        """Look at some steps."""
+        for table in self._tables:
+            for name, found in FIGURES[table](self.evaluation, part).items():
+                columns, key = found.values.shape[1], (table, name)
+                if found.values.dtype == np.bool_:
+                    before = self.counts.setdefault(key, np.zeros(columns, np.int64))
+                    before += np.count_nonzero(found.values, axis=0)
+                else:
+                    self.extremes.setdefault(key, Extremes(columns)).take(part.start, found)
+
+    def of(self, table: str, figure: str) -> Extremes:
+        """Return the extremes of a figure; those of nothing if no step has it."""
+        return self.extremes.get((table, figure), Extremes(0))
+
+    def totals(self) -> dict[str, Peak]:
+        """Return the largest value of each figure of `STEPS` that has one; of `force` by its magnitude."""
+        found = {name: self.of("totals", name) for name in STEPS}
+        peaks = {name: each.farthest() if name == "force" else each.largest.peak() for name, each in found.items()}
+        return {name: peak for name, peak in peaks.items() if peak is not None}
+
+    def number(self, peak: Peak | None) -> int | None:
+        """Return the number of the element of a peak; None without one."""
+        if peak is None or not peak.at >= 0:
+            return None
+        return int(self.evaluation.scene.element_ids[int(peak.at)])
+
+
+# --------------------------------------------------------------------------------------------------------------- tables
+
+SERIES_FORMAT = "mudline-series/1"
+"""Name and version of the form of files with the summary of a series."""
+
+_OF_LINES = {
+    "first": "first_touchdown",
+    "last": "last_touchdown",
+    "force": "largest_force",
+    "uplift": "largest_uplift",
+}
+"""The quantities of `LINES` whose names are not those of the figures of a line."""
+
+
+def series_summary(evaluation: Evaluation, *more: str) -> SeriesSummary:
+    """Return what follows the figures of `series_tables`, and those of more tables."""
+    return SeriesSummary(evaluation, "elements", "nodes", "summary", "totals", *more)
+
+
+def series_tables(summary: SeriesSummary, warnings: Sequence[ContactWarning]) -> Tables:
+    """The tables of a summary, with what JSON has besides them."""
+    evaluation = summary.evaluation
+    given, times = evaluation.model.input, evaluation.time
+    facts = {
+        "elements": ElementTable(given, evaluation.elements).facts(),
+        "nodes": NodeTable(given, evaluation.nodes).facts(),
+        "summary": LineTable(given, evaluation.elements).facts(),
+    }
+    tables = {table: [*facts[table], *_extremes(summary, table, times), *_counts(summary, table)] for table in facts}
+    tables["totals"] = _totals(summary, times)
+    more = {
+        "steps": evaluation.steps,
+        "plan": plan_rows(evaluation.model.plan),
+        "positions": "file",
+        "warnings": [one.row() for one in warnings],
+    }
+    return Tables(tables, SERIES_FORMAT, given.units, more)
+
+
+def _quantity(table: str, figure: str) -> Quantity:
+    if table == "summary":
+        return LINES[_OF_LINES.get(figure, figure)]
+    return (ELEMENTS if table == "elements" else NODES)[figure]
+
+
+def _extremes(summary: SeriesSummary, table: str, times: Floats | None) -> Iterator[Column]:
+    """Of each figure the least and the largest value, its step and its time."""
+    units = summary.evaluation.scene.units
+    for figure, found in [(name, each) for (of, name), each in summary.extremes.items() if of == table]:
+        quantity = _quantity(table, figure)
+        for side, best in (("least", found.least), ("largest", found.largest)):
+            values = np.where(best.steps >= 0, best.values, np.nan)
+            yield from _timed(f"{quantity.name}_{side}", values, best.steps, times, quantity, units)
+
+
+def _timed(
+    name: str, values: Floats, steps: NDArray[np.int64], times: Floats | None, quantity: Quantity, units: str
+) -> Iterator[Column]:
+    yield _column(name, values, unit=quantity.unit_name(units))
+    yield _column(f"{name}_step", steps, blank=_NO_STEP)
+    if times is not None:
+        yield _column(f"{name}_time", np.where(steps >= 0, times[steps], np.nan), unit=time_unit(units))
+
+
+def _counts(summary: SeriesSummary, table: str) -> Iterator[Column]:
+    return (_column(name, counts) for (of, name), counts in summary.counts.items() if of == table)
+
+
+def _totals(summary: SeriesSummary, times: Floats | None) -> list[Column]:
+    """A row for each figure of `STEPS`: its largest value over all steps."""
+    peaks = summary.totals()
+    found = [peaks.get(name, Peak(np.nan, _NO_STEP)) for name in STEPS]
+    numbers = [summary.number(peak) for peak in found]
+    steps = np.array([peak.step for peak in found], np.int64)
+    elements = np.array([NO_ELEMENT if number is None else number for number in numbers], np.int64)
+    columns = [
+        Column("figure", np.arange(len(STEPS)), (*STEPS, None), over_steps=False),
+        _column("largest", np.array([peak.value for peak in found])),
+        _column("step", steps, blank=_NO_STEP),
+        _column("element", elements, blank=NO_ELEMENT),
+    ]
+    if times is not None:
+        unit = time_unit(summary.evaluation.scene.units)
+        columns.insert(3, _column("time", np.where(steps >= 0, times[steps], np.nan), unit=unit))
+    return columns
+
+
+def _column(name: str, values: Values, *, blank: int | None = None, unit: str = "") -> Column:
+    return Column(name, values, over_steps=False, blank=blank, unit=unit)

@@ -1,0 +1,308 @@
+"""What a deck holds, in figures: counts, sets, curves, diameters, laws, static embedment."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import asdict
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mudline.basics.quantities import finite
+from mudline.language.deck.coverage import coverage_of, extent
+from mudline.language.deck.model import Opaque
+from mudline.language.keywords.model import Block
+from mudline.model.contact.arrays import BoolArray
+from mudline.model.contact.input import LawAssignment, LawKind
+from mudline.model.contact.laws.linear import penetration_under, smoothed_reaction
+from mudline.model.scene.assignments import element_smoothing, nodal_springs
+from mudline.model.scene.model import Scene
+from mudline.model.scene.numbering import Floats, Indices, summed
+from mudline.model.scene.resolved import LawArrays
+from mudline.model.scene.seabed import SeabedKind, SeabedShape
+
+CURVE_SIDES = {-1: "below", 0: None, 1: "above"}
+"""Where a value lies beyond the points of its curve."""
+
+
+def summarise(scene: Scene) -> dict[str, Any]:
+    """Sections, keywords, counts, sets, curves, diameters and laws of a deck."""
+    deck = scene.deck
+    return {
+        "file": deck.file,
+        "units": deck.units,
+        "continues": [base.deck.file for base in deck.bases],
+        "sections": [
+            {
+                "name": section.name,
+                "keywords": [_keyword(block) for block in section.blocks],
+            }
+            for section in deck.own_sections
+        ],
+        "keywords": asdict(coverage_of(deck)),
+        "nodes": len(scene.node_ids),
+        "elements": len(scene.element_ids),
+        "length": _total_length(scene),
+        "sets": _sets(scene),
+        "curves": _curves(scene),
+        "diameters": _diameters(scene),
+        "laws": _laws(scene),
+        "seabed": sorted(name.lower() for name in scene.laws.types),
+        "floor": floor_summary(scene.seabed),
+        "bed": bed_summary(scene),
+        "extensions": extension_summary(scene),
+        "static_embedment": static_embedment(scene),
+    }
+
+
+def _keyword(block: Block | Opaque) -> dict[str, Any]:
+    """A keyword: whether its lines are read, and whether some of them were passed over."""
+    found = extent(block)
+    return {"keyword": block.keyword, "read": found != "unread", "partly": found == "partly"}
+
+
+def _total_length(scene: Scene) -> float | None:
+    known = scene.length[~np.isnan(scene.length)]
+    return _sum(known) if known.size else None
+
+
+def _sum(lengths: NDArray[np.float64]) -> float | None:
+    """The sum of lengths; None when it overflows, or one of them is not known."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        return finite(float(lengths.sum()))
+
+
+def _sets(scene: Scene) -> list[dict[str, Any]]:
+    rows = []
+    for entry in scene.set_table.named.values():
+        count = len(entry.elements)
+        length = _sum(scene.length[entry.elements]) if count else None
+        rows.append({"name": entry.name, "elements": count, "length": length, "open": entry.open})
+    return rows
+
+
+def _curves(scene: Scene) -> list[dict[str, Any]]:
+    rows = []
+    for index, entry in enumerate(scene.laws.curves):
+        curve = entry.curve
+        rows.append(
+            {
+                "name": entry.name,
+                "keyword": "EMBEDMENT" if entry.embedment else "SEABED STIFFNESS",
+                "points": len(entry.points),
+                "ratios": None if curve is None else [float(curve.ratios[0]), float(curve.ratios[-1])],
+                "forces": None if curve is None else [float(curve.forces.min()), float(curve.forces.max())],
+                "elements": int(followers(scene, index).sum()),
+                "open": any(grant.curve == index and grant.set_.open for grant in scene.laws.set_laws),
+            }
+        )
+    return rows
+
+
+def followers(scene: Scene, curve: int) -> BoolArray:
+    """The elements (m,) that follow a curve, which no extension keyword replaces."""
+    granted = np.array([grant.curve == curve for grant in scene.laws.set_laws] + [False])[scene.laws.of_element]
+    found: BoolArray = granted & (scene.law == LawKind.CURVE)
+    return found
+
+
+def _diameters(scene: Scene) -> list[dict[str, Any]]:
+    known = scene.diameter[~np.isnan(scene.diameter)]
+    values, counts = np.unique(known, return_counts=True)
+    rows = [
+        {"diameter": value, "elements": count} for value, count in zip(values.tolist(), counts.tolist(), strict=True)
+    ]
+    missing = len(scene.diameter) - len(known)
+    return [*rows, {"diameter": None, "elements": missing}] if missing else rows
+
+
+def _laws(scene: Scene) -> list[dict[str, Any]]:
+    """Laws with the number of their elements; linear ones by stiffness; then those that replace what sets gave."""
+    rows: list[dict[str, Any]] = []
+    own = scene.law == scene.laws_given
+    for index, grant in enumerate(scene.laws.set_laws):
+        count = int(((scene.laws.of_element == index) & own).sum())
+        if count:
+            law = scene.law_name(grant)
+            stiffness = grant.stiffness if grant.kind is LawKind.LINEAR else None
+            rows.append({"law": law, "set": grant.set_.name, "elements": count, "stiffness": stiffness})
+    replaced = Counter((scene.law_names[at], scene.law_sets[at]) for at in np.flatnonzero(~own).tolist())
+    rows += [{"law": law, "set": name, "elements": count, "stiffness": None} for (law, name), count in replaced.items()]
+    free = int(((scene.laws.of_element < 0) & own).sum())
+    return [*rows, {"law": "none", "set": None, "elements": free, "stiffness": None}] if free else rows
+
+
+_PAIRS = ("friction", "mobilisation")
+_SINGLE = ("lateral", "suction", "extent")
+
+
+def floor_summary(floor: SeabedShape) -> dict[str, Any]:
+    """The shape of the seabed; null for what its kind has not."""
+    slope = floor.kind is SeabedKind.SLOPING
+    from_points = floor.kind in (SeabedKind.PROFILE, SeabedKind.SURFACE)
+    return {
+        "kind": floor.kind.value,
+        "slope": finite(floor.slope) if slope else None,
+        "direction": finite(floor.direction) if slope or from_points else None,
+        "interpolation": floor.interpolation if from_points else None,
+        "points": len(floor.points) if from_points and not floor.missing else None,
+        "planes": len(floor.planes) or None,
+        "file": floor.file or None,
+        "missing": floor.missing or None,
+    }
+
+
+def bed_summary(scene: Scene) -> list[dict[str, Any]]:
+    """Friction, mobilisation, lateral stiffness and suction by block, with the number of elements that have them.
+
+    Friction coefficients and mobilisation lengths are longitudinal and transverse. Blocks that give none of all this
+    are left out.
+    """
+    rows = []
+    for index, (values, where) in enumerate(zip(scene.resistance.values, scene.resistance.places, strict=True)):
+        pairs = {name: [finite(value) for value in getattr(values, name)] for name in _PAIRS}
+        single = {name: finite(getattr(values, name)) for name in _SINGLE}
+        if any(value is not None for value in (*single.values(), *(one for pair in pairs.values() for one in pair))):
+            entry: Any = scene.deck.sections[where.section].blocks[where.block]
+            name = (entry.sets[where.path[1]].set_name or "ALL") if where.path[0] == "sets" else "ALL"
+            rows.append({"set": name, "elements": int((scene.resistance.of_element == index).sum()), **pairs, **single})
+    return rows
+
+
+def extension_summary(scene: Scene) -> list[dict[str, Any]]:
+    """The blocks of the extension keywords, with the elements that follow each."""
+    return [
+        {
+            "keyword": keyword,
+            "set": getattr(entry, "set_name", None),
+            "elements": int((found.of_element == index).sum()),
+        }
+        for keyword, found in scene.extensions.items()
+        for index, entry in enumerate(found.entries)
+    ]
+
+
+# ------------------------------------------------------------------------------------------------ static embedment
+
+_TABLE_ROWS = 100
+"""Rows: what a table can show."""
+
+
+class _Case(NamedTuple):
+    """Elements that share a law, a weight per length and a diameter; the index of one of them."""
+
+    set_name: str | None
+    law: str
+    weight: float
+    element: int
+
+
+def static_embedment(scene: Scene) -> list[dict[str, Any]]:
+    """A row for each set, law, weight per length and diameter of elements whose weight is known, up to 100 rows.
+
+    `element` is the first of them; of a row for a node, the first that ends there.
+    `penetration` is where the law, smoothed as it is evaluated, carries the weight, `stiffness` that of the law there.
+    Of a curve that does so at several ratios it is the smallest that is not negative. For nodal laws there is a row for
+    the node that carries least and one for the node that carries most; `stiffness` is then Kn, force per length.
+    """
+    weight = scene.submerged_weight
+    known = np.flatnonzero((weight > 0.0) & np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR)))
+    arrays, zones = scene.law_arrays(), _Zones.of_elements(scene)
+    rows = [_of_element(scene, arrays, zones, case) for case in _cases(scene, weight, zones, known)]
+    return [*rows, *_of_nodes(scene, weight)][:_TABLE_ROWS]
+
+
+class _Zones(NamedTuple):
+    """Quadratic zones of all elements, or of all nodes: half widths, and which lie below the mudline only."""
+
+    half_width: Floats
+    one_sided: Floats
+
+    @classmethod
+    def of(cls, law: LawAssignment | None, count: int) -> _Zones:
+        """Return the zones that a law gives its rows."""
+        half_width, one_sided = np.zeros(count), np.zeros(count)
+        if law is not None:
+            half_width[law.rows] = law.parameters["half_width"]
+            one_sided[law.rows] = law.parameters["one_sided"]
+        return cls(half_width, one_sided)
+
+    @classmethod
+    def of_elements(cls, scene: Scene) -> _Zones:
+        """Return the zones of linear laws."""
+        smoothing = element_smoothing(scene) if "SEABED CONTACT" in scene.extensions else None
+        return cls.of(smoothing, len(scene.element_ids))
+
+
+def _cases(scene: Scene, weight: Floats, zones: _Zones, elements: Indices) -> list[_Case]:
+    if not elements.size:
+        return []
+    sizes = np.nan_to_num(scene.diameter[elements])
+    width, side = zones.half_width[elements], zones.one_sided[elements]
+    keys = np.column_stack([scene.laws.of_element[elements], weight[elements], sizes, width, side])
+    firsts = np.sort(np.unique(keys, axis=0, return_index=True)[1])[:_TABLE_ROWS]
+    found = elements[firsts].tolist()
+    return [_Case(scene.law_sets[at], scene.law_names[at], float(weight[at]), at) for at in found]
+
+
+def _of_element(scene: Scene, arrays: LawArrays, zones: _Zones, case: _Case) -> dict[str, Any]:
+    diameter = float(scene.diameter[case.element])
+    with np.errstate(all="ignore"):
+        if scene.law[case.element] == LawKind.LINEAR:
+            stiffness = float(arrays.linear_stiffness[case.element])
+            law = stiffness, zones.half_width[case.element], zones.one_sided[case.element]
+            depth = float(penetration_under(np.float64(case.weight), *law))
+            slope = float(smoothed_reaction(depth, diameter, *law)[1])
+            return _row(scene, case, float(np.divide(depth, diameter)), depth, slope, None)
+        curve_index = int(arrays.curve_index[case.element])
+        found = arrays.curves[curve_index].ratios_at_force(case.weight) if curve_index >= 0 else ()
+        ratio = next((each for each in found if each >= 0.0), None)
+        if ratio is None:
+            return _row(scene, case, np.nan, np.nan, np.nan, None)
+        curve = arrays.curves[curve_index]
+        slope = float(curve.evaluate(ratio)[1])
+        side = CURVE_SIDES[int(curve.extrapolated(ratio))]
+        return _row(scene, case, ratio, ratio * diameter, float(np.divide(slope, diameter)), side)
+
+
+def _of_nodes(scene: Scene, weight: Floats) -> list[dict[str, Any]]:
+    """The least and the most that a node with a spring of its own carries, by set."""
+    if not scene.nodal.any() or (scene.element_nodes < 0).any():
+        return []
+    extension = scene.extensions["SEABED CONTACT"]
+    ends, count = scene.element_nodes, len(scene.node_ids)
+    springs = nodal_springs(scene)
+    stiffness, zones = np.full(count, np.nan), _Zones.of(springs, count)
+    stiffness[springs.rows] = springs.parameters["stiffness"]
+    with np.errstate(all="ignore"):
+        carried = summed(0.5 * weight * scene.length, ends, count)
+        depth = penetration_under(carried, stiffness, *zones)
+        slope = smoothed_reaction(depth, 0.0, stiffness, *zones)[1]
+    rows = []
+    for block in np.unique(extension.of_element[scene.nodal]).tolist():
+        elements = np.flatnonzero(scene.nodal & (extension.of_element == block))
+        nodes = np.unique(ends[elements])
+        usable = nodes[(carried[nodes] > 0.0) & np.isfinite(depth[nodes])]
+        order = usable[np.argsort(depth[usable], kind="stable")]
+        for node in dict.fromkeys([*order[:1].tolist(), *order[-1:].tolist()]):
+            at = int(elements[(ends[elements] == node).any(axis=1)][0])
+            case = _Case(scene.law_sets[at], "nodal", float(weight[at]), at)
+            ratio = float(np.divide(depth[node], scene.diameter[at]))
+            rows.append(_row(scene, case, ratio, float(depth[node]), float(slope[node]), None))
+    return rows
+
+
+def _row(
+    scene: Scene, case: _Case, ratio: float, penetration: float, stiffness: float, side: str | None
+) -> dict[str, Any]:
+    return {
+        "set": case.set_name,
+        "element": int(scene.element_ids[case.element]),
+        "weight": case.weight,
+        "law": case.law,
+        "ratio": finite(ratio),
+        "penetration": finite(penetration),
+        "stiffness": finite(stiffness),
+        "extrapolated": side,
+    }

@@ -1,0 +1,63 @@
+"""Tables of the summary of a deck and of its contact, for a terminal and for a page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from mudline.basics.display import Cell, DisplayTable, number, text
+from mudline.basics.quantities import UnitNames
+
+OPEN = "+ a block that is not read may add elements to this set"
+"""What a plus behind the number of elements of a set means."""
+
+Rows = Sequence[dict[str, Any]]
+"""Rows as JSON has them."""
+
+
+def elements_of(row: dict[str, Any]) -> Cell:
+    """Return the number of elements of a set, with a plus where it may have more."""
+    return f"{row['elements']}+" if row["open"] else row["elements"]
+
+
+def set_table(sets: Rows, names: UnitNames) -> DisplayTable:
+    """Return the table of the element sets."""
+    columns = (text("set", "name"), number("elements", elements_of), number("length", "length", names.length))
+    return DisplayTable("Element sets", columns, sets, OPEN if any(one["open"] for one in sets) else "")
+
+
+def diameter_table(diameters: Rows, names: UnitNames, none: Cell = None) -> DisplayTable:
+    """Return the table of external diameters; `none` stands for one that is not known."""
+
+    def diameter(row: dict[str, Any]) -> Cell:
+        return none if row["diameter"] is None else row["diameter"]
+
+    columns = (number("diameter", diameter, names.length), number("elements", "elements"))
+    return DisplayTable("External diameters", columns, diameters)
+
+
+def static_table(rows: Rows, names: UnitNames, *, first: bool, stiffness: str = "") -> DisplayTable:
+    """Return the table of static embedment; `first` adds the first element of a row; `stiffness` is its unit."""
+    columns = (
+        text("set", "set"),
+        *([number("first\nelement", "element")] if first else []),
+        text("law", "law"),
+        number("weight", "weight", names.line_force),
+        number("ratio", "ratio"),
+        number("penetration", "penetration", names.length),
+        number("stiffness", "stiffness", stiffness),
+    )
+    return DisplayTable("Static embedment", columns, rows)
+
+
+def law_table(title: str, totals: Rows, names: UnitNames, reaction: str) -> DisplayTable:
+    """Return the table of totals by law and set, with a heading for the reaction."""
+    columns = (
+        text("law", "law"),
+        text("set", "set_name"),
+        number("elements", "elements"),
+        number("in\ncontact", "touching"),
+        number("largest\ndepth", lambda row: row["deepest"] if row["touching"] else None, names.length),
+        number(reaction, "reaction", names.force),
+    )
+    return DisplayTable(title, columns, totals)

@@ -1,0 +1,234 @@
+"""Totals of an evaluation: by law and set, by state, by step and by line at each step."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from itertools import islice
+from typing import Generic, NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mudline.basics.quantities import SLIDING, STATES, Names, finite, shown
+from mudline.model.contact import ContactResult
+from mudline.model.contact.lines import LineSummary
+from mudline.model.contact.result import Part, total_normal_force
+from mudline.model.results.evaluation import Evaluation
+from mudline.model.scene.numbering import Floats, Ids, Indices, Mask
+
+Row = TypeVar("Row")
+
+
+class Total(NamedTuple):
+    """Elements that share a law and the set that gave it to them, at one step.
+
+    `deepest` is the largest depth, negative above the seabed, None where there is no seabed; `reaction` the total
+    normal force of a law per unit length; None for springs of nodes.
+    """
+
+    law: str
+    set_name: str
+    elements: int
+    touching: int
+    deepest: float | None
+    reaction: float | None
+
+
+NOT_KNOWN = "not known"
+"""What tables say of the reaction of a rigid seabed, and of one that overflows."""
+_SLACK = 1e-9
+"""Part of a line by which the sums of its lengths may differ."""
+
+
+def touchdown_words(places: Sequence[float], contact: float | None, length: float | None, most: int) -> str:
+    """The arc lengths of the touchdown points of a line, or where all of it is; "" where that is not known.
+
+    A line of which only a part has a gap may lie on the seabed there without a touchdown point.
+    """
+    if places:
+        more = f", {len(places) - most} more" if len(places) > most else ""
+        return ", ".join(shown(place) for place in places[:most]) + more
+    if not contact:
+        return "none"
+    return "all on the seabed" if length is not None and contact > (1.0 - _SLACK) * length else ""
+
+
+class StepTotal(NamedTuple):
+    """All evaluated elements or nodes at one step.
+
+    Attributes:
+        touching: how many elements are in contact, or on how many nodes the seabed acts; `first` and `last` are the
+            numbers of those, in the deck's order.
+        deepest: largest depth of an element; None for nodes, and where there is no seabed.
+        sucked: elements in the states suction and hold, None without such a law, and for nodes.
+        slipping: nodes that slip in a direction, None without such a law.
+        gap, largest: smallest distance of a node from the seabed, None where there is none, and largest normal force
+            on a node; None for elements.
+    """
+
+    time: float
+    touching: int
+    first: int | None
+    last: int | None
+    deepest: float | None
+    reaction: float
+    sucked: int | None = None
+    slipping: int | None = None
+    gap: float | None = None
+    largest: float | None = None
+
+
+def totals(evaluation: Evaluation, part: Part) -> list[Total]:
+    """By law and set, in the order of the elements, at the first step of a part."""
+    scene, result = evaluation.scene, part.result.step(0)
+    groups: dict[tuple[str, str], list[int]] = {}
+    with np.errstate(over="ignore"):
+        line_forces = result.force * evaluation.length
+    for index in evaluation.elements.tolist():
+        groups.setdefault((scene.law_names[index], scene.law_sets[index] or ""), []).append(index)
+    return [
+        Total(
+            law,
+            name,
+            len(members),
+            int(result.contact[members].sum()),
+            _deepest(result.depth[members]),
+            None if law in _AT_NODES else _sum(line_forces[members]),
+        )
+        for (law, name), members in groups.items()
+    ]
+
+
+def reaction(evaluation: Evaluation, result: ContactResult) -> float:
+    """Total normal force of a step on all nodes; NaN on a rigid seabed, whose force is not known."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        return float(total_normal_force(result, evaluation.nodes))
+
+
+def step_totals(evaluation: Evaluation, part: Part, *, of_nodes: bool = False) -> Iterator[StepTotal]:
+    """Yield the figures of all evaluated elements, or nodes, at each step of a part with times."""
+    elements, nodes, scene = evaluation.elements, evaluation.nodes, evaluation.scene
+    for step, time in enumerate([] if part.result.times is None else part.result.times.tolist()):
+        result = part.result.step(step)
+        slips = result.friction_state
+        slipping = None if slips is None else int((slips == SLIDING.index("slip")).any(axis=-1).sum())
+        total = reaction(evaluation, result)
+        if of_nodes:
+            acts = scene.node_ids[acted_on(evaluation, result)]
+            deepest = _deepest(-result.gap[nodes])
+            gap, largest = None if deepest is None else 0.0 - deepest, _deepest(result.normal_force[nodes])
+            yield StepTotal(time, len(acts), *_ends(acts), None, total, None, slipping, gap, largest)
+        else:
+            acts = scene.element_ids[elements[result.contact[elements]]]
+            sucked = None if result.state is None else int(np.isin(result.state, HELD).sum())
+            yield StepTotal(time, len(acts), *_ends(acts), _deepest(result.depth[elements]), total, sucked, slipping)
+
+
+def line_steps(evaluation: Evaluation, part: Part) -> Iterator[LineSummary]:
+    """Yield every line at each step of a part."""
+    return evaluation.touchdown.summaries(part, evaluation.touchdown.series(part))
+
+
+def _ends(numbers: Ids) -> tuple[int | None, int | None]:
+    return (int(numbers[0]), int(numbers[-1])) if numbers.size else (None, None)
+
+
+def acted_on(evaluation: Evaluation, result: ContactResult) -> Indices:
+    """The indices of the evaluated nodes on which the seabed acts at a step, also by restraining them."""
+    acts: Mask = (result.reaction != 0.0).any(axis=1)
+    if result.restrained is not None:
+        acts |= result.restrained
+    return evaluation.nodes[acts[evaluation.nodes]]
+
+
+_AT_NODES = ("nodal", "rigid")
+"""Laws without a force per unit length."""
+HELD = (STATES.index("suction"), STATES.index("hold"))
+"""States of an element above the seabed that suction may hold."""
+
+
+def counts(states: NDArray[np.int8], names: Names) -> list[tuple[str, int]]:
+    """How many there are in each state that occurs."""
+    found = np.bincount(states.astype(np.intp) + 1, minlength=len(names))[1:]
+    return [(name, int(count)) for name, count in zip(names, found, strict=False) if name is not None and count]
+
+
+class InState(NamedTuple):
+    """How many elements or nodes are in a state of a law."""
+
+    law: str
+    state: str
+    number: int
+
+
+def states(evaluation: Evaluation, result: ContactResult) -> list[InState]:
+    """The states that occur at a step, of suction by element and of friction by node and direction."""
+    rows = []
+    if result.state is not None:
+        rows += [InState("suction of elements", *one) for one in counts(result.state[evaluation.elements], STATES)]
+    if result.friction_state is not None:
+        for axis, direction in enumerate(("axial", "lateral")):
+            found = counts(result.friction_state[evaluation.nodes, axis], SLIDING)
+            rows += [InState(f"{direction} friction of nodes", *one) for one in found]
+    if result.restrained is not None:
+        rows.append(InState("rigid seabed", "restrained nodes", int(result.restrained.sum())))
+    return rows
+
+
+def _deepest(depth: Floats) -> float | None:
+    known = depth[~np.isnan(depth)]
+    return finite(float(known.max())) if known.size else None
+
+
+def _sum(forces: Floats) -> float:
+    with np.errstate(over="ignore", invalid="ignore"):
+        return float(forces.sum())
+
+
+class Trace(NamedTuple):
+    """A figure of some steps (steps,), NaN where there is none, and the indices of its elements; -1 for none.
+
+    A figure of all elements together has no indices.
+    """
+
+    values: Floats
+    elements: Indices | None = None
+
+
+def traces(part: Part) -> dict[str, Trace]:
+    """The figures of the steps of a part by the names of `STEPS`."""
+    result, chosen = part.result, np.flatnonzero(part.result.evaluated)
+    with np.errstate(over="ignore", invalid="ignore"):
+        reaction = total_normal_force(result, result.present)
+    force = result.force[:, chosen]
+    return {
+        "reaction": Trace(reaction),
+        "force": _largest(force, chosen, by_size=True),
+        "pull": _largest(np.maximum(0.0 - force, 0.0), chosen, by_size=False),
+        "touching": Trace(np.count_nonzero(result.contact[:, chosen], axis=1).astype(np.float64)),
+        "deepest": _largest(result.depth[:, chosen], chosen, by_size=False),
+    }
+
+
+def _largest(values: Floats, chosen: Indices, *, by_size: bool) -> Trace:
+    steps = np.arange(len(values))
+    if not values.shape[1]:
+        return Trace(np.full(len(values), np.nan), np.full(len(values), -1))
+    ranked = np.where(np.isnan(values), -np.inf, np.abs(values) if by_size else values)
+    column = ranked.argmax(axis=1)
+    found = values[steps, column]
+    return Trace(found, np.where(np.isnan(found), -1, chosen[column]))
+
+
+class First(Generic[Row]):
+    """Takes the first `most` rows (None: all) of those that `make` gives for some steps."""
+
+    def __init__(self, make: Callable[[Part], Iterator[Row]], most: int | None) -> None:
+        self._make, self._most = make, most
+        self.rows: list[Row] = []
+
+    def take(self, part: Part) -> None:
+        """Make the rows of some steps that are still wanted."""
+        left = None if self._most is None else self._most - len(self.rows)
+        if left != 0:
+            self.rows += islice(self._make(part), left)

@@ -1,0 +1,347 @@
+"""What an engineer should know before using the results of a deck: zeros for want of a law, no contact, no equilibrium.
+
+The warnings of an evaluated deck follow from its scene and its results. Of a long series only what they need is kept:
+a flag for each element, and the smallest clearance.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from mudline.basics.arguments import as_array
+from mudline.basics.quantities import shown, unit_names
+from mudline.basics.short_repr import counted, cut
+from mudline.language.codes.contact import GEO005, RUN003, RUN004, RUN005, SBD006
+from mudline.language.codes.lines import SYN009
+from mudline.language.diagnostics import Code, DeckError, Diagnostic, Problem, Severity, Where
+from mudline.language.keywords.catalogue import holds_in_soil
+from mudline.model.contact import ContactResult, LawKind
+from mudline.model.contact.result import Part
+from mudline.model.results.evaluation import Evaluation, evaluate_scene
+from mudline.model.results.laws_in_use import UnknownKeyword, missing_laws, unknown_keywords, unused_curves
+from mudline.model.scene.model import Scene
+from mudline.model.scene.numbering import Floats, Indices, Mask
+from mudline.model.scene.vertical_axis import height_along_z
+
+BALANCED = (1.0 / 3.0, 3.0)
+"""Total reaction over submerged weight of the deck's own positions, beyond which they are far from equilibrium."""
+
+_MORE_WEIGHT = ("COATINGS", "INTERNAL FLUID", "DRILLING MUD", "MASS", "POINT BUOY")
+"""Keywords that are not read, and make the weight another one than that of the sections."""
+_TOUCHING = 1e-3
+"""Clearance over diameter of a line that touches the seabed: its datum is right."""
+_CAPTION = 90
+
+
+@dataclass(frozen=True, slots=True)
+class ContactWarning:
+    """What is doubtful in the results of a deck.
+
+    Attributes:
+        diagnostic: code, message and place, as those of lint.
+        elements: how many elements it is about; 0 for what is about none, as a curve that nothing uses.
+        first: the number of the first of them, or None.
+        brief: the message in a few words, for the caption of a plot.
+    """
+
+    diagnostic: Diagnostic
+    elements: int
+    first: int | None
+    brief: str
+
+    def __str__(self) -> str:
+        found = self.diagnostic
+        return f"{found.file}:{found.line}: {found.code} {found.message}"
+
+    def row(self) -> dict[str, object]:
+        """The warning as JSON has it."""
+        found = self.diagnostic
+        return {
+            "code": found.code,
+            "message": found.message,
+            "line": found.line,
+            "elements": self.elements,
+            "first": self.first,
+        }
+
+
+def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | None = None) -> list[ContactWarning]:
+    """Return what is doubtful in a result of `scene.contact().evaluate(positions)`, in the order of the deck.
+
+    `positions` are those that were evaluated, (nodes, 3) or (steps, nodes, 3); None stands for the deck's own
+    coordinates, whose reaction is compared with the submerged weight.
+    """
+    places = as_array(scene.coordinates if positions is None else positions, "positions")
+    if places.dtype.kind not in "iuf" or places.ndim not in {2, 3} or places.shape[-2:] != (len(scene.node_ids), 3):
+        raise ValueError(f"positions must be numbers (nodes, 3) or (steps, nodes, 3), not of shape {places.shape}")
+    if not len(places):
+        raise ValueError("positions must have one step or more")
+    watch = ContactWatch(scene, result.evaluated, places.reshape(-1, *places.shape[-2:])[0], own=positions is None)
+    watch.look(0, result)
+    return watch.warnings()
+
+
+def seabed_warnings(scene: Scene) -> list[ContactWarning]:
+    """Return what is doubtful about the seabed under the deck's own coordinates, whatever solved shape it will have.
+
+    That is elements in contact without a law, and Z as the height of a line that touches nothing. A deck that cannot be
+    evaluated has none.
+    """
+    if (scene.element_nodes < 0).any():
+        return []
+    wanted = {SBD006.code, SYN009.code}
+    if height_along_z(scene, np.arange(len(scene.element_ids)), scene.coordinates):
+        wanted.add(GEO005.code)
+    elif not (scene.law == LawKind.NONE).any():
+        return []
+    try:
+        evaluation = evaluate_scene(scene)
+        watch = ContactWatch.of(evaluation)
+        evaluation.run([watch])
+    except DeckError:
+        return []
+    return [one for one in watch.warnings() if one.diagnostic.code in wanted]
+
+
+def caption(warnings: Sequence[ContactWarning]) -> str:
+    """The line of a plot that says what is doubtful, "" where nothing is."""
+    if not warnings:
+        return ""
+    return cut(f"{counted(len(warnings), 'warning')}: {'; '.join(one.brief for one in warnings)}", _CAPTION)
+
+
+class _Clearance(NamedTuple):
+    """The smallest distance of a node above the seabed, the index of the node, and the step."""
+
+    gap: float
+    node: int
+    step: int
+
+
+class _Balance(NamedTuple):
+    """Total reaction and submerged weight (NaN where it is not known) of the elements (indices) in contact by a law."""
+
+    reaction: float
+    weight: float
+    elements: Indices
+
+    @property
+    def ratio(self) -> float:
+        """Reaction over weight; NaN where the weight is not above 0."""
+        return self.reaction / self.weight if self.weight > 0.0 else math.nan
+
+
+class ContactWatch:
+    """Takes the results of a few steps at a time, and keeps what the warnings need.
+
+    `evaluated` (m,) are the elements with positions, `places` (n, 3) the first positions; `own` says that these are the
+    deck's coordinates.
+    """
+
+    def __init__(
+        self, scene: Scene, evaluated: Mask, places: Floats, *, own: bool, times: Floats | None = None
+    ) -> None:
+        self._scene, self._places, self._own, self._times = scene, places, own, times
+        self._elements = np.flatnonzero(evaluated)
+        self._nodes = np.unique(scene.element_nodes[self._elements])
+        self._columns: Indices | slice = self._nodes if len(self._nodes) < len(scene.nodes) else slice(None)
+        self._judged = bool((evaluated & ((scene.law == LawKind.NONE) | (scene.submerged_weight < 0.0))).any())
+        self._touched = np.zeros(len(evaluated), dtype=np.bool_)
+        self._restrained = np.zeros(len(scene.nodes), dtype=np.bool_)
+        self._sprung = bool(scene.nodal.any()) or "SEABED SUCTION" in scene.extensions
+        self._sprung |= bool((scene.resistance.column("suction") > 0.0).any())
+        self._acts = False
+        self._clearance = _Clearance(math.inf, -1, 0)
+        self.balance: _Balance | None = None
+
+    @classmethod
+    def of(cls, evaluation: Evaluation) -> ContactWatch:
+        """What watches an evaluation."""
+        evaluated = np.zeros(len(evaluation.scene.element_ids), dtype=np.bool_)
+        evaluated[evaluation.elements] = True
+        places = np.asarray(evaluation.positions[0], dtype=np.float64)
+        own = evaluation.own_positions
+        return cls(evaluation.scene, evaluated, places, own=own, times=evaluation.time)
+
+    def take(self, part: Part) -> None:
+        """Look at some steps."""
+        self.look(part.start, part.result)
+
+    def look(self, start: int, result: ContactResult) -> None:
+        """Look at the steps `start` and on, or at a single state."""
+        contact = np.atleast_2d(result.contact)
+        if self._judged or not self._acts:
+            self._touched |= contact.any(axis=0)
+        if result.restrained is not None:
+            self._restrained |= np.atleast_2d(result.restrained).any(axis=0)
+        if not self._acts:
+            self._acts = bool(self._touched.any()) or self._is_held(result)
+            if not self._acts:
+                self._measure(start, np.atleast_2d(result.gap)[:, self._columns])
+        if self._own and start == 0:
+            self.balance = self._weigh(contact[0], np.atleast_2d(result.normal_force)[0])
+
+    def _is_held(self, result: ContactResult) -> bool:
+        """Whether the seabed acts on a node without an element in contact, as a rigid one or a spring of it does."""
+        if self._sprung and np.atleast_2d(result.normal_force)[:, self._columns].any():
+            return True
+        return result.restrained is not None and bool(result.restrained.any())
+
+    def _measure(self, start: int, gap: Floats) -> None:
+        """Keep the smallest distance of the nodes above the seabed; NaN is where there is none."""
+        least = float(gap.min(initial=np.inf))
+        if math.isnan(least):
+            least = float(np.fmin.reduce(gap, axis=None, initial=np.inf))
+        if least < self._clearance.gap:
+            step, column = np.argwhere(gap == least)[0].tolist()
+            self._clearance = _Clearance(least, int(self._nodes[column]), start + step)
+
+    def _weigh(self, contact: Mask, normal_force: Floats) -> _Balance:
+        scene = self._scene
+        law = scene.law[self._elements]
+        held = self._elements[contact[self._elements] & (law != LawKind.NONE)]
+        with np.errstate(over="ignore", invalid="ignore"):
+            weight = float((scene.submerged_weight[held] * scene.length[held]).sum())
+            reaction = math.nan if (law == LawKind.RIGID).any() else float(normal_force[self._nodes].sum())
+            return _Balance(reaction, weight, held)
+
+    # ----------------------------------------------------------------------------------------------- what it found
+
+    def warnings(self) -> list[ContactWarning]:
+        """What is doubtful, in the order of the deck; ask when all steps are taken."""
+        found = [*self._without_law(), *self._on_rigid(), *self._apart(), *self._unbalanced()]
+        found += [*self._floating(), *self._curves()]
+        return sorted(found, key=lambda one: one.diagnostic.sort_key)
+
+    def note(self) -> str:
+        """That the positions are the deck's own, and what they carry; "" for those of a file, and after RUN003."""
+        balance = self.balance
+        if not self._own or (balance and self._is_unbalanced(balance)):
+            return ""
+        note = "the positions are the deck's own coordinates, not a solved shape"
+        return f"{note}: {self._balanced(balance)}" if balance and balance.elements.size else note
+
+    def _warning(self, code: Code, message: str, where: Where | None, elements: Indices, brief: str) -> ContactWarning:
+        problem = Problem(code, message, None, Severity.WARNING, where)
+        first = int(self._scene.element_ids[elements[0]]) if elements.size else None
+        deck = self._scene.deck
+        found = deck.diagnose([problem])[0]
+        if found.file != deck.file:  # of a deck that this one continues, whose line would be looked for here
+            found = replace(found, message=f"{found.message} (in {found.file})")
+        return ContactWarning(found, len(elements), first, brief)
+
+    def _without_law(self) -> Iterator[ContactWarning]:
+        """Elements in contact without a law, and unknown keywords that look like those of a seabed."""
+        free = np.flatnonzero(self._touched & (self._scene.law == LawKind.NONE))
+        some = len(free) < len(self._elements)
+        for missing in missing_laws(self._scene, free, self._unknown, some=some):
+            yield self._warning(*missing)
+
+    def _on_rigid(self) -> Iterator[ContactWarning]:
+        """Elements that a rigid seabed holds at some step, as its force is not known."""
+        ends = self._restrained[self._scene.element_nodes[self._elements]].any(axis=1)
+        held = self._elements[ends & (self._scene.law[self._elements] == LawKind.RIGID)]
+        if held.size:
+            which = self._scene.describe(held, "is held", "are held")
+            message = f"{which} by a rigid seabed, a constraint: its force is not known, nor is the total reaction"
+            law = self._scene.set_law(int(held[0]))
+            where = None if law is None else law.where
+            yield self._warning(RUN005, message, where, held, "reaction of a rigid seabed not known")
+
+    @cached_property
+    def _unknown(self) -> list[UnknownKeyword]:
+        return unknown_keywords(self._scene)
+
+    def _apart(self) -> Iterator[ContactWarning]:
+        """Nothing in contact at any step."""
+        scene, (gap, node, step) = self._scene, self._clearance
+        if self._acts or not self._elements.size:
+            return
+        if node < 0:
+            message = "nothing is in contact: the line lies outside the seabed; correct its bounds or the coordinates"
+            yield self._warning(GEO005, message, None, self._elements, "line outside the seabed")
+            return
+        distance = f"{shown(abs(gap))}{unit_names(scene.units).behind('length')}"
+        times = self._times
+        at = "" if times is None else f" at time {shown(float(times[step]))}"
+        number = scene.node_ids[node]
+        message = f"nothing is in contact: the smallest clearance is {distance}, of node {number}{at}"
+        if gap < 0.0:
+            message = (
+                f"no element is in contact in the mean of its nodes, though node {number} lies {distance} deep{at}"
+            )
+        solved = ", or give a solved shape with --positions" if self._own else ""
+        touches = 0.0 <= gap <= _TOUCHING * float(np.fmax.reduce(scene.diameter[self._elements], initial=0.0))
+        lower = "lower the line until it penetrates" if touches else "correct the datum of X, which is 0 at the mudline"
+        advice = self._turned() or f"; {lower}{solved}"
+        where = scene.nodes.where(node)
+        yield self._warning(GEO005, message + advice, where, self._elements, "nothing in contact")
+
+    def _turned(self) -> str:
+        """Words for positions whose last coordinate seems to be the height, or ""."""
+        hint = height_along_z(self._scene, self._elements, self._places)
+        return f"; {hint}: X is up here, the height is the first coordinate" if hint else ""
+
+    def _unbalanced(self) -> Iterator[ContactWarning]:
+        """The deck's own positions where they are far from equilibrium."""
+        balance = self.balance
+        if balance is None or not self._is_unbalanced(balance):
+            return
+        message = f"the positions are the deck's own, far from equilibrium: {self._balanced(balance)}"
+        advice = self._turned() or "; give a solved shape with --positions"
+        brief = f"reaction / submerged weight {shown(balance.ratio, 3)}"
+        yield self._warning(RUN003, message + advice, None, balance.elements, brief)
+
+    def _is_unbalanced(self, balance: _Balance) -> bool:
+        return not self._weighs_more and (balance.ratio < BALANCED[0] or balance.ratio > BALANCED[1])
+
+    @cached_property
+    def _weighs_more(self) -> bool:
+        """Whether contents or coatings, which are not read, belong to the weight."""
+        deck = self._scene.deck
+        return not {*deck.keywords(), *deck.keywords("LOAD CASE")}.isdisjoint(_MORE_WEIGHT)
+
+    def _balanced(self, balance: _Balance) -> str:
+        behind = unit_names(self._scene.units).behind("force")
+        elements = counted(len(balance.elements), "element")
+        reaction = "not known" if math.isnan(balance.reaction) else f"{shown(balance.reaction)}{behind}"
+        carried = f"total reaction {reaction} on {elements} in contact"
+        if math.isnan(balance.weight):
+            return f"{carried}, whose submerged weight is not known"
+        more = " without coatings and contents" if self._weighs_more else ""
+        ratio = "" if math.isnan(balance.ratio) else f", ratio {shown(balance.ratio, 3)}"
+        return f"{carried}, their submerged weight {shown(balance.weight)}{behind}{more}{ratio}"
+
+    def _floating(self) -> Iterator[ContactWarning]:
+        """Elements in contact that float; where nothing is in contact, all of them if they do."""
+        scene = self._scene
+        floats = scene.submerged_weight[self._elements] < 0.0
+        if any(map(holds_in_soil, scene.deck.keywords())):  # springs of the soil hold what has no law of the seabed
+            floats &= scene.law[self._elements] != LawKind.NONE
+        light = self._elements[floats & (self._touched[self._elements] | (not self._acts and bool(floats.all())))]
+        if not light.size or self._weighs_more:
+            return
+        behind = unit_names(scene.units).behind("line_force") or " per length"
+        message = (
+            f"{scene.describe(light, 'floats', 'float')}: submerged weight {shown(self._least(light))}{behind} without "
+            "contents; check diameters and densities"
+        )
+        where = scene.section_table.sections[int(scene.section_table.of_element[light[0]])].where
+        yield self._warning(RUN004, message, where, light, f"{counted(len(light), 'element')} floating")
+
+    def _least(self, elements: Indices) -> float:
+        return float(self._scene.submerged_weight[elements].min())
+
+    def _curves(self) -> Iterator[ContactWarning]:
+        """Curves that no element follows; not those that an unknown keyword may use, which is the cause then."""
+        if self._unknown:
+            return
+        none = np.zeros(0, dtype=np.intp)
+        for problem in unused_curves(self._scene):
+            yield self._warning(problem.code, problem.message, problem.where, none, "a curve without effect")

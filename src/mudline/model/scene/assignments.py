@@ -1,0 +1,407 @@
+"""The laws that few decks ask for: smoothing, nodal stiffness, unloading, suction, friction, trenches."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from mudline.model.contact.input import LawAssignment, LawKind
+from mudline.model.scene.deck_values import FORCE_UNIT, LARGEST_MOBILISATION, LENGTH_UNIT, number
+from mudline.model.scene.laws import Extension
+from mudline.model.scene.numbering import Floats, Indices, Mask, at_nodes, marked, picked, summed, touched
+from mudline.model.scene.resolved import ResolvedDeck
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.seabed_friction import FrictionSet
+    from mudline.language.keywords.library.seabed_suction import SuctionSet
+    from mudline.language.keywords.library.seabed_trench import TrenchSet
+    from mudline.model.contact.laws.suction import SuctionLaw
+
+_LINE = (("start_y", "y0"), ("start_z", "z0"), ("end_y", "y1"), ("end_z", "z1"))
+_CORNERS = (0.2, 0.8)
+_SLOWEST = 1e-3
+"""Default of REGULARISATION=, m/s."""
+
+
+def element_smoothing(scene: ResolvedDeck) -> LawAssignment:
+    """The elements with a linear law that have a quadratic zone (`SMOOTHING=` and `FORM=` of `*SEABED CONTACT`)."""
+    extension = scene.extensions["SEABED CONTACT"]
+    block = np.where(scene.law == LawKind.LINEAR, extension.of_element, -1)
+    stiffness = scene.law_arrays().linear_stiffness
+    with np.errstate(all="ignore"):
+        penetration = scene.submerged_weight / stiffness
+    width = _half_width(extension, block, penetration, scene.diameter)
+    rows = np.flatnonzero(width > 0.0)
+    sides = _one_sided(extension, block)
+    return LawAssignment(
+        "smoothed", rows, {"stiffness": stiffness[rows], "half_width": width[rows], "one_sided": sides[rows]}
+    )
+
+
+def _half_width(extension: Extension, block: Indices, penetration: Floats, diameter: Floats) -> Floats:
+    """Half widths h of the points that follow each `block` (-1: none), from static penetrations Z and diameters D.
+
+    The number that is given, else that of AUTO, without a diameter from Z alone; 0 for NONE.
+    """
+    from mudline.model.contact.laws.linear import automatic_half_width  # noqa: PLC0415 - only now is it needed
+
+    automatic = automatic_half_width(penetration, np.where(np.isnan(diameter), np.inf, diameter))
+    automatic = np.where(np.isfinite(automatic), automatic, 0.0)
+    given = extension.values(block, "smoothing", default=0.0)
+    width: Floats = np.where(_is_auto(extension, block), automatic, given)
+    return np.where(block >= 0, width, 0.0)
+
+
+def _is_auto(extension: Extension, block: Indices) -> Mask:
+    """Whether each block leaves the width to the static penetration; that is the default but beside DAMPING= alone."""
+
+    def auto(entry: object) -> bool:
+        names = ("form", "nodal_stiffness") if getattr(entry, "damping", None) is not None else ()
+        given: object = getattr(entry, "smoothing", None)
+        asked = not names or any(getattr(entry, name, None) is not None for name in names)
+        return given == "AUTO" or (given is None and asked)
+
+    return marked(map(auto, extension.entries), block)
+
+
+def damping(scene: ResolvedDeck) -> list[LawAssignment]:
+    """Damping of elements with a law per unit length, and of the nodes of those with a stiffness of their nodes."""
+    extension = scene.extensions["SEABED CONTACT"]
+    given = np.nan_to_num(extension.values(extension.of_element, "damping"))
+    rows = np.flatnonzero((given > 0.0) & ~np.isin(scene.law, (LawKind.NONE, LawKind.RIGID, LawKind.NODAL)))
+    length = np.where(scene.nodal & np.isfinite(scene.length), scene.length, 0.0)
+    of_nodes = summed(0.5 * given * length, scene.element_nodes, len(scene.node_ids))
+    nodes = np.flatnonzero(of_nodes > 0.0)
+    return [
+        LawAssignment("damping", rows, {"damping": given[rows]}),
+        LawAssignment("nodal damping", nodes, {"damping": of_nodes[nodes]}),
+    ]
+
+
+def _one_sided(extension: Extension, block: Indices) -> Mask:
+    """Whether the zone of each block lies below the seabed only."""
+    return marked((getattr(entry, "form", None) == "ONE-SIDED" for entry in extension.entries), block)
+
+
+def weightless(scene: ResolvedDeck) -> int:
+    """How many elements leave the width to a weight that is not known or not above 0, and so are not smoothed."""
+    extension = scene.extensions["SEABED CONTACT"]
+    auto = _is_auto(extension, extension.of_element) & np.isin(scene.law, (LawKind.LINEAR, LawKind.NODAL))
+    return int((auto & ~(scene.submerged_weight > 0.0)).sum())
+
+
+def nodal_springs(scene: ResolvedDeck) -> LawAssignment:
+    """The springs of the nodes (`NODAL STIFFNESS=` of `*SEABED CONTACT`), with their quadratic zones."""
+    extension = scene.extensions["SEABED CONTACT"]
+    block = _nodal_blocks(scene, extension)
+    stiffness = nodal_stiffness(scene, extension)
+    width = _half_width(extension, block, *_static_at_nodes(scene, stiffness))
+    rows = np.flatnonzero(~np.isnan(stiffness))
+    sides = _one_sided(extension, block)
+    return LawAssignment(
+        "nodal", rows, {"stiffness": stiffness[rows], "half_width": width[rows], "one_sided": sides[rows]}
+    )
+
+
+def nodal_stiffness(scene: ResolvedDeck, extension: Extension) -> Floats:
+    """Kn of each node (n,), force per length; NaN for nodes of which no element has a nodal law."""
+    return extension.values(_nodal_blocks(scene, extension), "nodal_stiffness")
+
+
+def _nodal_blocks(scene: ResolvedDeck, extension: Extension) -> Indices:
+    """The block that gives each node (n,) its stiffness: the last one that one of its nodal elements follows, or -1."""
+    of_element = np.where(scene.law == LawKind.NODAL, extension.of_element, -1)
+    return at_nodes(of_element, scene.element_nodes, len(scene.node_ids))
+
+
+def _static_at_nodes(scene: ResolvedDeck, stiffness: Floats) -> tuple[Floats, Floats]:
+    """Static penetrations W L_t / Kn of the nodes (n,), and the diameters that go with them.
+
+    W L_t is half of the weight of each of a node's elements, its diameter the mean of theirs.
+    """
+    ends, count = scene.element_nodes, len(scene.node_ids)
+    with np.errstate(all="ignore"):
+        return summed(0.5 * scene.submerged_weight * scene.length, ends, count) / stiffness, _sizes(scene)
+
+
+def _sizes(scene: ResolvedDeck) -> Floats:
+    """Mean diameters (n,) of the elements at the nodes; NaN where none is known."""
+    ends, count, known = scene.element_nodes, len(scene.node_ids), ~np.isnan(scene.diameter)
+    with np.errstate(all="ignore"):
+        sizes = summed(np.where(known, scene.diameter, 0.0), ends, count)
+        return sizes / summed(known.astype(np.float64), ends, count)
+
+
+def unloading_lines(scene: ResolvedDeck) -> LawAssignment:
+    """The elements on a curve or a linear law that unload on a line of their own (`*SEABED UNLOADING`)."""
+    extension = scene.extensions["SEABED UNLOADING"]
+    rows = np.flatnonzero((extension.of_element >= 0) & np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR)))
+    return LawAssignment("unloading", rows, {"stiffness": given_stiffness(extension)[rows]})
+
+
+SOIL_FIELDS = {
+    "strength": ("strength", "mudline"),
+    "gradient": ("strength", "gradient"),
+    "factor": ("bearing", "factor"),
+    "exponent": ("bearing", "exponent"),
+    "stiffness": ("stiffness",),
+    "suction": ("suction", "ratio"),
+    "suction_decay": ("suction", "decay"),
+    "repenetration": ("repenetration",),
+}
+"""Fields of `*SEABED SOIL` by the parameters of the law."""
+
+
+def soils(scene: ResolvedDeck) -> LawAssignment:
+    """The hysteretic soil of the elements on an elastic seabed (`*SEABED SOIL`)."""
+    rows = np.flatnonzero(scene.law == LawKind.SOIL)
+    return LawAssignment("soil", rows, soil_parameters(scene.extensions["SEABED SOIL"], rows))
+
+
+def soil_parameters(extension: Extension, elements: Indices) -> dict[str, Floats]:
+    """The parameters of some elements (k,) with a soil, by name."""
+    from mudline.model.contact.laws.soil import SOIL  # noqa: PLC0415 - only now is it needed
+
+    block = extension.of_element[elements]
+    default = {each.name: math.nan if each.default is None else each.default for each in SOIL.parameters}
+    found = {name: extension.values(block, *path) for name, path in SOIL_FIELDS.items()}
+    found = {name: np.where(np.isnan(values), default[name], values) for name, values in found.items()}
+    factor, weight = (extension.values(block, "buoyancy", name) for name in ("factor", "weight"))
+    return found | {"buoyancy": np.nan_to_num(factor * weight)}
+
+
+def given_stiffness(extension: Extension) -> Floats:
+    """The stiffness of the block that each element (m,) follows, NaN without one."""
+    return extension.values(extension.of_element, "stiffness")
+
+
+def element_suction(scene: ResolvedDeck) -> LawAssignment:
+    """The suction laws of the elements on an elastic seabed (`*SEABED SUCTION`)."""
+    extension = scene.extensions["SEABED SUCTION"]
+    elements = np.flatnonzero((extension.of_element >= 0) & (scene.law != LawKind.RIGID))
+    return LawAssignment("suction", elements, suction_law(scene, extension, elements)._asdict())
+
+
+def suction_law(scene: ResolvedDeck, extension: Extension, elements: Indices) -> SuctionLaw:
+    """What the blocks that some elements (k,) follow say, in the deck's units; NaN for what they leave open.
+
+    The power laws are the explicit ones, else those that follow from cohesion and diameter.
+    """
+    from mudline.model.contact.laws.suction import SuctionFactors, SuctionLaw, from_cohesion  # noqa: PLC0415 - only now is it needed
+
+    block = extension.of_element[elements]
+    cohesion = extension.values(block, "cohesion")
+    diameter = np.where(np.isnan(cohesion), np.nan, scene.diameter[elements])
+    units = LENGTH_UNIT.get(scene.units, 1.0), FORCE_UNIT.get(scene.units, 1.0)
+    computed = from_cohesion(cohesion, diameter, *units)
+    given = [extension.values(block, law, name) for law in ("force", "depth") for name in ("factor", "exponent")]
+    factors = (np.where(np.isnan(own), other, own) for own, other in zip(given, computed, strict=True))
+    first, second = (extension.values(block, "cutoff", name) for name in ("first", "second"))
+    slowest = _SLOWEST / LENGTH_UNIT.get(scene.units, math.nan)
+    return SuctionLaw(
+        *SuctionFactors(*factors),
+        first_corner=np.where(np.isnan(first), _CORNERS[0], first),
+        second_corner=np.where(np.isnan(second), _CORNERS[1], second),
+        cyclic=picked((_cyclic(entry)[0] for entry in extension.entries), block),
+        regularisation=extension.values(block, "regularisation", default=slowest),
+        cyclic_floor=picked((_cyclic(entry)[1] for entry in extension.entries), block),
+    )
+
+
+def _cyclic(entry: object) -> tuple[float, float]:
+    """Factor and floor of CYCLIC=; the floor is NaN where there is none."""
+    given = cast("SuctionSet", entry).cyclic
+    return number(given, "factor", number(entry, "cyclic", 1.0)), number(given, "floor")
+
+
+def node_friction(scene: ResolvedDeck, lateral: Indices) -> LawAssignment:
+    """The friction of the nodes that have any; that across the line up to the breakout, where they have one.
+
+    Nodes of elements with a lateral spring (`lateral` (k,)) have no transverse coefficient; nodes of a rigid seabed
+    have no friction, as their normal reaction is that of a constraint.
+    """
+    ends, count = scene.element_nodes, len(scene.node_ids)
+    springs = _of_properties(scene)
+    active = (springs[0] > 0.0).any(axis=1)
+    ellipse, angle = np.zeros(count, dtype=np.bool_), np.full(count, np.nan)
+    extension = scene.extensions.get("SEABED FRICTION")
+    if extension is not None:
+        block = _friction_blocks(scene, extension)
+        here = block >= 0
+        springs = np.where(here[:, None], _of_keyword(scene, extension, block), springs)
+        active = active | here
+        ellipse = marked((getattr(entry, "criterion", None) == "ELLIPSE" for entry in extension.entries), block)
+        angle = extension.values(block, "directions")
+    coefficients, stiffness, mobilisation = springs
+    coefficients[np.unique(ends[lateral]), 1] = 0.0
+    rows = np.flatnonzero(active & ~touched(scene.law == LawKind.RIGID, ends, count))
+    with np.errstate(all="ignore"):
+        rising = coefficients[rows] / mobilisation[rows]
+    _refuse_endless_springs(scene, rising, rows)
+    parameters = {"elliptic": ellipse[rows], "angle": angle[rows]}
+    for side, name in enumerate(("axial", "lateral")):
+        parameters[f"{name}_coefficient"] = np.nan_to_num(coefficients[rows, side])
+        parameters[f"{name}_stiffness"] = stiffness[rows, side]
+        parameters[f"{name}_mobilisation"] = mobilisation[rows, side]
+    return LawAssignment("friction", rows, parameters)
+
+
+def _refuse_endless_springs(scene: ResolvedDeck, rising: Floats, nodes: Indices) -> None:
+    """Raise DeckError for a node whose springs (k, 2) for each unit of its normal force are no finite numbers."""
+    endless = np.isinf(rising).any(axis=1)
+    if endless.any():
+        node = int(scene.node_ids[nodes[np.argmax(endless)]])
+        what = "its friction coefficient divided by its mobilisation length is too large for a double-precision number"
+        raise scene.refusal(f"node {node}: {what}; this cannot be evaluated", node=node)
+
+
+def _of_properties(scene: ResolvedDeck) -> Floats:
+    """Coefficients, constant springs and mobilisation lengths (3, n, 2) by `FRICTION=`; NaN where there is none.
+
+    The default length at a node is the least of its elements' lengths, up to a largest.
+    """
+    ends, count = scene.element_nodes, len(scene.node_ids)
+    block = at_nodes(scene.resistance.of_element, ends, count)
+    given = {
+        name: np.array([*(getattr(entry, name) for entry in scene.resistance.values), (np.nan, np.nan)])[block]
+        for name in ("friction", "mobilisation", "characteristic")
+    }
+    largest = np.fmin(given["characteristic"], np.inf)
+    largest = np.where(np.isinf(largest), LARGEST_MOBILISATION.get(scene.units, np.inf), largest)
+    default = np.fmin(_shortest(scene)[:, None], largest)
+    length = np.where(given["mobilisation"] > 0.0, given["mobilisation"], default)
+    return np.stack([given["friction"], np.full((count, 2), np.nan), np.where(np.isfinite(length), length, np.nan)])
+
+
+def _shortest(scene: ResolvedDeck) -> Floats:
+    """The least length of each node's elements; infinite where none is above 0."""
+    shortest = np.full(len(scene.node_ids), np.inf)
+    usable = np.isfinite(scene.length) & (scene.length > 0.0)
+    for end in scene.element_nodes[usable].T:
+        np.minimum.at(shortest, end, scene.length[usable])
+    return shortest
+
+
+def _of_keyword(scene: ResolvedDeck, extension: Extension, block: Indices) -> Floats:
+    """As `_of_properties`, by `*SEABED FRICTION`: springs are given, and have no length but that of a breakout."""
+    coefficients, stiffness = (
+        np.column_stack([extension.values(block, part, name) for name in ("first", "second")])
+        for part in ("coefficients", "stiffness")
+    )
+    stiffness[:, 1] = np.where(np.isnan(stiffness[:, 1]), stiffness[:, 0], stiffness[:, 1])
+    lengths, out = np.full(stiffness.shape, np.nan), marked(map(breaks_out, extension.entries), block)
+    if out.any():
+        coefficients[out, 1], stiffness[out, 1] = extension.values(block, "peak", "factor")[out], np.nan
+        lengths[out, 1] = _breakouts(scene)["peak_displacement"][out]
+    return np.stack([coefficients, stiffness, lengths])
+
+
+def breaks_out(entry: object) -> bool:
+    """Whether a block of `*SEABED FRICTION` gives a breakout."""
+    return getattr(entry, "lateral", None) in {"PEAK-RESIDUAL", "F114"}
+
+
+def softens(entry: object) -> bool:
+    """Whether a block of `*SEABED FRICTION` gives a breakout with less behind it."""
+    from mudline.model.contact.laws.breakout import F114_RESIDUAL  # noqa: PLC0415 - only now
+
+    given = cast("FrictionSet", entry)
+    residual = F114_RESIDUAL[0] if given.lateral == "F114" else number(given.residual, "factor")
+    return breaks_out(given) and number(given.peak, "factor") > residual
+
+
+def node_breakouts(scene: ResolvedDeck, friction: LawAssignment) -> list[LawAssignment]:
+    """The breakout of the nodes with friction that have one (`LATERAL=` of `*SEABED FRICTION`)."""
+    extension = scene.extensions.get("SEABED FRICTION")
+    if extension is None or not any(map(breaks_out, extension.entries)):
+        return []
+    out = marked(map(breaks_out, extension.entries), _friction_blocks(scene, extension))[friction.rows]
+    rows = friction.rows[out & (np.asarray(friction.parameters["lateral_coefficient"]) > 0.0)]
+    return [LawAssignment("breakout", rows, {name: values[rows] for name, values in _breakouts(scene).items()})]
+
+
+def _friction_blocks(scene: ResolvedDeck, extension: Extension) -> Indices:
+    """The block of `*SEABED FRICTION` that each node (n,) follows, -1 for none."""
+    return at_nodes(extension.of_element, scene.element_nodes, len(scene.node_ids))
+
+
+def _breakouts(scene: ResolvedDeck) -> dict[str, Floats]:
+    """The parameters of the breakout of all nodes (n,); NaN where there is none."""
+    from mudline.model.contact.laws.breakout import F114_DISPLACEMENTS, F114_RESIDUAL  # noqa: PLC0415 - only now
+
+    extension = scene.extensions["SEABED FRICTION"]
+    block = _friction_blocks(scene, extension)
+    published = marked((getattr(entry, "lateral", None) == "F114" for entry in extension.entries), block)
+    peak, residual, size = extension.values(block, "peak", "factor"), F114_RESIDUAL, _sizes(scene)
+    given: dict[str, tuple[Floats | float, Floats]] = {
+        "peak_displacement": (extension.values(block, "peak", "displacement"), F114_DISPLACEMENTS[0] * size),
+        "peak_growth": (0.0, F114_DISPLACEMENTS[1] * size),
+        "residual": (extension.values(block, "residual", "factor") / peak, residual[0] / peak),
+        "residual_growth": (0.0, residual[1] / peak),
+        "residual_displacement": (extension.values(block, "residual", "displacement"), F114_DISPLACEMENTS[2] * size),
+    }
+    return {name: np.where(published, theirs, ours) for name, (ours, theirs) in given.items()}
+
+
+def trenches(scene: ResolvedDeck) -> list[LawAssignment]:
+    """The elements in trenches with a peak resistance, a tabulated one, or sloped walls; and where these lower it."""
+    extension = scene.extensions["SEABED TRENCH"]
+    entries = _trench_sets(scene)
+    if not (extension.of_element >= 0).any():
+        return []
+    walls, lower = (np.array([getattr(entry, name) == text for entry in entries]) for name, text in _KINDS_OF_TRENCH)
+    tabulated = np.array([_has_table(entry) for entry in entries])
+    table = np.cumsum(tabulated) - 1.0
+    found = []
+    for law, blocks, name in (
+        ("trench peak", ~walls & ~tabulated, "peak"),
+        ("trench table", tabulated, "table"),
+        ("trench wall", walls, "depth"),
+        ("trench level", lower, "depth"),
+    ):
+        rows = np.flatnonzero((extension.of_element >= 0) & blocks[extension.of_element])
+        block = extension.of_element[rows]
+        path = ("geometry", "depth") if name == "depth" else ("peak",)
+        parameters = {
+            "bottom": extension.values(block, "geometry", "bottom_width"),
+            "upper": extension.values(block, "geometry", "upper_width"),
+            name: table[block] if name == "table" else extension.values(block, *path),
+            **{ours: extension.values(block, "centreline", theirs) for ours, theirs in _LINE},
+        }
+        found.append(LawAssignment(law, rows, parameters))
+    return found
+
+
+_KINDS_OF_TRENCH = (("model", "WALL"), ("level", "LOWERED"))
+
+
+def resistance_tables(scene: ResolvedDeck) -> list[Floats]:
+    """The tables (k, 3) of the blocks that have one, in their order."""
+    from mudline.model.contact.laws.trench import rounded  # noqa: PLC0415 - only now is it needed
+
+    entries = [entry for entry in _trench_sets(scene) if _has_table(entry)]
+    return [rounded(resistance_diagram(entry), number(entry, "smoothing", 0.0)) for entry in entries]
+
+
+def resistance_diagram(entry: TrenchSet) -> Floats:
+    """The corners (k, 2) of the resistance over the distance from the centreline."""
+    from mudline.model.contact.laws.trench import diagram  # noqa: PLC0415 - only now is it needed
+
+    if entry.peak == "TABLE" and entry.table is not None:
+        return entry.table.values
+    inner, outer = (0.5 * number(entry.geometry, name) for name in ("bottom_width", "upper_width"))
+    held, given = entry.residual, entry.residual is not None
+    residual = (number(held, "resistance"), number(held, "displacement")) if given else None
+    return diagram(inner, outer, number(entry, "peak"), residual)
+
+
+def _has_table(entry: TrenchSet) -> bool:
+    """Whether its resistance is no plain peak, and none of walls."""
+    rounds = entry.residual is not None or number(entry, "smoothing", 0.0) > 0.0
+    return entry.model != "WALL" and (entry.peak == "TABLE" or rounds)
+
+
+def _trench_sets(scene: ResolvedDeck) -> list[TrenchSet]:
+    return cast("list[TrenchSet]", scene.extensions["SEABED TRENCH"].entries)

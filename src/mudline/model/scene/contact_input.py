@@ -1,0 +1,232 @@
+"""What a scene hands to the evaluator: laws, seabed, and what is left out and why.
+
+Modules of what few decks ask for are imported when a deck does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from mudline.basics.short_repr import counted
+from mudline.language.codes import RUN001
+from mudline.language.diagnostics import DeckError, Problem
+from mudline.model.contact import ElementError
+from mudline.model.contact.input import ContactInput, LawAssignment, LawKind
+from mudline.model.scene.numbering import Floats, Indices, Mask
+from mudline.model.scene.resolved import LawArrays, ResolvedDeck
+from mudline.model.scene.seabed import SeabedKind
+from mudline.model.scene.shore import made_seabed
+
+if TYPE_CHECKING:
+    from mudline.model.contact.seabed import Seabed
+
+_REFUSED = "; this cannot be evaluated"
+
+
+def contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> ContactInput:
+    """The arrays that the evaluator is made from; raises DeckError (RUN001) for what no check covers."""
+    if problems := list(_refusals(scene)):
+        raise DeckError(scene.deck.diagnose(problems))
+    try:
+        return _contact_input(scene, tension)
+    except ElementError as error:
+        raise scene.refusal(f"{error}{_REFUSED}", element=error.element) from error
+
+
+def _contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> ContactInput:
+    arrays = scene.law_arrays()
+    assigned = (*_normal_laws(scene, arrays), *_suction_laws(scene), *_lateral_laws(scene))
+    laws = tuple(law for law in assigned if len(law.rows))
+    return ContactInput(
+        node_ids=scene.node_ids,
+        coordinates=scene.coordinates,
+        element_ids=scene.element_ids,
+        element_nodes=scene.element_nodes,
+        length=np.where(np.isfinite(scene.length), scene.length, 0.0),  # what is not finite has no spring
+        diameter=scene.diameter,
+        laws=laws,
+        curves=arrays.curves,
+        tables=tuple(_tables(scene)),
+        tension=tension,
+        seabed=_seabed(scene),
+        weight=scene.submerged_weight,
+        left_out=_left_out(scene, [law.law for law in laws]),
+        names=scene,
+    )
+
+
+def _refusals(scene: ResolvedDeck) -> Iterator[Problem]:
+    """What no check covers: a problem for each kind, at the first element concerned."""
+    springs = ~np.isin(scene.law, (LawKind.NONE, LawKind.RIGID, LawKind.NODAL))
+    unknown = scene.element_nodes.min(axis=1, initial=0) < 0
+    yield from _refusal(scene, unknown, "ends at a node that is not known", "end at nodes that are not known")
+    endless = springs & ~np.isfinite(scene.length) & ~unknown
+    yield from _refusal(scene, endless, "has no known finite length", "have no known finite length")
+
+
+def _refusal(scene: ResolvedDeck, found: Mask, one: str, many: str) -> Iterator[Problem]:
+    at = np.flatnonzero(found)
+    if at.size:
+        message = f"{scene.describe(at, one, many)}{_REFUSED}"
+        yield Problem(RUN001, message, where=scene.table.numbered.where(int(at[0])))
+
+
+def _tables(scene: ResolvedDeck) -> list[Floats]:
+    """The tables that trenches point to."""
+    if "SEABED TRENCH" not in scene.extensions:
+        return []
+    from mudline.model.scene.assignments import resistance_tables  # noqa: PLC0415 - only now is it needed
+
+    return resistance_tables(scene)
+
+
+def _normal_laws(scene: ResolvedDeck, arrays: LawArrays) -> list[LawAssignment]:
+    """Curves, linear laws, nodal laws, unloading."""
+    (on_curve,), (linear,) = (np.nonzero(scene.law == kind) for kind in (LawKind.CURVE, LawKind.LINEAR))
+    laws = [
+        LawAssignment("rigid", np.flatnonzero(scene.law == LawKind.RIGID)),
+        LawAssignment("curve", on_curve, {"curve": arrays.curve_index[on_curve]}),
+    ]
+    smoothed = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    if "SEABED CONTACT" in scene.extensions:
+        from mudline.model.scene.assignments import element_smoothing  # noqa: PLC0415 - only now is it needed
+
+        smoothing = element_smoothing(scene)
+        smoothed[smoothing.rows] = True
+        laws.append(smoothing)
+    plain = linear[~smoothed[linear]]
+    laws.append(LawAssignment("linear", plain, {"stiffness": arrays.linear_stiffness[plain]}))
+    if (scene.law == LawKind.NODAL).any():
+        from mudline.model.scene.assignments import nodal_springs  # noqa: PLC0415 - only now is it needed
+
+        laws.append(nodal_springs(scene))
+    if "SEABED CONTACT" in scene.extensions:
+        from mudline.model.scene.assignments import damping  # noqa: PLC0415 - only now is it needed
+
+        laws += damping(scene)
+    if "SEABED SOIL" in scene.extensions:
+        from mudline.model.scene.assignments import soils  # noqa: PLC0415 - only now is it needed
+
+        laws.append(soils(scene))
+    if "SEABED UNLOADING" in scene.extensions:
+        from mudline.model.scene.assignments import unloading_lines  # noqa: PLC0415 - only now is it needed
+
+        laws.append(unloading_lines(scene))
+    return laws
+
+
+def _suction_laws(scene: ResolvedDeck) -> list[LawAssignment]:
+    laws = []
+    if _given(scene, "suction"):
+        stiffness, extent = scene.resistance.column("suction"), scene.resistance.column("extent")
+        # a spring without an extent of its zone has no effect
+        rows = np.flatnonzero((stiffness > 0.0) & (extent > 0.0) & (scene.law != LawKind.RIGID))
+        laws.append(LawAssignment("suction spring", rows, {"stiffness": stiffness[rows], "extent": extent[rows]}))
+    if "SEABED SUCTION" in scene.extensions:
+        from mudline.model.scene.assignments import element_suction  # noqa: PLC0415 - only now is it needed
+
+        laws.append(element_suction(scene))
+    return laws
+
+
+def _lateral_laws(scene: ResolvedDeck) -> list[LawAssignment]:
+    """Lateral springs, friction, trenches."""
+    laws = []
+    if _given(scene, "lateral"):
+        lateral = _lateral(scene)
+        laws.append(LawAssignment("lateral", lateral, {"stiffness": scene.resistance.column("lateral")[lateral]}))
+    friction = friction_of(scene)
+    if friction is not None:
+        laws.append(friction)
+        from mudline.model.scene.assignments import node_breakouts  # noqa: PLC0415 - only now is it needed
+
+        laws += node_breakouts(scene, friction)
+    if "SEABED TRENCH" in scene.extensions:
+        from mudline.model.scene.assignments import trenches  # noqa: PLC0415 - only now is it needed
+
+        laws += trenches(scene)
+    return laws
+
+
+def friction_of(scene: ResolvedDeck) -> LawAssignment | None:
+    """The friction of the nodes; None where nothing gives any."""
+    if "SEABED FRICTION" not in scene.extensions and not _given(scene, "friction"):
+        return None
+    from mudline.model.scene.assignments import node_friction  # noqa: PLC0415 - only now is it needed
+
+    return node_friction(scene, _lateral(scene))
+
+
+def _lateral(scene: ResolvedDeck) -> Indices:
+    """Elements with a lateral spring."""
+    if not _given(scene, "lateral"):
+        return np.zeros(0, dtype=np.intp)
+    return np.flatnonzero((scene.resistance.column("lateral") > 0.0) & (scene.law != LawKind.RIGID))
+
+
+def _given(scene: ResolvedDeck, name: str) -> bool:
+    """Whether some block of the seabed gives a value above 0."""
+    return any(np.greater(getattr(values, name), 0.0).any() for values in scene.resistance.values)
+
+
+def _seabed(scene: ResolvedDeck) -> Seabed | None:
+    """The shape of the seabed; None for a flat one at elevation 0.
+
+    Raises DeckError for what no check covers: files of a deck that came from no folder, points that only their
+    triangulation refuses, and a package that is missing.
+    """
+    seabed = scene.seabed
+    if seabed.kind is SeabedKind.FLAT:
+        return None
+    if seabed.missing:
+        raise scene.refusal(f"the seabed is not known: {seabed.missing}{_REFUSED}", seabed.where)
+    if seabed.kind is SeabedKind.SURFACE and find_spec("scipy") is None:
+        message = "a 3D surface needs scipy, which is not installed: pip install 'mudline[surface]'"
+        raise scene.refusal(message, seabed.where)
+    try:
+        return made_seabed(seabed)
+    except ValueError as error:
+        raise scene.refusal(f"{error}{_REFUSED}", seabed.where) from error
+
+
+def _left_out(scene: ResolvedDeck, laws: Sequence[str]) -> dict[str, str]:
+    """By stage of the plan, what is asked for and not evaluated, or not as it is written; nothing for other stages."""
+    reasons: dict[str, list[str]] = {}
+    for stage, why in _reasons(scene, laws):
+        reasons.setdefault(stage, []).append(why)
+    return {stage: "; ".join(each) for stage, each in reasons.items()}
+
+
+def _reasons(scene: ResolvedDeck, laws: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """Stage and reason of each thing that is left out."""
+
+    def where_given(name: str) -> Mask:
+        found: Mask = scene.resistance.column(name) > 0.0
+        return found
+
+    rigid = scene.law == LawKind.RIGID
+    if "SEABED CONTACT" in scene.extensions:
+        from mudline.model.scene.assignments import weightless  # noqa: PLC0415 - only now is it needed
+
+        if count := weightless(scene):
+            elements = counted(count, "element")
+            yield "smoothing", f"none for {elements} of SMOOTHING=AUTO: no submerged weight above 0 is known"
+    if count := int((where_given("suction") & ~where_given("extent") & ~rigid).sum()):
+        yield "suction", f"SUCTION= without an extent of its zone has no effect: {counted(count, 'element')}"
+    asked = where_given("friction").any(axis=1)
+    if extension := scene.extensions.get("SEABED FRICTION"):
+        asked |= extension.of_element >= 0
+    if count := int((asked & rigid).sum()):
+        elements = counted(count, "element")
+        yield "friction", f"none on a rigid seabed, whose reaction is that of a constraint: {elements}"
+    if "lateral" in laws and asked.any():
+        yield "friction", "LATERAL= replaces the transverse coefficient"
+    if where_given("constant").any():
+        why = "the constant friction force coefficient is not evaluated: the manual does not say what it means"
+        yield "friction", why
+    if where_given("friction_stiffness").any():
+        yield "friction", "friction stiffnesses of FRICTION= are for modal and frequency runs (inferred)"

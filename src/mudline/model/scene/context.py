@@ -1,0 +1,341 @@
+"""What resolving a deck needs at every step: the evaluated deck, and the list of what went wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, TypeVar, cast
+
+from mudline.basics.limits import MOST_REPORTED
+from mudline.basics.short_repr import counted, short_repr
+from mudline.basics.spelling import Effort, edits, equally_near, nearest
+from mudline.language.codes.fields import SYN016
+from mudline.language.deck.model import Deck, Opaque
+from mudline.language.deck.parameters import EvaluatedDeck, folded
+from mudline.language.deck.reading import TextOrigin
+from mudline.language.diagnostics import MORE, Blocks, Code, Problem, Severity, Where
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.catalogue import meant_in, suggest_keyword
+from mudline.language.keywords.model import ListRow
+from mudline.language.keywords.table import LARGEST_WHOLE
+from mudline.language.keywords.text import hint
+from mudline.language.syntax.tree import canonical_name, mark_of
+from mudline.model.scene.deck_values import (
+    definition_by,
+    external_definers,
+    is_read_definer,
+    makes_labels,
+    opaque_labels,
+    opaque_set_names,
+)
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.surfaces import Surface
+
+T = TypeVar("T")
+MOST_NAMED = 3
+"""Names of which each may be the one that was meant."""
+
+_NUMBERED = {"NODE": "node", "ELEMENT": "element"}
+"""Keywords of what has numbers."""
+
+
+@dataclass(slots=True, eq=False)
+class _Uses:
+    """How often a deck uses things of a kind that it does not show, number and place of the first, what that blocks."""
+
+    code: Code
+    first: int | None
+    where: Where
+    count: int = 0
+    blocks: Blocks = Blocks.NEVER
+
+
+@dataclass(repr=False, eq=False)
+class Context:
+    """The evaluated deck, the deck as written, and what was noticed.
+
+    `unread` holds keywords of which something that defines nodes, elements, sets or curves could not be used;
+    `doubtful` the first and last number of what a GEN= with a fault may have been meant to define. `excused` holds, by
+    the place of a number of a node or an element that could not be read, those that it may be and that nothing defines.
+    """
+
+    deck: EvaluatedDeck
+    written: Deck
+    problems: list[Problem] = field(default_factory=list)
+    unread: set[str] = field(default_factory=set)
+    doubtful: dict[str, list[tuple[int, int]]] = field(default_factory=dict)
+    excused: dict[Where, set[int]] = field(default_factory=dict)
+    _misread: dict[str, list[tuple[Where, str]]] = field(default_factory=dict)
+    _reported: dict[str, int] = field(default_factory=dict)
+    _placeless: set[tuple[int, int]] = field(default_factory=set)
+    _out_of_sight: dict[tuple[str, str], _Uses] = field(default_factory=dict)
+    _effort: Effort = field(default_factory=Effort)
+    _made: dict[Callable[[Context], Any], Any] = field(default_factory=dict)
+    _sound: range = range(0)
+    """Sections of which every line could be used: all of its own, in a deck without problems."""
+
+    __repr__ = short_repr
+
+    def __post_init__(self) -> None:
+        self._sound = range(0 if self.deck.problems else len(self.deck.own_sections))
+        for i, section in enumerate(self.deck.sections[len(self._sound) :], len(self._sound)):
+            for j, block in enumerate(section.blocks):
+                if self.deck.lost(Where(i, j)):
+                    self.unread.add(block.keyword)
+
+    def once(self, make: Callable[[Context], T]) -> T:
+        """What a function makes of this deck, made once for all that ask."""
+        if make not in self._made:
+            self._made[make] = make(self)
+        found: T = self._made[make]
+        return found
+
+    def blocks(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
+        """What `Deck.blocks` gives for the evaluated deck, found once for all."""
+        return self.placed.get((section, keyword), ())
+
+    @cached_property
+    def placed(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
+        """The blocks of every section and keyword."""
+        return placed_blocks(self.deck)
+
+    @cached_property
+    def surfaces(self) -> list[tuple[Where, Surface]]:
+        """The rigid surfaces of the deck, then the elastic ones, each in the order of the file; the last one holds."""
+        found = self.deck.blocks_that(lambda declared: declared.facts.seabed_type)
+        return sorted(found, key=lambda placed: placed[1].facts.seabed_type == "ELASTIC")
+
+    def report(self, code: Code, message: str, where: Where, severity: Severity | None = None) -> None:
+        """Note a problem."""
+        self.note(Problem(code, message, None, severity, where))
+
+    def note(self, problem: Problem) -> None:
+        """Note a problem, if there are not very many of its code already."""
+        code = problem.code.code
+        count = self._reported[code] = self._reported.get(code, 0) + 1
+        if count <= MOST_REPORTED:
+            self.problems.append(problem)
+        elif count == MOST_REPORTED + 1:
+            self.problems.append(replace(problem, message=MORE))
+
+    def report_missing(
+        self,
+        code: Code,
+        message: str,
+        where: Where,
+        keyword: str,
+        lacks: int | str | None = None,
+        *,
+        blocks: Blocks | None = None,
+    ) -> None:
+        """Note a name or number that nothing defines; nodes and elements out of sight are noted together at the end.
+
+        `lacks` is what is missing, None where it is not one thing. A number that one edit of another one gives, which
+        could not be read, is not missing.
+        """
+        if isinstance(lacks, int) and self._is_excused(keyword, lacks):
+            return
+        if keyword in _NUMBERED and (definer := self._definer(keyword)):
+            use = self._out_of_sight.setdefault(
+                (definer, keyword), _Uses(code, lacks if isinstance(lacks, int) else None, where)
+            )
+            use.count += 1
+            use.blocks = blocks or use.blocks
+        elif self._reported.get(code.code, 0) <= MOST_REPORTED:
+            self.note(replace(self.missing(code, message, where, keyword, lacks), blocks=blocks))
+
+    def misread(self, keyword: str, where: Where) -> None:
+        """Note the place of a number of a node or an element that could not be read."""
+        origin = self.deck.origin if where.section < len(self.deck.own_sections) else None
+        span = origin.span(where) if isinstance(origin, TextOrigin) else None
+        written = origin.source.unified[slice(*span)] if isinstance(origin, TextOrigin) and span else ""
+        if not written or written.startswith("=") or "," in written:
+            self.unread.add(keyword)
+        else:
+            self._misread.setdefault(keyword, []).append((where, written))
+
+    def _is_excused(self, keyword: str, number: int) -> bool:
+        """Whether a number that is not defined may be one that could not be read."""
+        found = [where for where, written in self._misread.get(keyword, ()) if edits(written, str(number), 1) <= 1]
+        for where in found:
+            self.excused.setdefault(where, set()).add(number)
+        return bool(found)
+
+    def report_out_of_sight(self) -> None:
+        """Note once for each keyword whose lines are not read how often the deck uses what it may define."""
+        for (definer, keyword), use in self._out_of_sight.items():
+            thing = _NUMBERED[keyword]
+            first = "" if use.first is None else f" (first: {thing} {use.first})"
+            message = (
+                f"*{definer} may define {thing}s that this deck does not show: {counted(use.count, 'use')} of such "
+                f"{thing}s{first} cannot be checked"
+            )
+            where = self._own_block(definer) or use.where
+            self.note(Problem(use.code, message, None, Severity.INFO, where, None, use.blocks))
+
+    def _own_block(self, keyword: str) -> Where | None:
+        """The first block of a keyword in the model of the deck itself."""
+        models = ((i, section) for i, section in enumerate(self.deck.own_sections) if section.name == "MODEL")
+        places = (Where(i, j) for i, one in models for j, block in enumerate(one.blocks) if block.keyword == keyword)
+        return next(places, None)
+
+    def _definer(self, keyword: str) -> str:
+        """The keyword whose lines are not read and may define things with numbers of a kind, or ""."""
+        unread = (one for one in self.external_definers if not (is_read_definer(one) or makes_labels(one)))
+        return next((definer for definer in unread if definition_by(definer, keyword)), "")
+
+    def missing(self, code: Code, message: str, where: Where, keyword: str, lacks: int | str | None = None) -> Problem:
+        """A name or number that nothing defines: an error, or a warning where something unread could define it."""
+        name = "" if lacks is None else str(lacks)
+        if source := self.possible_definition(keyword, lacks if isinstance(lacks, int) else None):
+            cause = keyword if source == self._misplaced_definition(keyword) else ""
+            message = f"{message}; {source}"
+            return Problem(code, message, None, Severity.WARNING, where, maybe_defined_by=cause, lacks=name)
+        return Problem(code, message, where=where, lacks=name)
+
+    def possible_definition(self, keyword: str, number: int | None = None) -> str:
+        """What could define a thing of a keyword that is missing, in words, or ""; `number` None stands for any."""
+        if keyword == "ELEMENT SETS" and (lost := catalogue.in_order(filter(is_read_definer, self.unread))):
+            return f"a line of *{lost[0]} that could not be used may define it"
+        if words := next(filter(None, (definition_by(definer, keyword) for definer in self.external_definers)), ""):
+            return words
+        if self.restart:
+            return "the deck that *RESTART continues may define it"
+        if keyword in self.unread or (number is None and keyword in self._misread):
+            return f"a line of *{keyword} that could not be used may define it"
+        if any(number is None or low <= number <= high for low, high in self.doubtful.get(keyword, ())):
+            return f"a GEN= of *{keyword} that could not be used may define it"
+        return self._misplaced_definition(keyword)
+
+    def _misplaced_definition(self, keyword: str) -> str:
+        place = self.misplaced(keyword)
+        return f"{place} may define it" if place else ""
+
+    def misplaced(self, keyword: str) -> str:
+        """A keyword in a place where it is not read, or is misspelt, in words; "" when there is none."""
+        return self.misplaced_place(keyword)[0]
+
+    def misplaced_place(self, keyword: str) -> tuple[str, Where]:
+        """A keyword in a place where it is not read, or is misspelt: in words, and the place; "" when there is none."""
+        return self._misplaced.get(keyword, ("", Where()))
+
+    @property
+    def misplaced_keywords(self) -> list[str]:
+        """Keywords that stand where they are not read, or are misspelt."""
+        return list(self._misplaced)
+
+    def hint(self, word: str, names: Mapping[str, str]) -> str:
+        """` (did you mean X?)` for the name spelt nearly as `word`, or nothing; the keys of `names` are folded.
+
+        Names that are equally near are all among them.
+        """
+        near = equally_near(folded(word), names, self._effort)
+        return hint(" or ".join(names[each] for each in near[:MOST_NAMED]))
+
+    def near(self, word: str, known: Collection[str]) -> str:
+        """The name among `known`, all of them folded, that is spelt nearly as `word`, or ""."""
+        return nearest(folded(word), known, self._effort)
+
+    def generator(self, given: ListRow) -> tuple[int, int, int] | None:
+        """The three values of a GEN=, the last one 1 unless given; None when one of them is not known."""
+        values = [getattr(given, name) for name in type(given).model_fields]
+        if values[2] is None:
+            values[2] = 1
+        usable = all(isinstance(value, int) and abs(value) <= LARGEST_WHOLE for value in values)
+        return (values[0], values[1], values[2]) if usable else None
+
+    def as_written(self, where: Where) -> object:
+        """A part of the deck before its equations were evaluated."""
+        found: Any = self.written.sections[where.section].blocks[where.block]
+        for step in where.path:
+            found = found[step] if isinstance(step, int) else getattr(found, step)
+        return cast("object", found)
+
+    def is_guessed_label(self, where: Where) -> bool:
+        """Whether the label at this place was guessed from a word without braces, which is reported."""
+        return self._position(Problem(SYN016, "", where=where)) in self._guessed_labels
+
+    def cannot_place(self, where: Where) -> None:
+        """Note that an element ends at the label at this place, and that no node with that label is known."""
+        self._placeless.add(self._position(Problem(SYN016, "", where=where)))
+
+    def of_deck(self) -> list[Problem]:
+        """What reading the deck noticed; guessed labels that elements end at are errors."""
+        if not self._placeless:
+            return self.deck.problems
+        return [
+            replace(problem, severity=Severity.ERROR)
+            if problem.code == SYN016 and self._position(problem) in self._placeless
+            else problem
+            for problem in self.deck.problems
+        ]
+
+    def _position(self, problem: Problem) -> tuple[int, int]:
+        """Line and column of a problem."""
+        place = self.deck.place(problem)
+        return place.line, place.column
+
+    @cached_property
+    def external_definers(self) -> list[str]:
+        """Keywords of the model that make nodes, elements or sets which the deck does not show."""
+        return external_definers(self.deck)
+
+    @cached_property
+    def restart(self) -> bool:
+        """Whether the deck continues another one that is not known."""
+        return self.deck.incomplete if self.deck.bases else "RESTART" in self.deck.keywords("LOAD CASE")
+
+    @cached_property
+    def _guessed_labels(self) -> set[tuple[int, int]]:
+        return {self._position(problem) for problem in self.deck.problems if problem.code == SYN016}
+
+    @cached_property
+    def _misplaced(self) -> dict[str, tuple[str, Where]]:
+        """Keywords that stand where they are not read: outside any section, in a wrong one, or misspelt.
+
+        Each with the first of its places, and that in words.
+        """
+        outside = [canonical_name(line) for line in self.deck.preamble if mark_of(line) == "*"]
+        found = {name: (f"the *{name} before the first section", Where()) for name in outside}
+        places: dict[tuple[str, str], Where] = {}
+        for i, section in enumerate(self.deck.sections):
+            for j, block in enumerate(section.blocks):
+                if isinstance(block, Opaque):
+                    places.setdefault((section.name, block.keyword), Where(i, j))
+        effort = Effort()
+        for (name, keyword), where in places.items():
+            for meant, words in self._meant(name, keyword, effort):
+                found.setdefault(meant, (words, where))
+        return found
+
+    def _meant(self, section: str, keyword: str, effort: Effort) -> Iterator[tuple[str, str]]:
+        sections = catalogue.sections_of(keyword)
+        if sections is None and section == "MODEL":
+            yield suggest_keyword(keyword, effort=effort), f"*{keyword}, which is not known,"
+        elif sections and section not in sections:
+            for name in (keyword, meant_in(keyword, section)):
+                yield name, f"the *{keyword} in ${section}, where it does not belong,"
+
+    @cached_property
+    def opaque_set_names(self) -> dict[str, str]:
+        """Names of the element sets that lines make, by their folded form."""
+        return opaque_set_names(self.deck) if self.external_definers else {}
+
+    @cached_property
+    def labels(self) -> dict[str, str]:
+        """What may be labels of nodes that lines make, by their folded form."""
+        return opaque_labels(self.deck)
+
+
+def placed_blocks(deck: Deck) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
+    """What `Deck.blocks` gives for every section and keyword."""
+    found: dict[tuple[str, str], list[tuple[Where, Any]]] = {}
+    own = len(deck.own_sections)
+    for i in (*range(own, len(deck.sections)), *range(own)):
+        section = deck.sections[i]
+        for j, block in enumerate(section.blocks):
+            if type(block) is not Opaque:  # isinstance of a model takes several times as long
+                found.setdefault((section.name, block.keyword), []).append((Where(i, j), block))
+    return found

@@ -1,0 +1,293 @@
+"""CSV files with a header: named columns, every fault with its line; elements that come from such a file."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import islice
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mudline.basics.limits import LISTED
+from mudline.language.codes import DAT001
+from mudline.language.diagnostics import DeckError, Diagnostic, Span
+from mudline.language.keywords.table import LARGEST_WHOLE
+from mudline.language.keywords.text import shown
+from mudline.language.syntax.rows import read_number, read_rows
+from mudline.model.scene.numbering import Floats, Ids
+
+SEPARATORS = (",", ";", "\t")
+"""Between the fields of a file that another program wrote."""
+
+_UNUSED = "\0"
+"""Begins the name of a column that nothing asks for."""
+
+
+class CsvTable(NamedTuple):
+    """The columns of a file by name, each a list of texts, and the line of each row; `text` is the whole file."""
+
+    file: str
+    columns: dict[str, list[str]]
+    lines: list[int]
+    text: str
+    separator: str = ","
+
+    def numbers(self, name: str, *, optional: bool = False) -> Floats:
+        """A column as finite numbers; an empty field of an optional column is NaN. Raises DeckError with the line."""
+        values = np.empty(len(self.lines))
+        for row, text in enumerate(self.columns[name]):
+            value = np.nan if optional and not text else read_number(text)
+            if value is None:
+                raise self.fault(row, name, f"{name}: {shown(text)} is not a number")
+            values[row] = value
+        return values
+
+    def whole(self, name: str) -> Ids:
+        """A column as whole numbers; raises DeckError with line and column of one that is none."""
+        values = self.numbers(name)
+        if (row := _first_broken(values)) is not None:
+            raise self.fault(row, name, _not_whole(name, values[row]))
+        return values.astype(np.int64)
+
+    def fault(self, row: int, name: str, message: str) -> DeckError:
+        """A fault in a field: its line, and where in the line the field begins."""
+        line = self.lines[row]
+        return data_error(self.file, message, line, self._column(line, list(self.columns).index(name)))
+
+    def _column(self, line: int, field: int) -> int:
+        """Where a field of a line begins; 1 where quotation marks hide it."""
+        written = next(islice(io.StringIO(self.text, newline=""), line - 1, None))  # lines as the reader counts them
+        parts = written.rstrip("\r\n").split(self.separator)
+        if len(parts) != len(self.columns):
+            return 1
+        blanks = len(parts[field]) - len(parts[field].lstrip())
+        return sum(len(part) + 1 for part in parts[:field]) + blanks + 1
+
+
+class NumericTable(NamedTuple):
+    """Columns of finite numbers by name, and the line of each row."""
+
+    file: str
+    columns: dict[str, Floats]
+    lines: Sequence[int]
+
+    def fault(self, row: int, message: str) -> DeckError:
+        """A fault in a row."""
+        return data_error(self.file, message, self.lines[row])
+
+    def whole(self, name: str) -> Ids:
+        """A column as whole numbers; raises DeckError with the line of one that is none."""
+        return whole_numbers(self.file, name, self.columns[name], self.lines)
+
+
+def data_error(file: str, message: str, line: int = 1, column: int = 1) -> DeckError:
+    """A fault of a data file."""
+    return DeckError([Diagnostic(file, DAT001.code, DAT001.slug, DAT001.severity, message, line, column, line, column)])
+
+
+def whole_numbers(file: str, name: str, column: Floats, lines: Sequence[int] | None = None) -> Ids:
+    """A column as whole numbers; raises DeckError for one that is none or larger than a double counts exactly."""
+    if (row := _first_broken(column)) is not None:
+        raise data_error(file, _not_whole(name, column[row]), 1 if lines is None else lines[row])
+    return column.astype(np.int64)
+
+
+def _first_broken(column: Floats) -> int | None:
+    """The first row that is not a whole number, or one larger than a double counts exactly."""
+    with np.errstate(invalid="ignore"):
+        good = (column == np.floor(column)) & (np.abs(column) <= LARGEST_WHOLE)
+    return None if good.all() else int(np.argmin(good))
+
+
+def _not_whole(name: str, value: float) -> str:
+    return f"{name}: {float(value)!r} is not a whole number up to 2^53"
+
+
+def read_csv(path: Path, needed: Sequence[str], known: Sequence[str], *, others: bool = False) -> CsvTable:
+    """A whole file as text columns; rows that are empty are left out. Raises OSError, DeckError.
+
+    With `others` the file may have columns of other names, which are read past.
+    """
+    file, text = path.as_posix(), _read_text(path)
+    return _texts(file, text, _header(file, text, needed, known if not others else None))
+
+
+def read_numeric_csv(
+    path: Path, needed: Sequence[str], known: Sequence[str], headings: Mapping[str, str] | None = None
+) -> NumericTable:
+    """A file of numbers, in a fast way where all of them are spelled plainly. Raises OSError, DeckError.
+
+    `headings` gives columns the headings that another program wrote, in upper or lower case. Such a file may be
+    separated by semicolons or tabs, and have more columns, which are read past.
+    """
+    file, text = path.as_posix(), _read_text(path)
+    separator, names = (
+        _exported(file, text, needed, known, headings) if headings else (",", _header(file, text, needed, known))
+    )
+    wanted = [name for name in names if not name.startswith(_UNUSED)]
+    start = text.find("\n") + 1
+    rows = read_rows(text, Span(start, len(text)), len(names)) if start and separator == "," else None
+    if rows is not None and not rows.words and len(rows.lengths) and (rows.lengths == len(names)).all():
+        columns = {name: rows.values[:, names.index(name)].copy() for name in wanted}
+        return NumericTable(file, columns, range(2, len(rows.values) + 2))
+    table = _texts(file, text, names, separator)
+    return NumericTable(file, {name: table.numbers(name) for name in wanted}, table.lines)
+
+
+def _read_text(path: Path) -> str:
+    try:
+        return path.read_bytes().decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise data_error(path.as_posix(), f"not a UTF-8 text file ({error.reason} at byte {error.start})") from error
+
+
+def _header(file: str, text: str, needed: Sequence[str], known: Sequence[str] | None) -> list[str]:
+    """The names in the first line, in lower case; raises DeckError when one is missing, unknown or there twice.
+
+    Where `known` is None all names are.
+    """
+    row = next(csv_rows(file, text), ([], 1))[0]
+    names = [name.strip().lower() for name in row]
+    expected = ",".join(known or needed)
+    if missing := [name for name in needed if name not in names]:
+        raise data_error(file, f"the header lacks {', '.join(missing)}: expected {expected}")
+    for position, name in enumerate(names):
+        if known is not None and name not in known:
+            raise data_error(file, f"the header has {shown(name)}: expected {expected}")
+        if name in names[:position]:
+            raise data_error(file, f"the header has {name} twice")
+    return names
+
+
+def _exported(
+    file: str, text: str, needed: Sequence[str], known: Sequence[str], headings: Mapping[str, str]
+) -> tuple[str, list[str]]:
+    """The separator of a file with other headings, and a name for each of its columns. Raises DeckError."""
+    wanted = {name: headings.get(name, name) for name in known if name in headings or name in needed}
+    headers = {
+        separator: [field.strip() for field in next(csv_rows(file, text, separator), ([], 1))[0]]
+        for separator in SEPARATORS
+    }
+    best = max(SEPARATORS, key=lambda separator: len(headers[separator]))
+    found = headers[best]
+    given = [field.casefold() for field in found]
+    names = [f"{_UNUSED}{column}" for column in range(len(found))]
+    optional = {name: name for name in known if name not in wanted and name in given}
+    for name, heading in (wanted | optional).items():
+        column, count = _column_of(heading, given)
+        if not count:
+            raise data_error(file, _lacks(name, heading, found))
+        if count > 1:
+            raise data_error(file, f"the header has {shown(heading)} twice")
+        if not names[column].startswith(_UNUSED):
+            raise data_error(file, f"the column {shown(heading)} is taken for {names[column]} and for {name}")
+        names[column] = name
+    return best, names
+
+
+def _column_of(heading: str, given: Sequence[str]) -> tuple[int, int]:
+    """Where a heading is, and how often."""
+    sought = heading.strip().casefold()
+    return (given.index(sought) if sought in given else -1, given.count(sought))
+
+
+def _lacks(name: str, heading: str, found: Sequence[str]) -> str:
+    what = "" if heading == name else f" for {name}"
+    listed = ", ".join(map(shown, found[:LISTED])) or "nothing"
+    more = f" and {len(found) - LISTED} more" if len(found) > LISTED else ""
+    return f"the header lacks {shown(heading)}{what}: it has {listed or 'nothing'}{more}"
+
+
+def _texts(file: str, text: str, names: Sequence[str], separator: str = ",") -> CsvTable:
+    """The rows below the header, whose columns have these names."""
+    columns: dict[str, list[str]] = {name: [] for name in names}
+    lines: list[int] = []
+    rows = csv_rows(file, text, separator)
+    next(rows)
+    for row, line in rows:
+        if not any(field.strip() for field in row):
+            continue
+        if len(row) != len(names):
+            raise data_error(file, f"{len(row)} fields, the header has {len(names)}", line)
+        lines.append(line)
+        for name, field in zip(names, row, strict=True):
+            columns[name].append(field.strip())
+    return CsvTable(file, columns, lines, text, separator)
+
+
+def csv_rows(file: str, text: str, separator: str = ",") -> Iterator[tuple[list[str], int]]:
+    """The rows of a text, each with the number of its last line."""
+    reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator)
+    try:
+        for row in reader:
+            yield row, reader.line_num
+    except csv.Error as error:
+        raise data_error(file, f"not a CSV file: {error}", max(1, reader.line_num)) from error
+
+
+def finite(file: str, name: str, array: NDArray[np.floating]) -> Floats:
+    """An array as float64, one-dimensional; raises DeckError for a number that is not finite."""
+    values = array.astype(np.float64).ravel()
+    if not np.isfinite(values).all():
+        raise data_error(
+            file, f"{name} holds {float(values[np.argmin(np.isfinite(values))])!r}, expected finite numbers"
+        )
+    return values
+
+
+@dataclass(frozen=True, slots=True)
+class ExternalElements:
+    """Elements (m): numbers, node numbers (m, 2), external diameters, lengths (NaN where not given), sets by name."""
+
+    file: str
+    ids: Ids
+    nodes: Ids
+    diameter: Floats
+    length: Floats
+    sets: dict[str, Ids]
+
+
+def read_external(path: Path) -> ExternalElements:
+    """`element,node1,node2,diameter[,length][,sets]`, sets separated by semicolons; a diameter or length may be empty.
+
+    Raises OSError, or DeckError for a file with faults.
+    """
+    needed = ("element", "node1", "node2", "diameter")
+    table = read_csv(path, needed, (*needed, "length", "sets"))
+    if not table.lines:
+        raise data_error(table.file, "no row below the header", 2)
+    ids, first, second = map(table.whole, ("element", "node1", "node2"))
+    _unique(ids, table)
+    diameter = _positive("diameter", table)
+    length = _positive("length", table) if "length" in table.columns else np.full(len(ids), np.nan)
+    return ExternalElements(table.file, ids, np.column_stack([first, second]), diameter, length, _sets(ids, table))
+
+
+def _sets(ids: Ids, table: CsvTable) -> dict[str, Ids]:
+    members: dict[str, list[int]] = {}
+    for number, text in zip(ids.tolist(), table.columns.get("sets", [""] * len(ids)), strict=True):
+        for name in text.split(";"):
+            if name.strip():
+                members.setdefault(name.strip(), []).append(number)
+    return {name: np.array(numbers, dtype=np.int64) for name, numbers in members.items()}
+
+
+def _positive(name: str, table: CsvTable) -> Floats:
+    values = table.numbers(name, optional=True)
+    for row in np.flatnonzero(values <= 0)[:1].tolist():
+        value = float(values[row])
+        raise data_error(table.file, f"{name} is {value!r}: it must be greater than 0", table.lines[row])
+    return values
+
+
+def _unique(ids: Ids, table: CsvTable) -> None:
+    seen: set[int] = set()
+    for number, line in zip(ids.tolist(), table.lines, strict=True):
+        if number in seen:
+            raise data_error(table.file, f"element {number} is given twice", line)
+        seen.add(number)

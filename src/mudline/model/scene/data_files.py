@@ -1,0 +1,159 @@
+"""Text files of numbers that decks name: operators of vessels, histories of motions and elevations, coefficients.
+
+What is public of them: a line with an upper-case C in column 1 is a comment, commas or blanks part the values, and
+TABs are not allowed. The first line that breaks this, or the form of its file, is the fault.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from pathlib import Path
+from typing import NamedTuple
+
+from mudline.basics.limits import LARGEST_FILE
+from mudline.basics.short_repr import counted
+from mudline.language.keywords.text import shown
+from mudline.language.keywords.values import Contents
+from mudline.language.syntax.rows import read_number
+from mudline.language.syntax.source import Source
+
+_PARTS = re.compile(r"[ ,]+")
+_HEADING = re.compile(r"[ ]*HEADING[ ]*=(.*)", re.IGNORECASE)
+_WIDTH = {Contents.MOTIONS: 7, Contents.ELEVATIONS: 2}
+_SIX = 6
+_PER_LINE = 14
+_HALF_TURN = 180.0
+_UNEVEN = 1e-6
+
+
+class DataLine(NamedTuple):
+    """A line that is no comment, and its number."""
+
+    number: int
+    text: str
+
+    def values(self) -> list[float]:
+        """Its numbers; raises ValueError for what is none."""
+        return [_number(word, self.number) for word in _PARTS.split(self.text.strip(" ,"))]
+
+
+def fault_of(path: Path, contents: Contents, *, layout: str = "") -> str:
+    """The first fault of a file, with its line, or ""; `layout` is MCS or LINE where the deck says so."""
+    try:
+        lines = list(_lines(path))
+        if contents is Contents.OPERATORS:
+            _operators(lines, layout)
+        elif contents in _WIDTH:
+            times = [row[0] for row in _table(lines, _WIDTH[contents])]
+            _rising(times, lines)
+        else:
+            for line in lines:
+                if "=" not in line.text:
+                    line.values()
+    except (ValueError, OSError) as error:
+        return str(getattr(error, "strerror", None) or error)
+    return ""
+
+
+def has_uneven_times(path: Path) -> bool:
+    """Whether the times of a file without a fault do not follow each other at one interval."""
+    times = [row[0] for row in _table(list(_lines(path)), _WIDTH[Contents.ELEVATIONS])]
+    steps = [after - before for before, after in pairwise(times)]
+    return bool(steps) and max(steps) - min(steps) > _UNEVEN * max(steps)
+
+
+def unequal_frequencies(rows: Sequence[Sequence[float]]) -> str:
+    """What is wrong with the headings and frequencies of operators, a heading and a frequency first in each row."""
+    by_heading: dict[float, set[float]] = {}
+    for heading, frequency in (row[:2] for row in rows):
+        if frequency in by_heading.setdefault(heading, set()):
+            return f"the heading {heading:g} has the frequency {frequency:g} twice"
+        by_heading[heading].add(frequency)
+    first, *others = by_heading or [0.0]
+    for heading in others:
+        if differing := by_heading[first] ^ by_heading[heading]:
+            return (
+                f"the headings {first:g} and {heading:g} need the same frequencies: {min(differing):g} is in one only"
+            )
+    return ""
+
+
+def _lines(path: Path) -> Iterator[DataLine]:
+    if path.stat().st_size > LARGEST_FILE:
+        raise ValueError(f"the file has more than {LARGEST_FILE // 10**6} million bytes")
+    source = Source.from_bytes(path.read_bytes(), path.name)
+    if not source.readable:
+        raise ValueError(source.problems[0].message)
+    for number, text in enumerate(source.unified.split("\n"), 1):
+        if not text.strip() or text.startswith("C"):
+            continue
+        if "\t" in text:
+            raise ValueError(f"line {number}: a TAB is not allowed here: write spaces or commas")
+        yield DataLine(number, text)
+
+
+def _number(word: str, line: int) -> float:
+    value = read_number(word)
+    if value is None:
+        raise ValueError(f"line {line}: {shown(word)} is not a number")
+    return value
+
+
+def _table(lines: Sequence[DataLine], width: int) -> list[list[float]]:
+    if not lines:
+        raise ValueError("the file has no line of numbers")
+    return [_row(line, width) for line in lines]
+
+
+def _row(line: DataLine, width: int) -> list[float]:
+    values = line.values()
+    if len(values) != width:
+        raise ValueError(f"line {line.number}: expected {counted(width, 'number')}, found {len(values)}")
+    return values
+
+
+def _rising(times: Sequence[float], lines: Sequence[DataLine]) -> None:
+    for before, after, line in zip(times, times[1:], lines[1:], strict=False):
+        if after <= before:
+            raise ValueError(f"line {line.number}: the time {after:g} does not come after {before:g}")
+
+
+def _operators(lines: Sequence[DataLine], layout: str) -> None:
+    """Operators in the layout that the deck names, or that their first line has."""
+    if not lines:
+        raise ValueError("the file has no operators")
+    by_heading = bool(_HEADING.fullmatch(lines[0].text))
+    if layout == "LINE" or (not layout and not by_heading):
+        rows = _table(lines, _PER_LINE)
+        for row, line in zip(rows, lines, strict=True):
+            _heading(row[0], line.number)
+        if fault := unequal_frequencies(rows):
+            raise ValueError(fault)
+    elif not by_heading:
+        raise ValueError(f"line {lines[0].number}: expected HEADING=angle before the first frequency")
+    else:
+        _groups(lines)
+
+
+def _groups(lines: Sequence[DataLine]) -> None:
+    """Three lines a frequency below each heading: the frequency, six amplitudes, six phases."""
+    widths = (1, _SIX, _SIX)
+    place = 0
+    for line in lines:
+        heading = _HEADING.fullmatch(line.text)
+        if heading and place % len(widths):
+            raise ValueError(f"line {line.number}: a frequency above it lacks its amplitudes or phases")
+        if heading:
+            _heading(_number(heading[1].strip(" ,"), line.number), line.number)
+        else:
+            _row(line, widths[place % len(widths)])
+            place += 1
+    if place % len(widths):
+        raise ValueError(f"line {lines[-1].number}: the last frequency lacks its amplitudes or phases")
+
+
+def _heading(value: float, line: int) -> None:
+    if abs(value) > _HALF_TURN:
+        raise ValueError(f"line {line}: the heading {value:g} must lie between -180 and 180 degrees")

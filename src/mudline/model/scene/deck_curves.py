@@ -1,0 +1,165 @@
+"""Every curve of a deck, whatever keyword gives it: points over an abscissa, linear between them.
+
+Force-embedment curves are resolved in `force_curves`, as elements follow them; this is what all curves have in common.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from typing import TYPE_CHECKING, NamedTuple, cast
+
+import numpy as np
+
+from mudline.basics.limits import MOST_REPORTED
+from mudline.basics.short_repr import short_repr
+from mudline.language.codes.fields import CRV001, CRV003, CRV011
+from mudline.language.deck.model import Deck, Opaque
+from mudline.language.diagnostics import Blocks, Problem, Where
+from mudline.language.keywords.fields import Setting
+from mudline.language.keywords.model import Block, FieldSpec, Part, Row, Rows, record_schema
+from mudline.language.keywords.table import Table
+from mudline.language.keywords.text import shown
+from mudline.language.keywords.writer import field_text
+from mudline.model.scene.context import Context
+from mudline.model.scene.force_curves import clashes_and_repeats
+from mudline.model.scene.numbering import Floats, Indices
+
+if TYPE_CHECKING:
+    from mudline.model.curves import ForceCurve
+
+OF_SEABED = "force-embedment curve"
+"""The kind of curve that elements on the seabed follow."""
+_CODES = {code.code: code for code in (CRV001, CRV011)}
+
+
+class DeckCurve(NamedTuple):
+    """A curve: its kind in words, its keyword and name, its points (n, 2), abscissa first, and where they stand.
+
+    `rows` (n,) are the places of the points in their table, without those that could not be read; `whole` says that
+    there are none. `axes` names abscissa and ordinate, `units` are theirs, `column` that of the abscissa in the table.
+    """
+
+    kind: str
+    keyword: str
+    name: str
+    points: Floats
+    rows: Indices
+    whole: bool
+    where: Where
+    title: Where
+    axes: tuple[str, str]
+    units: tuple[str, str]
+
+    def __repr__(self) -> str:
+        return short_repr(self)
+
+    def point(self, index: int) -> Where:
+        """Where a point of `points` stands."""
+        return self.where.inside(int(self.rows[index]))
+
+    def made(self) -> ForceCurve | None:
+        """The curve as it is evaluated, if its points make one."""
+        from mudline.model.curves import CurveError, ForceCurve  # noqa: PLC0415 - a deck without curves does without it
+
+        try:
+            return ForceCurve(self.points, self.name)
+        except CurveError:
+            return None
+
+
+def other_curves(deck: Deck) -> Iterator[DeckCurve]:
+    """The curves of a deck but those of its seabed, in the order of the file."""
+    for i, section in enumerate(deck.sections):
+        for j, block in enumerate(section.blocks):
+            if type(block) is not Opaque and _has_curves(type(block)):
+                yield from _curves(block, block.keyword, Where(i, j), "", Where(i, j))
+
+
+@cache
+def _has_curves(part: type[Part]) -> bool:
+    """Whether a part, or a record in it, has a table that is a curve, and no curve of the seabed."""
+    slots = record_schema(part).slots
+    return any(
+        (isinstance(slot.about, Rows) and slot.about.curve not in ("", OF_SEABED))
+        or any(_has_curves(record) for record in slot.record.values())
+        for slot in slots
+    )
+
+
+def _curves(part: Part, keyword: str, where: Where, name: str, title: Where) -> Iterator[DeckCurve]:
+    if not issubclass(type(part), Block):
+        given = (slot for slot in _settings(type(part)) if getattr(part, slot.name) is not None)
+        if (first := next(given, None)) is not None:
+            name = ", ".join(filter(None, [name, _written(first, getattr(part, first.name))]))
+            title = where.inside(first.json)
+    for slot in record_schema(type(part)).slots:
+        value = getattr(part, slot.name)
+        if isinstance(slot.about, Rows) and slot.about.curve and isinstance(value, Table):
+            yield _curve(slot, value, keyword, name, (where.inside(slot.json), title))
+        elif slot.record:
+            for index, child in enumerate(value):
+                if _has_curves(cast("type[Part]", type(child))):
+                    yield from _curves(child, keyword, where.inside(slot.json, index), name, title)
+
+
+@cache
+def _settings(part: type[Part]) -> list[FieldSpec]:
+    """The fields of which the first that is given tells a record from others of its kind."""
+    return [slot for slot in record_schema(part).slots if isinstance(slot.about, Setting)]
+
+
+def _written(slot: FieldSpec, value: object) -> str:
+    """A name, or the setting with a value that is none."""
+    if isinstance(value, str):
+        return value
+    values = value if isinstance(value, list) else [value]
+    return slot.label + ", ".join(field_text(each) for each in values[:3] if isinstance(each, float | int | str))
+
+
+def _curve(slot: FieldSpec, table: Table, keyword: str, name: str, places: tuple[Where, Where]) -> DeckCurve:
+    about = cast("Rows", slot.about)
+    columns = record_schema(cast("type[Row]", about.row)).columns
+    over, ordinate = about.axes
+    both = np.column_stack([table.column(over), table.column(ordinate)])
+    rows = np.flatnonzero(~np.isnan(both).any(axis=1))
+    axes = (columns[over], columns[ordinate])
+    return DeckCurve(
+        about.curve,
+        keyword,
+        name,
+        both[rows],
+        rows,
+        len(rows) == len(both),
+        *places,
+        (axes[0].label, axes[1].label),
+        (axes[0].about.unit, axes[1].about.unit),
+    )
+
+
+def check_curves(context: Context) -> None:
+    """Report curves that are none: too few points, two values at one abscissa, sections that cannot be held."""
+    for curve in other_curves(context.deck):
+        clashing, _ = clashes_and_repeats(curve.points)
+        for index in clashing[: MOST_REPORTED + 1].tolist():
+            at, value = curve.points[index].tolist()
+            message = f"a second {curve.axes[1]} at {curve.axes[0]} {at!r} ({value!r}): remove one"
+            context.note(Problem(CRV003, message, where=curve.point(index), blocks=Blocks.NEVER))
+        keep = np.setdiff1d(np.arange(len(curve.points)), clashing, assume_unique=True)
+        _check_points(context, curve, keep)
+
+
+def _check_points(context: Context, curve: DeckCurve, keep: Indices) -> None:
+    from mudline.model.curves import CurveError, ForceCurve  # noqa: PLC0415 - a deck without curves does without it
+
+    try:
+        ForceCurve(curve.points[keep], curve.name)
+    except CurveError as error:
+        if error.index >= 0:
+            message = "the slope to this point cannot be held by a float64: correct the point"
+            place = curve.point(int(keep[error.index]))
+            context.note(Problem(_CODES[error.code], message, where=place, blocks=Blocks.NEVER))
+        elif curve.whole:
+            has = "one distinct point" if len(curve.points) else "no point"
+            message = f"{curve.kind} {shown(curve.name)} has {has}: it needs at least two"
+            context.note(Problem(CRV001, message, where=curve.title, blocks=Blocks.NEVER))

@@ -1,0 +1,237 @@
+"""What a deck gives: numbers and their ranges, files, legacy surfaces, units, and the names that unread lines make."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from functools import lru_cache
+from pathlib import Path
+
+from mudline.basics.files import look
+from mudline.basics.outside import is_made_by_system, is_refused, project_of
+from mudline.language.deck.model import Deck, Opaque
+from mudline.language.deck.parameters import Parameters, folded
+from mudline.language.diagnostics import Span, Where
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.model import Block, FieldSpec, Part, Row, record_schema
+from mudline.language.keywords.text import shown
+from mudline.language.keywords.values import LINE_SETS, Names
+from mudline.language.syntax.fields import read_line
+from mudline.language.syntax.rows import read_number
+
+FOOT = 0.3048
+POUND = 4.4482216152605
+
+LENGTH_UNIT = {"metric": 1.0, "imperial": FOOT}
+FORCE_UNIT = {"metric": 1.0, "imperial": POUND}
+
+DEFAULT_DENSITY = {"metric": 1025.0, "imperial": 1025.0 * FOOT**4 / POUND}
+DEFAULT_GRAVITY = {"metric": 9.81, "imperial": 9.81 / FOOT}
+LARGEST_MOBILISATION = {"metric": 3.048, "imperial": 10.0}
+"""Largest mobilisation length where none is given: 10 ft."""
+
+
+def number(part: object, name: str, default: float = math.nan) -> float:
+    """A value that is given and is a number, else `default`."""
+    value = getattr(part, name, None)
+    return float(value) if isinstance(value, float | int) else default
+
+
+def file_name(written: str) -> str:
+    """A file's name as a deck writes it, without quotes and with `/` between folders."""
+    name = written.strip()
+    if len(name) > 1 and name[0] == name[-1] == '"':
+        name = name[1:-1]
+    return name.replace("\\", "/")
+
+
+def find_file(folder: Path | None, written: str) -> Path | None:
+    """The regular file that a deck in `folder` names, or None when it is not there or may not be looked at.
+
+    A name without a folder before it stands for a file beside the deck. A deck that came from no path (`folder` None)
+    finds nothing.
+    """
+    name = file_name(written)
+    if folder is None or not name or "\0" in name:
+        return None
+    path = look(folder / name)
+    try:
+        usable = path.is_file() and not is_made_by_system(path) and not is_refused(path, folder)
+    except OSError:
+        return None
+    return path if usable else None
+
+
+def not_found(folder: Path, name: str) -> tuple[str, bool]:
+    """Why a deck in a folder does not get the file that it names, and whether that is because it is refused."""
+    try:
+        refused = "\0" not in name and is_refused(folder / name, folder)
+    except OSError:
+        refused = False
+    if refused:
+        return (
+            f"the file {shown(name)} lies outside of the project {project_of(folder).as_posix()}, and is refused",
+            True,
+        )
+    looked = f"looked in {folder.as_posix()}"
+    return f"the file {shown(name)} was not found ({looked}): correct the name, or put the file there", False
+
+
+def missing_files(deck: Deck) -> Iterator[tuple[Where, Path, str]]:
+    """Every FILE= of a deck itself that names no file: its place, the folder searched, the name as filled.
+
+    Nothing for a deck that came from no path, as it is not known where its files could be.
+    """
+    if deck.folder is None:
+        return
+    own = len(deck.own_sections)
+    files = [
+        (one.where, one.name) for one in deck.names() if one.kind is Names.FILE and one.name and one.where.section < own
+    ]
+    parameters = Parameters(deck) if files else None
+    for where, written in files:
+        name = file_name(parameters.filled(written) if parameters else written)
+        if "%" not in name and find_file(deck.folder, name) is None:
+            yield where, deck.folder, name
+
+
+_COMMENT = re.compile(r"[Cc](?:[ \t]|[-*=#_.~+]{2}|$)|C[A-Za-z]")
+_KEY = re.compile(r"[ \t]*[A-Za-z][\w \t-]*")
+_PIECE = re.compile(r'(?:[^,"{]++|"[^"]*+"|\{[^}]*+\}|["{].*+)++')
+_MANY = 1000
+_WORD = re.compile(r"[^-+.,0-9 \t]")
+
+
+def external_definers(deck: Deck) -> list[str]:
+    """Keywords of the model that make nodes, elements or sets which the deck does not show; those not read first."""
+    found = [keyword for keyword in deck.keywords() if _makes(keyword)]
+    return sorted(catalogue.in_order(found), key=is_read_definer) if found else []
+
+
+def is_read_definer(keyword: str) -> bool:
+    """Whether a keyword is read, and the lines that it is about make things which the deck does not show."""
+    facts = catalogue.facts_of(keyword)
+    return bool(facts.makes) and not facts.out_of_sight
+
+
+def definition_by(definer: str, keyword: str) -> str:
+    """How a definer may define a thing that is a matter of `keyword`, in words; "" when it cannot."""
+    if keyword not in _makes(definer):
+        return ""
+    if is_read_definer(definer):
+        return f"the lines of *{definer}, which this deck does not show, may define it"
+    why = "whose nodes have no coordinates here" if catalogue.facts_of(definer).out_of_sight else "which is not read"
+    return f"*{definer}, {why}, may define it"
+
+
+def unread_makers(definers: Iterable[str], keyword: str) -> list[str]:
+    """The definers that are not read and may define things that are a matter of `keyword`."""
+    return [one for one in definers if keyword in _makes(one) and not is_read_definer(one)]
+
+
+def makes_labels(definer: str) -> bool:
+    """Whether a definer gives labels to nodes."""
+    kept = catalogue.opaque_keyword("MODEL", definer)
+    return kept is not None and kept.labels
+
+
+@lru_cache(1024)
+def _makes(keyword: str) -> tuple[str, ...]:
+    kept = catalogue.opaque_keyword("MODEL", keyword)
+    return kept.makes if kept else catalogue.facts_of(keyword).makes
+
+
+def opaque_set_names(deck: Deck) -> dict[str, str]:
+    """Names of the element sets that lines make, as first written, by their folded form."""
+    return _first_written(name for block in _model(deck) for name in _sets(block))
+
+
+def opaque_labels(deck: Deck) -> dict[str, str]:
+    """Texts among the lines of kept blocks that may be labels of nodes, as first written, by their folded form."""
+    return _first_written(text for block in _model(deck) for text in _texts(block))
+
+
+def bare(name: str) -> str:
+    """A name without blanks, quotes or braces around it."""
+    text = name.strip(" \t")
+    if len(text) > 1 and text[0] + text[-1] in ('""', "{}"):
+        text = text[1:-1].strip(" \t")
+    return text
+
+
+def _first_written(names: Iterable[str]) -> dict[str, str]:
+    found: dict[str, str] = {}
+    for name in names:
+        if text := bare(name):
+            found.setdefault(folded(text), text)
+    return found
+
+
+def _model(deck: Deck) -> Iterator[Block | Opaque]:
+    """Every block of `$MODEL`, read or not."""
+    return (block for section in deck.sections if section.name == "MODEL" for block in section.blocks)
+
+
+def _sets(block: Block | Opaque) -> Iterator[str]:
+    """The element sets that a block of lines names."""
+    if isinstance(block, Opaque):
+        kept = catalogue.opaque_keyword("MODEL", block.keyword)
+        if kept and kept.name_settings:
+            yield from _given_in_lines(block.lines, kept.name_settings)
+    elif block.facts.makes:
+        yield from _given_in_parts(block)
+
+
+def _given_in_lines(lines: Iterable[str], keys: Mapping[str, Names]) -> Iterator[str]:
+    for line in data_lines(lines):
+        if "=" not in line:
+            continue
+        for key, values in _groups(line):
+            if kind := keys.get(key):
+                yield from values if kind is Names.SETS else values[:1]
+
+
+def _makes_sets(slot: FieldSpec) -> bool:
+    return slot.key in LINE_SETS
+
+
+def _given_in_parts(part: Part) -> Iterator[str]:
+    """The same settings of a keyword that is read, as far as it could be read."""
+    for _, _, value in part.walk(_makes_sets):
+        name = getattr(value, record_schema(type(value)).columns[0].name) if isinstance(value, Row) else value
+        if isinstance(name, str) and name:
+            yield name
+
+
+def _texts(block: Block | Opaque) -> Iterator[str]:
+    """Every value of a block that is neither a number nor an equation."""
+    kept = catalogue.opaque_keyword("MODEL", block.keyword)
+    if not isinstance(block, Opaque) or kept is None or not kept.labels:
+        return
+    for line in data_lines(block.lines):
+        if _WORD.search(line):
+            for _, values in _groups(line):
+                yield from (text for text in values if read_number(text) is None and not text.startswith("=["))
+
+
+def _groups(line: str) -> Iterator[tuple[str, list[str]]]:
+    """The KEYs of a line with their values, "" for values without one. What `read_line` says, in less time."""
+    if "[" in line or line.count(",") > _MANY:
+        groups = read_line(line, Span(0, len(line))).groups
+        yield from ((group.key, [given.text for given in group.fields]) for group in groups)
+        return
+    key, values = "", list[str]()
+    for piece in _PIECE.findall(line) if '"' in line or "{" in line else line.split(","):
+        head, equals, value = piece.partition("=")
+        if equals and _KEY.fullmatch(head):
+            yield key, values
+            key, values = " ".join(head.split()).upper(), [value.strip(" \t")]
+        else:
+            values.append(piece.strip(" \t"))
+    yield key, values
+
+
+def data_lines(lines: Iterable[str]) -> Iterator[str]:
+    """The lines that are not comments. One with C and a letter in column 1 is one: no key of interest begins so."""
+    return (line for line in lines if not _COMMENT.match(line))

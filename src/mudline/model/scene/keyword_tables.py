@@ -1,0 +1,338 @@
+"""Tables in the form of the manual: sheets whose headings are those of a keyword's page, to the lines of a deck.
+
+The rows become the lines of the keyword and are read as these, so that what a deck cannot hold a sheet cannot either.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import PurePath
+from typing import NamedTuple
+
+import numpy as np
+
+from mudline.basics.quantities import UNIT_SYSTEMS
+from mudline.basics.short_repr import cut, listed
+from mudline.language.deck.model import Deck
+from mudline.language.deck.reading import read_source
+from mudline.language.diagnostics import Severity
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.model import Rows, record_schema
+from mudline.language.keywords.table import Table
+from mudline.language.keywords.values import Equation, Kind
+from mudline.language.syntax.rows import read_number
+from mudline.language.syntax.source import Source
+from mudline.model.curves import CurveError, ForceCurve
+from mudline.model.scene.csv_file import data_error
+from mudline.model.scene.sets import ALL
+from mudline.model.scene.table_forms import Column, TableForm, plain, table_forms
+from mudline.model.scene.workbook import Cell, Sheet
+
+_HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:[\[(]\s*(?P<unit>[^\[(]*?)\s*[\])])?\s*", re.DOTALL)
+_UNITS = {"metric": ("N", "m", "kg", "s"), "imperial": ("lbf", "ft", "slug", "s")}
+"""What force, length, mass and time are in a unit system."""
+
+
+class TableDeck(NamedTuple):
+    """The deck of some tables, and the sheets that are not tables of a keyword."""
+
+    deck: Deck
+    left_out: Sequence[str]
+
+
+def read_tables(sheets: Sequence[Sheet], file: str, units: str | None = None) -> TableDeck:
+    """The deck that some sheets describe, a block for each keyword in the order of its first sheet.
+
+    The first row of a sheet has the headings, in any order and case, maybe with a unit in brackets; the keyword is the
+    one whose page has them. A sheet without a column for the name of its curve is a curve of its own name. A blank name
+    continues the one above; in the first row it stands for all elements, where the keyword allows that. Rows without a
+    value are skipped, and so are sheets with no heading of a keyword. The units are those given, else those in
+    brackets, else metric.
+
+    Raises DeckError where something cannot be a line of the keyword; the message names the cell.
+    """
+    made: dict[TableForm, list[_Entry]] = {}
+    left_out: list[str] = []
+    systems: dict[str, str] = {}
+    for sheet in sheets:
+        found = _head(sheet)
+        if found is None:
+            left_out.append(sheet.title)
+            continue
+        systems |= dict.fromkeys(_systems(sheet, found), sheet.title)
+        _add(made.setdefault(found.form, []), _entries(sheet, found), found.form)
+    if not made:
+        raise data_error(file, "no table of a keyword: expected the headings of its page in the first row")
+    if len(systems) > 1:
+        what = " and ".join(f"{system} on {listed([sheet])}" for system, sheet in systems.items())
+        raise data_error(file, f"the headings have different units: {what}; a deck has one unit system")
+    return TableDeck(_deck(made, file, units or next(iter(systems), "metric")), left_out)
+
+
+# --------------------------------------------------------------------------------------------------- headings
+
+
+@dataclass(frozen=True)
+class _Head:
+    """The columns of a sheet by the headings in its first row."""
+
+    form: TableForm
+    places: Mapping[Column, int]
+    units: Mapping[Column, str]
+
+
+def _head(sheet: Sheet) -> _Head | None:
+    """Which keyword a sheet is a table of; None where it is none.
+
+    Raises DeckError for most of the headings of a keyword, or for one that it does not have.
+    """
+    given: dict[str, tuple[Cell, str]] = {}
+    for cell in sheet.rows[0] if sheet.rows else ():
+        match = _HEADING.fullmatch(str(cell.value))
+        name, unit = (match["name"], match["unit"] or "") if match else ("", "")
+        word = plain(name)
+        if word in given:
+            what = f"a second column {name.strip().lower()}: give each curve a sheet of its own, or name it in a column"
+            raise sheet.fault(cell.row, cell.column, what)
+        given[word] = cell, unit
+    forms = [form for form in table_forms() if any(column.headings & given.keys() for column in form.columns)]
+    titled = [form for form in forms if plain(form.keyword) == plain(sheet.title)]
+    fitting = [form for form in titled or forms if all(column.headings & given.keys() for column in form.required)]
+    fitting = [form for form in fitting if form.name is None or form.curve or form.name.headings & given.keys()]
+    if not fitting:
+        _refuse(sheet, given, titled or forms)
+        return None
+    known = {form: sum(bool(column.headings & given.keys()) for column in form.columns) for form in fitting}
+    best = [form for form in fitting if known[form] == max(known.values())]
+    best = [form for form in best if not catalogue.is_superseded(form.keyword)] or best
+    if len(best) > 1:
+        what = f"the headings are those of {' and '.join(f'*{form.keyword}' for form in best)}"
+        cell = sheet.rows[0][0]
+        raise sheet.fault(cell.row, cell.column, f"{what}: give the sheet the name of one of them")
+    return _placed(sheet, best[0], given)
+
+
+def _refuse(sheet: Sheet, given: Mapping[str, tuple[Cell, str]], forms: Sequence[TableForm]) -> None:
+    """Raise DeckError for a sheet that has most of the headings of a keyword, or half of those of a curve."""
+    titled = [form for form in forms if plain(form.keyword) == plain(sheet.title)]
+    newer = [form for form in forms if not catalogue.is_superseded(form.keyword)]
+    for form in titled or sorted(newer, key=lambda form: form.declared.subject != "seabed"):
+        there = [column for column in form.required if column.headings & given.keys()]
+        lacks = [column.spec.label for column in form.required if column not in there]
+        if lacks and len(there) >= len(lacks) + (form.curve is None):
+            cell = next(given[heading][0] for heading in there[0].headings if heading in given)
+            what = f"a column {there[0].spec.label} and none headed {' or '.join(lacks)}"
+            raise sheet.fault(cell.row, cell.column, f"{what}: *{form.keyword} needs both, in the first row")
+
+
+def _placed(sheet: Sheet, form: TableForm, given: Mapping[str, tuple[Cell, str]]) -> _Head:
+    places: dict[Column, int] = {}
+    units: dict[Column, str] = {}
+    for word, (cell, unit) in given.items():
+        column = next((one for one in form.columns if word in one.headings), None)
+        if column is None or column in places:
+            known = ", ".join(one.label for one in form.columns)
+            what = f"*{form.keyword} has no column {cut(str(cell.value), 40)!r}: it has {known}; leave others out"
+            raise sheet.fault(cell.row, cell.column, what)
+        places[column], units[column] = cell.column, unit
+    return _Head(form, places, units)
+
+
+def _systems(sheet: Sheet, head: _Head) -> Iterator[str]:
+    """The unit systems that the units in the headings tell. Raises DeckError for another unit than that of a system."""
+    for column, unit in head.units.items():
+        dimension = column.spec.about.unit
+        names = {system: _unit_name(dimension, system) for system in UNIT_SYSTEMS if system in _UNITS}
+        written = unit.replace("^", "").replace("²", "2").replace("³", "3").replace(" ", "")
+        if not unit or dimension in {"", "-", "deg"}:
+            continue
+        fitting = [system for system, name in names.items() if name == written]
+        if not fitting:
+            what = f"expected the unit {' or '.join(dict.fromkeys(names.values()))}, found {cut(unit, 40)!r}"
+            raise sheet.fault(sheet.rows[0][0].row, head.places[column], what)
+        yield from fitting if len(fitting) == 1 else ()
+
+
+def _unit_name(dimension: str, system: str) -> str:
+    """The unit of a dimension such as F/L2."""
+    names = dict(zip("FLMT", _UNITS[system], strict=True))
+    return "".join(names.get(letter, letter) for letter in dimension)
+
+
+# ------------------------------------------------------------------------------------------------------- rows
+
+
+@dataclass
+class _Entry:
+    """Rows that belong together: the name that they have, its cell, and each row with its cells."""
+
+    sheet: Sheet
+    name: str
+    cell: tuple[int, int]
+    lines: list[str] = field(default_factory=list)
+    rows: list[int] = field(default_factory=list)
+    first: int = 1
+
+
+def _entries(sheet: Sheet, head: _Head) -> list[_Entry]:
+    """The rows of a sheet by what they name, in the order of their first rows."""
+    form = head.form
+    found: dict[str, _Entry] = {}
+    named = form.name if form.name in head.places else None
+    first = min(head.places[column] for column in form.values if column in head.places)
+    name = None if named or form.name is None else sheet.title
+    if name is not None:
+        found[name.casefold()] = _Entry(sheet, name, (1, first), first=first)
+    for cells in sheet.rows[1:]:
+        given = {cell.column: cell for cell in cells}
+        _only_headed(sheet, head, cells)
+        if not given:
+            continue
+        row = cells[0].row
+        if named:
+            name = _name(sheet, head.places[named], named, given, row, name)
+        cell = row, head.places[named] if named else first
+        entry = found.setdefault((name or "").casefold(), _Entry(sheet, name or "", cell, first=first))
+        entry.lines.append(_line(sheet, head, given, row))
+        entry.rows.append(row)
+    return list(found.values())
+
+
+def _only_headed(sheet: Sheet, head: _Head, cells: Iterable[Cell]) -> None:
+    for cell in cells:
+        if cell.column not in head.places.values():
+            raise sheet.fault(cell.row, cell.column, "a value in a column without a heading: give it one, or remove it")
+
+
+def _name(sheet: Sheet, place: int, column: Column, given: Mapping[int, Cell], row: int, above: str | None) -> str:
+    """The name of a row; a blank one is that above, in the first row that of all elements."""
+    cell = given.get(place)
+    if cell is not None:
+        return str(_value(sheet, cell, "a name")).strip()
+    if above is None and column.spec.required:
+        raise sheet.fault(row, place, f"expected the name of a {column.spec.key.lower()}, found nothing")
+    return ALL.upper() if above is None else above
+
+
+def _line(sheet: Sheet, head: _Head, given: Mapping[int, Cell], row: int) -> str:
+    """The fields of a row; empty ones at the end are left out."""
+    fields: list[str] = []
+    for column in head.form.values:
+        place = head.places.get(column, 0)
+        cell = given.get(place)
+        if cell is None:
+            if column.spec.required:
+                raise sheet.fault(row, place, f"expected {_expected(column)}, found nothing")
+            fields.append("")
+            continue
+        fields.append(_field(sheet, column, cell))
+    while fields and not fields[-1]:
+        fields.pop()
+    return ", ".join(fields)
+
+
+def _expected(column: Column) -> str:
+    return "a name" if column.spec.kind is Kind.NAME else "a number"
+
+
+def _field(sheet: Sheet, column: Column, cell: Cell) -> str:
+    value = _value(sheet, cell, _expected(column))
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        whole = column.spec.kind in (Kind.WHOLE, Kind.IDENT) and float(value).is_integer()
+        return str(int(value)) if whole else repr(float(value))
+    if isinstance(value, str) and column.spec.kind not in (Kind.REAL, Kind.WHOLE):
+        return value.strip()
+    if isinstance(value, str) and (Equation.match(value) or (not sheet.is_workbook and read_number(value) is not None)):
+        return value
+    text = cut(repr(value), 40) if isinstance(value, str | bool) else cut(str(value), 40)
+    is_text = isinstance(value, str) and read_number(value.replace(",", ".")) is not None
+    advice = "; it is a text, format the cell as a number" if is_text else ""
+    if is_text and not sheet.is_workbook:
+        advice = "; write a decimal point"
+    raise sheet.fault(cell.row, cell.column, f"expected a number, found {text}{advice}")
+
+
+def _value(sheet: Sheet, cell: Cell, expected: str) -> object:
+    if cell.uncalculated:
+        what = "a formula that was never calculated: open the workbook in a spreadsheet program and save it"
+        raise sheet.fault(cell.row, cell.column, f"expected {expected}, found {what}")
+    return cell.value
+
+
+def _add(known: list[_Entry], more: Sequence[_Entry], form: TableForm) -> None:
+    """Put the rows of one more sheet to those of its keyword; a name may be on one sheet only."""
+    for entry in more:
+        same = next((one for one in known if one.name.casefold() == entry.name.casefold() and form.name), None)
+        if same is not None:
+            key = form.name.spec.key.lower() if form.name else ""
+            what = f"the {key} {cut(entry.name, 40)!r} is also on the sheet {same.sheet.title}: rename one"
+            raise entry.sheet.fault(*entry.cell, what)
+        known.append(entry)
+
+
+# ------------------------------------------------------------------------------------------------------- deck
+
+
+@dataclass
+class _Text:
+    """The lines of a deck, and the cell of each that comes from a table."""
+
+    lines: list[str] = field(default_factory=list)
+    places: dict[int, tuple[Sheet, int, int]] = field(default_factory=dict)
+
+    def add(self, line: str, entry: _Entry, place: tuple[int, int]) -> None:
+        if "\n" in line or "\r" in line:
+            raise entry.sheet.fault(*place, "a line end in a cell: a name is on one line")
+        self.lines.append(f" {line}")
+        self.places[len(self.lines)] = entry.sheet, *place
+
+
+def _deck(made: Mapping[TableForm, Sequence[_Entry]], file: str, units: str) -> Deck:
+    """The deck with the lines of all tables; raises DeckError at the cells of what it cannot hold."""
+    text = _Text()
+    section = ""
+    for form, entries in sorted(made.items(), key=lambda item: catalogue.SECTIONS.index(item[0].section)):
+        if form.section != section:
+            section = form.section
+            text.lines.append(f"${section}")
+        text.lines += [f"*{form.keyword}", *([f" {form.opening}"] if form.opening else [])]
+        for entry in entries:
+            if form.name:
+                text.add(f"{form.name.spec.key}={entry.name}", entry, entry.cell)
+            for line, row in zip(entry.lines, entry.rows, strict=True):
+                text.add(line, entry, (row, entry.first))
+    deck = read_source(Source(file, "\n".join([*text.lines, ""])), units=units)
+    deck.source = PurePath(file).name
+    for problem in deck.problems:
+        if problem.weight is Severity.ERROR:
+            place = text.places.get(deck.place(problem).line, next(iter(text.places.values())))
+            raise place[0].fault(*place[1:], problem.message)
+    _check(deck, made)
+    return deck
+
+
+def _check(deck: Deck, made: Mapping[TableForm, Sequence[_Entry]]) -> None:
+    """Raise DeckError for a name that reads otherwise in a deck, and for points that make no curve."""
+    for form, entries in made.items():
+        block = next(block for _, block in deck.blocks(form.keyword, form.section))
+        slot = next(slot for slot in record_schema(form.declared).slots if slot.record)
+        for entry, record in zip(entries, getattr(block, slot.name), strict=True):
+            named = getattr(record, form.name.spec.name) if form.name else entry.name
+            if named != entry.name:
+                what = f"{cut(entry.name, 40)!r} cannot be a name in a deck: it reads as {cut(str(named), 40)!r}"
+                raise entry.sheet.fault(*entry.cell, what)
+            if form.curve and isinstance(table := getattr(record, "points", None), Table):
+                _check_curve(form.curve, table, entry)
+
+
+def _check_curve(curve: Rows, table: Table, entry: _Entry) -> None:
+    points = np.column_stack([table.column(index) for index in curve.axes])
+    if np.isnan(points).any():  # an equation: the deck's own checks see its value
+        return
+    try:
+        ForceCurve(points)
+    except CurveError as error:
+        row = entry.rows[error.index] if 0 <= error.index < len(entry.rows) else entry.cell[0]
+        raise entry.sheet.fault(row, entry.first, str(error)) from error

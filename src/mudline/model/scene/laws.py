@@ -1,0 +1,369 @@
+"""What each element follows: its normal law and resistance, of both families, and its blocks of extension keywords."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, NamedTuple, cast
+
+import numpy as np
+
+from mudline.basics.short_repr import short_repr
+from mudline.language.deck.parameters import folded
+from mudline.language.diagnostics import Where
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.naming import set_slots
+from mudline.language.keywords.unknown import UNKNOWN, is_partly_unknown, known_name
+from mudline.model.contact.input import LawKind
+from mudline.model.scene.context import Context
+from mudline.model.scene.deck_values import number
+from mudline.model.scene.force_curves import SceneCurve, set_name
+from mudline.model.scene.numbering import FEW, Floats, Indices, Mask, looked_up, one_index, picked
+from mudline.model.scene.sets import NamedSet, Sets, later_wins
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.elastic_surface import ElasticSurface
+    from mudline.language.keywords.library.seabed_properties import SeabedProperties, SeabedSet
+    from mudline.language.keywords.model import Block, Part, Record
+
+
+DIRECTIONS = ("longitudinal", "transverse")
+"""Of friction, as the names of its fields begin."""
+
+NOTHING = -1
+_UNKNOWN = float("nan")
+
+
+class SetLaw(NamedTuple):
+    """What one place of the deck gives to a set of elements; a set that is not known is open and holds none.
+
+    `family` is "legacy" or "new"; `curve` an index in the table's curves. `unknown` marks a law that could not be read
+    or found, which is reported.
+    """
+
+    kind: LawKind
+    set_: NamedSet
+    where: Where
+    family: str
+    stiffness: float = float("nan")
+    curve: int = NOTHING
+    unknown: bool = False
+
+    def __repr__(self) -> str:
+        return short_repr(self)
+
+
+@dataclass(slots=True, repr=False, eq=False)
+class LawTable:
+    """The set_laws as they were found, legacy ones first, and the one that each element follows (m,), -1 for none.
+
+    `covered` (m,) is the last set_law of the new family that holds an element, also one without stiffness. `curves` are
+    the named ones, then those of `*EMBEDMENT`; `referenced` the folded names that a STIFFNESS= gives. `types` has the
+    places that say "RIGID" or "ELASTIC", and `gaps` those behind which lines may give more laws.
+    """
+
+    curves: list[SceneCurve]
+    set_laws: list[SetLaw] = field(default_factory=list)
+    of_element: Indices = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
+    covered: Indices = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
+    referenced: set[str] = field(default_factory=set)
+    types: dict[str, list[Where]] = field(default_factory=dict)
+    gaps: list[Where] = field(default_factory=list)
+
+    __repr__ = short_repr
+
+    @property
+    def uncertain(self) -> bool:
+        """Whether some law belongs to elements that the deck does not show: any element may have it."""
+        return any(set_law.set_.open for set_law in self.set_laws)
+
+    def followers(self, curve: int) -> Indices:
+        """Indices of the elements on a curve."""
+        on_curve = np.array([*(set_law.curve == curve for set_law in self.set_laws), False])
+        return np.flatnonzero(on_curve[self.of_element])
+
+
+def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: list[SceneCurve], count: int) -> LawTable:
+    """The law of each of `count` elements.
+
+    Of both families, a curve holds before a number, whichever gives it; of two curves or two numbers, that of the new
+    family.
+    """
+    laws = LawTable(curves=[*named, *by_set])
+    if any(map(catalogue.is_superseded, context.unread)):
+        laws.gaps.append(Where(len(context.deck.sections)))
+    surfaces = [*_rigid_surface(context, sets, laws), *_elastic_surface(context, sets, laws)]
+    legacy = [*surfaces, *_embedment(sets, laws, len(named))]
+    new = list(_properties(context, sets, laws, named))
+    laws.set_laws = legacy + new
+    wins = later_wins([set_law.set_ for set_law in new], count)
+    if not legacy and all(set_law.kind is not LawKind.NONE or set_law.unknown for set_law in new):
+        laws.of_element = laws.covered = wins
+        return laws
+    laws.of_element = later_wins([set_law.set_ for set_law in legacy], count)
+    laws.covered = looked_up(np.array([*range(len(legacy), len(laws.set_laws)), NOTHING], dtype=np.intp), wins)
+    gives = np.array([*(set_law.kind is not LawKind.NONE or set_law.unknown for set_law in laws.set_laws), False])
+    replaced = looked_up(gives, laws.covered)
+    if any(set_law.kind is LawKind.CURVE for set_law in legacy):
+        curves, numbers = (_marked(laws, kind) for kind in (LawKind.CURVE, LawKind.LINEAR))
+        replaced = replaced & ~(looked_up(curves, laws.of_element) & looked_up(numbers, laws.covered))
+    count_replaced = np.count_nonzero(replaced)
+    if count_replaced == count:
+        laws.of_element = laws.covered
+    elif count_replaced:
+        laws.of_element = np.where(replaced, laws.covered, laws.of_element)
+    return laws
+
+
+def _marked(laws: LawTable, kind: LawKind) -> Mask:
+    """Whether each of the set_laws is of a kind; the last one is that of no set_law, -1."""
+    return np.array([*(set_law.kind is kind for set_law in laws.set_laws), False])
+
+
+def _rigid_surface(context: Context, sets: Sets, laws: LawTable) -> Iterator[SetLaw]:
+    for where, _ in context.blocks("RIGID SURFACE"):
+        laws.types.setdefault("RIGID", []).append(where)
+        yield SetLaw(LawKind.RIGID, sets.everything, where, "legacy")
+
+
+def _elastic_surface(context: Context, sets: Sets, laws: LawTable) -> Iterator[SetLaw]:
+    """The linear stiffness that holds where no curve of `*EMBEDMENT` does, in whatever order they stand."""
+    for where, block in context.blocks("ELASTIC SURFACE"):
+        laws.types.setdefault("ELASTIC", []).append(where)
+        place = where.inside("properties")
+        stiffness = getattr(cast("ElasticSurface", block).properties, "stiffness", None)
+        field_ = place.inside("stiffness")
+        if stiffness is not None:
+            value = float(cast("float", stiffness))
+            yield SetLaw(LawKind.LINEAR, sets.everything, field_, "legacy", value, unknown=not value >= 0)
+
+
+def _embedment(sets: Sets, laws: LawTable, first: int) -> Iterator[SetLaw]:
+    for index, curve in enumerate(laws.curves[first:], first):
+        found = sets.find(curve.name) if curve.named else None
+        holder = found or _unknown(curve.name)
+        yield SetLaw(LawKind.CURVE, holder, curve.where, "legacy", curve=index, unknown=not curve.usable)
+
+
+def _unknown(name: str | None) -> NamedSet:
+    return NamedSet(name or "", np.zeros(0, dtype=np.intp), None, open=True)
+
+
+def typed_blocks(context: Context) -> Iterator[tuple[Where, SeabedProperties, str | None]]:
+    """The `*SEABED PROPERTIES` blocks with their type: a block without TYPE= has that of the block before it."""
+    type_: str | None = None
+    for where, block in context.blocks("SEABED PROPERTIES"):
+        properties = cast("SeabedProperties", block)
+        type_ = type_ if properties.type_ is None else properties.type_
+        yield where, properties, type_
+
+
+def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneCurve]) -> Iterator[SetLaw]:
+    curves = {folded(curve.name): index for index, curve in enumerate(named) if curve.named}
+    for where, properties, type_ in typed_blocks(context):
+        if known_name(properties.type_):
+            laws.types.setdefault(str(properties.type_), []).append(where.inside("type"))
+        if not properties.sets and is_partly_unknown(properties.sets):
+            laws.gaps.append(where)
+        gaps = [where.inside("sets", index) for index, entry in enumerate(properties.sets) if _has_gap(entry)]
+        laws.gaps += gaps
+        for index, entry in enumerate(properties.sets):
+            place = where.inside("sets", index)
+            name = set_name(entry.set_name)
+            holder = (None if name is None else sets.find(name)) or _unknown(name)
+            stiffness, written = entry.stiffness, place.inside("stiffness")
+            if isinstance(stiffness, str):
+                curve = curves.get(folded(stiffness), NOTHING)
+                unknown = curve == NOTHING or not named[curve].usable
+                yield SetLaw(LawKind.CURVE, holder, written, "new", curve=curve, unknown=unknown)
+            elif type_ == "RIGID":  # on a rigid seabed a stiffness has no effect
+                yield SetLaw(LawKind.RIGID, holder, place, "new")
+            elif stiffness is None or stiffness is UNKNOWN:
+                unknown = stiffness is UNKNOWN or not type_
+                yield SetLaw(LawKind.NONE, holder, place, "new", unknown=unknown)
+            else:
+                value = float(stiffness)
+                yield SetLaw(LawKind.LINEAR, holder, written, "new", value, unknown=not value >= 0)
+
+
+def _has_gap(entry: SeabedSet) -> bool:
+    """Whether a line below a SET= could not be used, which may be the SET= of another one."""
+    values = (entry.stiffness, entry.friction, entry.lateral, entry.suction)
+    return UNKNOWN in values and None not in values
+
+
+class ResistanceValues(NamedTuple):
+    """The values of one place of the deck, NaN for what it does not give.
+
+    Friction coefficients, mobilisation lengths, largest characteristic lengths and friction stiffnesses are those of
+    the longitudinal, then of the transverse direction.
+    """
+
+    friction: tuple[float, float] = (_UNKNOWN, _UNKNOWN)
+    mobilisation: tuple[float, float] = (_UNKNOWN, _UNKNOWN)
+    characteristic: tuple[float, float] = (_UNKNOWN, _UNKNOWN)
+    constant: float = _UNKNOWN
+    friction_stiffness: tuple[float, float] = (_UNKNOWN, _UNKNOWN)
+    lateral: float = _UNKNOWN
+    suction: float = _UNKNOWN
+    extent: float = _UNKNOWN
+
+    def __repr__(self) -> str:
+        return short_repr(self)
+
+
+_NO_VALUES = ResistanceValues()
+
+
+class SeabedResistance(NamedTuple):
+    """The values of elements (m,) or (m, 2), NaN where the deck gives none, in the deck's units.
+
+    `values` and `places` list what the deck gives and where; `of_element` (m,) is the index of each element in them,
+    -1 for elements without any.
+    """
+
+    values: Sequence[ResistanceValues]
+    places: Sequence[Where]
+    of_element: Indices
+
+    def __repr__(self) -> str:
+        return short_repr(self)
+
+    @property
+    def has_mobilisation(self) -> bool:
+        """Whether a mobilisation length above 0 is given."""
+        return any(length > 0.0 for entry in self.values for length in entry.mobilisation)
+
+    def column(self, name: str) -> Floats:
+        """One of the fields of `ResistanceValues` for all elements: (m,), or (m, 2) for those of two directions."""
+        table = np.array([getattr(entry, name) for entry in (*self.values, _NO_VALUES)], dtype=np.float64)
+        found: Floats = table[self.of_element]
+        return found
+
+
+def read_resistance(context: Context, laws: LawTable) -> SeabedResistance:
+    """The last block of `*SEABED PROPERTIES` that holds an element, taken whole; else the legacy surface."""
+    surfaces = list(_of_surfaces(context))
+    values = [entry for _, entry in surfaces]
+    places = [where for where, _ in surfaces]
+    position_of = np.full(len(laws.set_laws) + 1, len(surfaces) - 1, dtype=np.intp)
+    for index in present(laws.covered):
+        where = laws.set_laws[index].where
+        block = cast("SeabedProperties", context.deck.sections[where.section].blocks[where.block])
+        position = cast("int", where.path[1])
+        position_of[index] = len(values)
+        values.append(_of_set(block.sets[position]))
+        places.append(Where(where.section, where.block, ("sets", position)))
+    return SeabedResistance(values, places, looked_up(position_of, laws.covered))
+
+
+def present(covered: Indices) -> list[int]:
+    """The indices that there are, without -1, in ascending order."""
+    index = one_index(covered)
+    if index is not None:
+        return [index] * (index >= 0)
+    if len(covered) <= FEW:
+        return sorted({*covered.tolist()} - {-1})
+    found: list[int] = np.bincount(covered[covered >= 0]).nonzero()[0].tolist()
+    return found
+
+
+def _two(part: Part | None, name: str) -> tuple[float, float]:
+    longitudinal, transverse = (number(part, f"{direction}{name}") for direction in DIRECTIONS)
+    return longitudinal, transverse
+
+
+def _of_set(entry: SeabedSet) -> ResistanceValues:
+    if entry.friction is None and entry.suction is None:
+        return ResistanceValues(lateral=number(entry, "lateral"))
+    return ResistanceValues(
+        friction=_two(entry.friction, ""),
+        mobilisation=_two(entry.friction, "_mobilisation"),
+        constant=number(entry.friction, "constant"),
+        friction_stiffness=_two(entry.friction, "_stiffness"),
+        lateral=number(entry, "lateral"),
+        suction=number(entry.suction, "stiffness"),
+        extent=number(entry.suction, "extent"),
+    )
+
+
+def _of_surfaces(context: Context) -> Iterator[tuple[Where, ResistanceValues]]:
+    for where, surface in context.surfaces:
+        properties = surface.properties
+        yield (
+            where.inside("properties"),
+            ResistanceValues(
+                friction=_two(properties, ""),
+                mobilisation=_two(properties, "_mobilisation"),
+                characteristic=_two(properties, "_length"),
+                constant=number(properties, "constant"),
+                lateral=number(properties, "lateral"),
+                suction=number(properties, "suction_stiffness"),
+                extent=number(properties, "suction_extent"),
+            ),
+        )
+
+
+class Extension(NamedTuple):
+    """The blocks of one keyword in the order of the file; `of_element` (m,) is the one each element follows, or -1."""
+
+    entries: list[Record]
+    places: list[Where]
+    sets: list[NamedSet | None]
+    of_element: Indices
+
+    def __repr__(self) -> str:
+        return short_repr(self)
+
+    def values(self, at: Indices, *names: str, default: float = math.nan) -> Floats:
+        """A number of the block of each index, `default` where the block does not give it, NaN for -1.
+
+        `names` lead to it: a field, or a field of a record and a field in it.
+        """
+        *outer, name = names
+        parts: Iterable[object] = self.entries
+        for step in outer:
+            parts = [getattr(part, step, None) for part in parts]
+        return picked((number(part, name, default) for part in parts), at)
+
+    def asking(self, name: str) -> Mask:
+        """Elements (m,) whose block gives a field, a number at least 0; all with a block where it is mandatory."""
+        flags = []
+        for entry in self.entries:
+            value = getattr(entry, name, None)
+            number_asks = value >= 0.0 if isinstance(value, float | int) else value is not None
+            flags.append(number_asks or type(entry).model_fields[name].is_required())
+        found: Mask = np.array([*flags, False])[self.of_element]
+        return found
+
+
+def read_extensions(context: Context, sets: Sets, count: int) -> dict[str, Extension]:
+    """What the deck gives, by keyword in the order of the catalogue; keywords that it has not are left out."""
+    given = {block.keyword for _, block in context.deck.blocks_that(_goes_by_set)}
+    return {keyword: _read_extension(context, sets, keyword, count) for keyword in catalogue.in_order(given)}
+
+
+def _goes_by_set(declared: type[Block]) -> bool:
+    return declared.facts.extension and declared.facts.later_wins
+
+
+def _read_extension(context: Context, sets: Sets, keyword: str, count: int) -> Extension:
+    entries: list[Record] = []
+    places: list[Where] = []
+    holders: list[NamedSet | None] = []
+    for where, block in context.blocks(keyword):
+        for listed, named in set_slots(type(cast("Block", block))):
+            for index, entry in enumerate(getattr(block, listed.name)):
+                entries.append(entry)
+                places.append(where.inside(listed.json, index))
+                holders.append(_holder(context, sets, keyword, getattr(entry, named.name)))
+    return Extension(entries, places, holders, later_wins(holders, count))
+
+
+def _holder(context: Context, sets: Sets, keyword: str, name: str | None) -> NamedSet | None:
+    known = known_name(name)
+    if known is None:
+        context.unread.add(keyword)
+        return None
+    return sets.find(known)

@@ -1,0 +1,365 @@
+"""Nodes and elements: tables and generators to numbers, coordinates, node indices and lengths."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple, cast
+
+import numpy as np
+
+from mudline.basics.limits import MOST_GENERATED, MOST_REPORTED
+from mudline.basics.short_repr import short_repr
+from mudline.language.codes.references import REF005, REF006, REF007, REF010
+from mudline.language.diagnostics import Blocks, Problem, Severity, Where
+from mudline.language.keywords.table import LARGEST_WHOLE, Table
+from mudline.language.keywords.text import shown
+from mudline.model.scene.context import Context
+from mudline.model.scene.numbering import (
+    FEW,
+    Batch,
+    Definitions,
+    Floats,
+    Ids,
+    Indices,
+    Mask,
+    Numbered,
+    are_whole,
+    blocks_of,
+    side_by_side,
+    whole_numbers,
+)
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.element import ElementPattern, ElementRows, Elements
+    from mudline.language.keywords.library.node import NodeRange, NodeRows, Nodes
+    from mudline.model.scene.csv_file import ExternalElements
+
+
+class _NodeLine(NamedTuple):
+    """Nodes between two others, not yet placed."""
+
+    batch: Batch
+    ends: tuple[int, int]
+
+    def place(self, first: Floats, last: Floats) -> None:
+        """Evenly spaced, exactly so where the spacing is a whole number."""
+        count = len(self.batch.ids)
+        for block in blocks_of(count):
+            steps = np.arange(block.start + 1, block.stop + 1)[:, np.newaxis]
+            with np.errstate(over="ignore", invalid="ignore"):
+                self.batch.values[block] = first + (last - first) * steps / (count + 1)
+
+
+def read_nodes(context: Context, external: ExternalElements | None = None) -> Numbered:
+    """The nodes of the model with their coordinates (n, 3); NaN where a coordinate is not known.
+
+    Nodes that only `external` elements name have no coordinates.
+    """
+    gathered = Definitions()
+    waiting: list[_NodeLine] = []
+    for where, block in context.blocks("NODE"):
+        for index, entry in enumerate(cast("Nodes", block).entries):
+            place = where.inside("entries", index)
+            if hasattr(entry, "nodes"):
+                _add_nodes(context, gathered, cast("NodeRows", entry), place)
+            elif line := _node_line(context, gathered, entry.generate, place):
+                gathered.add(line.batch)
+                if not _between(gathered, line):
+                    waiting.append(line)
+    placeless = {line.batch.where for line in waiting if not _late(context, gathered, line)}
+    if external is not None:
+        known = gathered.resolve(3)
+        extra = np.unique(external.nodes)
+        extra = extra[known.indices(extra) < 0]
+        gathered.add(Batch(extra, np.full((len(extra), 3), np.nan), Where()))
+    nodes = gathered.resolve(3)
+    repeats = nodes.repeats
+    if placeless and repeats.size:  # where a line of nodes ends is not known, nor which numbers it has
+        repeats = repeats[[nodes.where_row(row) not in placeless for row in repeats.tolist()]]
+    report_repeats(context, nodes, repeats, "node")
+    return nodes
+
+
+def _add_nodes(context: Context, gathered: Definitions, entry: NodeRows, where: Where) -> None:
+    table = entry.nodes
+    values = _coordinates(table)
+    for row in _add_rows(gathered, table.column(0), values, where, "nodes"):
+        context.misread("NODE", where.inside("nodes", row, 0))
+
+
+def _coordinates(table: Table) -> Floats:
+    """The coordinates (n, 3) in a table of nodes; z is 0 where it is not given."""
+    if not (table.full and table.values.shape[1] == 3):
+        return side_by_side(table.column(1), table.column(2), table.column(3, default=0.0))
+    found = np.zeros((len(table), 3))
+    found[:, :2] = table.values[:, 1:]
+    return found
+
+
+def _add_rows(gathered: Definitions, numbers: Floats, values: Floats, where: Where, table: str) -> list[int]:
+    """Add the rows of a table that have a number; returns the others."""
+    if are_whole(numbers):
+        gathered.add(Batch(numbers.astype(np.int64), values, where, table))
+        return []
+    ids, known = whole_numbers(numbers)
+    if np.count_nonzero(known) == len(known):
+        gathered.add(Batch(ids, values, where, table))
+        return []
+    rows = np.flatnonzero(known)
+    gathered.add(Batch(ids[rows], values[rows], where, table, rows))
+    unknown: list[int] = np.flatnonzero(~known)[: MOST_REPORTED + 1].tolist()
+    return unknown
+
+
+def _node_line(context: Context, gathered: Definitions, given: NodeRange, where: Where) -> _NodeLine | None:
+    place = where.inside("generate")
+    numbers = context.generator(given)
+    if numbers is None:
+        context.unread.add("NODE")
+        return None
+    start, end, step = numbers
+    count = -1 if step < 1 or end <= start or (end - start) % step else (end - start) // step - 1
+    fault = f"GEN={start}, {end}, {step} does not lead from node {start} to node {end}: correct it" if count < 0 else ""
+    if count > MOST_GENERATED - gathered.generated:
+        fault = (
+            f"GEN={start}, {end}, {step} would make {count} nodes: a deck must not generate more than {MOST_GENERATED}"
+        )
+    if fault:
+        context.report(REF010, fault, place, Severity.ERROR)
+        context.doubtful.setdefault("NODE", []).append((min(start, end), max(start, end)))
+        return None
+    ids = np.arange(start + step, end, step, dtype=np.int64)
+    return _NodeLine(Batch(ids, np.full((count, 3), np.nan), place), (start, end))
+
+
+def _between(gathered: Definitions, line: _NodeLine) -> bool:
+    """Place the nodes of a line, if its ends are defined by now."""
+    first, last = (gathered.find(number) for number in line.ends)
+    if first is None or last is None:
+        return False
+    line.place(first, last)
+    return True
+
+
+def _late(context: Context, gathered: Definitions, line: _NodeLine) -> bool:
+    """Place a line whose ends were not defined before it, if they stand behind it; whether they do."""
+    where = line.batch.where
+    if _between(gathered, line):
+        first, last = line.ends
+        message = (
+            f"GEN= places nodes between two that exist, and node {first} or {last} is defined only after this line: "
+            "that definition is taken (inferred); put it first"
+        )
+        context.report(REF006, message, where, Severity.WARNING)
+        return True
+    for position, number in enumerate(line.ends):
+        if gathered.find(number) is None:
+            message = f"GEN= places nodes between two that exist: node {number} is not defined; define it in *NODE"
+            context.report_missing(REF006, message, where.inside(position), "NODE", number)
+    return False
+
+
+class ElementTable(NamedTuple):
+    """Elements with the indices of their nodes (m, 2), -1 for a node that is not known, and their lengths (m,)."""
+
+    numbered: Numbered
+    nodes: Indices
+    length: Floats
+
+    def __repr__(self) -> str:
+        return short_repr(self)
+
+
+def read_elements(context: Context, nodes: Numbered, external: ExternalElements | None = None) -> ElementTable:
+    """The elements of the model, then those of a file, which replace them."""
+    gathered = Definitions()
+    for where, block in context.blocks("ELEMENT"):
+        for index, entry in enumerate(cast("Elements", block).entries):
+            place = where.inside("entries", index)
+            if hasattr(entry, "elements"):
+                _add_elements(context, gathered, cast("ElementRows", entry), place)
+            else:
+                _add_pattern(context, gathered, entry.generate, place)
+    own = sum(len(batch.ids) for batch in gathered.batches)
+    if external is not None:
+        gathered.add(Batch(external.ids, external.nodes.astype(np.float64), Where()))
+    elements = gathered.resolve(2)
+    if elements.repeats.size:
+        report_repeats(context, elements, elements.repeats[elements.repeats < own], "element")
+    indices, length = _few(elements, nodes) or (_join(context, elements, nodes), None)
+    if length is None:
+        length = _lengths(indices, nodes.values)
+    if external is not None:
+        at = elements.indices(external.ids)
+        length[at] = np.where(np.isnan(external.length), length[at], external.length)
+    return ElementTable(elements, indices, length)
+
+
+def _add_elements(context: Context, gathered: Definitions, entry: ElementRows, where: Where) -> None:
+    table = entry.elements
+    _check_labels(context, table, where)
+    ends = side_by_side(table.column(1), table.column(2))
+    for row in _add_rows(gathered, table.column(0), ends, where, "elements"):
+        context.misread("ELEMENT", where.inside("elements", row, 0))
+
+
+def _check_labels(context: Context, table: Table, where: Where) -> None:
+    """Labelled nodes come from blocks that are not read; without such a block a label names nothing."""
+    labels = [(row, column, word) for (row, column), word in table.words.items() if word and 0 < column < 3]
+    if not labels or context.external_definers:
+        return
+    for row, column, word in labels[: MOST_REPORTED + 1]:
+        place = where.inside("elements", row, column)
+        if context.is_guessed_label(place):
+            context.cannot_place(place)
+        else:
+            message = f"node {shown(word)} is a label, and nothing in this deck makes labelled nodes: give a number"
+            context.report_missing(REF006, message, place, "NODE", blocks=Blocks.ALWAYS)
+
+
+def _add_pattern(context: Context, gathered: Definitions, given: ElementPattern, where: Where) -> None:
+    place = where.inside("generate")
+    numbers = context.generator(given)
+    if numbers is None:
+        context.unread.add("ELEMENT")
+        return
+    master, count, step = numbers
+    if fault := _pattern_fault(gathered, master, count, step):
+        context.report(REF010, fault, place, Severity.ERROR)
+        context.doubtful.setdefault("ELEMENT", []).append((master, LARGEST_WHOLE))
+        return
+    ends = gathered.find(master)
+    if ends is None:
+        message = (
+            f"GEN= repeats an element that exists: element {master} is not defined before this line; define it there"
+        )
+        context.report_missing(REF005, message, place.inside(0), "ELEMENT", master)
+        ends = np.full(2, np.nan)
+    steps = np.arange(1, count, dtype=np.int64) * step
+    gathered.add(Batch(master + steps, ends + steps[:, np.newaxis], place))
+
+
+def _pattern_fault(gathered: Definitions, master: int, count: int, step: int) -> str:
+    if count < 1 or step < 1:
+        return f"GEN={master}, {count}, {step}: the number of elements and the increment must be at least 1"
+    if count - 1 > MOST_GENERATED - gathered.generated:
+        return f"GEN={master}, {count}, {step}: a deck must not generate more than {MOST_GENERATED} elements"
+    if abs(master) + (count - 1) * step > LARGEST_WHOLE:
+        return (
+            f"GEN={master}, {count}, {step}: no element may have the number {master + (count - 1) * step}: correct it"
+        )
+    return ""
+
+
+def _few(elements: Numbered, nodes: Numbered) -> tuple[Indices, Floats] | None:
+    """Node indices and lengths of a few elements, number by number: calls of numpy take five times as long.
+
+    None for many, and where a node is not known or a length is not computed as simply as that.
+    """
+    if not 0 < len(elements) <= FEW or len(nodes) > FEW:
+        return None
+    places = nodes.values.tolist()
+    known = nodes.by_number()
+    ends: list[tuple[int, int]] = []
+    lengths: list[float] = []
+    for first, second in elements.values.tolist():
+        one, other = known.get(first), known.get(second)
+        if one is None or other is None:
+            return None
+        (x, y, z), (u, v, w) = places[one], places[other]
+        square = (u - x) * (u - x) + (v - y) * (v - y) + (w - z) * (w - z)
+        if not _SMALLEST_SQUARE <= square <= _LARGEST_SQUARE:
+            return None
+        ends.append((one, other))
+        lengths.append(math.sqrt(square))
+    return np.array(ends, dtype=np.intp), np.array(lengths)
+
+
+def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:
+    """Node indices; each end that names an undefined node is reported, a generator's once."""
+    indices = np.empty(elements.values.shape, dtype=np.intp)
+    found: list[Indices] = []
+    for block in blocks_of(len(elements)):
+        given, numbers = _node_numbers(elements.values[block])
+        indices[block] = np.where(given, nodes.indices(numbers), -1)
+        lacks = given & (indices[block] < 0)
+        if np.count_nonzero(lacks):
+            found.append(np.argwhere(lacks))
+            found[-1][:, 0] += block.start
+    if not found:
+        return indices
+    missing = np.concatenate(found)
+    batches = elements.batches_of(elements.rows[missing[:, 0]])
+    generators = np.array([not batch.table for batch in elements.batches], dtype=bool)[batches]
+    _, firsts = np.unique(np.where(generators, batches, -1 - np.arange(len(missing))), return_index=True)
+    for index, end in missing[np.sort(firsts)[: MOST_REPORTED + 1]].tolist():
+        where = elements.where(index)
+        number = int(elements.values[index, end])
+        message = f"element {elements.ids[index]} ends at node {number}, which is not defined: define it"
+        generated = not elements.batches[elements.batches_of(int(elements.rows[index]))].table
+        place = where if generated else where.inside(end + 1)
+        context.report_missing(REF006, message, place, "NODE", number, blocks=Blocks.ALWAYS)
+    return indices
+
+
+def _node_numbers(values: Floats) -> tuple[Mask, Ids]:
+    """Where values are numbers of nodes, and these; 0 elsewhere."""
+    given = np.abs(values) <= 2 * LARGEST_WHOLE
+    return given, np.where(given, values, 0).astype(np.int64)
+
+
+def _lengths(ends: Indices, coordinates: Floats) -> Floats:
+    """Distances between the nodes, NaN where one is not known."""
+    length = np.full(len(ends), np.nan)
+    for block in blocks_of(len(ends)):
+        if np.minimum.reduce(ends[block], axis=None) >= 0:
+            first, last = coordinates.take(ends[block].T, axis=0)  # `take` takes a fifth of the time of an index
+            length[block] = distances(first, last)
+            continue
+        first, last = ends[block].T
+        known = ((first >= 0) & (last >= 0)).nonzero()[0]
+        length[block][known] = distances(coordinates[first[known]], coordinates[last[known]])
+    return length
+
+
+_SMALLEST_SQUARE, _LARGEST_SQUARE = 1e-280, 1e280
+
+
+def distances(points: Floats, others: Floats) -> Floats:
+    """Return the distances (m,) between points (m, 3); infinite only where a float64 cannot hold them."""
+    with np.errstate(all="ignore"):
+        span = np.subtract(others, points)
+        square = np.add.reduce(span**2, axis=1)
+        found: Floats = np.sqrt(square)
+        if np.count_nonzero(odd := (square < _SMALLEST_SQUARE) | (square > _LARGEST_SQUARE)):
+            largest = np.abs(span[odd]).max(axis=1, initial=0.0)
+            scale = np.where((largest > 0.0) & (largest < np.inf), largest, 1.0)
+            found[odd] = scale * np.sqrt(((span[odd] / scale[:, None]) ** 2).sum(axis=1))
+    return found
+
+
+def report_repeats(context: Context, numbered: Numbered, repeats: Indices, thing: str) -> None:
+    """Report definitions (rows) whose number an earlier one has: each row of a table, a generator once."""
+    if not repeats.size:
+        return
+    batches, begins = np.unique(numbered.batches_of(repeats), return_index=True)
+    ends = [*begins.tolist()[1:], len(repeats)]
+    for batch, begin, end in zip(batches.tolist(), begins.tolist(), ends, strict=True):
+        if numbered.batches[batch].table:
+            for row in repeats[begin : min(end, begin + MOST_REPORTED + 1)].tolist():
+                _report_repeat(context, numbered, row, thing, 1)
+        else:
+            _report_repeat(context, numbered, int(repeats[begin]), thing, end - begin)
+
+
+def _report_repeat(context: Context, numbered: Numbered, row: int, thing: str, count: int) -> None:
+    where = numbered.where_row(row)
+    number = numbered.ids_of(np.array([row]))
+    first = numbered.where_row(int(numbered.firsts[numbered.indices(number)[0]]))
+    what = f"{thing} {number[0]} is" if count == 1 else f"{count} {thing}s (first: {number[0]}) are"
+    message = f"{what} defined twice: the later definition holds; remove one"
+    if first.section == where.section:
+        context.note(Problem(REF007, message, where=where, blocks=Blocks.NEVER))
+    else:
+        message += " (inferred: the $MODEL sections of a file make one model)"
+        context.report(REF007, message, where, Severity.WARNING)

@@ -1,0 +1,127 @@
+"""From a deck to a scene: its arrays, what is wrong with it, and its evaluator."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal
+
+from mudline.basics.short_repr import counted, cut, outline
+from mudline.language.deck.model import Deck
+from mudline.language.deck.parameters import evaluated
+from mudline.language.diagnostics import Blocks, DeckError, Problem, Severity
+from mudline.model.scene.context import Context
+from mudline.model.scene.deck_curves import check_curves
+from mudline.model.scene.force_curves import read_curves
+from mudline.model.scene.laws import read_extensions, read_laws, read_resistance
+from mudline.model.scene.mesh import read_elements, read_nodes
+from mudline.model.scene.references import check_boundaries, check_idents, check_lines, check_references, check_soil
+from mudline.model.scene.resolved import ResolvedDeck
+from mudline.model.scene.restart import continued
+from mudline.model.scene.rules import checked
+from mudline.model.scene.seabed import read_seabed
+from mudline.model.scene.sections import read_sections
+from mudline.model.scene.sets import read_sets
+from mudline.model.scene.unread_lines import check_unread_lines
+
+if TYPE_CHECKING:
+    from mudline.model.contact.input import ContactInput
+    from mudline.model.contact.model import ContactModel
+    from mudline.model.contact.plan import Backend
+    from mudline.model.scene.csv_file import ExternalElements
+
+
+@dataclass(repr=False)
+class Scene(ResolvedDeck):
+    """A resolved deck with what is wrong with it, and its evaluator: what the packages use of `mudline.Scene`."""
+
+    def __repr__(self) -> str:
+        counts = [
+            counted(len(self.node_ids), "node"),
+            counted(len(self.element_ids), "element"),
+            counted(len(self.set_table.named), "set"),
+            counted(len(self.curves), "curve"),
+        ]
+        if errors := len(self.errors()):
+            counts.append(counted(errors, "error"))
+        return outline(f"Scene of {cut(self.deck.file, 80)!r}", ", ".join([self.units, *counts]))
+
+    @cached_property
+    def findings(self) -> list[Problem]:
+        """All that is wrong with the deck, as far as evaluating it goes."""
+        return [*self.context.of_deck(), *self.problems]
+
+    @cached_property
+    def problems(self) -> list[Problem]:
+        """What resolving the deck noticed, and what the rules that block find."""
+        return [*self.noticed, *checked(self)]
+
+    def blocking(self, tension: Literal["keep", "cut"] = "keep") -> list[Problem]:
+        """The findings that keep the scene from being evaluated; `tension` is that of `contact`."""
+        blocks = (Blocks.ALWAYS, Blocks.WITH_TENSION) if tension == "keep" else (Blocks.ALWAYS,)
+        return [problem for problem in self.findings if problem.blocking in blocks]
+
+    def errors(self) -> list[Problem]:
+        """What is wrong with the deck itself, so that the scene cannot be used.
+
+        A warning may keep the scene from being evaluated too: what it lacks may stand where it is not read.
+        """
+        return [problem for problem in self.blocking("cut") if problem.weight is Severity.ERROR]
+
+    def require_evaluable(self, tension: Literal["keep", "cut"] = "keep") -> Scene:
+        """The scene itself; raises DeckError for the findings that keep it from being evaluated."""
+        if problems := self.blocking(tension):
+            raise DeckError(self.deck.diagnose(problems))
+        return self
+
+    def require(self) -> Scene:
+        """The scene itself; raises DeckError for errors on which a result depends."""
+        if errors := self.errors():
+            raise DeckError(self.deck.diagnose(errors))
+        return self
+
+    def contact(self, tension: Literal["keep", "cut"] = "keep", *, backend: Backend = "auto") -> ContactModel:
+        """The evaluator of this scene, as `mudline.Scene.contact` says."""
+        from mudline.model.contact.model import ContactModel  # noqa: PLC0415 - as below
+
+        return ContactModel(self.contact_input(tension), backend=backend)
+
+    def contact_input(self, tension: Literal["keep", "cut"] = "keep") -> ContactInput:
+        """The arrays that the evaluator is made from; raises DeckError as `contact` does."""
+        from mudline.model.scene.contact_input import contact_input  # noqa: PLC0415 - checking a deck does without it
+
+        self.require_evaluable(tension)
+        return contact_input(self, tension)
+
+
+def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
+    """The scene of a deck, as far as it can be resolved; what went wrong is in its `problems`.
+
+    `external` adds elements that the deck does not show, or replaces its own. The models of the decks that it continues
+    belong to the scene, if they are found beside it; what lies in them is among the problems too.
+    """
+    whole, found = continued(deck)
+    ready, problems = evaluated(whole)
+    context = Context(ready, whole, [*found, *problems])
+    if external is not None:
+        context.external_definers = []
+    nodes = read_nodes(context, external)
+    elements = read_elements(context, nodes, external)
+    count = len(elements.numbered)
+    sets = read_sets(context, elements.numbered, external)
+    sections = read_sections(context, sets, elements.numbered, external)
+    named, by_set = read_curves(context)
+    laws = read_laws(context, sets, named, by_set, count)
+    resistance = read_resistance(context, laws)
+    extensions = read_extensions(context, sets, count)
+    seabed = read_seabed(context)
+    check_curves(context)
+    check_lines(context)
+    check_references(context, sets, laws, with_soil=external is None)
+    check_unread_lines(context, sets)
+    if external is None:  # a file of elements does not define every node and set
+        check_soil(context, nodes)
+        check_boundaries(context, nodes)
+        check_idents(context, nodes, elements.numbered)
+    context.report_out_of_sight()
+    return Scene(ready, nodes, elements, sets, sections, laws, resistance, extensions, seabed, context.problems)

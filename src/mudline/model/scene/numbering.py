@@ -1,0 +1,323 @@
+"""Numbered things of a deck, nodes or elements: later definitions win, numbers lead to indices, indices to lines."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mudline.basics.short_repr import short_repr
+from mudline.language.diagnostics import Where
+from mudline.language.keywords.table import LARGEST_WHOLE
+
+Ids = NDArray[np.int64]
+Indices = NDArray[np.intp]
+Floats = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+
+FEW = 64
+"""Things that are looked at one by one: calls of numpy take longer."""
+_FEW = 4096
+_FEW_RUNS = 8
+_AT_ONCE = 1 << 17
+
+_Run = tuple[Indices, Ids]
+"""Indices, and their numbers in ascending order."""
+
+_Kind = TypeVar("_Kind", bound=np.generic)
+
+
+def identity(count: int) -> Indices:
+    """0, 1, 2, ... up to `count` of them, not to be written to."""
+    found = np.arange(count, dtype=np.intp)
+    found.flags.writeable = False
+    return found
+
+
+def constant(value: int, count: int) -> Indices:
+    """One index `count` times, not to be written to: it takes the memory of one."""
+    return _repeated(np.array([value], dtype=np.intp), count)
+
+
+def _repeated(one: NDArray[_Kind], count: int) -> NDArray[_Kind]:
+    """The only item of an array `count` times, in its memory: `np.broadcast_to` in a sixth of the time."""
+    found: NDArray[_Kind] = np.ndarray((count,), one.dtype, one, 0, (0,))
+    found.flags.writeable = False
+    return found
+
+
+def one_index(indices: Indices) -> int | None:
+    """The index that `constant` indices all are, None for other indices."""
+    return int(indices[0]) if len(indices) and indices.strides == (0,) else None
+
+
+def looked_up(table: NDArray[_Kind], indices: Indices) -> NDArray[_Kind]:
+    """`table[indices]`, not to be written to; for constant indices it takes the memory of one."""
+    index = one_index(indices)
+    return table[indices] if index is None else _repeated(table[[index]], len(indices))
+
+
+def side_by_side(*columns: Floats) -> Floats:
+    """Columns (n,) as an array (n, k)."""
+    found = np.empty((len(columns[0]), len(columns)))
+    for index, column in enumerate(columns):
+        found[:, index] = column
+    return found
+
+
+def blocks_of(count: int) -> Iterator[slice]:
+    """Slices of at most some thousand rows: what is computed on the way is no larger than they are."""
+    return (slice(start, min(start + _AT_ONCE, count)) for start in range(0, count, _AT_ONCE))
+
+
+def whole_numbers(column: Floats) -> tuple[Ids, Mask]:
+    """A column of a table as whole numbers, and where it holds one; what could not be read is 0."""
+    known = np.abs(column) <= LARGEST_WHOLE
+    known &= column == np.floor(column)
+    return np.where(known, column, 0.0).astype(np.int64), known
+
+
+def are_whole(column: Floats) -> bool:
+    """Whether all of a few numbers are whole ones that a table may hold; False for many."""
+    return len(column) <= FEW and all(
+        number.is_integer() and -LARGEST_WHOLE <= number <= LARGEST_WHOLE for number in column.tolist()
+    )
+
+
+class Batch(NamedTuple):
+    """Definitions that stand together: rows of a table, or all of one generator (`table` "").
+
+    `rows` are their places in the table; None stands for all of them in order.
+    """
+
+    ids: Ids
+    values: Floats
+    where: Where
+    table: str = ""
+    rows: Indices | None = None
+
+    def __repr__(self) -> str:
+        return short_repr(self)
+
+    def place(self, index: int) -> Where:
+        """Where a definition of the batch stands."""
+        if not self.table:
+            return self.where
+        row = index if self.rows is None else int(self.rows[index])
+        return self.where.inside(self.table, row)
+
+
+@dataclass(slots=True, repr=False, eq=False)
+class Definitions:
+    """Definitions in the order of the file, numbered through as rows."""
+
+    batches: list[Batch] = field(default_factory=list)
+    generated: int = 0
+    _starts: list[int] = field(default_factory=lambda: [0])
+    _indexed: int = 0
+    _ids: Ids = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    _rows: Indices = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
+    _recent: dict[int, int] = field(default_factory=dict)
+
+    __repr__ = short_repr
+
+    def add(self, batch: Batch) -> None:
+        """Take in a batch."""
+        self.batches.append(batch)
+        self._starts.append(self._starts[-1] + len(batch.ids))
+        self.generated += 0 if batch.table else len(batch.ids)
+
+    def find(self, number: int) -> Floats | None:
+        """The values of the definition of a number that holds so far."""
+        self._index()
+        row = self._recent.get(number)
+        if row is None and len(self._ids):
+            at = int(np.searchsorted(self._ids, number))
+            row = int(self._rows[at]) if at < len(self._ids) and self._ids[at] == number else None
+        if row is None:
+            return None
+        batch = bisect_right(self._starts, row) - 1
+        values: Floats = self.batches[batch].values[row - self._starts[batch]]
+        return values
+
+    def _index(self) -> None:
+        """Take in the batches added since: into a dictionary, and when that grows, into a sorted table of all."""
+        first, self._indexed = self._indexed, len(self.batches)
+        pending = self._starts[-1] - self._starts[first] + len(self._recent)
+        if pending <= max(_FEW, len(self._ids)):
+            for batch in range(first, len(self.batches)):
+                ids = self.batches[batch].ids.tolist()
+                self._recent.update(zip(ids, range(self._starts[batch], self._starts[batch + 1]), strict=True))
+            return
+        ids = np.concatenate([batch.ids for batch in self.batches])
+        order = np.argsort(ids, kind="stable")
+        last = np.append(np.flatnonzero(np.diff(ids[order])), len(ids) - 1)
+        self._rows = order[last]
+        self._ids = ids[self._rows]
+        self._recent = {}
+
+    def resolve(self, width: int) -> Numbered:
+        """The definitions that hold, in the order in which their numbers first appear, and those given twice.
+
+        `width` is the number of values of a definition.
+        """
+        if len(self.batches) == 1:
+            ids, values = self.batches[0].ids, self.batches[0].values
+        else:
+            ids = np.concatenate([batch.ids for batch in self.batches] or [np.zeros(0, dtype=np.int64)])
+            values = np.concatenate([batch.values for batch in self.batches] or [np.zeros((0, width))])
+        starts = np.array(self._starts, dtype=np.intp)
+        ascending = _is_ascending(ids)
+        if ascending or _all_different(ids):
+            rows = identity(len(ids))
+            if len(self.batches) > 1:  # they keep no memory of their own
+                bounds = zip(self.batches, self._starts, self._starts[1:], strict=False)
+                self.batches = [batch._replace(ids=ids[a:b], values=values[a:b]) for batch, a, b in bounds]
+            runs = [(rows, ids)] if ascending and len(ids) else None
+            return Numbered(ids, values, rows, rows, rows[:0], starts, self.batches, runs)
+        order = np.argsort(ids, kind="stable")
+        new = np.append(True, np.diff(ids[order]) > 0)
+        begins = np.flatnonzero(new)
+        firsts = order[begins]
+        lasts = order[np.append(begins[1:], len(ids)) - 1]
+        appearing = np.argsort(firsts)
+        repeats = np.sort(order[~new])
+        firsts, lasts = firsts[appearing], lasts[appearing]
+        return Numbered(ids[firsts], values[lasts], firsts, lasts, repeats, starts, self.batches)
+
+
+@dataclass(slots=True, repr=False, eq=False)
+class Numbered:
+    """Numbers and values of the definitions that hold.
+
+    `firsts` and `rows` say which definition of a number is the first and which one holds, `repeats` which ones come
+    after another of their number; all count the rows of all definitions of the file.
+    """
+
+    ids: Ids
+    values: Floats
+    firsts: Indices
+    rows: Indices
+    repeats: Indices
+    starts: Indices
+    batches: list[Batch]
+    _runs: list[_Run] | None = None
+    _few: dict[int, int] | None = None
+    """Of a few numbers the indices, once somebody asks."""
+
+    __repr__ = short_repr
+
+    def __len__(self) -> int:
+        return len(self.ids)
+
+    def where(self, index: int) -> Where:
+        """Where the definition that holds for an index stands."""
+        return self.where_row(int(self.rows[index]))
+
+    def where_row(self, row: int) -> Where:
+        """Where a definition stands."""
+        batch = int(self.batches_of(row))
+        return self.batches[batch].place(row - int(self.starts[batch]))
+
+    def batches_of(self, rows: Indices | int) -> Indices:
+        """The batches that definitions belong to."""
+        found: Indices = self.starts.searchsorted(rows, side="right") - 1
+        return found
+
+    def ids_of(self, rows: Indices) -> Ids:
+        """The numbers that definitions define."""
+        batches = self.batches_of(rows).tolist()
+        inside = zip(rows.tolist(), batches, strict=True)
+        return np.array([self.batches[b].ids[row - int(self.starts[b])] for row, b in inside], dtype=np.int64)
+
+    def indices(self, ids: Ids) -> Indices:
+        """Indices of numbers, -1 for those not defined."""
+        found = np.full(ids.shape, -1, dtype=np.intp)
+        for order, ordered in self._ascending():
+            at = np.minimum(ordered.searchsorted(ids), len(ordered) - 1)
+            np.copyto(found, order[at], where=ordered[at] == ids)
+        return found
+
+    def by_number(self) -> dict[int, int]:
+        """The indices of a few numbers: of no more than FEW."""
+        if self._few is None:
+            self._few = dict(zip(self.ids.tolist(), range(len(self.ids)), strict=True))
+        return self._few
+
+    def between(self, start: int, end: int, step: int) -> Indices:
+        """Indices of the numbers start, start + step, ... up to end, in ascending order."""
+        if len(self.ids) <= FEW and step > 0:
+            wanted = range(start, end + 1, step)
+            return np.array([index for number, index in self.by_number().items() if number in wanted], dtype=np.intp)
+        parts = [self._part(run, start, end, step) for run in self._ascending()]
+        found = parts[0] if len(parts) == 1 else np.concatenate([np.zeros(0, dtype=np.intp), *parts])
+        return found if _is_ascending(found) else np.sort(found)
+
+    def _part(self, run: _Run, start: int, end: int, step: int) -> Indices:
+        order, ordered = run
+        first, last = ordered.searchsorted(start), ordered.searchsorted(end, side="right")
+        found = order[first:last]
+        return found if step == 1 else found[(ordered[first:last] - start) % step == 0]
+
+    def _ascending(self) -> list[_Run]:
+        """The numbers in ascending order: as they stand if they make few runs, which takes no memory, else sorted."""
+        if self._runs is None:
+            begins = np.flatnonzero(self.ids[1:] <= self.ids[:-1]) + 1
+            if len(begins) < _FEW_RUNS:
+                rows = identity(len(self.ids))
+                bounds = pairwise([0, *begins.tolist(), len(self.ids)])
+                self._runs = [(rows[a:b], self.ids[a:b]) for a, b in bounds if b > a]
+            else:
+                order = np.argsort(self.ids, kind="stable")
+                self._runs = [(order, self.ids[order])]
+        return self._runs
+
+
+def _is_ascending(numbers: Ids | Indices) -> bool:
+    return not np.count_nonzero(numbers[1:] <= numbers[:-1])
+
+
+def _all_different(ids: Ids) -> bool:
+    ordered = np.sort(ids)
+    return bool((ordered[1:] != ordered[:-1]).all())
+
+
+def picked(values: Iterable[float], index: Indices) -> Floats:
+    """The value of each index; NaN for -1."""
+    found: Floats = np.array([*values, np.nan], dtype=np.float64)[index]
+    return found
+
+
+def marked(flags: Iterable[bool], index: Indices) -> Mask:
+    """The flag of each index; False for -1."""
+    found: Mask = np.array([*flags, False], dtype=np.bool_)[index]
+    return found
+
+
+def at_nodes(of_element: Indices, element_nodes: Indices, nodes: int) -> Indices:
+    """For each node the last block, by the order of the file, that one of its elements follows; -1 for none."""
+    found = np.full(nodes, -1, dtype=np.intp)
+    for end in element_nodes.T:
+        np.maximum.at(found, end, of_element)
+    return found
+
+
+def summed(values: Floats, element_nodes: Indices, nodes: int) -> Floats:
+    """The sum of the values (m,) of each node's elements."""
+    total = np.zeros(nodes)
+    for end in element_nodes.T:
+        np.add.at(total, end, values)
+    return total
+
+
+def touched(elements: Mask, element_nodes: Indices, nodes: int) -> Mask:
+    """The nodes of which an element is marked."""
+    found = np.zeros(nodes, dtype=np.bool_)
+    found[element_nodes[elements].ravel()] = True
+    return found

@@ -1,0 +1,309 @@
+"""Positions of nodes from a CSV, NPY or NPZ file: one state or a time series."""
+
+from __future__ import annotations
+
+import tokenize
+import warnings
+import weakref
+import zipfile
+import zlib
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from math import prod
+from pathlib import Path
+from typing import cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mudline.basics.short_repr import listed_numbers, short_repr
+from mudline.language.diagnostics import DeckError
+from mudline.model.contact.arrays import StepReader
+from mudline.model.scene.csv_file import NumericTable, data_error, finite, read_numeric_csv, whole_numbers
+from mudline.model.scene.numbering import Floats, Ids, Indices, Mask, Numbered
+
+_AXES = ("x", "y", "z")
+_VELOCITIES = ("vx", "vy", "vz")
+COLUMNS = ("time", "node", *_AXES, *_VELOCITIES)
+"""Columns of positions in a CSV."""
+
+_UNREADABLE = (
+    # damaged bytes meet the checks of numpy, of zipfile and of the parser of the header
+    ValueError,
+    EOFError,
+    KeyError,
+    MemoryError,
+    NotImplementedError,
+    OverflowError,
+    RuntimeError,
+    SyntaxError,
+    tokenize.TokenError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
+
+Reals = NDArray[np.floating]
+
+_ARRAYS = frozenset({"positions", "node", "time", "velocities"})
+
+
+class StepFile(StepReader):
+    """The steps of an NPY file, an array (steps, nodes, 3) in C order, read when they are asked for.
+
+    They are read and not mapped: a file that becomes shorter while it is mapped ends the program.
+    """
+
+    def __init__(self, path: Path, mapped: np.memmap[tuple[int, ...], np.dtype[np.floating]]) -> None:
+        self.shape, self.dtype, self.ndim = mapped.shape, mapped.dtype, mapped.ndim
+        self._file, self._offset = path.as_posix(), mapped.offset
+        self._stream = path.open("rb", buffering=0)
+        weakref.finalize(self, self._stream.close)
+
+    __repr__ = short_repr
+
+    def __len__(self) -> int:
+        return self.shape[0]
+
+    def __getitem__(self, wanted: slice | int) -> Reals:
+        """Some steps (steps, nodes, 3), or one (nodes, 3). Raises OSError, DeckError."""
+        if not isinstance(wanted, slice):
+            return cast("Reals", self[wanted : wanted + 1][0])
+        first, last, _ = wanted.indices(len(self))
+        found = np.empty((max(0, last - first), *self.shape[1:]), self.dtype)
+        left = found.reshape(-1).view(np.uint8).data
+        self._stream.seek(self._offset + first * found[:1].nbytes)
+        while left:
+            count = self._stream.readinto(left)
+            if not count:
+                message = "the file has become shorter while it was read: wait until it is written, and try again"
+                raise data_error(self._file, message)
+            left = left[count:]
+        return found
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Positions:
+    """Positions (steps, nodes, 3) in the order of the scene's nodes, NaN for those that the file has not.
+
+    `present` (nodes,) says which nodes the file has; `time` (steps,) is None for a single state without a time.
+    `velocities`, where the file has them, are as the positions; `timed` says whether the file has times, else `time`
+    counts the steps.
+    """
+
+    values: Reals | StepFile
+    present: Mask
+    time: Floats | None
+    velocities: NDArray[np.floating] | None = None
+    timed: bool = True
+
+    __repr__ = short_repr
+
+    @property
+    def whole(self) -> Reals:
+        """All steps at once, those of a file read into memory. Raises OSError, DeckError."""
+        return self.values[:]
+
+    @property
+    def missing(self) -> int:
+        """Number of nodes without a position."""
+        return int((~self.present).sum())
+
+
+def read_positions(path: Path, nodes: Numbered, headings: Mapping[str, str] | None = None) -> Positions:
+    """Positions from CSV (`[time,]node,x,y,z[,vx,vy,vz]`), NPZ or NPY by the file's suffix.
+
+    `headings` are those of a CSV whose columns have other names, by the name in `COLUMNS`; the values stay as they are.
+
+    Raises OSError, or DeckError for a file with faults: nodes that the deck lacks, numbers that are none, steps with
+    different nodes.
+    """
+    file, suffix = path.as_posix(), path.suffix.lower()
+    if suffix == ".npy":
+        return _from_npy(path, nodes)
+    if suffix == ".npz":
+        return _from_arrays(file, _load_npz(path), nodes)
+    return _from_csv(path, nodes, headings)
+
+
+def _spread(values: NDArray[np.floating], where: Indices, count: int) -> NDArray[np.floating]:
+    """Rows of some nodes among rows of all."""
+    spread = np.full((len(values), count, 3), np.nan)
+    spread[:, where] = values
+    return spread
+
+
+def _from_csv(path: Path, nodes: Numbered, headings: Mapping[str, str] | None) -> Positions:
+    table = read_numeric_csv(path, ("node", *_AXES), COLUMNS, headings)
+    if not table.lines:
+        raise data_error(table.file, "no row below the header", 2)
+    if len({name in table.columns for name in _VELOCITIES}) > 1:
+        raise data_error(table.file, "velocities need all of vx, vy and vz")
+    ids = table.whole("node")
+    where = nodes.indices(ids)
+    if (where < 0).any():
+        raise _unknown(table.file, ids[where < 0], table.lines[int(np.argmax(where < 0))])
+    times, step = np.unique(table.columns.get("time", np.zeros(len(ids))), return_inverse=True)
+    present = np.zeros(len(nodes), dtype=bool)
+    present[where] = True
+    _complete(table, ids, step, times)
+    shape = (len(times), len(nodes))
+    values = _scatter(table, _AXES, shape, step, where)
+    velocities = _scatter(table, _VELOCITIES, shape, step, where) if "vx" in table.columns else None
+    return Positions(values, present, times if "time" in table.columns else None, velocities)
+
+
+def _complete(table: NumericTable, ids: Ids, step: Indices, times: Floats) -> None:
+    """Every step must hold every node of the file once."""
+    given, index = np.unique(ids, return_inverse=True)
+    cells = step * len(given) + index
+    order = np.argsort(cells, kind="stable")
+    ordered = cells[order]
+    repeats = np.flatnonzero(ordered[1:] == ordered[:-1])
+    if repeats.size:
+        row = int(order[repeats[0] + 1])
+        raise table.fault(row, f"node {ids[row]} is given twice{_at(times, int(step[row]))}")
+    if len(cells) < len(times) * len(given):
+        gaps = np.flatnonzero(ordered != np.arange(len(ordered)))
+        at_step, lacking = divmod(int(gaps[0]) if gaps.size else len(ordered), len(given))
+        raise data_error(table.file, f"node {given[lacking]} is missing{_at(times, at_step)}")
+
+
+def _at(times: Floats, step: int) -> str:
+    return f" at time {float(times[step])!r}" if len(times) > 1 else ""
+
+
+def _scatter(
+    table: NumericTable, names: tuple[str, ...], shape: tuple[int, int], step: Indices, where: Indices
+) -> Floats:
+    values = np.full((*shape, 3), np.nan)
+    for axis, name in enumerate(names):
+        values[step, where, axis] = table.columns[name]
+    return values
+
+
+def _unknown(file: str, ids: Ids, line: int = 1) -> DeckError:
+    """Nodes that the deck lacks."""
+    numbers = np.unique(ids).tolist()
+    noun, verb = ("node", "is") if len(numbers) == 1 else ("nodes", "are")
+    return data_error(file, f"{noun} {listed_numbers(numbers)} {verb} not defined in the deck", line)
+
+
+def _from_npy(path: Path, nodes: Numbered) -> Positions:
+    """One array; of a series few steps are in memory. Raises OSError, or DeckError for anything else."""
+    file = path.as_posix()
+    try:
+        with _from_old_python():
+            mapped = np.lib.format.open_memmap(path, mode="r")  # reads the header only
+            in_steps = mapped.ndim == 3 and mapped.dtype.kind == "f" and mapped.flags.c_contiguous
+            given = mapped if in_steps else np.load(path, allow_pickle=False)
+    except _UNREADABLE as error:
+        raise data_error(file, f"not an NPY array: {error}") from error
+    found = _from_arrays(file, {"positions": _real(file, "positions", given)}, nodes)
+    return replace(found, values=StepFile(path, mapped)) if in_steps else found
+
+
+def _load_npz(path: Path) -> dict[str, Reals]:
+    """An archive with `positions` and, if wanted, `node`, `time` and `velocities`. Raises OSError, DeckError."""
+    file = path.as_posix()
+    with path.open("rb") as stream:
+        try:
+            with _from_old_python(), zipfile.ZipFile(stream) as archive:
+                names = [name.removesuffix(".npy") for name in archive.namelist()]
+                _check_names(file, names)
+                most = _DEFLATED * path.stat().st_size
+                return {name: _real(file, name, _member(archive, name, most)) for name in names}
+        except DeckError:
+            raise
+        except (*_UNREADABLE, OSError) as error:
+            raise data_error(file, f"not an NPZ archive: {error}") from error
+
+
+_DEFLATED = 1032
+"""A byte of a compressed file gives at most so many."""
+
+
+def _member(archive: zipfile.ZipFile, name: str, most: int) -> NDArray[np.generic]:
+    """An array; raises ValueError for one that promises more than there is, before memory is taken for it.
+
+    `most` is what a file of this size can hold: what it says of its members need not be true.
+    """
+    held = min(archive.getinfo(f"{name}.npy").file_size, most)
+    with archive.open(f"{name}.npy") as stream:
+        read_header = _HEADERS.get(np.lib.format.read_magic(stream))
+        shape, _, kind = read_header(stream) if read_header else ((), False, np.dtype(np.float64))
+        if (promised := prod(shape) * kind.itemsize) > held:
+            raise ValueError(f"the array {name} of {promised} bytes has only {held} in the file")
+    with archive.open(f"{name}.npy") as stream:
+        return cast("NDArray[np.generic]", np.lib.format.read_array(stream, allow_pickle=False))
+
+
+_HEADERS = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}
+
+
+@contextmanager
+def _from_old_python() -> Iterator[None]:
+    """Without the warning of numpy that Python 2 spelled the header, which the file's reader cannot help."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)
+        yield
+
+
+def _check_names(file: str, names: list[str]) -> None:
+    if "positions" not in names:
+        raise data_error(file, f"no array named positions, only {', '.join(names) or 'nothing'}")
+    if unknown := sorted(set(names) - _ARRAYS):
+        raise data_error(file, f"unknown arrays: {', '.join(unknown)}; expected {', '.join(sorted(_ARRAYS))}")
+
+
+def _from_arrays(file: str, arrays: dict[str, Reals], nodes: Numbered) -> Positions:
+    """Arrays (steps, nodes, 3) or (nodes, 3) in the order of the deck's nodes, or in that of the array `node`."""
+    ids = _ids(file, arrays["node"]) if "node" in arrays else None
+    given = arrays["positions"]
+    expected = len(nodes) if ids is None else len(ids)
+    values = given[np.newaxis] if given.ndim == 2 else given
+    if values.ndim != 3 or values.shape[1:] != (expected, 3):
+        raise _wrong_shape(file, "positions", given, f"(steps, {expected}, 3) or ({expected}, 3)")
+    if not len(values):
+        raise data_error(file, "positions holds no time step")
+    velocities = arrays.get("velocities")
+    if velocities is not None:
+        if velocities.shape != given.shape:
+            raise _wrong_shape(file, "velocities", velocities, str(given.shape))
+        velocities = velocities.reshape(values.shape)
+    counted = None if given.ndim == 2 else np.arange(len(values), dtype=np.float64)
+    time = _times(file, arrays["time"], len(values)) if "time" in arrays else counted
+    present = np.full(len(nodes), ids is None)
+    if ids is not None:
+        where = nodes.indices(ids)
+        if (where < 0).any():
+            raise _unknown(file, ids[where < 0])
+        present[where] = True
+        if int(present.sum()) != len(where):
+            raise data_error(file, "a node is listed twice in the array node")
+        values = _spread(values, where, len(nodes))
+        velocities = None if velocities is None else _spread(velocities, where, len(nodes))
+    return Positions(values, present, time, velocities, "time" in arrays)
+
+
+def _ids(file: str, given: Reals) -> Ids:
+    if given.ndim != 1:
+        raise _wrong_shape(file, "node", given, "one axis")
+    return whole_numbers(file, "node", finite(file, "node", given))
+
+
+def _times(file: str, given: Reals, steps: int) -> Floats:
+    """The time of each step; that of one state may stand alone."""
+    if given.shape != (steps,) and not (given.shape == () and steps == 1):
+        raise _wrong_shape(file, "time", given, f"({steps},)")
+    return finite(file, "time", given)
+
+
+def _wrong_shape(file: str, name: str, found: Reals, expected: str) -> DeckError:
+    return data_error(file, f"{name} has the shape {found.shape}, expected {expected}")
+
+
+def _real(file: str, name: str, array: NDArray[np.generic]) -> Reals:
+    if array.dtype.kind not in "fiu":
+        raise data_error(file, f"{name} holds {array.dtype}, expected numbers")
+    return cast("Reals", array if array.dtype.kind == "f" else array.astype(np.float64))

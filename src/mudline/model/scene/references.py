@@ -1,0 +1,295 @@
+"""Names, labels and numbers that fields give, against those that the deck defines."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from functools import cache
+from itertools import chain
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from mudline.basics.limits import MOST_REPORTED
+from mudline.basics.spelling import same_marks
+from mudline.language.codes.fields import SYN003
+from mudline.language.codes.lines import SYN001, SYN005
+from mudline.language.codes.references import REF001, REF005, REF006, REF010
+from mudline.language.deck.model import Deck, Opaque
+from mudline.language.deck.parameters import folded
+from mudline.language.diagnostics import Blocks, Code, Severity, Where
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.model import Block
+from mudline.language.keywords.naming import idents_given, may_name, names_given
+from mudline.language.keywords.text import shown
+from mudline.language.keywords.values import Label, Names
+from mudline.language.syntax.fields import canonical_key
+from mudline.model.scene.context import Context
+from mudline.model.scene.deck_values import bare, makes_labels
+from mudline.model.scene.laws import LawTable
+from mudline.model.scene.names import names_used
+from mudline.model.scene.numbering import Numbered
+from mudline.model.scene.sets import Sets
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.boundary import Boundary, FixedRange, FixedValues
+    from mudline.language.keywords.library.element import ElementRows, Elements
+    from mudline.language.keywords.library.element_sets import ElementSets
+    from mudline.language.keywords.library.line_path_sections import LinePathSections
+    from mudline.language.keywords.library.line_section_groups import LineSectionGroups
+    from mudline.language.keywords.library.p_y import LateralSoil
+
+_FREEDOMS = 6
+
+
+def check_references(context: Context, sets: Sets, laws: LawTable, *, with_soil: bool) -> None:
+    """Every name of a set or a curve; those of soil springs on demand.
+
+    Postprocessing has sets of its own beside those of the model.
+    """
+    own: dict[str, str] | None = None
+    for name, where in ((one.name, one.where) for one in names_used(context, Names.SET)):
+        section = context.deck.sections[where.section]
+        if not with_soil and cast("Block", section.blocks[where.block]).facts.soil_springs:
+            continue
+        if section.name not in _OF_THE_MODEL and sets.find(name) is None:
+            own = sets_of_postprocessing(context.deck) if own is None else own
+            if folded(bare(name)) in own or not context.deck.keywords():
+                continue
+        sets.check(name, where)
+    laws.referenced.update(folded(one.name) for one in names_used(context, Names.CURVE))
+
+
+_OF_THE_MODEL = ("PREPROCESSOR", "MODEL", "LOAD CASE")
+
+
+def sets_of_postprocessing(deck: Deck) -> dict[str, str]:
+    """The sets that other sections than the model define, by their folded names."""
+    sections = (section for section in deck.sections if section.name not in _OF_THE_MODEL)
+    names = (name for section in sections for block in section.blocks for name in _sets_defined_by(block))
+    return {folded(bare(name)): bare(name) for name in names}
+
+
+def _sets_defined_by(block: Block | Opaque) -> Iterator[str]:
+    if not isinstance(block, Opaque):
+        yield from (name for _, name in names_given(block, Names.SET, "defines"))
+    elif block.keyword in catalogue.definers(Names.SET):
+        for line in block.lines:
+            key, equals, name = line.partition("=")
+            if equals and canonical_key(key) == Names.SET.name:
+                yield name
+
+
+def used_names(deck: Deck, *kinds: Names) -> Iterator[tuple[Where, str]]:
+    """The names of some kinds that the fields of a deck use, with their places."""
+    return ((one.where, one.name) for one in deck.names() if one.role == "names" and one.kind in kinds)
+
+
+def check_soil(context: Context, nodes: Numbered) -> None:
+    """Every NODE= of soil springs against the nodes of the deck."""
+    named = [
+        (getattr(curve, "node", None), where.inside("sets", i, "curves", j, "node"))
+        for where, block in context.deck.blocks_that(lambda declared: declared.facts.soil_springs)
+        for i, springs in enumerate(cast("LateralSoil", block).sets)
+        for j, curve in enumerate(springs.curves)
+    ]
+    _check_nodes(context, nodes, named)
+
+
+def check_idents(context: Context, nodes: Numbered, elements: Numbered) -> None:
+    """Every node and element that a keyword names, but those that are looked at where nodes and sets are made."""
+    for i, section in enumerate(context.deck.sections):
+        for j, block in enumerate(section.blocks):
+            if type(block) is Opaque or not _names_idents(type(block)):
+                continue
+            for what, check in ((Names.NODE, _check_nodes), (Names.ELEMENT, _check_elements)):
+                named = [(ident, Where(i, j, path)) for path, ident in idents_given(block, what)]
+                check(context, nodes if what is Names.NODE else elements, named)
+
+
+@cache
+def _names_idents(block: type[Block]) -> bool:
+    made = block.facts.defines or block.facts.soil_springs or block.model_fields["keyword"].default == KEYWORD
+    return not made and (may_name(block, Names.NODE) or may_name(block, Names.ELEMENT))
+
+
+KEYWORD = "BOUNDARY"
+"""Has a check of its own: its ranges may lack some nodes."""
+
+
+def _check_elements(context: Context, elements: Numbered, named: Sequence[tuple[object, Where]]) -> None:
+    """Report the numbers of elements that the deck lacks; labels of elements are checked where they may be made."""
+    numbers = [(ident, where) for ident, where in named if isinstance(ident, int) and not isinstance(ident, bool)]
+    if not numbers or not (len(elements) or "ELEMENT" in context.deck.keywords()):
+        return
+    indices = elements.indices(np.array([number for number, _ in numbers], dtype=np.int64))
+    for index in np.flatnonzero(indices < 0)[: MOST_REPORTED + 1].tolist():
+        number, where = numbers[index]
+        message = f"element {number} is not defined: define it in *ELEMENT, or correct the number"
+        context.report_missing(REF005, message, where, "ELEMENT", number, blocks=Blocks.NEVER)
+
+
+def _check_nodes(context: Context, nodes: Numbered, named: Sequence[tuple[object, Where]]) -> None:
+    """Report the nodes, numbers or labels, that the deck lacks; anything else could not be read and is skipped."""
+    if not named:
+        return
+    numbers: list[int] = []
+    places: list[Where] = []
+    shown_nodes = _shows_nodes(context, nodes)
+    for node, where in named:
+        if isinstance(node, Label):
+            check_label(context, REF006, node, where)
+            if shown_nodes and not context.external_definers and not context.is_guessed_label(where):
+                message = f"node {shown(node)} is a label, and nothing in this deck makes labelled nodes: give a number"
+                context.report_missing(REF006, message, where, "NODE")
+        elif isinstance(node, int):
+            numbers.append(node)
+            places.append(where)
+    missing = np.flatnonzero(nodes.indices(np.array(numbers, dtype=np.int64)) < 0)
+    for index in missing[: MOST_REPORTED + 1].tolist() if shown_nodes else ():
+        message = f"node {numbers[index]} is not defined: define it in *NODE, or correct the number"
+        context.report_missing(REF006, message, places[index], "NODE", numbers[index])
+
+
+def _shows_nodes(context: Context, nodes: Numbered) -> bool:
+    """Whether the deck shows nodes at all: one without any has its model somewhere else."""
+    return len(nodes) > 0 or "NODE" in context.deck.keywords()
+
+
+def check_boundaries(context: Context, nodes: Numbered) -> None:
+    """Every line of `*BOUNDARY` against the nodes of the deck and the six degrees of freedom."""
+    named: list[tuple[object, Where]] = []
+    for where, block in context.blocks("BOUNDARY", "LOAD CASE"):
+        types = cast("Boundary", block).types
+        if not types and not context.deck.lost(where):
+            message = "*BOUNDARY is empty: give TYPE= and nodes below it, or remove it"
+            context.report(SYN001, message, where, Severity.WARNING)
+        for i, held in enumerate(types):
+            for j, entry in enumerate(held.entries):
+                place = where.inside("types", i, "entries", j)
+                if hasattr(entry, "generate"):
+                    span = cast("FixedRange", entry)
+                    _check_range(context, nodes, span, place.inside("generate"))
+                    ends = (getattr(span.generate, "start", None), getattr(span.generate, "end", None))
+                    labels = enumerate(ends)
+                    named += [(end, place.inside("generate", at)) for at, end in labels if isinstance(end, Label)]
+                else:
+                    named.append((entry.node, place.inside("node")))
+                    _check_freedom(context, entry.dof, place.inside("dof"))
+    _check_nodes(context, nodes, named)
+
+
+def _check_range(context: Context, nodes: Numbered, entry: FixedRange, where: Where) -> None:
+    """The nodes of a GEN=, without building them, and their degree of freedom."""
+    values = cast("FixedValues | None", entry.generate)
+    if values is None:
+        return
+    at, step = freedom_and_step(values)
+    freedom = (values.third, values.fourth)[at - 2]
+    if freedom is None:
+        message = "this GEN= has no degree of freedom: write start, end [, increment], dof [, displacement]"
+        context.report(SYN003, message, where)
+    else:
+        _check_freedom(context, freedom, where.inside(at))
+    start, end = values.start, values.end
+    if not (isinstance(start, int) and isinstance(end, int) and isinstance(step, int)):
+        return
+    written = f"GEN= holds the nodes from {start} to {end} in steps of {step}"
+    if end < start or step < 1:
+        why = "the increment must be at least 1" if step < 1 else "the end must not come before the start"
+        context.report(REF010, f"{written}: there are none, {why}", where, Severity.ERROR)
+        return
+    found = len(nodes.between(start, end, step)) if len(nodes) else 0
+    wanted = (end - start) // step + 1
+    if found < wanted and _shows_nodes(context, nodes) and not context.possible_definition("NODE"):
+        message = f"{written}: {wanted - found} of these {wanted} are not defined; correct it, or define them"
+        context.report(REF006, message, where, Severity.WARNING if found else None)
+
+
+def _check_freedom(context: Context, given: object, where: Where) -> None:
+    if _is_no_freedom(given):
+        expected = "expected 1 (vertical), 2 or 3 (horizontal), or 4 to 6 (rotations)"
+        context.report(SYN005, f"{given} is not a degree of freedom: {expected}", where)
+
+
+def freedom_and_step(values: FixedValues) -> tuple[int, object]:
+    """Which value of a GEN= is the degree of freedom, counted from 0, and the increment.
+
+    Of four values the third is taken for it only where the fourth cannot be one.
+    """
+    third, fourth = values.third, values.fourth
+    if values.fifth is None and (
+        fourth is None or (third is not None and _is_no_freedom(fourth) and not _is_no_freedom(third))
+    ):
+        return 2, 1
+    return 3, 1 if third is None else third
+
+
+def _is_no_freedom(freedom: object) -> bool:
+    """Whether a value is not a degree of freedom; one that could not be read may be one. Equations give 6.0 for 6."""
+    known = isinstance(freedom, int | float) and not math.isnan(freedom)
+    return known and freedom not in range(1, _FREEDOMS + 1)
+
+
+def check_lines(context: Context) -> None:
+    """The lines and groups that `*LINE PATH SECTIONS` names, and the labels of elements and sets: warnings at most."""
+    blocks = (cast("LineSectionGroups", block) for _, block in context.blocks("LINE SECTION GROUPS"))
+    groups = {folded(bare(group.name)): group.name for block in blocks for group in block.groups if group.name}
+    for where, block in context.blocks("LINE PATH SECTIONS"):
+        for index, path in enumerate(cast("LinePathSections", block).paths):
+            place = where.inside("paths", index)
+            if path.line and "LINE PATHS" in context.external_definers:
+                what = ("LINE=", "line", "*LINE PATHS")
+                _check_name(context, what, path.line, place.inside("line"), context.labels)
+            for number, section in enumerate(path.sections):
+                if section.repeat:
+                    what = ("REPEAT=", "group", "*LINE SECTION GROUPS")
+                    _check_name(context, what, section.repeat, place.inside("sections", number, "repeat"), groups)
+    for code, label, where in chain(_of_elements(context), _of_sets(context)) if context.external_definers else ():
+        check_label(context, code, label, where)
+
+
+def check_label(context: Context, code: Code, label: str, where: Where) -> None:
+    """Report a label that no line names but that is spelt nearly as one that a line does, as a warning.
+
+    Other labels are not reported: lines are not read, and may make labels in ways that are not known.
+    """
+    name = bare(label)
+    if not context.external_definers or folded(name) in context.labels:
+        return
+    near = context.near(name, context.labels)
+    if near and same_marks(name, near) and not context.is_guessed_label(where):
+        makers = " or ".join(f"*{keyword}" for keyword in context.external_definers if makes_labels(keyword))
+        message = f"label {shown(label)} is not in {makers} (did you mean {{{context.labels[near]}}}?)"
+        context.report(code, f"{message}: correct it", where, Severity.WARNING)
+
+
+def _check_name(context: Context, what: tuple[str, str, str], name: str, where: Where, known: dict[str, str]) -> None:
+    """A name, given by a KEY for a thing that a keyword defines; `known` has the names by their folded form."""
+    key, thing, keyword = what
+    if folded(bare(name)) in known:
+        return
+    message = f"{key} names no {thing}: {shown(name)} is not defined{context.hint(name, known)}; define it in {keyword}"
+    source = context.possible_definition(keyword[1:])
+    context.report(REF001, f"{message}; {source}" if source else message, where, Severity.WARNING)
+
+
+def _of_elements(context: Context) -> Iterator[tuple[Code, str, Where]]:
+    """Labels of nodes."""
+    for where, block in context.blocks("ELEMENT"):
+        for index, entry in enumerate(cast("Elements", block).entries):
+            if hasattr(entry, "elements"):
+                for (row, column), word in cast("ElementRows", entry).elements.words.items():
+                    if isinstance(word, Label):
+                        yield REF006, word, where.inside("entries", index, "elements", row, column)
+
+
+def _of_sets(context: Context) -> Iterator[tuple[Code, str, Where]]:
+    """Labels of elements."""
+    for where, block in context.blocks("ELEMENT SETS"):
+        for index, entry in enumerate(cast("ElementSets", block).sets):
+            for number, member in enumerate(entry.members):
+                for at, element in enumerate(getattr(member, "elements", None) or ()):
+                    if isinstance(element, Label):
+                        path = ("sets", index, "members", number, "elements", at)
+                        yield REF005, element, where._replace(path=path)

@@ -1,0 +1,344 @@
+"""A resolved deck: nodes, elements, sets, curves and laws as arrays, and by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import chain
+from typing import TYPE_CHECKING, NamedTuple, TypeVar, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mudline.basics.arguments import read_only
+from mudline.basics.limits import SHOWN_LETTERS
+from mudline.basics.short_repr import LETTERS, UnknownNameError, counted, cut, listed, short_repr
+from mudline.language.codes import RUN001
+from mudline.language.codes.references import REF001
+from mudline.language.deck.parameters import EvaluatedDeck, folded
+from mudline.language.diagnostics import DeckError, Problem, Where
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.catalogue import facts_of
+from mudline.language.keywords.text import suggestion
+from mudline.model.contact.input import LawKind
+from mudline.model.scene.context import Context
+from mudline.model.scene.force_curves import SceneCurve
+from mudline.model.scene.laws import Extension, LawTable, SeabedResistance, SetLaw
+from mudline.model.scene.mesh import ElementTable
+from mudline.model.scene.names import CURVES, THINGS, undefined
+from mudline.model.scene.numbering import Floats, Ids, Indices, Mask, Numbered
+from mudline.model.scene.seabed import SeabedKind, SeabedShape
+from mudline.model.scene.sections import SectionTable, mass_per_length, submerged_weight, surroundings
+from mudline.model.scene.sets import Sets, set_key
+
+if TYPE_CHECKING:
+    from mudline.model.curves import ForceCurve
+
+Value = TypeVar("Value")
+Default = TypeVar("Default")
+
+
+class ByName(Mapping[str, Value]):
+    """A mapping whose names are found without case, and without blanks around them.
+
+    Iteration gives the names as the deck first writes them. A name that is not there raises UnknownNameError, a
+    KeyError that says which there are.
+    """
+
+    def __init__(self, kind: str, entries: Iterable[tuple[str, Value]], key: Callable[[str], str] = folded) -> None:
+        """Hold `entries`, pairs of name and value; of two with one `key` the later holds. `kind` is one of them."""
+        self._kind = kind
+        self._key = key
+        self._entries = {key(name): (name, value) for name, value in entries}
+
+    def __getitem__(self, name: str) -> Value:
+        found = self._find(name)
+        if found is None:
+            raise self._missing(name)
+        return found[1]
+
+    @overload
+    def get(self, key: str, /) -> Value | None: ...
+    @overload
+    def get(self, key: str, /, default: Value | Default) -> Value | Default: ...
+    def get(self, key: str, /, default: object = None) -> object:
+        """Return the value of a name, or `default`."""
+        found = self._find(key)
+        return default if found is None else found[1]
+
+    def __contains__(self, name: object) -> bool:
+        return self._find(name) is not None
+
+    def __iter__(self) -> Iterator[str]:
+        return (name for name, _ in self._entries.values())
+
+    def __len__(self) -> int:
+        return len(self._entries)
+
+    def __repr__(self) -> str:
+        if not self:
+            return f"<no {self._kind}s>"
+        return cut(f"<{counted(len(self), self._kind)}: {listed(list(self))}", LETTERS) + ">"
+
+    def _ipython_key_completions_(self) -> list[str]:
+        """The names, for the completion of `["` in notebooks."""
+        return list(self)
+
+    def _find(self, name: object) -> tuple[str, Value] | None:
+        return self._entries.get(self._key(name)) if isinstance(name, str) else None
+
+    def _missing(self, name: object) -> UnknownNameError:
+        if not isinstance(name, str):
+            return UnknownNameError(f"a {self._kind} is found by its name, a str, not by {type(name).__name__}")
+        names = list(self)
+        return UnknownNameError.among(self._kind, cut(name, SHOWN_LETTERS), names, suggestion(name, names))
+
+
+class Replaced(NamedTuple):
+    """Elements (m,) to which the blocks of an extension keyword give another kind of law, by one of their fields."""
+
+    kind: LawKind
+    field: str
+    extension: Extension
+    elements: Mask
+
+
+class LawArrays(NamedTuple):
+    """The normal law of elements (m,): `LawKind`, index in `curves` or -1, linear stiffness or NaN."""
+
+    law: NDArray[np.int8]
+    curve_index: Indices
+    curves: tuple[ForceCurve, ...]
+    linear_stiffness: Floats
+
+    def __repr__(self) -> str:
+        return short_repr(self)
+
+
+@dataclass(repr=False)
+class ResolvedDeck:
+    """Nodes (n), elements (m), sets, curves and laws of a deck as arrays, in the deck's units; X is up.
+
+    Attributes:
+        deck: the deck with its equations evaluated.
+        nodes: definitions of the nodes.
+        table: definitions of the elements.
+        set_table: sets as indices.
+        section_table: cross-sections of the elements.
+        laws: what gives each element its normal law.
+        resistance: friction, lateral stiffness and suction of each element.
+        extensions: what the extension keywords say of each element, by keyword.
+        seabed: shape of the seabed.
+        noticed: what went wrong while the deck was resolved.
+    """
+
+    deck: EvaluatedDeck
+    nodes: Numbered
+    table: ElementTable
+    set_table: Sets
+    section_table: SectionTable
+    laws: LawTable
+    resistance: SeabedResistance
+    extensions: dict[str, Extension]
+    seabed: SeabedShape
+    noticed: list[Problem]
+
+    @property
+    def context(self) -> Context:
+        """What was noticed on the way, and what could not be read."""
+        return self.set_table.context
+
+    @property
+    def may_have_more_laws(self) -> bool:
+        """Whether a line that could not be used may give elements a law of the seabed."""
+        return any(map(catalogue.gives_laws, self.context.unread))
+
+    @property
+    def lacks(self) -> bool:
+        """Whether the deck uses something that it does not define, or gives a curve two forces at one ratio."""
+        curves = {folded(one.name) for one in self.laws.curves if not one.embedment}
+        clashing = any(one.curve is not None and not one.whole for one in self.laws.curves)
+        missing = any(one.lacks for one in self.noticed) or not self.laws.referenced <= curves
+        others = chain.from_iterable(undefined(self.context, kinds, REF001) for kinds in (CURVES, THINGS))
+        return missing or clashing or bool(self.context.excused) or any(True for _ in others)
+
+    @property
+    def source(self) -> str:
+        """The deck: the file that it was made from, or its own."""
+        return str(self.deck.source or self.deck.file)
+
+    @property
+    def units(self) -> str:
+        """The unit system: "metric", "imperial" or "user"."""
+        return self.deck.units
+
+    @property
+    def node_ids(self) -> Ids:
+        """Node numbers (n,), in the order in which they first appear."""
+        return self.nodes.ids
+
+    @property
+    def coordinates(self) -> Floats:
+        """Node coordinates (n, 3), X up."""
+        return self.nodes.values
+
+    @property
+    def element_ids(self) -> Ids:
+        """Element numbers (m,)."""
+        return self.table.numbered.ids
+
+    @property
+    def element_nodes(self) -> Indices:
+        """Indices (m, 2) of each element's nodes."""
+        return self.table.nodes
+
+    @property
+    def length(self) -> Floats:
+        """Element lengths (m,) between the deck's coordinates."""
+        return self.table.length
+
+    @cached_property
+    def diameter(self) -> Floats:
+        """External diameters (m,): Do, else Dd of a FLEXIBLE section; NaN where there is none."""
+        return self.section_table.diameter
+
+    @cached_property
+    def mass_per_length(self) -> Floats:
+        """Mass per length (m,), in the deck's units; NaN where it is not known, or not above 0."""
+        return mass_per_length(self.section_table)
+
+    @cached_property
+    def submerged_weight(self) -> Floats:
+        """Weight less buoyancy per length (m,), in the deck's units; NaN where it is not known or overflows.
+
+        Where the seabed lies above the water that `*OCEAN` gives, as at a landfall, it is the weight in air.
+        """
+        around, land = surroundings(self.deck), None
+        if self.seabed.kind is not SeabedKind.FLAT:
+            from mudline.model.scene.shore import on_land  # noqa: PLC0415 - only now is it needed
+
+            land = on_land(self.seabed, around.depth, self.coordinates, self.element_nodes)
+        return submerged_weight(self.section_table, around, land)
+
+    @cached_property
+    def sets(self) -> ByName[Ids]:
+        """Element numbers (k,) of every set by its name, found without case; ALL included."""
+        named = self.set_table.named.values()
+        return ByName("set", ((entry.name, read_only(self.element_ids[entry.elements])) for entry in named), set_key)
+
+    @cached_property
+    def curves(self) -> ByName[ForceCurve]:
+        """The force-embedment curves by name, found without case; one of `*EMBEDMENT` has the name of its set.
+
+        Of two curves of one name the later one holds, a named one before that of a set.
+        """
+        held: dict[str, SceneCurve] = {}
+        for entry in self.laws.curves:
+            before = held.get(folded(entry.name))
+            if entry.named and (before is None or before.embedment or not entry.embedment):
+                held[folded(entry.name)] = entry
+        return ByName("curve", ((entry.name, entry.curve) for entry in held.values() if entry.curve is not None))
+
+    def refusal(
+        self, message: str, where: Where | None = None, *, element: int | None = None, node: int | None = None
+    ) -> DeckError:
+        """Return why the deck cannot be evaluated (RUN001), with the line of a place, an element or a node."""
+        if element is not None:
+            where = self.table.numbered.where(int(np.flatnonzero(self.element_ids == element)[0]))
+        elif node is not None:
+            where = self.nodes.where(int(np.flatnonzero(self.node_ids == node)[0]))
+        return DeckError(self.deck.diagnose([Problem(RUN001, message, where=where)]))
+
+    def set_law(self, element: int) -> SetLaw | None:
+        """What gives the element of an index its law."""
+        index = int(self.laws.of_element[element])
+        return self.laws.set_laws[index] if index >= 0 else None
+
+    @cached_property
+    def replaced(self) -> list[Replaced]:
+        """What extension keywords give in place of what elements had, the last one for good."""
+        found: list[Replaced] = []
+        if not self.extensions:
+            return found
+        soft = self.laws_given != LawKind.RIGID
+        for keyword, extension in reversed(self.extensions.items()):
+            law, field = facts_of(keyword).gives_law
+            if law:
+                asked = extension.asking(field) & soft
+                found.append(Replaced(LawKind[law.upper()], field, extension, asked))
+        return found
+
+    @property
+    def replacing(self) -> Indices:
+        """The block of its keyword that replaced the law of each element (m,), -1 for those that have their own."""
+        found = np.full(len(self.element_ids), -1)
+        for _, _, extension, elements in self.replaced:
+            found = np.where(elements, extension.of_element, found)
+        return found
+
+    @cached_property
+    def nodal(self) -> Mask:
+        """Elements (m,) whose law is a stiffness of their nodes: `*SEABED CONTACT` replaces what they had."""
+        found: Mask = self.law == LawKind.NODAL
+        return found
+
+    @cached_property
+    def laws_given(self) -> NDArray[np.int8]:
+        """`LawKind` of what each element is granted, whatever replaces it."""
+        kinds = np.array([*(set_law.kind.value for set_law in self.laws.set_laws), LawKind.NONE.value], dtype=np.int8)
+        return kinds[self.laws.of_element]
+
+    @cached_property
+    def law(self) -> NDArray[np.int8]:
+        """`LawKind` of each element (m,)."""
+        found = self.laws_given
+        for kind, _, _, elements in self.replaced:
+            found = np.where(elements, np.int8(kind), found)
+        return found
+
+    @cached_property
+    def law_names(self) -> list[str]:
+        """`curve:NAME`, `linear`, `nodal`, `soil`, `rigid` or `none` for each element."""
+        names = [*(self.law_name(set_law) for set_law in self.laws.set_laws), "none"]
+        found = [names[position] for position in self.laws.of_element.tolist()]
+        for kind, _, _, elements in self.replaced:
+            for element in np.flatnonzero(elements).tolist():
+                found[element] = kind.name.lower()
+        return found
+
+    @cached_property
+    def law_sets(self) -> list[str | None]:
+        """Name of the set through which each element got its law; None without a law."""
+        names = [None if set_law.kind is LawKind.NONE else set_law.set_.name for set_law in self.laws.set_laws]
+        found = [[*names, None][index] for index in self.laws.of_element.tolist()]
+        for _, _, extension, elements in self.replaced:
+            for element in np.flatnonzero(elements).tolist():
+                holder = extension.sets[int(extension.of_element[element])]
+                found[element] = None if holder is None else holder.name
+        return found
+
+    def describe(self, elements: Mask | Indices, one: str = "has", many: str = "have") -> str:
+        """Elements of a message, given as mask or indices: `element 3 has`, or `4 elements (first: 3) have`."""
+        ids = self.element_ids[elements]
+        return f"element {ids[0]} {one}" if ids.size == 1 else f"{ids.size} elements (first: {ids[0]}) {many}"
+
+    def law_name(self, set_law: SetLaw) -> str:
+        """Name of the law that a set_law gives."""
+        if set_law.kind is LawKind.CURVE and set_law.curve >= 0:
+            return f"curve:{self.laws.curves[set_law.curve].name}"
+        return set_law.kind.name.lower()
+
+    def law_arrays(self) -> LawArrays:
+        """The law of every element as arrays, whatever else is known of it."""
+        linear = np.array([*(set_law.stiffness for set_law in self.laws.set_laws), np.nan])[self.laws.of_element]
+        replaced = self.law != self.laws_given
+        usable = [index for index, entry in enumerate(self.laws.curves) if entry.curve is not None]
+        number = {index: position for position, index in enumerate(usable)}
+        curve_of_law = np.array([*(number.get(set_law.curve, -1) for set_law in self.laws.set_laws), -1], dtype=np.intp)
+        return LawArrays(
+            self.law,
+            np.where(replaced, -1, curve_of_law[self.laws.of_element]),
+            tuple(entry.curve for entry in self.laws.curves if entry.curve is not None),
+            np.where(replaced, np.nan, linear),
+        )

@@ -1,0 +1,217 @@
+"""`*RESTART`: the decks that a deck continues, found beside it and read once for all decks that continue them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from dataclasses import fields, replace
+from functools import lru_cache
+from itertools import islice
+from pathlib import Path, PurePath
+from typing import TYPE_CHECKING, NamedTuple, cast
+
+from mudline.basics.files import look, unsaved
+from mudline.basics.limits import LARGEST_FILE, MOST_CONTINUED, MOST_NEIGHBOURS
+from mudline.basics.outside import without_text
+from mudline.language.codes.references import REF015
+from mudline.language.deck.forms import SUFFIXES
+from mudline.language.deck.loading import load_bytes, load_path
+from mudline.language.deck.model import Base, BaseProblem, Deck
+from mudline.language.deck.parameters import Parameters, evaluated
+from mudline.language.diagnostics import DeckError, Problem, Severity, Where
+from mudline.language.keywords.text import shown
+from mudline.model.scene.deck_values import file_name, find_file, not_found
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.restart import Restart
+
+
+_ADVICE = "correct the name, or put the deck there"
+
+
+class _Chain(NamedTuple):
+    """The decks before a deck, the nearest first; `fault` says why the first of all was not reached, and "" if it was.
+
+    `is_own` says that the fault is that of the deck itself: it is about its own LAST=, or leads back to it, and
+    `is_refused` that the first of all lies outside of the project, and may not be read.
+    """
+
+    bases: list[Base]
+    fault: str = ""
+    is_own: bool = False
+    is_refused: bool = False
+
+
+def continued(deck: Deck) -> tuple[Deck, list[Problem]]:
+    """The deck with the models of the decks that it continues, as far as they are found, and what went wrong.
+
+    A deck that came from no path is given back as it is: no file is looked for. Of several LAST= the last one holds.
+    """
+    names = list(_names(deck))
+    if deck.folder is None or not names:
+        return deck, []
+    problems: list[Problem] = []
+    for where, name in names[:-1]:
+        if find_deck(deck, name) is None:
+            problems.append(_reported(*_missing(deck, name), where))
+    where, _ = names[-1]
+    chain = _follow(deck)
+    if chain.is_own:
+        problems.append(_reported(chain.fault, chain.is_refused, where))
+    if not chain.bases:
+        return deck, problems
+    for base in chain.bases:
+        problems += (_of_base(_shown(problem, base, deck.folder), base.deck) for problem in base.errors)
+    units = (each.units for each in (deck, *(base.deck for base in chain.bases)))
+    whole = replace(
+        deck,
+        units=next((name for name in units if name != "user"), "user"),
+        sections=[*deck.sections, *(model for base in reversed(chain.bases) for model in base.sections.values())],
+        bases=tuple(chain.bases),
+        incomplete=bool(chain.fault),
+    )
+    return whole, problems
+
+
+def _reported(fault: str, refused: bool, where: Where) -> Problem:  # noqa: FBT001 - as `_missing` returns it
+    return Problem(REF015, fault, None, Severity.ERROR if refused else None, where)
+
+
+def _shown(problem: Problem, base: Base, folder: Path) -> Problem:
+    """A problem of a deck that is continued, without a text of one outside of the project."""
+    path = Path(base.deck.folder or folder, Path(base.deck.file).name)
+    return replace(problem, message=without_text(problem.message, path, folder), repair=None)
+
+
+def _of_base(problem: Problem, deck: Deck) -> BaseProblem:
+    return BaseProblem(**{each.name: getattr(problem, each.name) for each in fields(Problem)}, deck=deck)
+
+
+def decks_before(deck: Deck) -> list[Path]:
+    """The files of the decks that a deck continues, the nearest first, as far as they are found."""
+    bases = (base.deck for base in _follow(deck).bases)
+    return [base.folder / Path(base.file).name for base in bases if base.folder is not None]
+
+
+def _names(deck: Deck) -> Iterator[tuple[Where, str]]:
+    """Every LAST=, with the values of parameters put in."""
+    blocks = [(where, cast("Restart", block)) for where, block in deck.blocks("RESTART", "LOAD CASE")]
+    parameters = Parameters(deck) if any("%" in (block.last or "") for _, block in blocks) else None
+    for where, block in blocks:
+        if block.last:
+            name = parameters.filled(block.last) if parameters else block.last
+            yield where.inside("last"), name
+
+
+def _follow(deck: Deck) -> _Chain:
+    """The decks before a deck, one behind the other."""
+    bases: list[Base] = []
+    seen = {_identity(Path(deck.folder, Path(deck.file).name))} if deck.folder is not None else set()
+    trail = [Path(deck.file).name]
+    current = deck
+    while "RESTART" in current.keywords("LOAD CASE"):
+        name = next((name for _, name in reversed(list(_names(current)))), None)
+        if name is None:
+            return _Chain(bases, f"the *RESTART of {trail[-1]} could not be read")
+        path = find_deck(current, name)
+        if path is None:
+            why, refused = _missing(current, name)
+            return _Chain(bases, why, is_own=not bases, is_refused=refused)
+        if _identity(path) in seen:
+            back = " -> ".join([*trail, path.name])
+            message = f"LAST= leads back to a deck that is open already ({back}): choose the deck of the run before"
+            return _Chain(bases, message, is_own=path.name == trail[0])
+        if len(bases) == MOST_CONTINUED:
+            return _Chain(bases, f"more than {MOST_CONTINUED} decks continue each other")
+        base = read_base(path)
+        if isinstance(base, str):
+            why = without_text(base, path, deck.folder or path.parent)
+            return _Chain(bases, f"the deck that LAST= continues is not read: {why}; {_ADVICE}", is_own=not bases)
+        seen.add(_identity(path))
+        trail.append(path.name)
+        bases.append(base)
+        current = base.deck
+    return _Chain(bases)
+
+
+def _missing(deck: Deck, name: str) -> tuple[str, bool]:
+    """Why the deck that LAST= names is not there, and whether that is because it is refused."""
+    names = candidate_names(deck, name)
+    folder = deck.folder or Path()
+    why, refused = not_found(folder, names[0])
+    if refused:
+        return why, True
+    looked = f"looked in {folder.as_posix() if deck.folder else ''} for {', '.join(names)}"
+    return f"the deck {shown(names[0])} was not found ({looked}): {_ADVICE}", False
+
+
+def _identity(path: Path) -> Path:
+    """A path by which a file is known whatever it is called; never fails."""
+    try:
+        return path.resolve()
+    except (OSError, RuntimeError, ValueError):  # a loop of links, a name that no file has
+        return path
+
+
+def read_base(path: Path) -> Base | str:
+    """The deck of a file in any form, its model evaluated, or why it cannot be continued."""
+    try:
+        stat = path.stat()
+        if stat.st_size > LARGEST_FILE:
+            return f"{path.as_posix()} has more than {LARGEST_FILE // 10**6} million bytes"
+        edited = unsaved(path)
+        version = (stat.st_ino, -edited.revision if edited else stat.st_mtime_ns, stat.st_size)
+        return _read_base(path, version)
+    except OSError as error:
+        return f"{path.as_posix()}: {error.strerror or error}"
+
+
+@lru_cache(maxsize=8)
+def _read_base(path: Path, _version: tuple[int, ...]) -> Base | str:
+    """The same for a version of the file: many decks continue the same ones."""
+    edited = unsaved(path)
+    try:
+        content = edited and edited.content()
+        deck = load_path(path) if content is None else load_bytes(content, path.as_posix(), folder=path.parent)
+    except DeckError as error:
+        return f"{error.diagnostics[0]}"
+    if not deck.sections:
+        return f"{path.as_posix()} has no section: it is not a deck"
+    ready, problems = evaluated(deck)
+    model = {number: section for number, section in enumerate(ready.sections) if section.name == "MODEL"}
+    return Base(deck, model, (*deck.problems, *problems))
+
+
+def candidate_names(deck: Deck, written: str) -> list[str]:
+    """The names that a LAST= may stand for: as written, then with the deck's own suffix, then with the others."""
+    name = file_name(written)
+    own = PurePath(deck.file).suffix
+    return list(dict.fromkeys([name, *(name + suffix for suffix in (own, *SUFFIXES))]))
+
+
+def find_deck(deck: Deck, written: str) -> Path | None:
+    """The file that a LAST= of a deck names; of names that differ in case only, the first in sorted order."""
+    names = candidate_names(deck, written)
+    exact = (find_file(deck.folder, name) for name in names)
+    return next((path for path in exact if path is not None), None) or _in_other_case(deck.folder, names)
+
+
+def _in_other_case(folder: Path | None, names: list[str]) -> Path | None:
+    if folder is None:
+        return None
+    inner = PurePath(names[0]).parent
+    try:
+        listed = _listed(str(look(folder / inner)), (folder / inner).stat().st_mtime_ns)
+    except (OSError, ValueError):
+        return None
+    known = (listed.get(PurePath(name).name.casefold()) for name in names)
+    found = (find_file(folder, (inner / name).as_posix()) for name in known if name is not None)
+    return next((path for path in found if path is not None), None)
+
+
+@lru_cache(maxsize=4)
+def _listed(folder: str, _changed: int) -> dict[str, str]:
+    """The files of a folder by their names without case; listed once for all decks until the folder changes."""
+    with os.scandir(folder) as entries:
+        names = sorted(islice((each.name for each in entries), MOST_NEIGHBOURS), reverse=True)
+    return {name.casefold(): name for name in names}

@@ -1,0 +1,278 @@
+"""Extension keywords: the elastic seabed that they need, suction, unloading."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mudline.language.diagnostics import Blocks, Code, Problem, Severity
+from mudline.language.rules import rule
+from mudline.model.contact.input import LawKind
+from mudline.model.scene.deck_values import number
+from mudline.model.scene.numbering import Mask
+from mudline.model.scene.rules.laws import lacks_diameter
+
+if TYPE_CHECKING:
+    from mudline.model.scene.force_curves import SceneCurve
+    from mudline.model.scene.resolved import ResolvedDeck
+
+EXT001 = Code("EXT001", "extension-needs-elastic", Severity.ERROR)
+EXT004 = Code("EXT004", "bad-cutoff", Severity.ERROR)
+EXT005 = Code("EXT005", "suction-incomplete", Severity.ERROR)
+EXT006 = Code("EXT006", "suction-conflict", Severity.ERROR)
+EXT009 = Code("EXT009", "unloading-conflict", Severity.ERROR)
+
+_LOWEST, _HIGHEST = 0.01, 0.99
+
+
+@rule(EXT001, blocks=True)
+def extension_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
+    """An extension keyword is in a model without an elastic seabed.
+
+    The laws of the extensions act on penetration, and nothing penetrates a rigid seabed or none at all. Write
+    *SEABED PROPERTIES with TYPE=ELASTIC, or remove the keyword.
+
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+        - TYPE=RIGID
+        + TYPE=ELASTIC
+          SET=ALL
+        + STIFFNESS=50000.0
+          FRICTION=0.3, 0.6
+         *SEABED SUCTION
+          SET=ALL
+          COHESION=5000.0
+
+    Finds: 3:7
+    """
+    reading, types = scene.context, scene.laws.types
+    if "ELASTIC" in types:
+        return
+    unclear = "SEABED PROPERTIES" in scene.deck.keywords() or reading.misplaced("SEABED PROPERTIES")
+    if unclear and "RIGID" not in types:
+        return
+    supplier = "" if "RIGID" in types else reading.possible_definition("ELASTIC SURFACE")
+    what = "the seabed is rigid" if "RIGID" in types else "the model has none"
+    found = list(scene.deck.blocks_that(lambda declared: declared.facts.extension))
+    names = " and ".join(dict.fromkeys(f"*{block.keyword}" for _, block in found))
+    for where, _ in found[:1]:
+        needs = "needs" if len(names.split(" and ")) == 1 else "need"
+        message = f"{names} {needs} an elastic seabed, and {what}: write *SEABED PROPERTIES with TYPE=ELASTIC"
+        if supplier:
+            yield Problem(EXT001, f"{message}; {supplier}", None, Severity.WARNING, where)
+        else:
+            rigid = (place for place in types.get("RIGID", ()) if place.section < len(scene.deck.own_sections))
+            yield Problem(EXT001, message, where=next(rigid, where))
+
+
+@rule(EXT004, blocks=True)
+def bad_cutoff(scene: ResolvedDeck) -> Iterator[Problem]:
+    """The corners of the suction trapezoid are out of order or out of range.
+
+    Suction rises up to the first corner, holds, and falls from the second one to breakout: both are fractions of the
+    suction depth, 0.01 <= first <= second <= 0.99, so that rise and fall have a finite slope. Correct them.
+
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+         *SEABED SUCTION
+          SET=ALL
+          COHESION=5000.0
+        - CUTOFF=0.8, 0.2
+        + CUTOFF=0.2, 0.8
+
+    Finds: 9:2
+    """
+    extension = scene.extensions.get("SEABED SUCTION")
+    for entry, where in zip(extension.entries, extension.places, strict=True) if extension else ():
+        cutoff = getattr(entry, "cutoff", None)
+        corners = [number(cutoff, name) for name in ("first", "second")]
+        known = [corner for corner in corners if np.isfinite(corner)]
+        if any(not _LOWEST <= corner <= _HIGHEST for corner in known) or known != sorted(known):
+            message = f"corners {', '.join(map(repr, known))}: they must be 0.01 <= first <= second <= 0.99"
+            yield Problem(EXT004, message, where=where.inside("cutoff"))
+
+
+@rule(EXT005, blocks=True)
+def suction_incomplete(scene: ResolvedDeck) -> Iterator[Problem]:
+    """A suction law lacks a value that it needs.
+
+    COHESION= gives both the largest force and the suction depth, and takes the external diameter of the elements for
+    it; without it FORCE= and DEPTH= are both required; where given, they override it. The relation between cohesion and
+    depth is not dimensionally homogeneous, and the default of REGULARISATION= is in m/s: with user units neither can be
+    converted, so that FORCE=, DEPTH= and REGULARISATION= must all be given. Give what is missing.
+
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+         *SEABED SUCTION
+          SET=ALL
+          FORCE=3500.0, 0.18
+        + DEPTH=0.3, 0.26
+
+    Finds: 7:6
+    """
+    extension = scene.extensions.get("SEABED SUCTION")
+    if extension is None:
+        return
+    user = scene.units == "user"
+    bare = (scene.law != LawKind.RIGID) & np.isnan(scene.diameter) & ~scene.section_table.faulty
+    for index, (entry, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
+        lacks = {key for key in ("cohesion", "force", "depth", "regularisation") if getattr(entry, key, None) is None}
+        title, cohesion = where.inside("set"), where.inside("cohesion")
+        unsized = bare & (extension.of_element == index)
+        if missing := " and ".join(f"{key.upper()}=" for key in ("force", "depth") if key in lacks):
+            if "cohesion" in lacks:
+                yield Problem(EXT005, f"the suction law is incomplete: give COHESION=, or {missing}", where=title)
+            elif user:
+                message = (
+                    "COHESION= needs metric or imperial units, and the deck has user units: give FORCE= and DEPTH="
+                )
+                yield Problem(EXT005, message, where=cohesion)
+            elif unsized.any():
+                what = scene.describe(unsized)
+                message = f"COHESION= needs the external diameter, and {what} none: give Do (or Dd) in *GEOMETRIC SETS"
+                yield lacks_diameter(scene, EXT005, message, cohesion)
+        if user and "regularisation" in lacks:
+            yield Problem(EXT005, "REGULARISATION= is missing: with user units it has no default; give it", where=title)
+
+
+@rule(EXT006, blocks=True)
+def suction_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
+    """Elements have two suction laws.
+
+    *SEABED SUCTION describes the whole uplift resistance of an element. SUCTION= of *SEABED PROPERTIES, or a curve that
+    is negative below the mudline and so pulls, would hold the pipe a second time. Remove one of them. With `--tension
+    cut` the pull of a curve is left out, and there is one law only: such a deck is evaluated then. A curve that pulls
+    only where it is extrapolated is a warning; a position that reaches this part of it is refused.
+
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *GEOMETRIC SETS
+          OPTION=RIGID
+          SET=ALL
+          207.0E9, 79.6E9, 0.3, 0.265, 7850.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+          SUCTION=8000.0, 0.15
+        -*SEABED SUCTION
+        - SET=ALL
+        - COHESION=5000.0
+
+    Finds: 19:6
+    """
+    extension = scene.extensions.get("SEABED SUCTION")
+    if extension is None:
+        return
+    springs = (scene.resistance.column("suction") > 0.0) & (scene.law != LawKind.RIGID)
+    listed, extrapolated = (_on_curves(scene, pulls) for pulls in (_lists_pull, _may_pull))
+    for index, where in enumerate(extension.places):
+        place = where.inside("set")
+        held = extension.of_element == index
+        if np.any(both := held & springs):
+            message = f"{scene.describe(both)} SUCTION= of the seabed too: remove one of the two"
+            yield Problem(EXT006, message, where=place)
+        if np.any(both := held & listed):
+            message = (
+                f"{scene.describe(both)} a curve that is negative in contact too: remove one of the two, unless the "
+                "curve is evaluated with --tension cut"
+            )
+            yield Problem(EXT006, message, where=place, blocks=Blocks.WITH_TENSION)
+        if np.any(both := held & extrapolated & ~listed):
+            message = (
+                f"{scene.describe(both)} a curve that is negative in contact too where it is extrapolated: `evaluate` "
+                "refuses a position there; correct the curve, or evaluate it with --tension cut"
+            )
+            yield Problem(EXT006, message, None, Severity.WARNING, place)
+
+
+def _on_curves(scene: ResolvedDeck, pulls: Callable[[SceneCurve], bool]) -> Mask:
+    """Elements that follow a curve of some kind."""
+    flags = [entry.curve is not None and pulls(entry) for entry in scene.laws.curves]
+    of_law = [set_law.curve >= 0 and flags[set_law.curve] for set_law in scene.laws.set_laws]
+    found: Mask = np.array([*of_law, False])[scene.laws.of_element] & (scene.law == LawKind.CURVE)
+    return found
+
+
+def _lists_pull(entry: SceneCurve) -> bool:
+    """Whether a curve has a point with a negative force below the mudline."""
+    return bool((entry.points[entry.points[:, 0] > 0.0, 1] < 0.0).any())
+
+
+def _may_pull(entry: SceneCurve) -> bool:
+    """Whether a curve without such a point is negative at the mudline, or falls for ever beyond its last point."""
+    if entry.curve is None:
+        return False
+    force, slope = entry.curve.evaluate(np.array([0.0, max(0.0, float(entry.curve.ratios[-1]))]))
+    return bool(force[0] < 0.0 or force[1] < 0.0 or slope[1] < 0.0)
+
+
+@rule(EXT009, blocks=True)
+def unloading_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
+    """Unloading is combined with smoothing or a nodal stiffness, or its stiffness is not above 0.
+
+    Smoothing and unloading both change the reaction near the seabed, and there is no law for the two together.
+    *SEABED CONTACT smooths a linear law unless it says SMOOTHING=NONE. Write that, or remove the unloading; a stiffness
+    divides and must be above 0. SMOOTHING=AUTO smooths nothing where the submerged weight is not known, or is not above
+    0. NODAL STIFFNESS= replaces the law per unit length that would be unloaded.
+
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+         *SEABED UNLOADING
+          SET=ALL
+        - STIFFNESS=0.0
+        + STIFFNESS=500000.0
+
+    Finds: 8:12
+    """
+    extension = scene.extensions.get("SEABED UNLOADING")
+    if extension is None:
+        return
+    smooth, nodal = _smoothed(scene), scene.law == LawKind.NODAL
+    for index, (entry, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
+        stiffness, named = number(entry, "stiffness"), extension.of_element == index
+        if stiffness <= 0.0:
+            message = f"unloading stiffness {stiffness!r}: it must be above 0"
+            yield Problem(EXT009, message, where=where.inside("stiffness"))
+        place = where.inside("set")
+        if np.any(both := named & smooth):
+            advice = "write SMOOTHING=NONE in *SEABED CONTACT, or remove the unloading"
+            yield Problem(EXT009, f"{scene.describe(both)} smoothing too: {advice}", where=place)
+        if np.any(both := named & nodal):
+            message = (
+                f"{scene.describe(both)} NODAL STIFFNESS=, which does not unload along a line of its own: "
+                "remove one of the two"
+            )
+            yield Problem(EXT009, message, where=place)
+
+
+def _smoothed(scene: ResolvedDeck) -> Mask:
+    """Elements (m,) with a linear law that is smoothed."""
+    found: Mask = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    if "SEABED CONTACT" in scene.extensions:
+        from mudline.model.scene.assignments import element_smoothing  # noqa: PLC0415 - only now is it needed
+
+        found[element_smoothing(scene).rows] = True
+    return found

@@ -1,0 +1,161 @@
+"""Values, files and sections that no deck should have: ranges of fields, missing files, pipes without a wall."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from mudline.basics.limits import MOST_REPORTED
+from mudline.language.codes.references import REF015
+from mudline.language.deck.model import Opaque
+from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
+from mudline.language.keywords.catalogue import may_have_no_length
+from mudline.language.keywords.ranges import range_faults, ranged_slots
+from mudline.language.rules import rule
+from mudline.model.scene.deck_values import missing_files, not_found
+from mudline.model.scene.sections import format_of
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.geometric_sets import GeometricSets
+    from mudline.model.scene.resolved import ResolvedDeck
+
+
+SBD010 = Code("SBD010", "negative-property", Severity.ERROR)
+
+_GEOMETRY = "geometry"
+"""A setting of `*SEABED TRENCH`, the third step of a path to its values; EXT003 says what is wrong with them."""
+
+
+@rule(SBD010, blocks=True)
+def negative_property(scene: ResolvedDeck) -> Iterator[Problem]:
+    """A value is out of its range: a stiffness, a length or a diameter is negative, or zero where it divides.
+
+    Such a value has no physical meaning: a sign was typed by mistake, or the value is in the wrong field. The same
+    holds for a share above 1, as the floor of CYCLIC= in *SEABED SUCTION. Correct it. Values of equations and of tables
+    are looked at too. A deck in JSON or YAML with such a value is refused when it is read, and `convert` writes none.
+    The geometry of a trench and the stiffness of unloading have rules of their own, EXT003 and EXT009.
+
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        - FRICTION=-0.3, 0.6
+        + FRICTION=0.3, 0.6
+
+    Finds: 6:11
+    """
+    for i, section in enumerate(scene.deck.sections):
+        for j, block in enumerate(section.blocks):
+            if type(block) is not Opaque and ranged_slots(type(block)):
+                for path, message in range_faults(block):
+                    if _GEOMETRY not in path[2:3] or block.keyword != "SEABED TRENCH":
+                        yield Problem(SBD010, message, where=Where(i, j, path))
+
+
+@rule(REF015, blocks=True)
+def missing_file(scene: ResolvedDeck) -> Iterator[Problem]:
+    """A file that the deck names was not found.
+
+    FILE=, as of *SEABED PROFILE, and LAST= of *RESTART name files beside the deck. Without the deck before a *RESTART
+    mudline does not know the model that this deck works on, and what is missing is a warning only. The finding is also
+    given for a deck that is there and cannot be read, and for decks that continue each other in a cycle. A deck from
+    standard input has no folder in which its files could be, so they are not searched.
+
+    Example:
+         $LOAD CASE
+        -*RESTART
+        - LAST=static
+         *TIME
+          STEP=FIXED
+          0.0, 120.0, 0.05
+
+    Finds: 3:7
+    """
+    for where, folder, name in missing_files(scene.context.written):
+        message, refused = not_found(folder, name)
+        severity = Severity.ERROR if refused else None
+        # Without the file of its profile the seabed is not known.
+        profile = refused or (bool(scene.seabed.missing) and where == scene.seabed.where.inside("file"))
+        blocks = Blocks.ALWAYS if profile else Blocks.NEVER
+        yield Problem(REF015, message, None, severity, where, blocks=blocks)
+
+
+GEO001 = Code("GEO001", "inner-exceeds-outer", Severity.ERROR)
+GEO004 = Code("GEO004", "zero-length-element", Severity.ERROR)
+
+
+@rule(GEO001, blocks=True)
+def inner_exceeds_outer(scene: ResolvedDeck) -> Iterator[Problem]:
+    """The internal diameter of a section is not smaller than its external diameter.
+
+    The pipe has no wall: its mass and stiffness would be zero or negative. The two fields are exchanged, or the wall
+    thickness was subtracted from the wrong one. Correct Do or Di.
+
+    Example:
+         $MODEL
+         *GEOMETRIC SETS
+          OPTION=RIGID
+          SET=ALL
+        - 207.0E9, 79.6E9, 0.2889, 0.3239, 7850.0
+        + 207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+
+    Finds: 5:27
+    """
+    for where, block in scene.context.blocks("GEOMETRIC SETS"):
+        for index, entry in enumerate(cast("GeometricSets", block).sets):
+            outer, inner = (getattr(entry.section, name, None) for name in ("do", "di"))
+            if isinstance(outer, int | float) and isinstance(inner, int | float) and inner >= outer > 0:
+                message = (
+                    f"internal diameter {inner!r} is not smaller than the external diameter {outer!r}: correct one"
+                )
+                yield Problem(GEO001, message, where=where.inside("sets", index, format_of(entry), "Di"))
+
+
+@rule(GEO004, blocks=True)
+def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
+    """The two nodes of an element lie at one place.
+
+    The element has no length and no direction, so it has neither a stiffness nor a share of the seabed. A node was
+    copied without changing its coordinates, or two parts that meet have a node each. Correct the node, or join the
+    parts at one node. In a model with flex joints, hinges, springs or dampers, which may have no length, this is a
+    warning.
+
+    Example:
+         $MODEL
+         *NODE
+          1, 12.0, 0.0
+          2, 12.0, 10.0
+        - 3, 12.0, 10.0
+        + 3, 12.0, 15.0
+          4, 12.0, 20.0
+         *ELEMENT
+          1, 1, 2
+          2, 2, 3
+          3, 3, 4
+
+    Finds: 9:2
+    """
+    suspects = ~(scene.length > 0.0)
+    if not np.count_nonzero(suspects):
+        return
+    known = np.flatnonzero((scene.element_nodes >= 0).all(axis=1) & suspects)
+    first, second = scene.element_nodes[known].T
+    same = known[(scene.coordinates[first] == scene.coordinates[second]).all(axis=1)]
+    if not same.size:
+        return
+    joints = [keyword for keyword in scene.deck.keywords() if may_have_no_length(keyword)]
+    hint = f", or keep it if *{min(joints)} makes it one without length" if joints else ""
+    reported: set[Where] = set()
+    for index in same[: MOST_REPORTED + 1].tolist():
+        where = scene.table.numbered.where(index)
+        if where in reported:
+            continue  # others of the same GEN=
+        reported.add(where)
+        one, other = scene.node_ids[scene.element_nodes[index]].tolist()
+        nodes = f"both its ends are node {one}" if one == other else f"nodes {one} and {other} lie at one place"
+        message = f"element {scene.element_ids[index]} has no length, {nodes}: correct it{hint}"
+        yield Problem(GEO004, message, None, Severity.WARNING if joints else None, where)

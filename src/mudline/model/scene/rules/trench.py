@@ -1,0 +1,205 @@
+"""`*SEABED TRENCH`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from mudline.language.diagnostics import Blocks, Code, Problem, Severity, Where
+from mudline.language.keywords.unknown import is_partly_unknown
+from mudline.language.rules import rule
+from mudline.model.scene.deck_values import number
+from mudline.model.scene.numbering import Floats, Mask, marked
+from mudline.model.scene.rules.laws import extends_rigid
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.seabed_trench import TrenchSet
+    from mudline.model.contact.input import LawAssignment
+    from mudline.model.scene.resolved import ResolvedDeck
+
+EXT003 = Code("EXT003", "bad-trench", Severity.ERROR)
+
+_KEYWORD = "SEABED TRENCH"
+_SIZES = ("depth", "bottom_width", "upper_width")
+_LEAST_ROWS = 2
+_FIELDS = 2
+"""Of a row of a table; one with fewer cannot be read."""
+_LOCKED = "mu2 tan(theta) must be below 1, else the wall of the trench locks itself"
+_HIDDEN = "; sets or lines that this deck does not show may give them another friction"
+
+
+@rule(EXT003, blocks=True)
+def bad_trench(scene: ResolvedDeck) -> Iterator[Problem]:
+    """A trench has no possible geometry, no resistance, no friction spring, or a wall that locks itself.
+
+    The walls of a trench rise from its bottom width to a larger upper width, and its depth is above 0. Their resistance
+    raises the limit of the lateral friction spring: at both nodes of an element *SEABED FRICTION, or a transverse
+    friction coefficient that no LATERAL= replaces, must give one. MODEL=PEAK, the default, needs PEAK=; the rows of
+    PEAK=TABLE are two or more, and their offsets begin at 0 or more and ascend. MODEL=WALL has the resistance of its
+    slope: where the transverse coefficient times that slope is 1 or more, the wall would hold any force. The two points
+    of CENTRELINE= must differ. RESIDUAL= goes with a number in PEAK= and is reached behind the middle of the wall;
+    SMOOTHING= rounds off at most half of the shortest side of the resistance; neither, nor LEVEL=LOWERED, goes with
+    MODEL=WALL. PEAK= beside MODEL=WALL has no effect and is a warning, and so are elements whose friction this deck may
+    not show. Correct the value, or give what is missing.
+
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+          FRICTION=0.3, 0.6
+         *SEABED TRENCH
+          SET=ALL
+        - GEOMETRY=0.5, 3.0, 1.0
+        + GEOMETRY=0.5, 1.0, 3.0
+          PEAK=2000.0
+
+    Finds: 9:2
+    """
+    extension = scene.extensions.get(_KEYWORD)
+    if extension is None or extends_rigid(scene):
+        return
+    bare, locked = _without_spring(scene)
+    for index, (entry, where) in enumerate(zip(_entries(scene), extension.places, strict=True)):
+        yield from _of_block(entry, where)
+        held = extension.of_element == index
+        if np.any(found := held & bare):
+            message = f"{scene.describe(found)} a trench and no lateral friction spring: give *SEABED FRICTION for them"
+            yield _of_friction(scene, message, where.inside("set"))
+        if np.any(found := held & locked):
+            yield _of_friction(scene, f"{_LOCKED}: {scene.describe(found, '', '').rstrip()}", where.inside("geometry"))
+
+
+def _of_friction(scene: ResolvedDeck, message: str, where: Where) -> Problem:
+    """What is wrong with the friction of elements, which may have another one than this deck shows."""
+    if _uncertain(scene):
+        return Problem(EXT003, message + _HIDDEN, None, Severity.WARNING, where, blocks=Blocks.ALWAYS)
+    return Problem(EXT003, message, where=where)
+
+
+def _entries(scene: ResolvedDeck) -> list[TrenchSet]:
+    return cast("list[TrenchSet]", scene.extensions[_KEYWORD].entries)
+
+
+def _of_block(entry: TrenchSet, where: Where) -> Iterator[Problem]:
+    """What a block says by itself: its resistance, its section, its centreline."""
+    if entry.model == "WALL" and entry.peak is not None:
+        message = "PEAK= has no effect under MODEL=WALL: remove it, or write MODEL=PEAK"
+        yield Problem(EXT003, message, None, Severity.WARNING, where.inside("peak"))
+    found = [*_resistance_faults(entry)] if entry.model != "WALL" else []
+    unread = is_partly_unknown(entry) or (entry.table is not None and entry.table.values.shape[1] < _FIELDS)
+    for path, message in found or (() if unread else _excess_faults(entry)):
+        yield Problem(EXT003, message, where=where.inside(*path))
+    depth, bottom, upper = (number(entry.geometry, name) for name in _SIZES)
+    if depth <= 0.0 or bottom <= 0.0 or upper <= 0.0 or upper <= bottom:
+        message = "invalid trench geometry: depth and bottom width must be above 0, the upper width larger"
+        yield Problem(EXT003, message, where=where.inside("geometry"))
+    line = entry.centreline
+    if all(number(line, f"{axis}0") == number(line, f"{axis}1") for axis in "yz"):
+        message = "the two points of the centreline coincide: correct one"
+        yield Problem(EXT003, message, where=where.inside("centreline"))
+
+
+def _resistance_faults(entry: TrenchSet) -> Iterator[tuple[tuple[str | int, ...], str]]:
+    """Path and message of what keeps a block from saying its resistance; a sloped wall has that of its geometry."""
+    if entry.peak is None:
+        yield ("set",), "MODEL=PEAK needs a resistance: give PEAK="
+    if entry.peak != "TABLE":
+        return
+    offsets = np.zeros(0) if entry.table is None else entry.table.column(0)
+    if len(offsets) < _LEAST_ROWS:
+        yield ("peak",), "PEAK=TABLE needs two rows or more: offset from the centreline, resistance per unit length"
+    if (offsets[:1] < 0.0).any():
+        yield ("table", 0, 0), "the offset from the centreline is negative: it is a distance, the same on both sides"
+    for row in np.flatnonzero(np.diff(offsets) <= 0.0)[:1].tolist():
+        yield ("table", row + 1, 0), "the offset is not larger than that of the row before: offsets must ascend"
+
+
+def _excess_faults(entry: TrenchSet) -> Iterator[tuple[tuple[str | int, ...], str]]:
+    """Path and message of a level, a residual or rounded corners that go with no other value, or with no geometry."""
+    from mudline.model.contact.laws.trench import shortest_side  # noqa: PLC0415 - a deck without trenches does without it
+    from mudline.model.scene.assignments import resistance_diagram  # noqa: PLC0415 - as above
+
+    if entry.model == "WALL":
+        for name, given in (
+            ("level", entry.level == "LOWERED"),
+            ("residual", entry.residual),
+            ("smoothing", entry.smoothing),
+        ):
+            if given:
+                yield (
+                    (name,),
+                    f"MODEL=WALL has sloped walls, which {name.upper()}= does not go with: remove one of the two",
+                )
+        return
+    middle = 0.25 * (number(entry.geometry, "bottom_width") + number(entry.geometry, "upper_width"))
+    if entry.residual is not None and entry.peak == "TABLE":
+        yield ("residual",), "a table has a residual of its own: remove RESIDUAL=, or add its row"
+    elif number(entry.residual, "displacement") <= middle:
+        yield (
+            ("residual",),
+            f"the residual is reached no later than the peak, at {middle:g}: give a larger displacement",
+        )
+    elif number(entry, "smoothing", 0.0) > max(0.5 * (side := shortest_side(resistance_diagram(entry))), 0.0):
+        yield ("smoothing",), f"SMOOTHING= is above half of the shortest side of the resistance, {side:g}: give less"
+
+
+def _without_spring(scene: ResolvedDeck) -> tuple[Mask, Mask]:
+    """Elements in a trench of which a node has no lateral friction spring, and those whose wall locks itself."""
+    extension = scene.extensions[_KEYWORD]
+    nothing: Mask = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    if not (extension.of_element >= 0).any() or scene.element_nodes.min(initial=0) < 0 or _unread(scene):
+        return nothing, nothing
+    from mudline.model.scene.contact_input import friction_of  # noqa: PLC0415 - a deck without trenches does without it
+
+    friction = friction_of(scene)
+    bare: Mask = (extension.of_element >= 0) & ~_sprung(scene, friction)
+    return bare, _self_locking(scene, friction)
+
+
+def _unread(scene: ResolvedDeck) -> bool:
+    """Whether friction could not be read, or belongs to no set, which is reported as an error."""
+    friction = scene.extensions.get("SEABED FRICTION")
+    if friction is not None and None in friction.sets and not scene.context.possible_definition("ELEMENT SETS"):
+        return True
+    places = [*scene.resistance.places, *(friction.places if friction else ())]
+    return any(is_partly_unknown(scene.context.as_written(place)) for place in places)
+
+
+def _uncertain(scene: ResolvedDeck) -> bool:
+    """Whether some friction may come from lines, sets or a deck that this deck does not show."""
+    friction = scene.extensions.get("SEABED FRICTION")
+    if friction is not None and any(held is None or held.open for held in friction.sets):
+        return True
+    return scene.laws.uncertain or scene.context.restart
+
+
+def _sprung(scene: ResolvedDeck, friction: LawAssignment | None) -> Mask:
+    """Elements (m,) whose two nodes have a lateral friction spring."""
+    sprung = np.zeros(len(scene.node_ids), dtype=np.bool_)
+    if friction is not None:
+        stiffness = np.asarray(friction.parameters["lateral_stiffness"])
+        coefficient = np.asarray(friction.parameters["lateral_coefficient"])
+        sprung[friction.rows] = ~np.isnan(stiffness) | (coefficient > 0.0)
+    found: Mask = np.logical_and(*sprung[scene.element_nodes].T)
+    return found
+
+
+def _self_locking(scene: ResolvedDeck, friction: LawAssignment | None) -> Mask:
+    """Elements (m,) in a trench with sloped walls where the lateral coefficient of a node has mu2 tan(theta) >= 1."""
+    from mudline.model.contact.laws.trench import wall_coefficient  # noqa: PLC0415 - as above
+
+    extension = scene.extensions[_KEYWORD]
+    coefficient: Floats = np.zeros(len(scene.node_ids))
+    if friction is not None:
+        coefficient[friction.rows] = np.asarray(friction.parameters["lateral_coefficient"])
+    depth, bottom, upper = (extension.values(extension.of_element, "geometry", name) for name in _SIZES)
+    found: Mask = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    for end in scene.element_nodes.T:
+        added = wall_coefficient(depth, bottom, upper, coefficient[end])
+        found |= ~(np.isfinite(added) & (added >= 0.0))
+    usable = (depth > 0.0) & (bottom > 0.0) & (upper > bottom)
+    return found & usable & marked((entry.model == "WALL" for entry in _entries(scene)), extension.of_element)

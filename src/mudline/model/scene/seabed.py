@@ -1,0 +1,195 @@
+"""The shape of the seabed that a deck describes: flat, a slope, a profile, a surface or planes; files of points."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass, field, replace
+from enum import Enum
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple, cast
+
+import numpy as np
+
+from mudline.basics.limits import LARGEST_FILE
+from mudline.basics.outside import without_text
+from mudline.basics.short_repr import counted, short_repr
+from mudline.language.diagnostics import Where
+from mudline.language.keywords.text import shown
+from mudline.language.syntax.rows import read_number
+from mudline.language.syntax.source import Source
+from mudline.model.scene.context import Context
+from mudline.model.scene.deck_values import file_name, find_file, number
+from mudline.model.scene.numbering import Floats, side_by_side
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.seabed_planes import Plane, SeabedPlanes
+    from mudline.language.keywords.library.seabed_profile import SeabedProfile
+    from mudline.language.keywords.surfaces import Surface
+
+
+_NO_POINTS = np.zeros((0, 2))
+COMPILED = ".fcsbd"
+_PARTS = re.compile(r"[\s,]+")
+
+
+class SeabedKind(Enum):
+    """How the seabed is given."""
+
+    FLAT = "flat"
+    SLOPING = "sloping"
+    PROFILE = "2D profile"
+    SURFACE = "3D surface"
+    PLANES = "planes"
+
+
+class SeabedPlane(NamedTuple):
+    """A plane: a point (elevation, Y, Z), slope and direction in degrees, bounds (Y and Z, infinite where open)."""
+
+    name: str
+    point: tuple[float, float, float]
+    slope: float
+    direction: float
+    bounds: tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class SeabedShape:
+    """The seabed, angles in degrees, lengths in the deck's units.
+
+    `points` (k, 2) are Y and elevation of a profile, (k, 3) elevation, Y and Z of a surface, in the order of the deck.
+    `missing` says why they are not known, "" when they are. `unreadable` has the places of all files of points that
+    could not be read, those of other profiles too, with what is wrong.
+    """
+
+    kind: SeabedKind = SeabedKind.FLAT
+    slope: float = 0.0
+    direction: float = 0.0
+    interpolation: str = "LINEAR"
+    points: Floats = field(default_factory=lambda: _NO_POINTS)
+    planes: tuple[SeabedPlane, ...] = ()
+    file: str = ""
+    missing: str = ""
+    where: Where = field(default_factory=Where)
+    unreadable: tuple[tuple[Where, str], ...] = ()
+
+    __repr__ = short_repr
+
+    def same(self, other: SeabedShape) -> bool:
+        """Whether both are the same seabed, number by number; files of unknown points must be the same file."""
+        return (
+            (self.kind, self.slope, self.direction, self.interpolation, self.planes, self.missing)
+            == (other.kind, other.slope, other.direction, other.interpolation, other.planes, other.missing)
+            and np.array_equal(self.points, other.points)
+            and (not self.missing or self.file == other.file)
+        )
+
+
+_FLAT = SeabedShape()
+
+
+def read_seabed(context: Context) -> SeabedShape:
+    """The seabed of a deck: the last `*SEABED PLANES`, else the last `*SEABED PROFILE`, else that of the surface."""
+    found = _FLAT
+    unreadable: list[tuple[Where, str]] = []
+    for where, surface in context.surfaces:
+        found = _surface(surface, where, found)
+    for where, block in context.blocks("SEABED PROFILE"):
+        found = _profile(context, cast("SeabedProfile", block), where, unreadable)
+    blocks = [(where, cast("SeabedPlanes", block)) for where, block in context.blocks("SEABED PLANES")]
+    if planes := tuple(_plane(plane) for _, block in blocks for plane in block.planes):
+        found = SeabedShape(SeabedKind.PLANES, planes=planes, where=blocks[0][0])
+    return replace(found, unreadable=tuple(unreadable)) if unreadable else found
+
+
+def _surface(surface: Surface, where: Where, before: SeabedShape) -> SeabedShape:
+    if surface.profile is not None:
+        points = side_by_side(surface.profile.column(0), surface.profile.column(1))
+        return SeabedShape(SeabedKind.PROFILE, points=points, where=where.inside("profile"))
+    if surface.slope is not None:
+        return SeabedShape(SeabedKind.SLOPING, number(surface, "slope"), where=where.inside("slope"))
+    return before
+
+
+def _profile(context: Context, block: SeabedProfile, where: Where, unreadable: list[tuple[Where, str]]) -> SeabedShape:
+    direction = number(block, "direction", 0.0)
+    if block.type_ == "SLOPING":
+        return SeabedShape(SeabedKind.SLOPING, number(block, "slope"), direction, where=where)
+    kind, columns = (SeabedKind.SURFACE, 3) if block.type_ == "3D" else (SeabedKind.PROFILE, 2)
+    name = file_name(block.file or "")
+    place = where.inside("file")
+    points, missing, fault = _read_points(context, name, columns, place)
+    if fault:
+        unreadable.append((place, f"the profile {shown(name)} cannot be read: {fault}"))
+    return SeabedShape(
+        kind,
+        direction=direction,
+        interpolation=block.interpolation or "LINEAR",
+        points=points,
+        file=name,
+        missing=missing,
+        where=where,
+    )
+
+
+def _read_points(context: Context, name: str, columns: int, where: Where) -> tuple[Floats, str, str]:
+    """The points of a file, why they are not known, and the fault of a file that is there, or is a compiled one."""
+    folder = context.deck.folder_of(where)
+    path = find_file(folder, name)
+    try:
+        if path is None and not name.lower().endswith(COMPILED):
+            return _NO_POINTS, f"{shown(name)} was not found", ""
+        return read_profile(path or Path(name), columns), "", ""
+    except ValueError as error:
+        fault = without_text(str(error), path, folder) if path else str(error)
+    except OSError as error:
+        fault = str(error.strerror)
+    return _NO_POINTS, fault, fault
+
+
+def _plane(plane: Plane) -> SeabedPlane:
+    x, y, z = (number(plane.point, axis) for axis in "xyz")
+    sides = (("y_min", -math.inf), ("y_max", math.inf), ("z_min", -math.inf), ("z_max", math.inf))
+    y_min, y_max, z_min, z_max = (number(plane.bounds, side, unbounded) for side, unbounded in sides)
+    slope, direction = number(plane, "slope"), number(plane, "direction", 0.0)
+    return SeabedPlane(plane.name, (x, y, z), slope, direction, (y_min, y_max, z_min, z_max))
+
+
+def read_profile(path: Path, columns: int) -> Floats:
+    """The points (k, columns) in the order of the file; lines with C in column 1 are comments, blank ones count not.
+
+    `columns` is 2 for Y and elevation of a profile, 3 for X, Y and Z of a surface. Raises OSError, or ValueError for
+    a compiled file and for the first line that is not a point.
+    """
+    if path.suffix.lower() == COMPILED:
+        raise ValueError(
+            f"a compiled profile ({COMPILED}) is binary, and its format is not public: give a text file instead"
+        )
+    if path.stat().st_size > LARGEST_FILE:
+        raise ValueError(f"the file has more than {LARGEST_FILE // 10**6} million bytes: is it a profile?")
+    return parse_profile(path.read_bytes(), path.name, columns)
+
+
+def parse_profile(data: bytes, name: str, columns: int) -> Floats:
+    """As `read_profile`, of a file's content."""
+    source = Source.from_bytes(data, name)
+    if not source.readable:
+        raise ValueError(source.problems[0].message)
+    wanted = "Y, elevation" if columns == 2 else "X, Y, Z"
+    rows: list[list[float]] = []
+    for at, line in enumerate(source.unified.split("\n"), 1):
+        if line.strip() and not line.startswith("C"):
+            words = _PARTS.split(line.strip(" \t\r\n,"))
+            if len(words) != columns:
+                raise ValueError(f"line {at}: expected {columns} numbers (`{wanted}`), found {len(words)}")
+            rows.append([_number(word, at) for word in words])
+    if len(rows) < 2:
+        raise ValueError(f"the file has {counted(len(rows), 'point')}: a profile needs at least two lines `{wanted}`")
+    return np.array(rows, dtype=np.float64)
+
+
+def _number(word: str, line: int) -> float:
+    value = read_number(word)
+    if value is None:
+        raise ValueError(f"line {line}: {shown(word)} is not a number")
+    return value

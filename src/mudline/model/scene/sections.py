@@ -1,0 +1,164 @@
+"""Sections: which `*GEOMETRIC SETS` entry an element has; its external diameter, mass and submerged weight."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple, cast
+
+import numpy as np
+
+from mudline.basics.short_repr import short_repr
+from mudline.language.deck.model import Deck
+from mudline.language.diagnostics import Where
+from mudline.language.keywords.unknown import known_name
+from mudline.model.scene.context import Context
+from mudline.model.scene.deck_values import DEFAULT_DENSITY, DEFAULT_GRAVITY, number
+from mudline.model.scene.numbering import Floats, Indices, Mask, Numbered, looked_up, picked
+from mudline.model.scene.sets import NamedSet, Sets, later_wins
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.geometric_sets import GeometricSet, GeometricSets
+    from mudline.language.keywords.model import Part
+    from mudline.model.scene.csv_file import ExternalElements
+
+_FORMATS = ("flexible", "rigid", "mooring", "truss")
+
+
+class Section(NamedTuple):
+    """An entry of `*GEOMETRIC SETS`. `diameter` is NaN where there is none, or none that can be used.
+
+    `source` is "Do" or "Dd"; `faulty` says that the diameter could not be read or is out of range, which is reported.
+    """
+
+    name: str
+    diameter: float
+    source: str
+    where: Where
+    faulty: bool
+    entry: GeometricSet
+
+    def __repr__(self) -> str:
+        return short_repr(self)
+
+
+class SectionTable(NamedTuple):
+    """Sections in the order of the file; `of_element` (m,) is the one that each element has, -1 for none.
+
+    `diameter` (m,) is the external diameter, NaN where there is none; `faulty` (m,) marks elements whose section could
+    not be read: nothing more is said about them. `open` says that a section belongs to a set whose elements the deck
+    does not show, or could not be read, so that any element may have it.
+    """
+
+    sections: tuple[Section, ...]
+    of_element: Indices
+    diameter: Floats
+    faulty: Mask
+    open: bool
+
+    def __repr__(self) -> str:
+        return short_repr(self)
+
+
+def read_sections(
+    context: Context, sets: Sets, elements: Numbered, external: ExternalElements | None = None
+) -> SectionTable:
+    """The sections, and the one of each element: the later entry wins, a diameter from a file over all."""
+    sections: list[Section] = []
+    holders: list[NamedSet | None] = []
+    elsewhere = False
+    for where, block in context.blocks("GEOMETRIC SETS"):
+        for index, entry in enumerate(cast("GeometricSets", block).sets):
+            place = where.inside("sets", index)
+            name = known_name(entry.set_name)
+            holders.append(None if name is None else sets.find(name))
+            elsewhere |= name is not None and holders[-1] is None and bool(context.possible_definition("ELEMENT SETS"))
+            sections.append(_section(entry, place))
+    of_element = later_wins(holders, len(elements))
+    diameter = looked_up(np.array([*(section.diameter for section in sections), math.nan]), of_element)
+    unread = (None in holders and not elsewhere) or "GEOMETRIC SETS" in context.unread
+    faulty = looked_up(np.array([*(section.faulty for section in sections), unread]), of_element)
+    if external is not None:
+        diameter, faulty = diameter.copy(), faulty.copy()
+        at = elements.indices(external.ids)
+        given = ~np.isnan(external.diameter)
+        diameter[at[given]] = external.diameter[given]
+        faulty[at[given]] = False
+    is_open = elsewhere or "GEOMETRIC SETS" in context.unread or any(holder.open for holder in holders if holder)
+    return SectionTable(tuple(sections), of_element, diameter, faulty, is_open)
+
+
+def _section(entry: GeometricSet, where: Where) -> Section:
+    source, value = entry.diameter
+    diameter = float(value) if isinstance(value, int | float) else math.nan
+    bad = diameter < 0 or math.isnan(diameter) or (source == "Do" and diameter == 0)
+    return Section(known_name(entry.set_name) or "", diameter if diameter > 0 else math.nan, source, where, bad, entry)
+
+
+def format_of(entry: GeometricSet) -> str:
+    """The format of the property line, "" without one."""
+    return next((name for name in _FORMATS if getattr(entry, name) is not None), "")
+
+
+class Surroundings(NamedTuple):
+    """Density of the water, gravity, and the depth, which is the height of the water's level, in the deck's units.
+
+    NaN where they are not known.
+    """
+
+    density: float
+    gravity: float
+    depth: float
+
+
+def surroundings(deck: Deck) -> Surroundings:
+    """Those of the last `*OCEAN`, whose defaults are known in metric and imperial units; NaN without one."""
+    oceans = [block for _, block in deck.blocks("OCEAN")]
+    if not oceans:
+        return Surroundings(math.nan, math.nan, math.nan)
+    return Surroundings(
+        number(oceans[-1], "density", DEFAULT_DENSITY.get(deck.units, math.nan)),
+        number(oceans[-1], "gravity", DEFAULT_GRAVITY.get(deck.units, math.nan)),
+        number(oceans[-1], "depth"),
+    )
+
+
+def mass_per_length(table: SectionTable) -> Floats:
+    """Mass per length (m,), in the deck's units; NaN where it is not known, or not above 0."""
+    mass = picked((_mass(section.entry) for section in table.sections), table.of_element)
+    return np.where(mass > 0.0, mass, np.nan)
+
+
+def submerged_weight(table: SectionTable, around: Surroundings, on_land: Floats | None) -> Floats:
+    """Weight less buoyancy per length (m,), in the deck's units; NaN where it is not known or overflows.
+
+    The share `on_land` (m,) of an element has no buoyancy; None stands for none. Contents do not count. Elements whose
+    diameter comes from a file of elements have the weight of their section, if they have one.
+    """
+    entries = [section.entry for section in table.sections]
+    weights = ((_mass(entry) - around.density * _displaced(entry)) * around.gravity for entry in entries)
+    found = picked(weights, table.of_element)
+    if on_land is not None:
+        lifts = (around.density * _displaced(entry) * around.gravity for entry in entries)
+        found = found + on_land * picked(lifts, table.of_element)
+    return np.where(np.isfinite(found), found, np.nan)
+
+
+def _mass(entry: GeometricSet) -> float:
+    """Mass per length of a section, NaN where it is not known."""
+    return number(entry.section, "mass") if entry.rigid is None else _wall(entry.rigid)
+
+
+def _displaced(entry: GeometricSet) -> float:
+    """Area of the water that a section displaces, NaN where it is not known."""
+    buoyancy = number(entry.section, "db")
+    if math.isnan(buoyancy) and entry.flexible is None:
+        buoyancy = number(entry.section, "do")
+    return math.pi / 4 * buoyancy * buoyancy
+
+
+def _wall(section: Part) -> float:
+    area = number(section, "area")
+    if math.isnan(area):
+        outer, inner = number(section, "do"), number(section, "di")
+        area = math.pi / 4 * (outer * outer - inner * inner)
+    return area * number(section, "density")

@@ -1,0 +1,343 @@
+"""Element sets: lists, ranges and subsets to indices of elements; names compare without case."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from mudline.basics.short_repr import short_repr
+from mudline.language.codes.references import REF001, REF005, REF008, REF009, REF010
+from mudline.language.deck.parameters import folded
+from mudline.language.diagnostics import Problem, Severity, Where
+from mudline.language.keywords.text import advice_on, shown
+from mudline.language.keywords.unknown import is_partly_unknown, known_name
+from mudline.model.scene.context import Context
+from mudline.model.scene.deck_values import bare
+from mudline.model.scene.numbering import FEW, Ids, Indices, Numbered, constant, identity
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.element_sets import (
+        ElementRange,
+        ElementSet,
+        ElementSets,
+        SetGenerate,
+        SetList,
+        SetSubset,
+    )
+    from mudline.model.scene.csv_file import ExternalElements
+
+ALL = "all"
+LONGEST_NAME = 256
+"""Characters of a name of a set that the language allows."""
+_NOTHING = np.zeros(0, dtype=np.intp)
+
+
+def set_key(name: str) -> str:
+    """Return the name of a set as names of sets compare: without case, blanks, quotes and braces."""
+    return folded(bare(name))
+
+
+@dataclass(slots=True, repr=False, eq=False)
+class NamedSet:
+    """A set: its name as first written, the indices of its elements in ascending order, where it is defined.
+
+    `open` says that it has, or may have, elements that the deck does not show.
+    """
+
+    name: str
+    elements: Indices
+    where: Where | None
+    open: bool = False
+
+    __repr__ = short_repr
+
+
+@dataclass(slots=True, repr=False, eq=False)
+class Sets:
+    """All sets by folded name; ALL is always there."""
+
+    context: Context
+    elements: Numbered
+    named: dict[str, NamedSet] = field(default_factory=dict)
+
+    __repr__ = short_repr
+
+    @property
+    def everything(self) -> NamedSet:
+        """The predefined set ALL."""
+        return self.named[ALL]
+
+    def find(self, name: str) -> NamedSet | None:
+        """The set that a SET= names; None when there is no such set, which `check` reports."""
+        return self.named.get(folded(bare(name)))
+
+    def check(self, name: str, where: Where) -> None:
+        """Report a name at a place that is the name of no set."""
+        if self.find(name) is None:
+            hint = self.context.hint(name, {key: found.name for key, found in self.named.items()})
+            advice = advice_on(name) or "define it in *ELEMENT SETS"
+            message = f"set {shown(name)} is not defined{hint}: {advice}"
+            self.context.report_missing(REF001, message, where, "ELEMENT SETS", name)
+
+
+def read_sets(context: Context, elements: Numbered, external: ExternalElements | None = None) -> Sets:
+    """Every set of the model; a file of elements adds to them, or defines more."""
+    sets = _Reader(context, elements).read()
+    for name, ids in (external.sets if external else {}).items():
+        known = sets.named.setdefault(folded(name), NamedSet(name, _NOTHING, None))
+        known.elements = np.union1d(known.elements, elements.indices(ids))
+    return sets
+
+
+class _Reader:
+    """Collects the definitions of each name, then expands them, subsets first."""
+
+    def __init__(self, context: Context, elements: Numbered) -> None:
+        self.context = context
+        self.elements = elements
+        self.definitions: dict[str, list[tuple[ElementSet, Where]]] = {}
+        self.sets = Sets(context, elements)
+        self.keys: dict[str, str] = {}
+        self.links: dict[str, str] = {}
+        """Sets that are given once, as one subset, by their keys with that of the subset."""
+
+    def read(self) -> Sets:
+        named = self.sets.named
+        context = self.context
+        everything = identity(len(self.elements))
+        named[ALL] = NamedSet("ALL", everything, None, open=bool(context.external_definers or context.restart))
+        for where, block in context.blocks("ELEMENT SETS"):
+            self._collect(cast("ElementSets", block).sets, where)
+        for key, name in context.opaque_set_names.items():
+            if key not in self.definitions:
+                named.setdefault(key, NamedSet(name, _NOTHING, None, open=True))
+        for key in self.definitions:
+            if key not in named:
+                self._expand(key)
+        return self.sets
+
+    def _key(self, name: str) -> str:
+        """`set_key`, found once for each name: most are written twice or more."""
+        key = self.keys.get(name)
+        if key is None:
+            key = self.keys[name] = set_key(name)
+        return key
+
+    def _collect(self, entries: Sequence[ElementSet], block: Where) -> None:
+        """Note the sets of a block by their names."""
+        for index, entry in enumerate(entries):
+            where = Where(block.section, block.block, ("sets", index))
+            name = known_name(entry.name)
+            if name is None:
+                self.context.unread.add("ELEMENT SETS")
+                continue
+            key = self._key(name)
+            if key == ALL:
+                message = "set ALL is predefined and holds every element: choose another name"
+                self.context.report(REF009, message, where.inside("name"))
+                continue
+            known = self.definitions.get(key)
+            if known is None:
+                self.definitions[key] = [(entry, where)]
+                only = entry.members[0] if len(entry.members) == 1 else None
+                subset = known_name(cast("SetSubset", only).subset) if only and only.rule == "set_subset" else None
+                if subset is not None:
+                    self.links[key] = self._key(subset)
+            else:
+                known.append((entry, where))
+                self.links.pop(key, None)
+
+    def _expand(self, key: str) -> None:
+        """Expand a set and, before it, its subsets; an explicit stack, as chains may be long."""
+        named, definitions, links = self.sets.named, self.definitions, self.links
+        waiting = [key]
+        unfinished: set[str] = set()
+        while waiting:
+            current = waiting[-1]
+            link = links.get(current)
+            if current in named:
+                waiting.pop()
+            elif current in unfinished:
+                waiting.pop()
+                unfinished.remove(current)
+                if link is not None and (found := named.get(link)):
+                    entry, where = definitions[current][0]
+                    is_open = found.open or is_partly_unknown(entry.members)
+                    named[current] = NamedSet(entry.name, found.elements, where, is_open)
+                else:
+                    self._settle(current)
+            else:
+                unfinished.add(current)
+                if link in definitions and link not in unfinished:
+                    waiting.append(link)
+                else:
+                    self._await(current, waiting, unfinished)
+
+    def _await(self, key: str, waiting: list[str], unfinished: set[str]) -> None:
+        """Put the subsets that are to be expanded before a set on the stack; those that cannot be are reported."""
+        named = self.sets.named
+        for entry, where in self.definitions[key]:
+            for index, member in enumerate(entry.members):
+                if member.rule != "set_subset":
+                    continue
+                name = known_name(cast("SetSubset", member).subset)
+                if name is None:
+                    continue
+                other = self._key(name)
+                if other in unfinished:
+                    message = f"set {shown(name)} contains itself: SUBSET= leads back to it; remove one of these lines"
+                    self.context.report(REF008, message, where.inside("members", index, "subset"))
+                elif other in self.definitions:
+                    waiting.append(other)
+                elif other not in named:
+                    hint = self.context.hint(name, self._names)
+                    message = f"SUBSET= names no set: {shown(name)} is not defined{hint}; define it"
+                    place = where.inside("members", index, "subset")
+                    self.context.report_missing(REF008, message, place, "ELEMENT SETS", name)
+
+    @cached_property
+    def _names(self) -> dict[str, str]:
+        """Every name of a set, by its casefolded form."""
+        return self.context.opaque_set_names | {key: found[0][0].name for key, found in self.definitions.items()}
+
+    def _settle(self, key: str) -> None:
+        """The union of all members of all definitions of a name."""
+        definitions = self.definitions[key]
+        first, place = definitions[0]
+        parts: list[Indices] = []
+        unsure = False
+        members = 0
+        for entry, where in definitions:
+            unsure |= is_partly_unknown(entry.members)
+            members += len(entry.members)
+            for index, member in enumerate(entry.members):
+                if member.rule == "set_subset":
+                    found, whole = self._subset(cast("SetSubset", member).subset)
+                elif member.rule == "set_list":
+                    found, whole = self._listed(cast("SetList", member), where.inside("members", index))
+                else:
+                    given = cast("SetGenerate", member).generate
+                    found, whole = self._range(given, where.inside("members", index))
+                parts.append(found)
+                unsure |= not whole
+        self.sets.named[key] = NamedSet(first.name, _union(parts), place, unsure)
+        if not members and not unsure:  # of what is listed and does not exist, it is reported where it stands
+            self.context.report(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
+
+    def _subset(self, given: str) -> tuple[Indices, bool]:
+        name = known_name(given)
+        found = None if name is None else self.sets.named.get(self._key(name))
+        return (_NOTHING, False) if found is None else (found.elements, not found.open)
+
+    def _listed(self, member: SetList, where: Where) -> tuple[Indices, bool]:
+        """Indices of the elements of a list in ascending order, and whether these are all."""
+        if len(self.elements) <= FEW and not is_partly_unknown(member.elements):
+            few = self.elements.by_number()
+            found = {few[one] for one in member.elements if isinstance(one, int) and one in few}
+            if len(found) == len({*member.elements}):
+                return np.array(sorted(found), dtype=np.intp), True
+        numbers = np.array([element for element in member.elements if isinstance(element, int)], dtype=np.int64)
+        indices = self.elements.indices(numbers)
+        known = indices >= 0
+        if np.count_nonzero(known) == len(member.elements):
+            return _ascending(indices), not is_partly_unknown(member.elements)
+        positions = [position for position, element in enumerate(member.elements) if isinstance(element, int)]
+        missing = np.flatnonzero(~known).tolist()
+        self._missing(numbers[missing], [where.inside("elements", positions[at]) for at in missing])
+        for position, element in enumerate(member.elements):
+            if isinstance(element, str):
+                self._label(element, where.inside("elements", position))
+        return _ascending(indices[known]), False
+
+    def _missing(self, numbers: Ids, places: list[Where]) -> None:
+        """Elements of a list that are not defined; where they may be defined out of sight, a word for a list."""
+        if len(numbers) > 1 and (self.context.external_definers or self.context.restart):
+            message = f"{len(numbers)} elements of this list (first: {numbers[0]}) are not defined"
+            self.context.report_missing(REF005, message, places[0], "ELEMENT")
+            return
+        for number, place in zip(numbers.tolist(), places, strict=True):
+            message = f"element {number} is not defined: define it in *ELEMENT"
+            self.context.report_missing(REF005, message, place, "ELEMENT", number)
+
+    def _label(self, label: str, where: Where) -> None:
+        if not self.context.external_definers and not self.context.is_guessed_label(where):
+            message = (
+                f"element {shown(label)} is a label, and nothing in this deck makes labelled elements: give a number"
+            )
+            self.context.report_missing(REF005, message, where, "ELEMENT")
+
+    def _range(self, given: ElementRange, where: Where) -> tuple[Indices, bool]:
+        """Elements of a range, without building it: it may be as long as a typing error makes it."""
+        place = where.inside("generate")
+        numbers = self.context.generator(given)
+        if numbers is None:
+            return _NOTHING, False
+        start, end, step = numbers
+        if end < start or step < 1:
+            why = "the increment must be at least 1" if step < 1 else "the end must not come before the start"
+            self.context.report(REF010, f"GEN={start}, {end}, {step} holds nothing: {why}", place, Severity.ERROR)
+            return _NOTHING, False
+        found = self.elements.between(start, end, step)
+        wanted = (end - start) // step + 1
+        lacking = wanted - len(found)
+        if lacking and not self.context.possible_definition("ELEMENT"):
+            first = self._first_lacking(start, end, step)
+            if lacking == 1:
+                message = f"GEN={start}, {end}, {step}: element {first} is not defined: correct it, or define that"
+            else:
+                lacks = f"{lacking} of its {wanted} elements are not defined (first: {first})"
+                message = f"GEN={start}, {end}, {step}: {lacks}: correct it, or define them"
+            severity = Severity.WARNING if len(found) else None
+            self.context.note(Problem(REF005, message, None, severity, place, lacks=str(first)))
+        return found, not lacking
+
+    def _first_lacking(self, start: int, end: int, step: int) -> int:
+        """The first number of a range that no element has."""
+        numbers = _distinct(self.elements.ids[self.elements.between(start, end, step)])
+        gaps = np.flatnonzero(numbers != start + step * np.arange(len(numbers)))
+        return start + step * int(gaps[0] if len(gaps) else len(numbers))
+
+
+def _ascending(indices: Indices) -> Indices:
+    """Indices in ascending order, each once."""
+    return _distinct(indices) if np.count_nonzero(indices[1:] <= indices[:-1]) else indices
+
+
+def _distinct(indices: Indices) -> Indices:
+    """The same as `np.unique`, which imports `numpy.ma`: that would take longer than all sets of most decks."""
+    ordered = np.sort(indices)
+    return ordered[np.concatenate([[True], ordered[1:] != ordered[:-1]])] if len(ordered) else ordered
+
+
+def _union(parts: list[Indices]) -> Indices:
+    """Indices in ascending order, each once, of parts that are so. Sets of the same elements share an array."""
+    if len(parts) == 1:
+        return parts[0]
+    largest = max(parts, key=len, default=_NOTHING)
+    rest = [part for part in parts if part is not largest and len(part)]
+    if not rest:
+        return largest
+    others = _distinct(np.concatenate(rest))
+    at = np.searchsorted(largest, others)
+    new = largest[np.minimum(at, len(largest) - 1)] != others
+    return np.insert(largest, at[new], others[new]) if new.any() else largest
+
+
+def later_wins(holders: Sequence[NamedSet | None], count: int) -> Indices:
+    """For each of `count` elements the index of the last holder that has it, -1 where none has; not to be written to.
+
+    A set that holds several things counts with the last of them only: sets named very often cost no more for it.
+    """
+    last = {id(holder.elements): index for index, holder in enumerate(holders) if holder is not None}
+    order = sorted(last.values())
+    whole = [index for index in order if len(cast("NamedSet", holders[index]).elements) == count]
+    if not order or order[-1:] == whole[-1:]:
+        return constant(order[-1] if order else -1, count)
+    winner = np.full(count, -1, dtype=np.intp)
+    for index in order:
+        winner[cast("NamedSet", holders[index]).elements] = index
+    return winner

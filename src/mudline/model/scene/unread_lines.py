@@ -1,0 +1,233 @@
+"""What is looked at in lines that are not read: equations, and settings whose name says what their value must be."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Collection, Iterator
+from dataclasses import replace
+from functools import cached_property
+
+from mudline.language.codes.fields import SYN002, SYN006
+from mudline.language.codes.references import REF001, REF006, REF015
+from mudline.language.deck.model import Deck, Opaque
+from mudline.language.deck.parameters import NoValueError, Parameters, folded
+from mudline.language.deck.reading import TextOrigin
+from mudline.language.diagnostics import Blocks, Problem, Severity, Span, Where
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.keeping import is_read, kept_lines, kept_places
+from mudline.language.keywords.text import shown
+from mudline.language.keywords.values import Equation, Label, Names, number_meant
+from mudline.language.syntax.fields import Field, Group, read_line
+from mudline.language.syntax.rows import read_number
+from mudline.model.scene.context import Context
+from mudline.model.scene.deck_values import bare, data_lines, file_name, find_file, not_found
+from mudline.model.scene.names import CURVES, names_of
+from mudline.model.scene.references import check_label, sets_of_postprocessing
+from mudline.model.scene.sets import Sets
+
+_EQUATION = re.compile(r"=\[[^\[\]\r\n]*\]")
+_LONGEST = 4000
+"""Characters of a line that is looked at: a longer one is data of another kind."""
+_DEFINING = ("MODEL", "LOAD CASE")
+_OF_RESULTS = ("DATABASE POSTPROCESSING", "POSTPROCESSING")
+_WORTH = re.compile(r"[={]|[0-9OolI]\.[0-9OolI]")
+"""What a line has that is looked at."""
+_FREE = ("NAME", Names.FILE.name)
+"""Settings whose value may be any text."""
+_UNREAD = "; the line is not read"
+_THINGS = ("GEN", *(kind.name for kind in (Names.SET, Names.ELEMENT, Names.NODE, Names.VESSEL)))
+"""Settings that begin a line about a thing which has a curve."""
+
+Line = tuple[Where, str]
+
+
+def check_unread_lines(context: Context, sets: Sets) -> None:
+    """Look at every line of a deck itself that is not read."""
+    looking: _Looking | None = None
+    for where, keyword, line in unread_lines(context.written):
+        if len(line) <= _LONGEST and _WORTH.search(line):
+            looking = looking or _Looking(context, sets)
+            looking.look(where, keyword, line)
+
+
+def unread_lines(deck: Deck) -> Iterator[tuple[Where, str, str]]:
+    """The lines of a deck itself that are not read, without comments: their place, keyword and text."""
+    for i, section in enumerate(deck.own_sections):
+        for j, block in enumerate(section.blocks):
+            if type(block) is Opaque:
+                lines = ((Where(i, j, ("lines", n)), line) for n, line in enumerate(block.lines))
+            elif is_read(block):
+                continue
+            elif isinstance(deck.origin, TextOrigin):
+                lines = ((Where(i, j, ("unread", n)), line) for n, line in enumerate(deck.origin.kept_lines(i, j)))
+            else:
+                lines = ((Where(i, j, path), line) for path, line in kept_places(block))
+            yield from ((where, block.keyword, line) for where, line in lines if [*data_lines([line])])
+
+
+def _uses_any_curve(line: str) -> bool:
+    if "CURVE" not in line.upper() or len(line) > _LONGEST:
+        return False
+    groups = read_line(line, Span(0, len(line))).groups
+    return any(group.key == "CURVE" for group in groups) and _uses_curve(groups)
+
+
+def _uses_curve(groups: list[Group]) -> bool:
+    """Whether CURVE= of a line uses a curve: behind a number, a label, or the setting of a thing.
+
+    Where it stands first, it may give a name to a new one.
+    """
+    first = groups[0]
+    text = first.fields[0].text
+    return first.key in _THINGS or (not first.key and (read_number(text) is not None or Label.match(text) is not None))
+
+
+class _Looking:
+    def __init__(self, context: Context, sets: Sets) -> None:
+        self.context = context
+        self.sets = sets
+        self.parameters: Parameters | None = None
+        self.vessels: dict[str, str] | None = None
+        self.curves: dict[str, str] | None = None
+        self.checks: dict[str, Callable[[Where, str, str], None]] = {
+            Names.SET.name: self._set,
+            Names.VESSEL.name: self._vessel,
+            Names.FILE.name: self._file,
+        }
+
+    def look(self, where: Where, keyword: str, line: str) -> None:
+        """Look at a line."""
+        for match in _EQUATION.finditer(line):
+            self._equation(match[0], where.inside(*match.span()))
+        known = catalogue.sections_of(keyword) is not None
+        _, groups, problems = read_line(line, Span(0, len(line)))
+        for problem in problems:
+            self._unclosed(problem, where, line)
+        for group in groups:
+            for given in group.fields:
+                self._label(given, where)
+                if known and group.key not in _FREE:
+                    self._number(given, where)
+            value = group.fields[0]
+            if known and value.text and not value.text.startswith("=["):
+                if check := self.checks.get(group.key):
+                    check(where.inside(*value.span), keyword, value.text)
+                elif group.key == "CURVE" and _uses_curve(groups):
+                    self._curve(where.inside(*value.span), keyword, value.text)
+
+    def _note(self, problem: Problem) -> None:
+        self.context.note(replace(problem, blocks=Blocks.NEVER))
+
+    def _equation(self, text: str, where: Where) -> None:
+        self.parameters = self.parameters or Parameters(self.context.written)
+        try:
+            self.parameters.evaluate(Equation(text), where)
+        except NoValueError as reason:
+            if reason.problem:
+                self._note(reason.problem)
+
+    def _label(self, given: Field, where: Where) -> None:
+        if Label.match(given.text):
+            check_label(self.context, REF006, given.text, where.inside(*given.span))
+
+    def _number(self, given: Field, where: Where) -> None:
+        """A number with a letter in place of a digit."""
+        if meant := number_meant(given.text):
+            message = f"{shown(given.text)} is not a number: write {meant}{_UNREAD}"
+            self._note(Problem(SYN002, message, None, Severity.WARNING, where.inside(*given.span)))
+
+    def _unclosed(self, problem: Problem, where: Where, line: str) -> None:
+        """An equation that is not closed; other marks may be text."""
+        if problem.code == SYN006 and problem.span and line.startswith("=[", problem.span.start):
+            message = f"{problem.message}{_UNREAD}"
+            where = where.inside(*problem.span)
+            self._note(Problem(SYN006, message, None, Severity.WARNING, where))
+
+    def _set(self, where: Where, keyword: str, name: str) -> None:
+        """A set that a line names; postprocessing has sets of its own beside those of the model."""
+        if keyword in catalogue.definers(Names.SET) or not self._is_of_model(where, keyword, _OF_RESULTS):
+            return
+        of_results = self.context.written.sections[where.section].name in _OF_RESULTS
+        own = self._sets_of_results if of_results else {}
+        if self.sets.find(name) is None and folded(bare(name)) not in own:
+            hint = self.context.hint(name, self._set_names) or self.context.hint(name, own)
+            message = f"set {shown(name)} is not defined{hint}: define it in *ELEMENT SETS{_UNREAD}"
+            self._note(Problem(REF001, message, None, Severity.WARNING, where, lacks=name))
+
+    @cached_property
+    def _set_names(self) -> dict[str, str]:
+        return {key: found.name for key, found in self.sets.named.items()}
+
+    @cached_property
+    def _sets_of_results(self) -> dict[str, str]:
+        return sets_of_postprocessing(self.context.deck)
+
+    def _is_of_model(self, where: Where, keyword: str, more: Collection[str] = ()) -> bool:
+        """Whether a line is of a section where things of the model are used, or one more, and its keyword makes none.
+
+        A deck without a model is a part of a job, and one that continues another that is not known is too.
+        """
+        section = self.context.written.sections[where.section].name
+        kept = catalogue.opaque_keyword(section, keyword)
+        makes = kept is not None and (kept.name_settings or kept.makes)
+        shown_ = bool(self.context.deck.keywords()) and not self.context.restart
+        return (section in _DEFINING or section in more) and not makes and shown_
+
+    def _vessel(self, where: Where, keyword: str, name: str) -> None:
+        definers = catalogue.definers(Names.VESSEL)
+        if keyword in definers or self.context.restart or self.context.deck.keywords().isdisjoint(definers):
+            return
+        if self.vessels is None:
+            found = names_of(self.context, {Names.VESSEL}).get(Names.VESSEL)
+            self.vessels = {key: given[0].name for key, given in found.defined.items()} if found else {}
+        if self.vessels and folded(bare(name)) not in self.vessels:
+            from mudline.model.scene.rules.names import REF019  # noqa: PLC0415 - only for a finding
+
+            message = f"vessel {shown(name)} is not defined{self.context.hint(name, self.vessels)}{_UNREAD}"
+            self._note(Problem(REF019, message, None, Severity.WARNING, where, lacks=name))
+
+    def _curve(self, where: Where, keyword: str, name: str) -> None:
+        """A curve that a line of the model or of a load case uses; another line that is not read may define it."""
+        if not self._is_of_model(where, keyword):
+            return
+        if self.curves is None:
+            found = names_of(self.context, CURVES | {Names.CURVE}).values()
+            self.curves = {key: given[0].name for names in found for key, given in names.defined.items()}
+        key = folded(bare(name))
+        if key not in self.curves and key not in self._other_words and not self._may_lack_curves:
+            from mudline.model.scene.rules.laws import REF002  # noqa: PLC0415 - only for a finding
+
+            meant = self.context.hint(name, self.curves)
+            message = f"curve {shown(name)} is not defined{meant}: correct the name, or define it{_UNREAD}"
+            self._note(Problem(REF002, message, None, Severity.WARNING, where, lacks=name))
+
+    @cached_property
+    def _may_lack_curves(self) -> bool:
+        """Whether a line that defines a curve may be one that could not be used."""
+        kinds = (*CURVES, Names.CURVE)
+        return not self.context.unread.isdisjoint(keyword for kind in kinds for keyword in catalogue.definers(kind))
+
+    @cached_property
+    def _other_words(self) -> set[str]:
+        """What stands in the lines that are not read and use no curve: a curve of this name may be defined there."""
+        found: set[str] = set()
+        for section in self.context.deck.sections:
+            for block in section.blocks:
+                for line in data_lines(block.lines if isinstance(block, Opaque) else kept_lines(block)):
+                    if not _uses_any_curve(line):
+                        pieces = line.replace("=", ",").split(",")
+                        found.update(folded(bare(piece)) for each in pieces for piece in (each, *each.split()))
+        return found
+
+    def _file(self, where: Where, _: str, written: str) -> None:
+        """A file beside the deck; a path with folders of another machine is looked for as any other is.
+
+        A file of postprocessing may be one that the run makes.
+        """
+        folder = self.context.written.folder
+        name = file_name(written)
+        given = self.context.written.sections[where.section].name in catalogue.CERTAIN_SECTIONS
+        if folder is None or not given or "%" in name or find_file(folder, name) is not None:
+            return
+        message, refused = not_found(folder, name)
+        self._note(Problem(REF015, f"{message}{_UNREAD}", None, Severity.ERROR if refused else None, where))

@@ -1,0 +1,140 @@
+"""Sheets of workbooks (XLSX, with the extra `excel`) and CSV files: rows of cells, every fault with its place."""
+
+from __future__ import annotations
+
+import csv
+import io
+import zipfile
+import zlib
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import PurePath
+from typing import Any, BinaryIO, NamedTuple
+from xml.etree.ElementTree import ParseError
+
+from mudline.basics.limits import LARGEST_FILE
+from mudline.basics.short_repr import cut
+from mudline.language.diagnostics import DeckError
+from mudline.language.syntax.source import Source
+from mudline.model.scene.csv_file import SEPARATORS, csv_rows, data_error
+
+_UNREADABLE = (
+    # damaged bytes meet the checks of zipfile, of the parser of XML, and the assumptions of openpyxl
+    ArithmeticError,
+    AttributeError,
+    EOFError,
+    LookupError,
+    MemoryError,
+    NotImplementedError,
+    OSError,
+    ParseError,
+    RuntimeError,
+    TypeError,
+    ValueError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
+
+
+@contextmanager
+def opened_workbook(stream: BinaryIO, file: str, *, formulas: bool = False) -> Iterator[Any]:
+    """The workbook in a stream: the values that formulas had, or with `formulas` their texts.
+
+    Raises DeckError for what is not a workbook, also in the block, where its sheets are read; ImportError without
+    openpyxl.
+    """
+    from openpyxl import load_workbook  # noqa: PLC0415 - only who reads a workbook needs it
+    from openpyxl.utils.exceptions import InvalidFileException  # noqa: PLC0415 - as above
+
+    try:
+        with zipfile.ZipFile(stream) as archive:
+            unpacked = sum(part.file_size for part in archive.infolist())
+        if unpacked > LARGEST_FILE:
+            raise data_error(file, f"unpacks to more than {LARGEST_FILE} bytes: export the sheet as CSV")
+        book = load_workbook(stream, read_only=True, data_only=not formulas)
+        yield book
+    except DeckError:
+        raise
+    except (*_UNREADABLE, InvalidFileException) as error:
+        raise data_error(file, f"not a workbook that can be read: {cut(str(error), 100)}") from error
+
+
+class Cell(NamedTuple):
+    """A cell: row and column from 1, its value, and whether a formula in it was never calculated."""
+
+    row: int
+    column: int
+    value: object
+    uncalculated: bool = False
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """The rows of a sheet, each the cells with a value; the only sheet of a CSV file has the name of the file."""
+
+    file: str
+    title: str
+    rows: Sequence[Sequence[Cell]]
+    is_workbook: bool
+
+    def fault(self, row: int, column: int, message: str) -> DeckError:
+        """The error about the cell in a row and a column, from 1."""
+        if not self.is_workbook:
+            heading = next((str(cell.value) for cell in self.rows[0] if cell.column == column), str(column))
+            return data_error(self.file, f"column {cut(heading, 40)}: {message}", row)
+        from openpyxl.utils import get_column_letter  # noqa: PLC0415 - as above
+
+        where = f"sheet {cut(self.title, 40)}, cell {get_column_letter(column)}{row}"
+        return data_error(self.file, f"{where}: {message}", row, column)
+
+
+def workbook_sheets(data: bytes, file: str) -> list[Sheet]:
+    """The sheets of a workbook with the values that formulas had when it was saved.
+
+    Raises DeckError for what is not a workbook; ImportError without openpyxl.
+    """
+    with (
+        opened_workbook(io.BytesIO(data), file) as book,
+        opened_workbook(io.BytesIO(data), file, formulas=True) as written,
+    ):
+        pairs = zip(book.worksheets, written.worksheets, strict=True)
+        return [Sheet(file, sheet.title, list(_rows(sheet, texts)), is_workbook=True) for sheet, texts in pairs]
+
+
+def _rows(sheet: Any, texts: Any) -> Iterator[list[Cell]]:  # noqa: ANN401 - openpyxl has no types
+    """The rows of a sheet whose cells have a value, or a formula without one."""
+    for one in (sheet, texts):
+        one.reset_dimensions()
+    for number, (values, formulas) in enumerate(zip(sheet.iter_rows(), texts.iter_rows(), strict=True), 1):
+        cells = []
+        for column, (value, formula) in enumerate(zip(values, formulas, strict=True), 1):
+            uncalculated = value.value is None and formula.value is not None
+            if uncalculated or (value.value is not None and str(value.value).strip()):
+                cells.append(Cell(number, column, value.value, uncalculated))
+        yield cells
+
+
+def _width(line: str, separator: str) -> int:
+    """How many fields a line has; none where it is no line of a table, which is reported when it is read."""
+    try:
+        return len(next(csv.reader([line], delimiter=separator), []))
+    except csv.Error:
+        return 0
+
+
+def csv_sheet(data: bytes, file: str) -> Sheet:
+    """A CSV file as a sheet; its fields are separated by commas, semicolons or tabs, as those of its first line are.
+
+    Raises DeckError for what is not text.
+    """
+    source = Source.from_bytes(data, file)
+    if not source.readable:
+        raise data_error(file, source.problems[0].message)
+    first = source.unified.partition("\n")[0]
+    separator = max(SEPARATORS, key=lambda one: _width(first, one))
+    rows: list[list[Cell]] = []
+    for fields, line in csv_rows(file, source.unified, separator):
+        given = ((column, text.strip()) for column, text in enumerate(fields, 1))
+        rows.append([Cell(line, column, text) for column, text in given if text])
+    return Sheet(file, PurePath(file).stem, rows, is_workbook=False)

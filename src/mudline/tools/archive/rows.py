@@ -1,0 +1,165 @@
+"""What a deck gives to each table of an archive: read, resolved and linted once."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from hashlib import blake2b
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mudline.checks.context import LintContext
+from mudline.checks.engine import LintSettings, lint_context
+from mudline.checks.fixing import with_severities
+from mudline.checks.verdict import all_findings, errors_of
+from mudline.language.codes.lines import SYN001
+from mudline.language.deck.coverage import coverage_of, extent
+from mudline.language.deck.loading import load_bytes
+from mudline.language.deck.model import Deck, Opaque
+from mudline.language.deck.parameters import Parameters, folded
+from mudline.language.diagnostics import DeckError, Diagnostic, Problem, Severity, Where
+from mudline.language.keywords.catalogue import is_extension, is_superseded
+from mudline.language.keywords.keeping import kept_lines
+from mudline.language.keywords.values import Equation, Names
+from mudline.language.keywords.writer import block_lines
+from mudline.model.contact.input import LawKind
+from mudline.model.scene.deck_curves import OF_SEABED, other_curves
+from mudline.model.scene.deck_values import bare, number
+from mudline.model.scene.model import Scene
+from mudline.model.scene.references import used_names
+from mudline.model.scene.sets import ALL
+from mudline.tools.archive.tables import CurveRow, DeckRow, FindingRow, KeywordRow, LawRow, ParameterRow, SetRow
+
+_DIGESTS = 1 << 63
+"""Number of the digests of values, which are whole numbers in the tables."""
+_EQUATION = re.compile(r"=\[((?:[^\[\]]|\[[^\[\]]*\])*)\]|%([^%\s]+)%")
+_WORD = re.compile(r"[^\W\d][\w.]*")
+
+Rows = dict[str, list[Any]]
+"""The rows of a deck by table, without the column `file`."""
+
+
+def rows_of(data: bytes, name: str, settings: LintSettings, folder: Path | None) -> Rows:
+    """Return the rows of a deck of this content and file name; never raises for content."""
+    try:
+        deck = load_bytes(data, name, units=settings.units, folder=folder)
+    except DeckError as error:
+        row = DeckRow(settings.units or "user", "illegal", len(error.diagnostics))
+        return {"decks": [row], "findings": _findings(error.diagnostics)}
+    context = LintContext(deck, dialect=settings.dialect)
+    found = with_severities(lint_context(context, settings.rules), settings)
+    scene, coverage = context.scene, coverage_of(deck)
+    keywords = list(_keywords(deck))
+    rows: Rows = {
+        "findings": _findings(found),
+        "keywords": keywords,
+        "sets": list(_sets(deck, scene)),
+        "curves": list(_curves(deck, scene)),
+        "laws": list(_laws(deck, scene)),
+        "parameters": list(_parameters(deck, data)),
+    }
+    levels = [one.severity for one in found]
+    severities = (levels.count(Severity.ERROR), levels.count(Severity.WARNING), levels.count(Severity.INFO))
+    read = (coverage.total, coverage.read, sum(coverage.partly.values()), sum(coverage.unread.values()))
+    sizes = (len(scene.node_ids), len(scene.element_ids), len(rows["sets"]), len(scene.laws.curves))
+    legal = "legal" if coverage.whole else "legal as far as read"
+    verdict = "illegal" if errors_of(all_findings(context)) else legal if deck.sections else "empty"
+    oceans = [block for _, block in scene.deck.blocks("OCEAN")]
+    measures = (float(np.nansum(scene.length)), number(oceans[-1], "depth") if oceans else None)
+    content = (keywords[0].content + keywords[0].others) % _DIGESTS if keywords else 0
+    row = DeckRow(deck.units, verdict, *severities, len(deck.sections), *read, *sizes, *measures, content)
+    return {"decks": [row], **rows}
+
+
+def _line(deck: Deck, where: Where | None) -> int | None:
+    return None if where is None else deck.place(Problem(SYN001, "", where=where)).line
+
+
+def _keyword_at(scene: Scene, where: Where) -> str:
+    return scene.deck.sections[where.section].blocks[where.block].keyword
+
+
+def _findings(found: Iterable[Diagnostic]) -> list[FindingRow]:
+    rows = []
+    for one in found:
+        place = (one.line, one.column, one.end_line, one.end_column)
+        fix = one.fix.applicability if one.fix else None
+        rows.append(FindingRow(one.code, one.slug, one.severity.value, one.message, *place, fix, one.blocks))
+    return rows
+
+
+def _keywords(deck: Deck) -> Iterator[KeywordRow]:
+    blocks = [(i, j, block) for i, section in enumerate(deck.sections) for j, block in enumerate(section.blocks)]
+    digests = [_digest(deck.sections[i].name, block) for i, _, block in blocks]
+    total = sum(digests)
+    for place, ((i, j, block), digest) in enumerate(zip(blocks, digests, strict=True), 1):
+        names = (deck.sections[i].name, block.keyword, _line(deck, Where(i, j)), type(block) is not Opaque)
+        facts = (extent(block) == "partly", is_superseded(block.keyword), is_extension(block.keyword))
+        yield KeywordRow(place, *names, *facts, digest, (total - digest) % _DIGESTS)
+
+
+def _sets(deck: Deck, scene: Scene) -> Iterator[SetRow]:
+    named = {key: entry for key, entry in scene.set_table.named.items() if key != ALL}
+    used = {folded(bare(name)) for _, name in used_names(scene.deck, Names.SET, Names.SUBSET)}
+    # Lines that are not read may name sets.
+    lines = (one.lines if type(one) is Opaque else kept_lines(one) for part in deck.sections for one in part.blocks)
+    unread = "\n".join(line for own in lines for line in own).casefold()
+    for key, entry in named.items():
+        ids = scene.element_ids[entry.elements]
+        first, last = (int(ids.min()), int(ids.max())) if len(ids) else (None, None)
+        is_used = key in used or key in unread
+        yield SetRow(entry.name, len(ids), first, last, not entry.open, is_used, _line(deck, entry.where))
+
+
+def _curves(deck: Deck, scene: Scene) -> Iterator[CurveRow]:
+    """Yield the curves of the seabed, then the others, which no element follows."""
+    curves: list[tuple[Any, ...]] = []
+    for place, one in enumerate(scene.laws.curves):
+        followers = len(scene.laws.followers(place)) if len(scene.element_ids) else 0
+        curves.append((one, OF_SEABED, _keyword_at(scene, one.where), one.embedment, one.curve, followers))
+    curves += [(one, one.kind, one.keyword, False, one.made(), 0) for one in other_curves(scene.deck)]
+    for place, (entry, kind, keyword, legacy, curve, followers) in enumerate(curves, 1):
+        over, values = (curve.ratios, curve.forces) if curve else np.ascontiguousarray(entry.points.T)
+        first, last, largest = map(float, (over[0], over[-1], values.max())) if len(over) else (None, None, None)
+        steepest = float(curve.slopes.max()) if curve else None
+        points = (over.tolist(), values.tolist(), first, last, largest, steepest)
+        shape = _number(over.tobytes() + values.tobytes())
+        yield CurveRow(place, entry.name, kind, keyword, legacy, *points, followers, shape, _line(deck, entry.title))
+
+
+def _laws(deck: Deck, scene: Scene) -> Iterator[LawRow]:
+    laws = scene.laws.set_laws
+    followers = np.bincount(scene.laws.of_element + 1, minlength=len(laws) + 1)[1:].tolist()
+    for place, (law, elements) in enumerate(zip(laws, followers, strict=True), 1):
+        names = (place, _keyword_at(scene, law.where), law.family, LawKind(law.kind).name.lower(), law.set_.name)
+        numbers = (law.curve + 1 or None, law.stiffness, len(law.set_.elements), elements)
+        yield LawRow(*names, *numbers, _line(deck, law.where))
+
+
+def _parameters(deck: Deck, data: bytes) -> Iterator[ParameterRow]:
+    if "PARAMETERS" not in deck.keywords("PREPROCESSOR"):
+        return
+    parameters = Parameters(deck)
+    varied = "VARIATION" in deck.keywords("PREPROCESSOR")
+    equations = (match[1] or match[2] for match in _EQUATION.finditer(data.decode("utf-8", "replace")))
+    used = {folded(word) for piece in equations for word in (*_WORD.findall(piece), piece)}
+    for key, found in parameters.definitions.items():
+        value = parameters.values.get(key)
+        text = value if isinstance(value, str) else None
+        amount = None if text is not None or value is None else float(value)
+        equation = str(found.value) if isinstance(found.value, Equation) else None
+        is_used = None if varied else key in used
+        yield ParameterRow(found.name, amount, text, equation, is_used, _line(deck, found.where))
+
+
+def _number(data: bytes) -> int:
+    return int.from_bytes(blake2b(data, digest_size=8).digest()) >> 1
+
+
+def _digest(section: str, block: Any) -> int:
+    """Return a digest of what a block says: equal for equal values, whatever their layout and comments are."""
+    lines = block.lines if type(block) is Opaque else block_lines(block)
+    said = (" ".join(line.split()).casefold() for line in lines if not re.match(r"C(\s|$)", line))
+    return _number("\n".join([section, block.keyword, *filter(None, said)]).encode("utf-8", "backslashreplace"))

@@ -1,0 +1,316 @@
+"""One description of a deck's lines for all targets: sections, stretches of them, end points, the seabed below.
+
+In SI units and the axes of the targets: x and y horizontal, those of Y and Z in the deck, z up from the surface of the
+sea; the mudline of the deck's X = 0 is at z = -depth.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import astuple, dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from mudline.basics.quantities import shown
+from mudline.language.codes import RUN001
+from mudline.language.deck.parameters import folded
+from mudline.language.diagnostics import Problem, Where
+from mudline.model.contact.lines import lines_of
+from mudline.model.scene.deck_values import FOOT, POUND, number, unread_makers
+from mudline.model.scene.model import Scene
+from mudline.model.scene.numbering import Floats, Indices
+from mudline.model.scene.seabed import SeabedKind
+from mudline.model.scene.sections import Section, format_of, surroundings
+from mudline.model.scene.shore import made_seabed
+from mudline.tools.exporting.held import TRANSLATIONS, End, read_held, report_inside
+from mudline.tools.exporting.report import Report, Status
+from mudline.tools.exporting.soil import Soil, Units, soils_of
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.table import Table
+    from mudline.model.contact.seabed import Seabed
+
+_ALIKE = 1e-3
+"""Part of the longest element by which lengths differ that are alike."""
+_UNITS = {"metric": Units(1.0, 1.0), "imperial": Units(FOOT, POUND)}
+
+
+@dataclass(frozen=True, slots=True)
+class PipeSection:
+    """A cross-section; `diameter` is the one of contact, `buoyancy` that of the displaced water."""
+
+    name: str
+    where: Where
+    diameter: float
+    buoyancy: float
+    inner: float
+    mass: float
+    axial: float
+    bending: float
+    torsion: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stretch:
+    """Elements in a row with one section and one seabed: indices in the model, of the k + 1 nodes, and k lengths."""
+
+    section: int
+    soil: int
+    nodes: Indices
+    lengths: Floats
+
+    @property
+    def is_even(self) -> bool:
+        """Whether the elements are of one length, but for the rounding of coordinates."""
+        return bool(np.ptp(self.lengths) <= _ALIKE * self.lengths.max())
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ExportLine:
+    """A line from one end to the other; `begin` and `end` count in the ends of the model."""
+
+    name: str
+    begin: int
+    end: int
+    stretches: list[Stretch]
+
+    def pieces(self, key: Callable[[Stretch], object]) -> list[Stretch]:
+        """The stretches, joined where those in a row have the same key."""
+        joined: list[Stretch] = []
+        for one in self.stretches:
+            last = joined[-1] if joined else None
+            if last is None or key(last) != key(one):
+                joined.append(one)
+                continue
+            nodes, lengths = np.append(last.nodes, one.nodes[1:]), np.append(last.lengths, one.lengths)
+            joined[-1] = Stretch(last.section, last.soil, nodes, lengths)
+        return joined
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LineModel:
+    """The lines of a deck; `places` (n, 3) are those of all its nodes, `depth` is that of X = 0."""
+
+    scene: Scene
+    report: Report
+    places: Floats
+    depth: float
+    density: float
+    gravity: float
+    sections: list[PipeSection]
+    soils: list[Soil]
+    soil_lengths: Floats
+    ends: list[End]
+    lines: list[ExportLine]
+    seabed: Seabed | None
+    units: Units
+
+    def mudline(self, x: Floats, y: Floats) -> Floats:
+        """Elevation z of the seabed; NaN where there is none."""
+        if self.seabed is None:
+            return np.full(np.shape(x), -self.depth)
+        size = self.units.length
+        return self.seabed.elevation(np.asarray(x) / size, np.asarray(y) / size) * size - self.depth
+
+    def levels(self, x: Floats, y: Floats) -> Floats:
+        """The same for a target whose seabed has no end: where the deck has none, the lowest that is known."""
+        level = self.mudline(x, y)
+        known = level[~np.isnan(level)]
+        return np.where(np.isnan(level), known.min() if known.size else -self.depth, level)
+
+    def line_of(self, where: Where) -> int:
+        """The line of a place in its file."""
+        return self.scene.deck.place(Problem(RUN001, "", where=where)).line
+
+    def line_nodes(self) -> Indices:
+        """The nodes of all lines, each once."""
+        return np.unique(np.concatenate([part.nodes for line in self.lines for part in line.stretches]))
+
+
+def build(scene: Scene) -> LineModel:
+    """Describe the lines of a deck that can be evaluated.
+
+    Raises DeckError: units that are not known, no elements, no ocean, an element without a section or an axial
+    stiffness, an end that nothing holds, a closed line, a seabed that is not known.
+    """
+    report = Report(scene)
+    units = _UNITS.get(scene.units)
+    if units is None:
+        raise scene.refusal("the units of this deck are not known: give --units metric or --units imperial")
+    _require_elements(scene)
+    around, depth = surroundings(scene.deck), _depth(scene)
+    sections, of_element = _sections(scene, units)
+    soils, soil_of = soils_of(scene, units)
+    places = scene.coordinates[:, [1, 2, 0]] * units.length - [0.0, 0.0, depth * units.length]
+    ends, lines = _lines(scene, report, units, of_element, soil_of)
+    touching = scene.contact().evaluate(scene.coordinates).depth.reshape(-1) > 0.0
+    lengths = np.bincount(soil_of, scene.length * np.where(touching, 1e6, 1.0), len(soils)).astype(np.float64)
+    seabed = None if scene.seabed.kind is SeabedKind.FLAT else made_seabed(scene.seabed)
+    density = around.density * units.mass / units.length**3
+    si = (depth * units.length, density, around.gravity * units.length)
+    values = [value for each in (*map(astuple, sections), *soils) for value in each if isinstance(value, float)]
+    if not np.isfinite([*values, *si, *places[scene.element_nodes].ravel()]).all():
+        raise scene.refusal("a number of the lines is not finite in SI units: correct the largest of the deck")
+    for keyword, target in (
+        ("OCEAN", "depth, density, gravity"),
+        ("NODE", "end points; the shape between them follows from statics"),
+        ("ELEMENT", "lengths and segments"),
+        ("ELEMENT SETS", "sections of the lines"),
+    ):
+        report.claim(keyword, target)
+    return LineModel(scene, report, places, *si, sections, soils, lengths, ends, lines, seabed, units)
+
+
+def _require_elements(scene: Scene) -> None:
+    if not len(scene.element_ids):
+        makers = unread_makers(scene.set_table.context.external_definers, "ELEMENT")
+        blocks = (
+            (i, j, block.keyword) for i, one in enumerate(scene.deck.sections) for j, block in enumerate(one.blocks)
+        )
+        where = next((Where(i, j) for i, j, keyword in blocks if keyword in makers), None)
+        names = " or ".join(f"*{one}" for one in makers)
+        why = f": those of {names} are not in it, as its lines have no public format" if makers else ""
+        raise scene.refusal(f"the deck shows no elements to export{why}; give nodes and elements", where)
+    unknown = np.flatnonzero((scene.element_nodes < 0).any(axis=1) | ~np.isfinite(scene.length))
+    if unknown.size:
+        message = "the element has no known length, so its line cannot be exported: give coordinates to its nodes"
+        raise scene.refusal(message, scene.table.numbered.where(int(unknown[0])))
+
+
+def _depth(scene: Scene) -> float:
+    oceans = [block for _, block in scene.deck.blocks("OCEAN")]
+    depth = number(oceans[-1], "depth") if oceans else math.nan
+    if not (depth > 0.0 and surroundings(scene.deck).gravity > 0.0):
+        raise scene.refusal("a model for another program needs *OCEAN with depth, density and gravity: give it")
+    return depth
+
+
+# ------------------------------------------------------------------------------------------------------- sections
+
+
+def _sections(scene: Scene, units: Units) -> tuple[list[PipeSection], Indices]:
+    """The cross-sections in use, in the order of the deck, and that of each element (m,)."""
+    table = scene.section_table
+    bare = np.flatnonzero(table.of_element < 0)
+    if bare.size:
+        message = "the element has no section: give one to a set of it in *GEOMETRIC SETS"
+        raise scene.refusal(message, scene.table.numbered.where(int(bare[0])))
+    used, of_element = np.unique(table.of_element, return_inverse=True)
+    first = [int(np.argmax(of_element == index)) for index in range(len(used))]
+    pairs = zip(used.tolist(), first, strict=True)
+    return [_pipe(scene, units, table.sections[index], at) for index, at in pairs], of_element.ravel()
+
+
+def _pipe(scene: Scene, units: Units, section: Section, element: int) -> PipeSection:
+    row, kind, length, force = section.entry.section, format_of(section.entry), units.length, units.force
+    outer = float(scene.diameter[element])
+    inner = number(row, "di", 0.0)
+    if kind == "rigid":
+        area = number(row, "area", math.pi / 4 * (outer**2 - inner**2))
+        second = number(row, "second_moment", math.pi / 64 * (outer**4 - inner**4))
+        young = _modulus(scene, section, number(row, "e"), "e_curve")
+        stiffness = young * area, young * second, number(row, "g") * number(row, "polar_moment", 2.0 * second)
+    else:
+        bending = _modulus(scene, section, number(row, "eiyy"), "eiyy_curve", "ei_curve")
+        axial = _modulus(scene, section, number(row, "ea"), "ea_curve")
+        stiffness = axial, bending, _modulus(scene, section, number(row, "gj"), "gj_curve")
+    mass = float(scene.mass_per_length[element])
+    if not stiffness[0] > 0.0 or not mass > 0.0 or not outer > 0.0:
+        what = "axial stiffness" if not stiffness[0] > 0.0 else "mass" if not mass > 0.0 else "diameter"
+        raise scene.refusal(f"the section has no {what} above 0, which other programs need: give it", section.where)
+    buoyancy = number(row, "db", outer)
+    axial, bending, torsion = (0.0 if math.isnan(each) else each for each in stiffness)
+    return PipeSection(
+        section.name,
+        section.where,
+        number(row, "dc", outer) * length,
+        buoyancy * length,
+        inner * length,
+        mass * units.mass / length,
+        axial * force,
+        bending * force * length**2,
+        torsion * force * length**2,
+    )
+
+
+_CURVES = {"ea_curve": "FORCE-STRAIN", "e_curve": "STRESS/STRAIN DIRECT", "gj_curve": "TORQUE-TWIST"}
+_BENDING = "MOMENT-CURVATURE"
+
+
+def _modulus(scene: Scene, section: Section, given: float, *curves: str) -> float:
+    """A stiffness: the number, else the slope at 0 of the curve that stands for it; NaN without both."""
+    if not math.isnan(given):
+        return given
+    names = [name for setting in curves if (name := getattr(section.entry, setting, None))]
+    for _, block in scene.deck.blocks(_CURVES.get(curves[0], _BENDING)):
+        for entry in block.curves:
+            if names and folded(str(entry.curve)) == folded(str(names[0])):
+                points = cast("Table", entry.points)
+                order = np.argsort(points.column(1), kind="stable")
+                loads, strains = points.column(0)[order], points.column(1)[order]
+                at = int(np.clip(np.searchsorted(strains, 0.0, side="right"), 1, len(strains) - 1))
+                rise, run = float(loads[at] - loads[at - 1]), float(strains[at] - strains[at - 1])
+                return rise / run if run > 0.0 else math.nan
+    return math.nan
+
+
+def report_sections(model: LineModel, target: str, *, names: list[str], torsion: bool) -> None:
+    """Add what became of each cross-section: its name in the target, curves by their slope at 0, torsion."""
+    for section, name in zip(model.sections, names, strict=True):
+        given = next(each.entry for each in model.scene.section_table.sections if each.where == section.where)
+        curved = [each for each in ("eiyy_curve", "ei_curve", *_CURVES) if getattr(given, each)]
+        status = Status.APPROXIMATED if curved else Status.CARRIED
+        numbers = f"EA {shown(section.axial, 4)} N, EI {shown(section.bending, 4)} Nm2"
+        effect = f"{numbers}: of a curve its slope at 0" if curved else numbers
+        model.report.add(section.where, status, f"{target} {name}", effect)
+    twisted = [section for section in model.sections if section.torsion]
+    if twisted and not torsion:
+        model.report.add(twisted[0].where, Status.LEFT_OUT, "none", "lines do not twist: no effect in plane", "GJ, G")
+    for keyword in (_BENDING, *_CURVES.values()):
+        for where, _ in model.scene.deck.blocks(keyword):
+            model.report.add(where, Status.APPROXIMATED, "a constant stiffness", "the slope of its curves at 0")
+
+
+# ---------------------------------------------------------------------------------------------------------- lines
+
+
+def _lines(
+    scene: Scene, report: Report, units: Units, section_of: Indices, soil_of: Indices
+) -> tuple[list[End], list[ExportLine]]:
+    held = read_held(scene, report)
+    found = lines_of(scene.element_nodes, scene.length, len(scene.node_ids))
+    degree = np.bincount(scene.element_nodes.ravel(), minlength=len(scene.node_ids))
+    ends: dict[int, End] = {}
+    order: dict[int, int] = {}
+    lines: list[ExportLine] = []
+
+    def end_of(node: int) -> int:
+        if node not in ends:
+            end = End(node, held.of(node), node in held.moved)
+            if end.joins and degree[node] < 2:
+                what = f"node {int(scene.node_ids[node])} ends a line, and nothing in *BOUNDARY holds it along an axis"
+                raise scene.refusal(f"{what}: a free end cannot be exported; hold the node", scene.nodes.where(node))
+            ends[node] = end
+        return order.setdefault(node, len(order))
+
+    for elements, nodes in zip(found.elements, found.nodes, strict=True):
+        if nodes[0] == nodes[-1]:
+            message = "the line of this node is closed, and has no end to be held by: it cannot be exported"
+            raise scene.refusal(message, scene.nodes.where(int(nodes[0])))
+        inner = [at for at, node in enumerate(nodes.tolist()) if held.of(node) >= TRANSLATIONS]
+        cuts = sorted({0, *inner, len(nodes) - 1})
+        for first, last in pairwise(cuts):
+            part, through = elements[first:last], nodes[first : last + 1]
+            begin, end = end_of(int(through[0])), end_of(int(through[-1]))
+            keys = np.column_stack([section_of[part], soil_of[part]])
+            starts = [0, *(np.flatnonzero((np.diff(keys, axis=0) != 0).any(axis=1)) + 1).tolist(), len(part)]
+            stretches = [
+                Stretch(int(keys[a, 0]), int(keys[a, 1]), through[a : b + 1], scene.length[part[a:b]] * units.length)
+                for a, b in pairwise(starts)
+            ]
+            lines.append(ExportLine(f"Line{len(lines) + 1}", begin, end, stretches))
+    report_inside(scene, report, held, set(ends))
+    return list(ends.values()), lines

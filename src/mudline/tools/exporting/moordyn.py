@@ -1,0 +1,212 @@
+"""MoorDyn v2: the input file, and the file of the seabed where that is not flat.
+
+One stiffness (kBot, per area of the projected pipe) and one friction coefficient hold for the whole seabed. A line type
+begins where the section changes; there lines are joined by points, which carry no moment.
+"""
+
+from __future__ import annotations
+
+import re
+from math import ceil, sqrt
+
+import numpy as np
+
+from mudline.basics.quantities import shown
+from mudline.model.scene.numbering import Floats
+from mudline.model.scene.seabed import SeabedKind
+from mudline.tools.exporting.held import report_ends
+from mudline.tools.exporting.line_model import LineModel, PipeSection, Stretch, report_sections
+from mudline.tools.exporting.report import Names, Status
+from mudline.tools.exporting.soil import distance, governing, report_friction, report_resistance, report_stiffness
+
+TITLE = "MoorDyn v2"
+_FINEST = 2
+"""Segments are not more than this times the elements."""
+_GRID = 200
+_DRAG, _ADDED = 1.2, 1.0
+
+
+def pieces(model: LineModel) -> list[list[Stretch]]:
+    """The lines of MoorDyn along each line of the model: sections of the same numbers are one line type."""
+    return [line.pieces(lambda each: alike(model, each.section)) for line in model.lines]
+
+
+def alike(model: LineModel, section: int) -> int:
+    """The first section with the numbers of a section, as far as MoorDyn has them."""
+    numbers = [(each.buoyancy, each.mass, each.axial, each.bending) for each in model.sections]
+    return numbers.index(numbers[section])
+
+
+def segments(piece: Stretch) -> int:
+    """How many equal segments a line of MoorDyn has: as short as its shortest element, up to a number."""
+    elements = len(piece.lengths)
+    if piece.is_even:
+        return elements
+    return min(_FINEST * elements, max(elements, ceil(float(piece.lengths.sum() / piece.lengths.min()) - 1e-6)))
+
+
+def write(model: LineModel, name: str) -> dict[str, str]:
+    """The text of each file by its name; `name` is that of the input file."""
+    names = Names(model.report, "A-Za-z0-9_", 32)
+    first = [alike(model, at) for at in range(len(model.sections))]
+    taken = {at: names.take(model.sections[at].name, model.sections[at].where) for at in dict.fromkeys(first)}
+    types = [taken[at] for at in first]
+    points, lines = _joined(model, types)
+    soil = governing(model.soils, model.soil_lengths)
+    width = {part.soil: model.sections[part.section].buoyancy for line in model.lines for part in line.stretches}
+    own, heaviest = width[model.soils.index(soil)], max(each.mass for each in model.sections)
+    stiffness, friction = soil.stiffness / own, soil.axial
+    floor = re.sub("[^A-Za-z0-9]", "_", name.rpartition(".")[0] or name)
+    files = {} if model.seabed is None else {f"{floor}-seabed.txt": _grid(model)}
+    options = [
+        (f"{_time_step(model):.2g}", "dtM"),
+        (repr(stiffness), "kBot"),
+        (repr(2.0 * sqrt(soil.stiffness * heaviest) / own), "cBot"),
+        (repr(friction), "FrictionCoefficient"),
+        (repr(model.density), "WtrDnsty"),
+        (repr(model.depth), "WtrDpth"),
+        *[(each, "SeafloorFile") for each in files],
+        (repr(model.gravity), "g"),
+        ("2.0", "dtIC"),
+        ("100.0", "TmaxIC"),
+        ("1e-5", "threshIC"),
+    ]
+    _report(model, types, stiffness, width, friction)
+    text = [
+        *model.report.comments(TITLE),
+        "--- LINE TYPES ---",
+        "TypeName Diam MassDen EA BA/-zeta EI Cd Ca CdAx CaAx",
+        "(-) (m) (kg/m) (N) (N-s/-) (N-m2) (-) (-) (-) (-)",
+        *[_line_type(model.sections[at], each) for at, each in taken.items()],
+        "--- POINTS ---",
+        "ID Type X Y Z Mass Volume CdA Ca",
+        "(-) (-) (m) (m) (m) (kg) (m3) (m2) (-)",
+        *points,
+        "--- LINES ---",
+        "ID LineType AttachA AttachB UnstrLen NumSegs Outputs",
+        "(-) (-) (-) (-) (m) (-) (-)",
+        *lines,
+        "--- OPTIONS ---",
+        *[f"{value} {option}" for value, option in options],
+        "--- end ---",
+    ]
+    return {name: "".join(f"{line}\n" for line in text), **files}
+
+
+def _line_type(section: PipeSection, name: str) -> str:
+    numbers = (section.buoyancy, section.mass, section.axial, -1.0, section.bending, _DRAG, _ADDED, 0.0, 0.0)
+    return f"{name} {' '.join(map(repr, numbers))}"
+
+
+def _joined(model: LineModel, types: list[str]) -> tuple[list[str], list[str]]:
+    """The rows of points: the ends, then the joints; and those of lines."""
+    on_bed = model.levels(*model.places[:, :2].T)
+    rows = []
+    for number, end in enumerate(model.ends, 1):
+        x, y, z = model.places[end.node].tolist()
+        kind = "Coupled" if end.vessel else "Free" if end.joins else "Fixed"
+        # MoorDyn lowers the whole seabed to a point that is below it.
+        rows.append(f"{number} {kind} {x!r} {y!r} {max(z, float(on_bed[end.node]))!r} 0 0 0 0")
+    lines: list[str] = []
+    for line, parts in zip(model.lines, pieces(model), strict=True):
+        at = line.begin + 1
+        for part in parts:
+            last = part is parts[-1]
+            to = line.end + 1 if last else len(rows) + 1
+            if not last:
+                x, y, z = model.places[part.nodes[-1]].tolist()
+                rows.append(f"{to} Free {x!r} {y!r} {max(z, float(on_bed[part.nodes[-1]]))!r} 0 0 0 0")
+            length = float(part.lengths.sum())
+            lines.append(f"{len(lines) + 1} {types[part.section]} {at} {to} {length!r} {segments(part)} p")
+            at = to
+    return rows, lines
+
+
+def _time_step(model: LineModel) -> float:
+    """Two fifths of what the fastest wave along a segment takes, or bending from node to node."""
+    steps = []
+    for part in (part for parts in pieces(model) for part in parts):
+        section, size = model.sections[part.section], float(part.lengths.sum()) / segments(part)
+        steps.append(size / sqrt(section.axial / section.mass))
+        if section.bending:
+            steps.append(0.5 * size * size * sqrt(section.mass / section.bending))
+    return 0.4 * min(steps)
+
+
+# --------------------------------------------------------------------------------------------------------- seabed
+
+
+def _grid(model: LineModel) -> str:
+    """The file of the seabed: numbers of columns and rows, their x and y, and x, y and z of each point."""
+    x, y = (_axis(model, axis) for axis in (0, 1))
+    corners = np.meshgrid(x, y, indexing="ij")
+    level = model.levels(*(each.ravel() for each in corners)).reshape(len(x), len(y))
+    places = model.places[model.line_nodes()]
+    worst = float(np.abs(_bilinear(x, y, level, places) - model.levels(places[:, 0], places[:, 1])).max())
+    status = Status.CARRIED if worst < 1e-6 else Status.APPROXIMATED
+    effect = f"largest difference below the nodes {shown(worst, 3)} m"
+    model.report.add(model.scene.seabed.where, status, f"a grid of {len(x)} x {len(y)} points", effect)
+    rows = [
+        f"{a!r} {b!r} {c!r}"
+        for a, line in zip(x.tolist(), level.tolist(), strict=True)
+        for b, c in zip(y.tolist(), line, strict=True)
+    ]
+    head = [f"{len(x)} {len(y)}", " ".join(map(repr, x.tolist())), " ".join(map(repr, y.tolist()))]
+    return "".join(f"{row}\n" for row in (*head, *rows))
+
+
+def _axis(model: LineModel, axis: int) -> Floats:
+    """The columns of the grid: ends for a plane, the points of a profile along the axis, else evenly spaced ones."""
+    shape = model.scene.seabed
+    along = model.places[model.line_nodes()]
+    low, high = along.min(axis=0), along.max(axis=0)
+    margin = 10.0 + 0.1 * float((high - low)[:2].max())
+    ends: Floats = np.array([low[axis] - margin, high[axis] + margin])
+    straight = shape.kind is SeabedKind.PROFILE and shape.interpolation == "LINEAR" and not shape.direction % 360.0
+    if shape.kind is SeabedKind.SLOPING or (straight and axis == 1):
+        return ends
+    if straight:
+        given = shape.points[:, 0] * model.units.length
+        return np.unique([*ends, *given[(given > ends[0]) & (given < ends[1])]])
+    size = float((high - low)[:2].max() + 2.0 * margin) / _GRID
+    return np.linspace(float(ends[0]), float(ends[1]), max(2, ceil((ends[1] - ends[0]) / size) + 1))
+
+
+def _bilinear(x: Floats, y: Floats, level: Floats, places: Floats) -> Floats:
+    i = np.clip(np.searchsorted(x, places[:, 0]) - 1, 0, len(x) - 2)
+    j = np.clip(np.searchsorted(y, places[:, 1]) - 1, 0, len(y) - 2)
+    u, v = (places[:, 0] - x[i]) / (x[i + 1] - x[i]), (places[:, 1] - y[j]) / (y[j + 1] - y[j])
+    low, high = ((1 - v) * level[at, j] + v * level[at, j + 1] for at in (i, i + 1))
+    return (1 - u) * low + u * high
+
+
+# --------------------------------------------------------------------------------------------------------- report
+
+
+def _report(model: LineModel, types: list[str], stiffness: float, width: dict[int, float], friction: float) -> None:
+    report = model.report
+    report_sections(model, "line type", names=types, torsion=False)
+    report_ends(report, model.ends, "Fixed", "Coupled")
+    used = [stiffness * width[at] for at in range(len(model.soils))]
+    report_stiffness(report, model.soils, f"kBot {shown(stiffness, 4)} Pa/m, here", used)
+    target = "FrictionCoefficient, regularised by velocity"
+    report_friction(report, model.soils, target, [(friction, friction)] * len(model.soils))
+    report_resistance(report, "none")
+    bed = model.levels(*model.places[:, :2].T)
+    for end in model.ends:
+        if (below := float(bed[end.node] - model.places[end.node, 2])) > 0.0 and not end.vessel:
+            effect = "MoorDyn lowers its seabed to a point that is below it"
+            place = model.scene.nodes.where(end.node)
+            report.add(place, Status.APPROXIMATED, f"{distance(below)} higher, on the mudline", effect, "end")
+    blocks = [where for where, _ in model.scene.deck.blocks("ELEMENT")]
+    for part in (part for parts in pieces(model) for part in parts):
+        lengths, count = part.lengths, segments(part)
+        if not part.is_even:
+            least, most, own = (shown(float(each), 3) for each in (lengths.min(), lengths.max(), lengths.sum() / count))
+            effect = f"{len(lengths)} elements of {least} to {most} m: {count} segments of {own} m"
+            report.add(blocks[-1], Status.APPROXIMATED, "equal segments", effect, "lengths")
+    joints = sum(len(parts) - 1 for parts in pieces(model))
+    if joints and any(section.bending for section in model.sections):
+        where = model.sections[0].where
+        report.add(where, Status.APPROXIMATED, f"{joints} Free points", "no moment where the section changes", "joints")
+    report.finish()

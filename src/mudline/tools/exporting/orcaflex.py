@@ -1,0 +1,267 @@
+"""OrcaFlex: a text data file (YAML). One normal stiffness, or one nonlinear soil, holds for the whole seabed.
+
+The source of the name of each data item is in `docs/export.md`. Units are those of the system SI there: metre, tonne,
+kilonewton. Penetration is that of the underside of the pipe, so the seabed lies half a diameter below that of the deck.
+"""
+
+from __future__ import annotations
+
+import json
+from math import atan2, cos, degrees, hypot, radians
+
+import numpy as np
+
+from mudline.basics.quantities import shown
+from mudline.model.contact.input import LawKind
+from mudline.model.scene.seabed import SeabedKind
+from mudline.tools.exporting.held import report_ends
+from mudline.tools.exporting.line_model import LineModel, Stretch, report_sections
+from mudline.tools.exporting.report import Names, Status, one_line, short_name
+from mudline.tools.exporting.soil import Soil, distance, governing, report_friction, report_resistance, report_stiffness
+
+TITLE = "OrcaFlex text data"
+_CONNECTION = (
+    "Connection, ConnectionX, ConnectionY, ConnectionZ, ConnectionAzimuth, ConnectionDeclination, ConnectionGamma, "
+    "ConnectionReleaseStage"
+)
+_BENDING = "ConnectionxBendingStiffness, ConnectionyBendingStiffness"
+_SECTIONS = "LineType, Length, TargetSegmentLength"
+_PROFILE = "SeabedProfileDistanceFromSeabedOrigin, SeabedProfileDepth"
+_POINTS, _STEEPEST = 201, 45.0
+_DEFAULTS = (
+    ("factor", 6.0),
+    ("exponent", 0.25),
+    ("stiffness", 200.0),
+    ("suction", 0.6),
+    ("suction_decay", 1.0),
+    ("repenetration", 0.3),
+)
+"""Of the nonlinear soil model, by the parameters of `*SEABED SOIL`."""
+_BUOYANCY = 1.5
+"""Default of its factor of the weight of displaced soil."""
+
+Items = dict[str, object]
+
+
+def pieces(model: LineModel) -> list[list[Stretch]]:
+    """The sections of OrcaFlex along each line of the model: a line type has its friction."""
+    return [line.pieces(lambda each: (each.section, each.soil)) for line in model.lines]
+
+
+def segments(piece: Stretch) -> int:
+    """How many segments the target segment length, that of the shortest element, makes of a section."""
+    return max(1, round(float(piece.lengths.sum() / piece.lengths.min())))
+
+
+def write(model: LineModel, name: str) -> dict[str, str]:
+    """The text of the file by its name. Raises DeckError: lines join at a node that nothing holds, a slope above 45."""
+    for end in model.ends:
+        if end.joins:
+            message = "lines join at this node, which takes a buoy in OrcaFlex: hold it, or export one line only"
+            raise model.scene.refusal(message, model.scene.nodes.where(end.node))
+    soil = governing(model.soils, model.soil_lengths)
+    types = _types(model)
+    taken = Names(model.report, "A-Za-z0-9_. ()", 50, [line.name for line in model.lines])
+    names = {key: taken.take(each, model.sections[key[0]].where) for key, each in types.items()}
+    environment = _environment(model, soil)
+    lines = [_line(model, at, names) for at in range(len(model.lines))]
+    _report(model, names, soil)
+    text = ["%YAML 1.1", *(f"# {line}" for line in model.report.comments(TITLE)), "---"]
+    text += ["General:", "  UnitsSystem: SI", "Environment:", *_rows(environment, "  ")]
+    for title, objects in (
+        ("LineTypes", [_line_type(model, key, each) for key, each in names.items()]),
+        ("Lines", lines),
+    ):
+        text.append(f"{title}:")
+        for items in objects:
+            first, *others = _rows(items, "    ")
+            text += [f"  - {first.strip()}", *others]
+    return {name: "".join(f"{row}\n" for row in text)}
+
+
+def _rows(items: Items, margin: str) -> list[str]:
+    """Items as lines; a list of lists is a table, with a line for each of its rows."""
+    rows: list[str] = []
+    for key, value in items.items():
+        if key == "#":
+            rows.append(f"{margin}# {one_line(str(value))}")
+        elif isinstance(value, list) and value and isinstance(value[0], list):
+            rows += [f"{margin}{key}:", *(f"{margin}  - {_value(row)}" for row in value)]
+        else:
+            rows.append(f"{margin}{key}: {_value(value)}")
+    return rows
+
+
+def _value(value: object) -> str:
+    if isinstance(value, list):
+        return f"[{', '.join(map(_value, value))}]"
+    if isinstance(value, float):
+        text = repr(value)
+        return text if "e" not in text or "." in text else text.replace("e", ".0e")  # YAML 1.1 wants a point
+    return "~" if value is None else json.dumps(value) if " " in str(value) else str(value)
+
+
+# ------------------------------------------------------------------------------------------------------ line types
+
+Key = tuple[int, float, float]
+"""Of a line type: section, and the coefficients of friction along and across."""
+
+
+def _key(model: LineModel, piece: Stretch) -> Key:
+    soil = model.soils[piece.soil]
+    return piece.section, soil.axial, soil.lateral
+
+
+def _types(model: LineModel) -> dict[Key, str]:
+    """The line types by section and friction, and the name of the section of each."""
+    keys = (_key(model, piece) for parts in pieces(model) for piece in parts)
+    return {key: model.sections[key[0]].name for key in keys}
+
+
+def _line_type(model: LineModel, key: Key, name: str) -> Items:
+    section = model.sections[key[0]]
+    return {
+        "Name": name,
+        "#": f"*GEOMETRIC SETS {short_name(section.name)}, line {model.line_of(section.where)}",
+        "Category": "General",
+        "OD": section.buoyancy,
+        "ID": section.inner,
+        "MassPerUnitLength": section.mass / 1e3,
+        "EI": [section.bending / 1e3, None],
+        "EA": section.axial / 1e3,
+        "GJ": section.torsion / 1e3,
+        "OuterContactDiameter": section.diameter,
+        "Ca": [1.0, None, 0.0],
+        "Cd": [1.2, None, 0.0],
+        "SeabedLateralFrictionCoefficient": key[2],
+        "SeabedAxialFrictionCoefficient": key[1],
+    }
+
+
+def _line(model: LineModel, at: int, names: dict[Key, str]) -> Items:
+    line, parts = model.lines[at], pieces(model)[at]
+    ends = [_end(model, line.begin, parts[0]), _end(model, line.end, parts[-1])]
+    nodes = [model.ends[index].node for index in (line.begin, line.end)]
+    ids = [int(model.scene.node_ids[node]) for node in nodes]
+    where = [model.line_of(model.scene.nodes.where(node)) for node in nodes]
+    held = [model.ends[index].held for index in (line.begin, line.end)]
+    sections = [[names[_key(model, each)], float(each.lengths.sum()), float(each.lengths.min())] for each in parts]
+    return {
+        "Name": line.name,
+        "#": f"from node {ids[0]}, line {where[0]}, to node {ids[1]}, line {where[1]}",
+        _CONNECTION: ends,
+        _BENDING: [["Infinity" if freedoms & {5, 6} else 0.0, None] for freedoms in held],
+        _SECTIONS: sections,
+        "IncludedInStatics": "Yes",
+    }
+
+
+def _end(model: LineModel, index: int, piece: Stretch) -> list[object]:
+    """Where an end is, and the direction of the line there, from A to B."""
+    first = piece.nodes[0] == model.ends[index].node
+    inner = piece.nodes[1] if first else piece.nodes[-2]
+    place = model.places[model.ends[index].node]
+    x, y, z = ((model.places[inner] - place) * (1.0 if first else -1.0)).tolist()
+    return ["Fixed", *place.tolist(), degrees(atan2(y, x)), degrees(atan2(hypot(x, y), z)), 0.0, None]
+
+
+# ----------------------------------------------------------------------------------------------------- environment
+
+
+def _environment(model: LineModel, soil: Soil) -> Items:
+    shape = model.scene.seabed
+    half = 0.5 * soil.diameter
+    said = soil.says() if soil.where is None else f"{soil.says()}, line {model.line_of(soil.where)}"
+    items: Items = {
+        "#": f"seabed: {said}",
+        "Density": model.density / 1e3,
+        "SeabedType": "Flat",
+        "SeabedOrigin": [0.0, 0.0],
+    }
+    if abs(shape.slope) > _STEEPEST:
+        raise model.scene.refusal(f"OrcaFlex takes slopes up to {_STEEPEST:g} degrees: give a profile", shape.where)
+    if shape.kind in (SeabedKind.FLAT, SeabedKind.SLOPING):
+        slope, direction = abs(shape.slope), shape.direction + (180.0 if shape.slope < 0.0 else 0.0)
+        depth = model.depth + half / cos(radians(slope))
+        items |= {"WaterDepth": depth, "SeabedSlopeDirection": direction % 360.0, "SeabedSlope": slope}
+        if shape.kind is SeabedKind.SLOPING:
+            model.report.add(shape.where, Status.CARRIED, f"SeabedSlope {shown(slope)}")
+    else:
+        items |= {"SeabedType": "Profile"} | _profile(model, half)
+    if soil.kind is not LawKind.SOIL:
+        per_area = soil.stiffness / soil.diameter / 1e3
+        shear = max(soil.axial_spring, soil.lateral_spring) / soil.diameter / 1e3
+        stiffness = {"SeabedNormalStiffness": per_area, "SeabedShearStiffness": shear or None}
+        return items | {"SeabedModel": "Elastic"} | stiffness
+    numbers = dict(soil.parameters)
+    weight = numbers["buoyancy"] / _BUOYANCY * model.units.force / model.units.length**3
+    return items | {
+        "SeabedModel": "Nonlinear soil model",
+        "SoilShearStrengthAtMudline": numbers["strength"] * model.units.stiffness / 1e3,
+        "SoilShearStrengthGradient": numbers["gradient"] * model.units.force / model.units.length**3 / 1e3,
+        "SoilDensity": (weight / model.gravity + model.density) / 1e3,
+    }
+
+
+def _profile(model: LineModel, half: float) -> Items:
+    """The points of a profile; of any other seabed those below the first line, in the direction from end to end."""
+    shape, line, size = model.scene.seabed, model.lines[0], model.units.length
+    if shape.kind is SeabedKind.PROFILE:
+        rows = np.column_stack([shape.points[:, 0] * size, model.depth - shape.points[:, 1] * size + half])
+        effect = "between its points as OrcaFlex interpolates"
+        model.report.add(shape.where, Status.APPROXIMATED, f"profile of {len(rows)} points", effect)
+        return {"SeabedSlopeDirection": shape.direction % 360.0, _PROFILE: rows[np.argsort(rows[:, 0])].tolist()}
+    first, last = (model.places[model.ends[index].node][:2] for index in (line.begin, line.end))
+    length = float(np.hypot(*(last - first)))
+    along = (last - first) / length if length else np.array([1.0, 0.0])
+    distance = np.linspace(0.0, length or 1.0, _POINTS)
+    level = model.levels(*(first[:, None] + along[:, None] * distance))
+    places = model.places[model.line_nodes()]
+    error = np.abs(np.interp((places[:, :2] - first) @ along, distance, level) - model.levels(*places[:, :2].T))
+    off = shown(float(error.max()), 3)
+    effect = f"the seabed below {line.name}, level across it: up to {off} m off below the nodes"
+    model.report.add(shape.where, Status.APPROXIMATED, f"profile of {_POINTS} points", effect)
+    return {
+        "SeabedOrigin": first.tolist(),
+        "SeabedSlopeDirection": degrees(atan2(along[1], along[0])) % 360.0,
+        _PROFILE: np.column_stack([distance, half - level]).tolist(),
+    }
+
+
+# ---------------------------------------------------------------------------------------------------------- report
+
+
+def _report(model: LineModel, names: dict[Key, str], soil: Soil) -> None:
+    report = model.report
+    listed = [", ".join(name for key, name in names.items() if key[0] == at) for at in range(len(model.sections))]
+    report_sections(model, "line type", names=listed, torsion=True)
+    report_ends(report, model.ends, "Fixed", "Fixed", clamps=True)
+    if soil.kind is LawKind.SOIL:
+        _report_soil(model, soil)
+    per_area = soil.stiffness / soil.diameter
+    others = [each for each in model.soils if soil.kind is not LawKind.SOIL or each.kind is not LawKind.SOIL]
+    report_stiffness(report, others, "SeabedNormalStiffness x D:", [per_area * each.diameter for each in others])
+    report_friction(report, model.soils, "friction of line types", [(each.axial, each.lateral) for each in model.soils])
+    report_resistance(report, "none")
+    for section in model.sections:
+        if off := 0.5 * (section.diameter - soil.diameter):
+            effect = f"its axis touches {distance(off)} higher than in the deck, as the diameters differ"
+            report.add(section.where, Status.APPROXIMATED, "one seabed", effect, "diameter")
+    uneven = any(not part.is_even for parts in pieces(model) for part in parts)
+    for where, _ in model.scene.deck.blocks("ELEMENT") if uneven else ():
+        effect = "segments as long as the shortest of a section"
+        report.add(where, Status.APPROXIMATED, "TargetSegmentLength", effect, "lengths")
+    report.finish()
+
+
+def _report_soil(model: LineModel, soil: Soil) -> None:
+    numbers = dict(soil.parameters)
+    other = [f"{name} {shown(numbers[name])}" for name, usual in _DEFAULTS if numbers[name] != usual]
+    effect = "strength and density; the other parameters are the defaults of the program, which are those of the deck"
+    model.report.add(soil.where, Status.CARRIED, "Nonlinear soil model", effect)
+    if other:
+        model.report.add(soil.where, Status.LEFT_OUT, "defaults", f"set by hand: {', '.join(other)}", "parameters")
+    for each in model.soils:
+        if each.kind is LawKind.SOIL and each.parameters != soil.parameters:
+            effect = f"{each.says()}; here that of most of the pipe"
+            model.report.add(each.where, Status.APPROXIMATED, "one soil", effect)

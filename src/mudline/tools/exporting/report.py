@@ -1,0 +1,198 @@
+"""What became of each keyword of a deck in another program's file, and names that the program takes."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from mudline.language.codes import RUN001
+from mudline.language.deck.model import Opaque
+from mudline.language.diagnostics import Problem, Where
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.model import Block
+from mudline.language.keywords.text import shown as quoted
+from mudline.model.scene.resolved import ResolvedDeck
+
+_LETTERS = 120
+"""Of a text of the deck that stand in a comment."""
+
+_MOST_NAMED = 5
+"""Keywords and lines of which the same is said."""
+
+_BY_SUBJECT = {
+    "loads": "loads and currents are not written: the shape at rest is that of weight, buoyancy and seabed",
+    "waves": "no sea is written: no effect at rest",
+    "vessels": "no vessel is written: ends on it are held where the deck puts them",
+    "analysis": "settings of an analysis are the target's own",
+    "post-processing": "results are asked for in the target",
+    "seabed": "this law is not in the target's seabed",
+    "model": "not in the target's model of the line",
+    "deck": "other cases of the deck are not written: export each of them",
+}
+_UNKNOWN = "mudline does not read this keyword, and passes it over"
+_WORDS = ("none", "fixed", "free", "anchored", "yes", "no", "y", "n", "true", "false", "on", "off", "null", "infinity")
+"""Names that mean something else to a target or to YAML."""
+_EFFECTS = {
+    "HYDRODYNAMIC SETS": "drag 1.2 and added mass 1 are written in their place: no effect at rest without current",
+    "INTERNAL FLUID": "contents are not written, as mudline leaves them out of the submerged weight",
+    "SEABED SUCTION": "nothing holds the pipe back on the way up: no effect under its own weight",
+    "SEABED UNLOADING": "the way up is the way down: no effect at first penetration",
+    "SEABED TRENCH": "the walls are left out: friction alone holds the pipe sideways",
+    "MASS": "a point mass is not written: its weight is missing",
+    "RESTART": "the model of the deck that is continued is written; its load case is not",
+}
+
+
+class Status(StrEnum):
+    """What became of something in the deck."""
+
+    CARRIED = "carried"
+    APPROXIMATED = "approximated"
+    LEFT_OUT = "left out"
+    RENAMED = "renamed"
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A keyword, or a setting of one; `file` and `line` where it stands, what the target has, and what follows."""
+
+    keyword: str
+    file: str
+    line: int
+    status: Status
+    target: str
+    effect: str
+
+
+@dataclass
+class Report:
+    """What became of a deck. Each block of it has an entry once `finish` was called."""
+
+    scene: ResolvedDeck
+    entries: list[Entry] = field(default_factory=list)
+    _claimed: set[tuple[int, int]] = field(default_factory=set)
+    _seen: set[Entry] = field(default_factory=set)
+
+    def add(self, where: Where | None, status: Status, target: str, effect: str = "", setting: str = "") -> None:
+        """Add what became of the block at a place, or of a `setting` in it; nothing without a place."""
+        if where is None:
+            return
+        deck = self.scene.deck
+        self._claimed.add((where.section, where.block))
+        keyword = deck.sections[where.section].blocks[where.block].keyword
+        base = deck.base_of(where)
+        line = deck.place(Problem(RUN001, "", where=where)).line
+        name = f"*{one_line(keyword)}{f' {setting}' if setting else ''}"
+        entry = Entry(name, base[0].file if base else deck.file, line, status, target, effect)
+        if entry not in self._seen:
+            self._seen.add(entry)
+            self.entries.append(entry)
+
+    def claim(self, keyword: str, target: str, section: str = "MODEL") -> None:
+        """Add that all blocks of a keyword are carried."""
+        for where, _ in self.scene.deck.blocks(keyword, section):
+            self.add(where, Status.CARRIED, target)
+
+    def finish(self) -> None:
+        """Add the blocks of which nothing was said, and put all in the order of the deck."""
+        self.claim("PARAMETERS", "the numbers that they give", "PREPROCESSOR")
+        for i, section in enumerate(self.scene.deck.sections):
+            for j, block in enumerate(section.blocks):
+                if (i, j) not in self._claimed:
+                    effect = _EFFECTS.get(block.keyword) or _BY_SUBJECT.get(_subject(block, section.name), _UNKNOWN)
+                    self.add(Where(i, j), Status.LEFT_OUT, "none", effect)
+        self.entries.sort(key=lambda entry: (entry.file != self.scene.deck.file, entry.file, entry.line))
+
+    @property
+    def lost(self) -> list[Entry]:
+        """All but what is carried."""
+        return [entry for entry in self.entries if entry.status is not Status.CARRIED]
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether nothing was approximated or left out."""
+        return all(entry.status in (Status.CARRIED, Status.RENAMED) for entry in self.entries)
+
+    def rows(self) -> list[tuple[str, str, str, str, str]]:
+        """What does not carry over: keyword, line, status, what the target has and what follows.
+
+        Keywords of which the same is to be said share a row.
+        """
+        alike: dict[tuple[str, str, str], list[Entry]] = {}
+        for entry in self.lost:
+            alike.setdefault((entry.status.value, entry.target, entry.effect), []).append(entry)
+        own = self.scene.deck.file
+        return [
+            (
+                _some(entry.keyword for entry in entries),
+                _some(str(entry.line) if entry.file == own else f"{entry.file}:{entry.line}" for entry in entries),
+                *said,
+            )
+            for said, entries in alike.items()
+        ]
+
+    def comments(self, target: str) -> list[str]:
+        """The head of a file, a line each: what does not carry over."""
+        rows = self.rows()
+        lines = [f"{target} model of {self.scene.source}, written by mudline export"]
+        lines += ["What does not carry over (keyword, line of the deck, what is here, effect):"] * bool(rows)
+        lines += [
+            f"{keyword} ({place}) {status}: {target}; {effect}" for keyword, place, status, target, effect in rows
+        ]
+        return [one_line(line) for line in lines]
+
+
+def _some(words: Iterable[str]) -> str:
+    """The first of some words, each once."""
+    each = list(dict.fromkeys(words))
+    more = len(each) - _MOST_NAMED
+    return ", ".join(each[:_MOST_NAMED]) + (f" and {more} more" if more > 0 else "")
+
+
+def _subject(block: Block | Opaque, section: str) -> str:
+    """What a block is about; "" for one that is not known."""
+    if section.endswith("POSTPROCESSING"):
+        return "post-processing"
+    if isinstance(block, Block):
+        return block.subject
+    return next((entry.subject for entry in catalogue.entries(block.keyword)), "")
+
+
+def one_line(text: str) -> str:
+    """A text as one line of printable ASCII that is a comment in every target."""
+    plain = "".join(letter if " " <= letter <= "~" else f"\\u{ord(letter):04x}" for letter in text)
+    return re.sub(r"-{2,}", "-", plain).replace("#", "No.").strip()
+
+
+def short_name(written: str) -> str:
+    """A name of the deck in quotes, cut to what a table can show."""
+    return quoted(written if len(written) <= _LETTERS else f"{written[:_LETTERS]}...")
+
+
+@dataclass
+class Names:
+    """Names that a target takes: of `letters`, the inside of a class of a pattern, each once, up to a length."""
+
+    report: Report
+    letters: str
+    longest: int
+    reserved: Iterable[str] = ()
+
+    def __post_init__(self) -> None:
+        self._taken = {name.casefold() for name in (*_WORDS, *self.reserved)}
+
+    def take(self, written: str, where: Where) -> str:
+        """The name for one of the deck; a name that had to change is added to the report."""
+        name = re.sub(f"[^{self.letters}]+", "_", written).strip("_. ")[: self.longest].strip("_. ")
+        if not re.match("[A-Za-z]", name):
+            name = f"S{name}"[: self.longest]
+        stem, count = name, 1
+        while name.casefold() in self._taken:
+            count += 1
+            name = f"{stem[: self.longest - len(str(count)) - 1]}_{count}"
+        self._taken.add(name.casefold())
+        if name != written:
+            self.report.add(where, Status.RENAMED, name, "a name that the target takes", f"name {short_name(written)}")
+        return name

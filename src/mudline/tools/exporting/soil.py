@@ -1,0 +1,273 @@
+"""What carries the elements of a deck, as other programs take it: a stiffness, and friction along and across.
+
+A stiffness is per length of pipe and of penetration. That of a curve is its secant at the static penetration, where
+the law carries the submerged weight W of the pipe: there, and only there, the reaction is that of the deck. Without a
+weight above 0 it is the secant of the curve's first point with a force.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mudline.basics.quantities import shown
+from mudline.language.diagnostics import Where
+from mudline.model.contact.input import LawKind
+from mudline.model.contact.laws.soil import initial, lift
+from mudline.model.scene.assignments import nodal_stiffness, soil_parameters
+from mudline.model.scene.deck_values import LARGEST_MOBILISATION
+from mudline.model.scene.numbering import Floats, Indices
+from mudline.model.scene.resolved import LawArrays, ResolvedDeck
+from mudline.tools.exporting.report import Report, Status, short_name
+
+_RIGID_SHARE = 1e-3
+"""Of the diameter: how far a pipe sinks that stands in for one on a rigid seabed."""
+_HALVINGS = 80
+_SETTINGS = {
+    "SEABED CONTACT": {"smoothing": "no effect at rest beyond its zone", "damping": "no effect at rest"},
+    "SEABED FRICTION": {
+        "directions": "along and across the line instead",
+        "criterion": "each direction by itself, or both on a circle, as the target has it",
+        "lateral": "the coefficient across, before and after breakout",
+    },
+}
+_PLAIN = ("AXIAL", "BOX", "COULOMB", "NONE")
+
+
+class Units(NamedTuple):
+    """Units of a deck in metres, newtons and kilograms."""
+
+    length: float
+    force: float
+
+    @property
+    def mass(self) -> float:
+        """Of mass, as the unit of time is the second."""
+        return self.force / self.length
+
+    @property
+    def stiffness(self) -> float:
+        """Of force per length and length."""
+        return self.force / self.length**2
+
+
+class Soil(NamedTuple):
+    """The seabed of some elements, in SI units; the stiffness of what nothing carries is 0.
+
+    `axial` and `lateral` are friction coefficients, `axial_spring` and `lateral_spring` the stiffnesses per length of
+    pipe below them at the submerged weight; `parameters` those of `*SEABED SOIL`.
+    """
+
+    law: str
+    kind: LawKind
+    where: Where | None
+    diameter: float
+    weight: float
+    stiffness: float
+    tangent: float
+    penetration: float
+    axial: float = 0.0
+    lateral: float = 0.0
+    axial_spring: float = 0.0
+    lateral_spring: float = 0.0
+    friction_at: Where | None = None
+    parameters: tuple[tuple[str, float], ...] = ()
+
+    def says(self) -> str:
+        """Its law with secant and tangent, for a report."""
+        kind, _, name = self.law.partition(":")
+        law = f"{kind} {short_name(name)}" if name else self.law
+        if self.kind is LawKind.LINEAR:
+            return f"{law}: {kilo(self.stiffness)}"
+        at = f"at W ({distance(self.penetration)})"
+        at = at if self.weight > 0.0 else "of its first point, as W is not above 0"
+        return f"{law}: secant {kilo(self.stiffness)} {at}, tangent there {kilo(self.tangent)}"
+
+
+def distance(metres: float) -> str:
+    """A distance in mm, or in m from 1 m on."""
+    return f"{shown(metres, 3)} m" if abs(metres) >= 1.0 else f"{shown(1e3 * metres, 3)} mm"
+
+
+def kilo(stiffness: float) -> str:
+    """A stiffness in kN/m2."""
+    return f"{shown(stiffness / 1e3, 4)} kN/m2"
+
+
+def soils_of(scene: ResolvedDeck, units: Units) -> tuple[list[Soil], Indices]:
+    """The different seabeds of the elements, and which of them each element (m,) has."""
+    weight = np.nan_to_num(scene.submerged_weight)
+    size = np.nan_to_num(scene.diameter)
+    friction = _friction(scene)
+    blocks = [np.asarray(extension.of_element) for extension in scene.extensions.values()]
+    per_node = np.where(scene.law == LawKind.NODAL, scene.length, 0.0)
+    own = (scene.laws.of_element, scene.law, scene.resistance.of_element)
+    keys = np.column_stack([*own, *blocks, weight, size, per_node, friction])
+    _, firsts, of_element = np.unique(np.round(keys, 9), axis=0, return_index=True, return_inverse=True)
+    arrays = scene.law_arrays()
+    found = [_soil(scene, units, arrays, int(at), friction[at].tolist()) for at in firsts]
+    return found, of_element.ravel()
+
+
+def _friction(scene: ResolvedDeck) -> Floats:
+    """Coefficients of friction along and across, and the springs below them, of each element (m, 4).
+
+    Below the limit a spring is that of the mobilisation length, or the one of a node over the length of an element.
+    """
+    table = scene.resistance
+    coefficient = np.nan_to_num(table.column("friction"))
+    given = table.column("mobilisation")
+    longest = np.fmin(table.column("characteristic"), LARGEST_MOBILISATION.get(scene.units, np.inf))
+    length = np.where(given > 0.0, given, np.fmin(scene.length[:, None], longest))
+    weight = np.nan_to_num(scene.submerged_weight)[:, None]
+    with np.errstate(all="ignore"):
+        spring = np.nan_to_num(coefficient * weight / length)
+    coefficient[:, 1] = np.where(table.column("lateral") > 0.0, 0.0, coefficient[:, 1])
+    if (keyword := scene.extensions.get("SEABED FRICTION")) is not None:
+        at = keyword.of_element
+        names = (("coefficients", "first"), ("coefficients", "second"), ("stiffness", "first"), ("stiffness", "second"))
+        first, second, one, other = (keyword.values(at, *path) for path in names)
+        own, springs = np.column_stack([first, second]), np.column_stack([one, np.where(np.isnan(other), one, other)])
+        coefficient = np.where(at[:, None] >= 0, np.nan_to_num(own), coefficient)
+        spring = np.where(at[:, None] >= 0, springs / scene.length[:, None], spring)
+    return np.column_stack([coefficient, spring])
+
+
+def _soil(scene: ResolvedDeck, units: Units, arrays: LawArrays, at: int, friction: list[float]) -> Soil:
+    kind = LawKind(int(scene.law[at]))
+    weight, diameter = float(np.nan_to_num(scene.submerged_weight[at])), float(np.nan_to_num(scene.diameter[at]))
+    stiffness, tangent, parameters = _stiffness(scene, arrays, at, kind, weight)
+    where = None if (law := scene.set_law(at)) is None else law.where
+    for keyword in ("SEABED SOIL",) if kind is LawKind.SOIL else ("SEABED CONTACT",) if kind is LawKind.NODAL else ():
+        where = scene.extensions[keyword].places[int(scene.extensions[keyword].of_element[at])]
+    own = int(scene.resistance.of_element[at])
+    friction_at = scene.resistance.places[own] if own >= 0 else None
+    extension = scene.extensions.get("SEABED FRICTION")
+    if extension is not None and extension.of_element[at] >= 0:
+        friction_at = extension.places[int(extension.of_element[at])]
+    return Soil(
+        scene.law_names[at],
+        kind,
+        where,
+        diameter * units.length,
+        weight * units.force / units.length,
+        stiffness * units.stiffness,
+        tangent * units.stiffness,
+        (weight / stiffness if stiffness > 0.0 else 0.0) * units.length,
+        friction[0],
+        friction[1],
+        friction[2] * units.stiffness,
+        friction[3] * units.stiffness,
+        friction_at,
+        parameters,
+    )
+
+
+def _stiffness(
+    scene: ResolvedDeck, arrays: LawArrays, at: int, kind: LawKind, weight: float
+) -> tuple[float, float, tuple[tuple[str, float], ...]]:
+    """Secant and tangent at the static penetration, in the deck's units, and the parameters of a soil."""
+    diameter = float(np.nan_to_num(scene.diameter[at]))
+    if kind is LawKind.LINEAR:
+        return (float(arrays.linear_stiffness[at]),) * 2 + ((),)
+    if kind is LawKind.RIGID:
+        return (max(weight, 1.0) / (_RIGID_SHARE * diameter),) * 2 + ((),) if diameter else (0.0, 0.0, ())
+    if kind is LawKind.NODAL:
+        springs = nodal_stiffness(scene, scene.extensions["SEABED CONTACT"])
+        return (float(np.nanmean(springs[scene.element_nodes[at]])) / float(scene.length[at]),) * 2 + ((),)
+    if kind is LawKind.CURVE:
+        curve = arrays.curves[int(arrays.curve_index[at])]
+        ratio = next((each for each in curve.ratios_at_force(weight) if each > 0.0), 0.0) if weight > 0.0 else 0.0
+        loaded = (curve.ratios > 0.0) & (curve.forces > 0.0)
+        ratio = ratio or float(np.min(curve.ratios, initial=np.inf, where=loaded))
+        force, slope = (float(value) for value in curve.evaluate(ratio if np.isfinite(ratio) else 1.0))
+        return max(force, 0.0) / (ratio * diameter), slope / diameter, ()
+    if kind is LawKind.SOIL:
+        return _of_soil(scene, at, weight, diameter)
+    return 0.0, 0.0, ()
+
+
+def _of_soil(
+    scene: ResolvedDeck, at: int, weight: float, diameter: float
+) -> tuple[float, float, tuple[tuple[str, float], ...]]:
+    named = soil_parameters(scene.extensions["SEABED SOIL"], np.array([at]))
+    numbers = tuple(float(values[0]) for values in named.values())
+    parameters = tuple(zip(named, numbers, strict=True))
+
+    def reaction(z: float) -> tuple[float, float]:
+        pairs = (initial(z, diameter, numbers), lift(z, diameter, named["buoyancy"][0]))
+        return sum(float(force) for force, _ in pairs), sum(float(slope) for _, slope in pairs)
+
+    low, high = 0.0, 10.0 * diameter
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if reaction(middle)[0] < max(weight, 1e-6) else (low, middle)
+    force, slope = reaction(high)
+    return force / high, slope, parameters
+
+
+def governing(soils: list[Soil], length: Floats) -> Soil:
+    """The seabed that most of the pipe rests on, of which `length` (k,) is given; for targets that have but one."""
+    carrying = np.array([each.stiffness > 0.0 for each in soils])
+    return soils[int(np.argmax(np.where(carrying, length, -1.0)))]
+
+
+def report_stiffness(report: Report, soils: list[Soil], name: str, used: list[float]) -> None:
+    """Add what became of the normal law of each seabed: the stiffness that the target has in its place."""
+    for soil, stiffness in zip(soils, used, strict=True):
+        same = abs(stiffness - soil.stiffness) <= 1e-6 * stiffness
+        target, effect = f"{name} {kilo(stiffness)}", soil.says()
+        status = Status.CARRIED if same and soil.kind is LawKind.LINEAR else Status.APPROXIMATED
+        if soil.stiffness <= 0.0 and same:
+            continue
+        if soil.stiffness <= 0.0:
+            effect = "no law in the deck: the one seabed of the target acts here too"
+        elif not same and soil.weight > 0.0 and stiffness > 0.0:
+            effect += f"; sinks {distance(soil.weight / stiffness)} here, as the target has one stiffness"
+        report.add(soil.where, status, target, effect)
+        curve = soil.law.partition(":")[2]
+        for entry in report.scene.laws.curves if curve else ():
+            if entry.name == curve:
+                report.add(entry.where, status, target, effect)
+    _report_unfollowed(report, {soil.where for soil in soils})
+
+
+def _report_unfollowed(report: Report, reported: set[Where | None]) -> None:
+    """Add the laws and curves that no element follows."""
+    laws = report.scene.laws
+    for law in laws.set_laws:
+        if law.where not in reported:
+            report.add(law.where, Status.LEFT_OUT, "none", "no element follows this law")
+    followed = {law.curve for law in laws.set_laws if law.where in reported}
+    for number, entry in enumerate(laws.curves):
+        if number not in followed:
+            report.add(entry.where, Status.LEFT_OUT, "none", "no element follows this curve")
+
+
+def report_friction(report: Report, soils: list[Soil], target: str, used: list[tuple[float, float]]) -> None:
+    """Add what became of the friction of each seabed: the coefficients along and across that the target has."""
+    for soil, (axial, lateral) in zip(soils, used, strict=True):
+        given = f"{shown(soil.axial)} along, {shown(soil.lateral)} across"
+        same = (axial, lateral) == (soil.axial, soil.lateral)
+        effect = given if same else f"{given} in the deck; here {shown(axial)} along, {shown(lateral)} across"
+        report.add(soil.friction_at, Status.CARRIED if same else Status.APPROXIMATED, target, effect, "friction")
+
+
+def report_resistance(report: Report, target: str) -> None:
+    """Add the settings beside stiffness and friction that no target has."""
+    table = report.scene.resistance
+    for values, where in zip(table.values, table.places, strict=True):
+        for setting, value, effect in (
+            ("LATERAL=", values.lateral, "no spring to where it touched down: friction alone holds the pipe sideways"),
+            ("SUCTION=", values.suction, "nothing holds the pipe back on the way up: no effect under its own weight"),
+            ("constant friction", values.constant, "as in mudline, which does not evaluate it"),
+        ):
+            if value > 0.0:
+                report.add(where, Status.LEFT_OUT, target, effect, setting)
+    for keyword, names in _SETTINGS.items():
+        extension = report.scene.extensions.get(keyword)
+        for entry, where in zip(extension.entries, extension.places, strict=True) if extension else ():
+            for name, effect in names.items():
+                if (given := getattr(entry, name, None)) is not None and given not in _PLAIN:
+                    report.add(where, Status.LEFT_OUT, target, effect, f"{name.upper()}=")

@@ -1,0 +1,168 @@
+"""Every place where a deck names or defines a set, a curve or a parameter."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import NamedTuple, cast
+
+from mudline.language.deck.model import Deck, Opaque
+from mudline.language.deck.parameters import folded, list_items
+from mudline.language.deck.reading import TextOrigin
+from mudline.language.diagnostics import Span, Where
+from mudline.language.expression.evaluation import CONSTANTS
+from mudline.language.expression.nodes import ExpressionError
+from mudline.language.expression.parsing import parse
+from mudline.language.keywords.model import Block
+from mudline.language.keywords.values import Names
+from mudline.language.syntax.fields import first_key, read_line
+from mudline.language.syntax.tree import Kind
+from mudline.model.scene.deck_values import bare
+from mudline.model.scene.sets import set_key
+
+KINDS = {
+    Names.SET: Names.SET,
+    Names.SUBSET: Names.SET,
+    Names.CURVE: Names.CURVE,
+    Names.PARAMETER: Names.PARAMETER,
+}
+"""What is found by a name, for each way to name it."""
+WORDS = {Names.SET: "set", Names.CURVE: "curve", Names.PARAMETER: "parameter"}
+_SET = "SET"
+_EQUATION = re.compile(r"=\[(?:[^\[\]\r\n]|\[[^\[\]\r\n]*\])*\]")
+_PLACEHOLDER = re.compile(r"%([^%\r\n]+)%")
+
+
+class Thing(NamedTuple):
+    """Something with a name; `key` is the name as names compare."""
+
+    kind: Names
+    key: str
+
+
+class Occurrence(NamedTuple):
+    """A place where a thing is named; `composed` says that the name is put together there and not written as it is."""
+
+    thing: Thing
+    name: str
+    span: Span
+    defines: bool
+    composed: bool = False
+
+
+def thing(kind: Names, name: str) -> Thing:
+    """A thing by its name as it is written."""
+    return Thing(kind, set_key(name) if kind is Names.SET else folded(bare(name)))
+
+
+def occurrences(deck: Deck) -> list[Occurrence]:
+    """Every occurrence in a deck of its own, in the order of the text; none in a deck that is no keyword text."""
+    origin = deck.origin
+    if not isinstance(origin, TextOrigin):
+        return []
+    found = [*_given(deck, origin), *_in_equations(origin)]
+    known = {one.thing for one in found if one.defines}
+    found += [one for one in (*_placeholders(origin), *_passed_through(deck, origin)) if one.thing in known]
+    return sorted(found, key=lambda one: one.span)
+
+
+def at(found: list[Occurrence], offset: int) -> Occurrence | None:
+    """The occurrence at an offset, or that ends there."""
+    here = [one for one in found if one.span.start <= offset <= one.span.end]
+    return min(here, key=lambda one: one.span.end - one.span.start, default=None)
+
+
+# ------------------------------------------------------------------------------------------------- fields that name
+
+
+def _given(deck: Deck, origin: TextOrigin) -> Iterator[Occurrence]:
+    for kind, role, name, where in deck.names():
+        read = origin.read.get((where.section, where.block))
+        if kind not in KINDS or read is None:
+            continue
+        if kind is Names.PARAMETER and role == "defines":
+            yield from _parameters(origin, where, cast("Block", deck.sections[where.section].blocks[where.block]))
+        elif read.places.has(where.path):
+            span = _inner(origin, read.places.find(where.path))
+            yield Occurrence(thing(KINDS[kind], name), name, span, defines=role == "defines")
+
+
+def _inner(origin: TextOrigin, span: Span) -> Span:
+    """The span of a name without quotes or braces around it."""
+    text = origin.source.unified[slice(*span)]
+    name = bare(text)
+    start = span.start + text.find(name)
+    return Span(start, start + len(name))
+
+
+def _parameters(origin: TextOrigin, where: Where, block: Block) -> Iterator[Occurrence]:
+    """The parameters that a line defines: one, or those of a list."""
+    parameter = block.parameters[int(where.path[1])]  # type: ignore[attr-defined]
+    name, value = cast("str", parameter.name), cast("object", parameter.value)
+    places = origin.read[where.section, where.block].places
+    if isinstance(value, str) and value.startswith("/"):
+        span = places.find((*where.path[:-1], "value"))
+        for item in list_items(name, value)[0]:
+            at_ = span.start + item.start
+            yield Occurrence(
+                thing(Names.PARAMETER, item.name),
+                item.name,
+                Span(at_, at_ + len(item.value)),
+                defines=True,
+                composed=True,
+            )
+        return
+    yield Occurrence(thing(Names.PARAMETER, name), name, places.find(where.path), defines=True)
+
+
+def _passed_through(deck: Deck, origin: TextOrigin) -> Iterator[Occurrence]:
+    """The sets that SET= names in blocks whose lines are not read."""
+    text = origin.source.unified
+    for section, raw_section in zip(deck.sections, origin.tree.sections, strict=False):
+        for block, raw in zip(section.blocks, raw_section.blocks, strict=False):
+            for leaf in raw.leaves if type(block) is Opaque else ():
+                if leaf.kind is Kind.SETTING and first_key(text, leaf.span) == _SET:
+                    given = read_line(text, leaf.span).groups[0].fields[0]
+                    span = _inner(origin, given.span)
+                    yield Occurrence(thing(Names.SET, given.text), given.text, span, defines=False)
+
+
+# -------------------------------------------------------------------------------------------------------- equations
+
+
+def equation_spans(origin: TextOrigin) -> Iterator[Span]:
+    """The place of every equation of a text, comments left out."""
+    text = origin.source.unified
+    for start, end in _data(origin):
+        if text.find("=[", start, end) >= 0:
+            yield from (Span(*match.span()) for match in _EQUATION.finditer(text, start, end))
+
+
+def _data(origin: TextOrigin) -> Iterator[Span]:
+    """The lines that may hold words: no comments, and no runs of numbers."""
+    for leaf in origin.tree.leaves():
+        read = leaf.kind in (Kind.TEXT, Kind.SETTING, Kind.RUN)
+        if read or (leaf.kind is Kind.UNDECIDED and first_key(origin.source.unified, leaf.span)):
+            yield leaf.span
+
+
+def _in_equations(origin: TextOrigin) -> Iterator[Occurrence]:
+    text = origin.source.unified
+    for start, end in equation_spans(origin):
+        try:
+            read = parse(text[start + 2 : end - 1])
+        except ExpressionError:
+            continue
+        for name, first, last in read.name_spans:
+            if folded(name) not in CONSTANTS:
+                span = Span(start + 2 + first, start + 2 + last)
+                yield Occurrence(thing(Names.PARAMETER, name), name, span, defines=False)
+
+
+def _placeholders(origin: TextOrigin) -> Iterator[Occurrence]:
+    """The `%name%` in lines of data."""
+    text = origin.source.unified
+    for start, end in _data(origin):
+        if text.find("%", start, end) >= 0:
+            for match in _PLACEHOLDER.finditer(text, start, end):
+                yield Occurrence(thing(Names.PARAMETER, match[1]), match[1], Span(*match.span(1)), defines=False)

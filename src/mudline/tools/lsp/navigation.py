@@ -1,0 +1,225 @@
+"""From a name or number to where it is defined and used, in all decks of a chain, and new names for what has one."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from lsprotocol import types
+
+from mudline.checks.engine import read_deck
+from mudline.language.deck.model import Deck
+from mudline.language.deck.reading import TextOrigin
+from mudline.language.diagnostics import Span
+from mudline.language.expression.evaluation import CONSTANTS
+from mudline.language.expression.nodes import ExpressionError
+from mudline.language.expression.parsing import parse
+from mudline.language.keywords.text import shown
+from mudline.language.keywords.values import Names
+from mudline.language.syntax.edits import TextEdit, apply_edits
+from mudline.model.scene.deck_values import find_file
+from mudline.model.scene.restart import decks_before, find_deck
+from mudline.model.scene.sets import ALL, LONGEST_NAME
+from mudline.tools.lsp import names
+from mudline.tools.lsp.decks import Analysis, Decks, failed
+from mudline.tools.lsp.documents import Document, address_of
+from mudline.tools.lsp.names import WORDS, Occurrence, Thing, occurrences
+from mudline.tools.lsp.sites import Site, site
+from mudline.tools.lsp.things import is_label
+
+# ----------------------------------------------------------------------------------------------------- decks of a chain
+
+
+class Linked(NamedTuple):
+    """A deck of a chain with its text as a document, open or not."""
+
+    document: Document
+    deck: Deck
+
+
+def chain(decks: Decks, analysis: Analysis) -> list[Linked]:
+    """A deck, those that it continues, and the open ones that continue it."""
+    if analysis.deck is None or analysis.scene is None:
+        return []
+    found = [Linked(analysis.document, analysis.deck)]
+    for base in analysis.scene.deck.bases:
+        if base.deck.folder is not None and isinstance(base.deck.origin, TextOrigin):
+            path = base.deck.folder / Path(base.deck.file).name
+            found.append(Linked(decks.at(path) or _unopened(path, base.deck.origin), base.deck))
+    if analysis.document.path is not None:
+        found += _dependents(decks, analysis.document.path)
+    return found
+
+
+def _unopened(path: Path, origin: TextOrigin) -> Document:
+    return Document(address_of(path), origin.source.text, 0)
+
+
+def _dependents(decks: Decks, path: Path) -> Iterator[Linked]:
+    """The open decks that continue a deck."""
+    for uri in list(decks.documents):
+        other = decks.analysis(uri)
+        if other is not None and other.deck is not None and other.document.path != path:
+            with other.reading():
+                if _continues(other.deck, path):
+                    yield Linked(other.document, other.deck)
+
+
+def _continues(deck: Deck, path: Path) -> bool:
+    """Whether a deck continues that of a file."""
+    return any(os.path.abspath(before) == os.path.abspath(path) for before in decks_before(deck))  # noqa: PTH100 - links stay
+
+
+# -------------------------------------------------------------------------------------------------------------- answers
+
+_NOT_IN_NAMES = ',="{}[]%/\r\n'
+
+
+class Navigator:
+    """Answers about one open deck."""
+
+    def __init__(self, decks: Decks, analysis: Analysis) -> None:
+        self.decks = decks
+        self.analysis = analysis
+
+    # --------------------------------------------------------------------------------------------- definition and uses
+
+    def definition(self, offset: int) -> list[types.Location]:
+        """Where the thing at an offset is defined; of a file, the file."""
+        named = names.at(self.analysis.names, offset)
+        if named is not None:
+            return [_location(each.document, one.span) for each, one in self._named(named.thing) if one.defines]
+        found = site(self.analysis, offset)
+        if found is not None and (file := self._file(found.slot.about.names, self.analysis.deck, found.value)):
+            return [types.Location(address_of(file), types.Range(types.Position(0, 0), types.Position(0, 0)))]
+        return self._numbered(found) if found else []
+
+    def references(self, offset: int, *, declaration: bool) -> list[types.Location]:
+        """Every place where the thing at an offset is used, and, with `declaration`, where it is defined."""
+        named = names.at(self.analysis.names, offset)
+        if named is not None:
+            found = self._named(named.thing)
+            return [_location(each.document, one.span) for each, one in found if declaration or not one.defines]
+        value = site(self.analysis, offset)
+        if value is not None and (file := self._file(value.slot.about.names, self.analysis.deck, value.value)):
+            return list(self._named_file(file))
+        return []
+
+    def highlights(self, offset: int) -> list[types.DocumentHighlight]:
+        """The places in this deck alone."""
+        places = self.references(offset, declaration=True)
+        return [types.DocumentHighlight(place.range) for place in places if place.uri == self.analysis.document.uri]
+
+    def _linked(self, thing: Thing | None = None) -> list[Linked]:
+        """The decks in which a thing is the same: a parameter belongs to its deck."""
+        own = thing is not None and thing.kind is Names.PARAMETER
+        if own and self.analysis.deck is not None:
+            return [Linked(self.analysis.document, self.analysis.deck)]
+        return chain(self.decks, self.analysis)
+
+    def _named(self, thing: Thing) -> Iterator[tuple[Linked, Occurrence]]:
+        for linked in self._linked(thing):
+            own = linked.deck is self.analysis.deck
+            for one in self.analysis.names if own else occurrences(linked.deck):
+                if one.thing == thing:
+                    yield linked, one
+
+    def _numbered(self, found: Site) -> list[types.Location]:
+        """Where the node or element is defined whose number stands in a field."""
+        scene, kind = self.analysis.scene, found.slot.about.names or found.slot.about.defines
+        if scene is None or kind not in (Names.NODE, Names.ELEMENT) or not is_label(found.value):
+            return []
+        table = scene.nodes if kind is Names.NODE else scene.table.numbered
+        index = int(table.indices(np.array([found.value], dtype=np.int64))[0])
+        if index < 0:
+            return []
+        where = table.where(index)
+        deck, where = scene.deck.base_of(where) or (self.analysis.deck, where)
+        document = next((linked.document for linked in self._linked() if linked.deck is deck), None)
+        origin = deck.origin if deck else None
+        if document is None or not isinstance(origin, TextOrigin):
+            return []
+        span = origin.span(where.inside(0)) or origin.span(where)
+        return [_location(document, span)] if span else []
+
+    def _named_file(self, file: Path) -> Iterator[types.Location]:
+        """Every place in the decks of the chain that names a file."""
+        for document, deck in self._linked():
+            for kind, role, name, where in deck.names():
+                span = deck.origin.span(where) if isinstance(deck.origin, TextOrigin) else None
+                if span is not None and role == "names" and self._file(kind, deck, name) == file:
+                    yield _location(document, span)
+
+    def _file(self, kind: Names | None, deck: Deck | None, name: object) -> Path | None:
+        """The file that a name of a kind in a deck stands for, if it is there."""
+        if deck is None or not isinstance(name, str):
+            return None
+        if kind is Names.DECK:
+            return find_deck(deck, name)
+        return find_file(deck.folder, name) if kind is Names.FILE else None
+
+    # ------------------------------------------------------------------------------------------------------ new names
+
+    def renamed(self, offset: int) -> Occurrence:
+        """The name at an offset, if it can be changed; raises JsonRpcException."""
+        named = names.at(self.analysis.names, offset)
+        if named is None:
+            raise failed("only sets, curves and parameters can be renamed")
+        word = WORDS[named.thing.kind]
+        if named.thing == Thing(Names.SET, ALL):
+            raise failed("set ALL is predefined and cannot be renamed")
+        found = [one for _, one in self._named(named.thing)]
+        if not any(one.defines for one in found):
+            where = "by lines that are not read, or nowhere" if word == "set" else "nowhere"
+            raise failed(f"{word} {shown(named.name)} is defined {where}: rename it by hand")
+        if any(one.composed for one in found):
+            raise failed(f"{word} {shown(named.name)} is an item of a list: rename it by hand")
+        return named
+
+    def rename(self, offset: int, name: str) -> types.WorkspaceEdit:
+        """The changes that rename the thing at an offset in every deck of a chain; raises JsonRpcException."""
+        named = self.renamed(offset)
+        old, new = named.thing, names.thing(named.thing.kind, name)
+        self._check(old, new, name)
+        edits: dict[int, tuple[Linked, list[TextEdit]]] = {}
+        for linked, one in self._named(old):
+            edits.setdefault(id(linked.deck), (linked, []))[1].append(TextEdit(one.span, name))
+        for linked, changes in edits.values():
+            text = apply_edits(linked.document.text, changes)
+            again = occurrences(read_deck(text.encode(), linked.document.name))
+            if sum(one.thing == new for one in again) < len(changes):
+                raise failed(f"{shown(name)} would not be read as this name everywhere: choose another one")
+        found = {
+            linked.document.uri: [types.TextEdit(linked.document.range(edit.span), edit.text) for edit in changes]
+            for linked, changes in edits.values()
+        }
+        return types.WorkspaceEdit(changes=found)
+
+    def _check(self, old: Thing, new: Thing, name: str) -> None:
+        word = WORDS[old.kind]
+        if not name or name != name.strip() or any(letter in name for letter in _NOT_IN_NAMES):
+            raise failed(f"{shown(name)} cannot be the name of a {word}: leave out commas, =, quotes and brackets")
+        if len(name) > LONGEST_NAME:
+            raise failed(f"a name has at most {LONGEST_NAME} characters, found {len(name)}")
+        if old.kind is Names.PARAMETER and not _is_parameter(name):
+            raise failed(f"{shown(name)} cannot be used in an equation: use letters, digits and _")
+        scene = self.analysis.scene
+        opaque = scene is not None and old.kind is Names.SET and scene.set_table.find(name) is not None
+        if new != old and (opaque or new == Thing(Names.SET, ALL) or any(True for _ in self._named(new))):
+            raise failed(f"{word} {shown(name)} is already defined: choose another name")
+
+
+def _is_parameter(name: str) -> bool:
+    """Whether an equation reads a text as the name of a parameter."""
+    try:
+        read = parse(name)
+    except ExpressionError:
+        return False
+    return read.names == (name,) and name.casefold() not in CONSTANTS
+
+
+def _location(document: Document, span: Span) -> types.Location:
+    return types.Location(document.uri, document.range(span))

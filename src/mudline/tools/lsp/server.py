@@ -1,0 +1,235 @@
+"""The server: its messages, open decks, and their checks when they or the decks that they depend on change."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Generator
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any, TypeVar, cast
+
+from lsprotocol import types
+from pygls.exceptions import JsonRpcException
+from pygls.lsp.server import LanguageServer
+from pygls.protocol import LanguageServerProtocol, lsp_method
+
+from mudline import __version__
+from mudline.basics.limits import LARGEST_OPEN
+from mudline.language.deck.forms import SUFFIXES
+from mudline.tools.lsp import findings
+from mudline.tools.lsp.decks import Analysis, Decks
+from mudline.tools.lsp.documents import Document, file_of
+
+T = TypeVar("T")
+
+
+class DeckProtocol(LanguageServerProtocol):
+    """The protocol of pygls with our own documents."""
+
+    @property
+    def documents(self) -> DeckServer:
+        """The server, which has the open documents."""
+        return cast("DeckServer", self._server)
+
+    @lsp_method(types.INITIALIZE)
+    def lsp_initialize(self, params: types.InitializeParams) -> Generator[Any, Any, types.InitializeResult]:
+        """Begin: the position encoding is agreed."""
+        result = yield from super().lsp_initialize(params)
+        self.documents.begin(result.capabilities.position_encoding or types.PositionEncodingKind.Utf16)
+        return result
+
+    @lsp_method(types.TEXT_DOCUMENT_DID_OPEN)
+    def lsp_text_document__did_open(self, params: types.DidOpenTextDocumentParams) -> None:
+        """Take up a document."""
+        self.documents.opened(params.text_document)
+
+    @lsp_method(types.TEXT_DOCUMENT_DID_CHANGE)
+    def lsp_text_document__did_change(self, params: types.DidChangeTextDocumentParams) -> None:
+        """Change a document."""
+        self.documents.changed(params)
+
+    @lsp_method(types.TEXT_DOCUMENT_DID_CLOSE)
+    def lsp_text_document__did_close(self, params: types.DidCloseTextDocumentParams) -> None:
+        """Forget a document."""
+        self.documents.closed(params.text_document.uri)
+
+
+# ----------------------------------------------------------------------------------------------------------- open decks
+
+DELAY = 0.02
+"""Seconds without a change after which a deck is checked."""
+
+CONFIGURATION = ".toml"
+"""The suffix of configurations, and of what they extend."""
+_WATCHED = tuple(f"*{suffix}" for suffix in (*SUFFIXES, ".fcsbd", ".txt", CONFIGURATION))
+
+
+class DeckServer(LanguageServer):
+    """Open decks and their checks, the last one of each: they are made by one thread, one after the other."""
+
+    def __init__(self) -> None:
+        super().__init__("mudline", __version__, protocol_cls=DeckProtocol)
+        self.decks = Decks()
+        self._checks: dict[str, asyncio.Task[None]] = {}
+        self._worker = ThreadPoolExecutor(1, "check")
+
+    # ------------------------------------------------------------------------------------------------ documents
+
+    def begin(self, encoding: types.PositionEncodingKind | str) -> None:
+        """Take note of what was agreed."""
+        self.decks = Decks(encoding.value if isinstance(encoding, types.PositionEncodingKind) else encoding)
+        asyncio.get_running_loop().set_exception_handler(self._unexpected)
+
+    def opened(self, item: types.TextDocumentItem) -> None:
+        """Take up a document and check it at once."""
+        document = self.decks.open(item.uri, item.text, item.version, str(item.language_id))
+        self._show_limits(document)
+        self._schedule(document, 0.0)
+        self._touch(document)
+
+    def changed(self, params: types.DidChangeTextDocumentParams) -> None:
+        """Change a document, unless the change is older than its text."""
+        document = self.decks.documents.get(params.text_document.uri)
+        if document is None or params.text_document.version < document.version:
+            return
+        was_large = document.is_too_large
+        for change in params.content_changes:
+            if isinstance(change, types.TextDocumentContentChangePartial):
+                document.change(change.range, change.text)
+            else:
+                document.replace(change.text)
+        document.version = params.text_document.version
+        if document.is_too_large != was_large:
+            self._show_limits(document)
+        self._schedule(document)
+        self._touch(document)
+
+    def closed(self, uri: str) -> None:
+        """Forget a document; its findings go with it, and other decks read its file again."""
+        document = self.decks.close(uri)
+        if document is None:
+            return
+        self._checks.pop(uri).cancel()
+        self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, []))
+        self._touch(document)
+
+    def files_changed(self, changes: list[types.FileEvent]) -> None:
+        """Check again what depends on files that were changed by others."""
+        paths = [path for change in changes if (path := file_of(change.uri)) is not None]
+        if any(path.suffix == CONFIGURATION for path in paths):
+            self.decks.forget_configurations()
+            for document in self.decks.documents.values():
+                self._schedule(document)
+            return
+        for path in paths:
+            self._recheck(path)
+
+    def _touch(self, document: Document) -> None:
+        if document.path is not None:
+            self._recheck(document.path, document.uri)
+
+    def _recheck(self, path: Path, but: str = "") -> None:
+        """Check the decks that depend on a file, or of which this is not known yet."""
+        for uri, document in self.decks.documents.items():
+            if uri != but and (not self._checks[uri].done() or self.decks.depends(uri, path)):
+                self.decks.forget(uri)
+                self._schedule(document)
+
+    def _show_limits(self, document: Document) -> None:
+        """Say once, when a long deck is opened, what is not done for it."""
+        size = f"{document.name.rpartition('/')[2]} has {len(document.text) / 1e6:.0f} million characters"
+        if document.is_too_large:
+            self._show(f"{size}, and more than {LARGEST_OPEN // 10**6} million are not checked here: use mudline lint")
+        elif document.is_long:
+            self._show(f"{size}: help waits for its check, and its outline has no names")
+
+    def _show(self, message: str, kind: types.MessageType = types.MessageType.Info) -> None:
+        self.window_show_message(types.ShowMessageParams(kind, message))
+
+    @property
+    def resolves_edits(self) -> bool:
+        """Whether the editor asks for the edits of an action when it needs them."""
+        document = self.client_capabilities.text_document
+        support = document.code_action.resolve_support if document and document.code_action else None
+        return support is not None and "edit" in support.properties
+
+    @property
+    def takes_snippets(self) -> bool:
+        """Whether the editor takes texts with places to fill in."""
+        item = self._completion_items
+        return bool(item and item.snippet_support)
+
+    @property
+    def _completion_items(self) -> types.ClientCompletionItemOptions | None:
+        """What the editor can do with items of a completion."""
+        document = self.client_capabilities.text_document
+        return document.completion.completion_item if document and document.completion else None
+
+    def watch_files(self) -> None:
+        """Ask the editor to report changes of decks, of files that they name, and of configurations."""
+        workspace = self.client_capabilities.workspace
+        watching = workspace.did_change_watched_files if workspace else None
+        if watching and watching.dynamic_registration:
+            watchers = [types.FileSystemWatcher(f"**/{pattern}") for pattern in _WATCHED]
+            options = types.DidChangeWatchedFilesRegistrationOptions(watchers)
+            method = types.WORKSPACE_DID_CHANGE_WATCHED_FILES
+            registration = types.Registration("mudline.watch", method, options)
+            self.client_register_capability(types.RegistrationParams([registration]))
+
+    # --------------------------------------------------------------------------------------------------- checks
+
+    def _schedule(self, document: Document, delay: float = DELAY) -> None:
+        """Check a document when nothing has changed for some time; a check of an older text is dropped."""
+        if (older := self._checks.get(document.uri)) is not None:
+            older.cancel()
+        self._checks[document.uri] = check = asyncio.create_task(self._check(document, delay))
+        check.add_done_callback(_failed)
+
+    async def _check(self, document: Document, delay: float) -> None:
+        await asyncio.sleep(delay)
+        begun = self.decks.begun(document)
+        for message in self.decks.faults:
+            self._show(message, types.MessageType.Warning)
+        self.decks.faults.clear()
+        found = await self.aside(begun.checked)
+        self.decks.keep(found)
+        self.text_document_publish_diagnostics(
+            types.PublishDiagnosticsParams(document.uri, findings.shown(found), found.document.version)
+        )
+
+    async def aside(self, work: Callable[[], T]) -> T:
+        """What work comes to that takes long: while it is done, requests are answered."""
+        return await asyncio.get_running_loop().run_in_executor(self._worker, work)
+
+    async def analysis(self, uri: str, *, checked: bool = False) -> Analysis | None:
+        """The analysis of a document as it is now; a `checked` one, and that of a long one, after its check."""
+        document = self.decks.documents.get(uri)
+        waits = document is not None and (checked or document.is_long)
+        while waits and uri in self._checks and not self._checks[uri].done():
+            await asyncio.wait([self._checks[uri]])
+        return self.decks.analysis(uri)
+
+    def shutdown(self) -> None:
+        """End, as soon as a check that runs has ended."""
+        self._worker.shutdown(cancel_futures=True)
+        super().shutdown()  # type: ignore[no-untyped-call]
+
+    def _unexpected(self, _: object, context: dict[str, Any]) -> None:
+        """Report a fault of the server itself, which goes on; an answer that could not be sent is none."""
+        error = context.get("exception")
+        if isinstance(error, JsonRpcException):
+            return
+        detail = f"{type(error).__name__}: {error}" if error else context.get("message", "")
+        message = f"{str(detail)[:500]}: please report this fault of mudline"
+        self.window_log_message(types.LogMessageParams(types.MessageType.Error, message))
+
+    def report_server_error(self, error: Exception, source: type[Exception]) -> None:
+        """Note what could not be handled in the editor's log; requests were answered with it already."""
+        message = str(error)[:500] or type(error).__name__
+        self.window_log_message(types.LogMessageParams(types.MessageType.Log, f"{source.__name__}: {message}"))
+
+
+def _failed(check: asyncio.Task[None]) -> None:
+    """Let the loop, and so `_unexpected`, have what a check has raised."""
+    if not check.cancelled():
+        check.result()

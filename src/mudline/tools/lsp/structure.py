@@ -1,0 +1,165 @@
+"""The structure of a deck: its outline, what folds, and its canonical layout."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import islice
+from typing import cast
+
+from lsprotocol import types
+
+from mudline.basics.limits import MOST_OUTLINED
+from mudline.editing.formatting.document import FormatError, formatted
+from mudline.language.deck.model import Opaque
+from mudline.language.deck.reading import TextOrigin
+from mudline.language.diagnostics import DeckError, Span
+from mudline.language.keywords.model import Block, FieldSpec, Part, record_schema
+from mudline.language.keywords.reader import ReadBlock
+from mudline.language.keywords.values import Kind as FieldKind
+from mudline.language.keywords.values import Names
+from mudline.language.syntax.fields import trimmed
+from mudline.language.syntax.tree import Kind, Leaf, RawBlock, RawSection
+from mudline.tools.lsp.decks import Analysis, failed
+
+# ----------------------------------------------------------------------------------------------------------- outline
+
+
+def outline(analysis: Analysis) -> list[types.DocumentSymbol]:
+    """Sections, the blocks in them, and in these what has a name: sets, curves, parameters."""
+    origin = analysis.origin
+    if origin is None:
+        return []
+    found: list[types.DocumentSymbol] = []
+    for index, section in enumerate(origin.tree.sections):
+        if section.head is not None:
+            lines = _extents(section, _end(origin, index))
+            blocks = [_block(analysis, origin, (index, number), raw, stop) for number, (raw, stop) in enumerate(lines)]
+            kind = types.SymbolKind.Module
+            found.append(_symbol(analysis, f"${section.name}", kind, section.head.span, _end(origin, index), blocks))
+    return found
+
+
+def _end(origin: TextOrigin, index: int) -> int:
+    """Where a section ends: where the next one begins, or with the text."""
+    following = origin.tree.sections[index + 1 : index + 2]
+    return following[0].head.span.start if following and following[0].head else len(origin.source.unified)
+
+
+def _extents(section: RawSection, stop: int) -> Iterator[tuple[RawBlock, int]]:
+    """Every block of a section that ends at `stop`, and where it ends."""
+    ends = [*(block.head.span.start for block in section.blocks[1:]), stop]
+    return zip(section.blocks, ends, strict=False)
+
+
+def _symbol(
+    analysis: Analysis,
+    name: str,
+    kind: types.SymbolKind,
+    head: Span,
+    stop: int,
+    children: list[types.DocumentSymbol] | None = None,
+) -> types.DocumentSymbol:
+    text = analysis.document.text
+    line = trimmed(text, *head)
+    whole = Span(line.start, max(trimmed(text, head.start, stop).end, line.end))
+    place = analysis.document.range
+    return types.DocumentSymbol(name.strip() or "?", kind, place(whole), place(line), children=children)
+
+
+def _block(
+    analysis: Analysis, origin: TextOrigin, at: tuple[int, int], raw: RawBlock, stop: int
+) -> types.DocumentSymbol:
+    children: list[types.DocumentSymbol] = []
+    read = origin.read.get(at)
+    block = analysis.deck.sections[at[0]].blocks[at[1]] if analysis.deck and read else None
+    if read is not None and block is not None and type(block) is not Opaque and not analysis.document.is_long:
+        children = list(_records(analysis, cast("Block", block), read, stop))
+    return _symbol(analysis, f"*{raw.name}", types.SymbolKind.Class, raw.head.span, stop, children)
+
+
+def _records(analysis: Analysis, block: Block, read: ReadBlock, stop: int) -> Iterator[types.DocumentSymbol]:
+    """What has a name in a block."""
+    for slot in record_schema(type(block)).slots:
+        records = getattr(block, slot.name, None) if slot.record else None
+        named = [(index, _name(record)) for index, record in enumerate(records or ())]
+        shown = [(index, name) for index, name in islice(named, MOST_OUTLINED) if name]
+        if not shown:
+            continue
+        spans = [read.places.find((slot.json, index)) for index, _ in shown]
+        ends = [*(span.start for span in spans[1:]), stop]
+        kind = types.SymbolKind.Variable if block.facts.defines == "parameters" else types.SymbolKind.Object
+        for (_, name), span, end in zip(shown, spans, ends, strict=True):
+            yield _symbol(analysis, name, kind, span, end)
+
+
+def _name(record: Part) -> str:
+    """The name that a record gives or is found by."""
+    slots = [slot for slot in record_schema(type(record)).slots if _is_name(slot)]
+    values = (getattr(record, slot.name, None) for slot in slots)
+    return next((value for value in values if isinstance(value, str) and value), "")
+
+
+def _is_name(slot: FieldSpec) -> bool:
+    about = slot.about
+    named = about.defines is not None or about.names is Names.SET or slot.key == "NAME"
+    return named and slot.kind is FieldKind.NAME and not slot.many
+
+
+# ----------------------------------------------------------------------------------------------------------- folding
+
+
+def folding(analysis: Analysis) -> list[types.FoldingRange]:
+    """Sections, blocks, and comments of more than one line."""
+    origin = analysis.origin
+    if origin is None:
+        return []
+    regions = [(span, types.FoldingRangeKind.Region) for span in _regions(origin)]
+    comments = [(span, types.FoldingRangeKind.Comment) for span in _comments(origin)]
+    return list(_folded(analysis, [*regions, *comments]))
+
+
+def _regions(origin: TextOrigin) -> Iterator[Span]:
+    """The lines of every section and block."""
+    for index, section in enumerate(origin.tree.sections):
+        if section.head is not None:
+            stop = _end(origin, index)
+            yield Span(section.head.span.start, stop)
+            yield from (Span(raw.head.span.start, end) for raw, end in _extents(section, stop))
+
+
+def _comments(origin: TextOrigin) -> Iterator[Span]:
+    first: Leaf | None = None
+    last: Leaf | None = None
+    for leaf in (*origin.tree.leaves(), None):
+        if leaf is not None and leaf.kind is Kind.COMMENT:
+            first, last = first or leaf, leaf
+        elif first is not None and last is not None:
+            yield Span(first.span.start, last.span.end)
+            first = None
+
+
+def _folded(analysis: Analysis, spans: list[tuple[Span, types.FoldingRangeKind]]) -> Iterator[types.FoldingRange]:
+    document = analysis.document
+    for span, kind in spans:
+        body = trimmed(document.text, *span)
+        first, last = document.line_at(body.start), document.line_at(max(body.end - 1, body.start))
+        if last > first:
+            yield types.FoldingRange(first, last, kind=kind)
+
+
+# -------------------------------------------------------------------------------------------------------- formatting
+
+
+def formatting(analysis: Analysis) -> list[types.TextEdit]:
+    """The change that brings a deck into canonical layout; raises JsonRpcException for one that cannot be formatted."""
+    document = analysis.document
+    if analysis.deck is None:
+        return []
+    try:
+        after = formatted(document.as_file(), document.name)
+    except DeckError as error:
+        first = error.diagnostics[0]
+        raise failed(f"not formatted: correct the error in line {first.line} first ({first.code})") from error
+    except FormatError as error:
+        raise failed(f"not formatted: {error}") from error
+    return document.difference(after)

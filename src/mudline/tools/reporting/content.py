@@ -1,0 +1,321 @@
+"""What the page about a deck says, as JSON has it, and what its pictures are drawn from.
+
+Only what a wanted section needs is computed. A part that a faulty deck does not allow is None, and `missing` says why.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import asdict, dataclass, field
+from datetime import UTC, datetime
+from hashlib import sha256
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from mudline.basics.quantities import finite
+from mudline.checks.context import LintContext
+from mudline.checks.engine import LintSettings, joined_problems, named_causes
+from mudline.checks.fixing import lint_one
+from mudline.checks.output.json import as_object
+from mudline.checks.registry import rules
+from mudline.checks.suppression import suppressions
+from mudline.checks.verdict import Verdict, judge, refused
+from mudline.language.codes.contact import SBD025
+from mudline.language.deck.loading import load_bytes
+from mudline.language.deck.model import Deck
+from mudline.language.deck.reading import TextOrigin
+from mudline.language.diagnostics import DeckError, Diagnostic, Problem, Where
+from mudline.language.syntax.source import Source
+from mudline.model.contact.input import LawKind
+from mudline.model.results.curve_rows import curve_rows
+from mudline.model.results.evaluation import Tension, evaluate_scene, prepare
+from mudline.model.results.forms import plan_rows
+from mudline.model.results.plot_data import PlotData
+from mudline.model.results.summary import summarise
+from mudline.model.results.totals import line_steps, reaction, states, totals
+from mudline.model.results.warnings import ContactWatch, caption
+from mudline.model.scene.model import Scene, resolve
+from mudline.model.scene.numbering import Mask
+from mudline.tools.reporting.inferred import inferences
+from mudline.tools.study import Study, study
+
+FORMAT = "mudline-report/1"
+SECTIONS = ("verdict", "findings", "model", "curves", "contact", "study", "plan")
+
+_NO_DECK = "the file holds no deck"
+
+
+class Given(NamedTuple):
+    """A file: its content, its name in messages, where files are that it names, and the time of its last change.
+
+    `modified` is in ns since 1970, None where that is not known.
+    """
+
+    data: bytes
+    name: str
+    folder: Path | None
+    modified: int | None
+
+
+class Stamp(NamedTuple):
+    """What is written on a page of who made it: the version of the program, and a date if one is given."""
+
+    version: str
+    date: str | None = None
+
+
+class Look(NamedTuple):
+    """What a company gives a page: a template instead of ours, and a logo."""
+
+    template: Path | None = None
+    logo: Path | None = None
+
+
+@dataclass
+class Report:
+    """The content of a page.
+
+    Attributes:
+        json: as it is printed; a section that is not wanted is not among its keys.
+        source: the text of the deck, of which lines are shown beside findings.
+        scene, drawn, doubt, study: what the pictures show, None where there is none; `doubt` goes below a title.
+    """
+
+    json: dict[str, Any]
+    source: Source
+    scene: Scene | None = None
+    drawn: PlotData | None = None
+    doubt: str = ""
+    study: Study | None = None
+    named: dict[str, str] = field(default_factory=dict)
+    """The titles of the rules behind the findings, by code."""
+
+
+def report_on(given: Given, settings: LintSettings, wanted: Collection[str], stamp: Stamp) -> Report:
+    """Read, judge and evaluate a deck as far as the wanted sections need it. Never raises for content."""
+    verdict, deck, context = _judged(given, settings)
+    head = _head(given, deck, verdict, stamp)
+    head["shown"] = [name for name in SECTIONS if name in wanted]
+    made = Report(head, Source.from_bytes(given.data, given.name))
+    found = head["sections"]
+    if "findings" in wanted:
+        found["findings"] = _findings(given, settings, context)
+        made.named = _titles([one["code"] for one in (*found["findings"]["reported"], *found["findings"]["hidden"])])
+    of_scene = [name for name in SECTIONS[2:] if name in wanted]
+    made.scene, missing = _scene(deck) if of_scene else (None, "")
+    for name in of_scene:
+        why = missing
+        try:
+            found[name] = None if made.scene is None else _as_json(_section(name, made.scene, made))
+        except DeckError as error:
+            found[name], why = None, _reason(error)
+        if why:
+            head["missing"][name] = why
+    head["inferred"] = [*([] if deck is None else inferences(deck)), *_of_plan(found.get("plan"))]
+    return made
+
+
+def _as_json(value: Any) -> Any:  # noqa: ANN401 - whatever JSON holds
+    """A value without numbers that JSON cannot hold: None for what overflowed."""
+    if isinstance(value, dict):
+        return {key: _as_json(each) for key, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_as_json(each) for each in value]
+    return finite(value) if isinstance(value, float) else value
+
+
+def _section(name: str, scene: Scene, made: Report) -> dict[str, Any]:
+    if name == "contact":
+        return _contact(scene, made)
+    if name == "study":
+        made.study = study(scene, draw=True)
+        return made.study.json() | {"notes": made.study.notes}
+    return {"model": _model, "curves": _curves, "plan": _plan}[name](scene)
+
+
+def _judged(given: Given, settings: LintSettings) -> tuple[Verdict, Deck | None, LintContext | None]:
+    try:
+        deck = load_bytes(given.data, given.name, units=settings.units, folder=given.folder)
+    except DeckError as error:
+        return refused(given.name, error), None, None
+    context = LintContext(deck, dialect=settings.dialect)
+    return judge(context).verdict, deck, context
+
+
+def _head(given: Given, deck: Deck | None, verdict: Verdict, stamp: Stamp) -> dict[str, Any]:
+    """Which deck, in which state, by which program."""
+    when = None if given.modified is None else datetime.fromtimestamp(given.modified // 10**9, UTC)
+    return {
+        "format": FORMAT,
+        "deck": given.name,
+        "sha256": sha256(given.data).hexdigest(),
+        "bytes": len(given.data),
+        "modified": None if when is None else when.strftime("%Y-%m-%d %H:%M:%S UTC"),
+        "version": stamp.version,
+        "date": stamp.date,
+        "units": None if deck is None else deck.units,
+        "continues": [] if deck is None else [base.deck.file for base in deck.bases],
+        "verdict": asdict(verdict) | {"sentence": verdict.keywords.sentence()},
+        "shown": [],
+        "sections": {},
+        "missing": {},
+    }
+
+
+def _scene(deck: Deck | None) -> tuple[Scene | None, str]:
+    """The scene of a deck that can be evaluated, or why there is none."""
+    if deck is None:
+        return None, _NO_DECK
+    try:
+        return resolve(deck).require(), ""
+    except DeckError as error:
+        return None, _reason(DeckError(named_causes(deck, error.diagnostics, rules())))
+
+
+def _reason(error: DeckError) -> str:
+    first, more = error.diagnostics[0], len(error.diagnostics) - 1
+    return f"line {first.line}: {first.code} {first.message}" + (f", and {more} more" if more else "")
+
+
+# ------------------------------------------------------------------------------------------------------------- findings
+
+
+def _findings(given: Given, settings: LintSettings, context: LintContext | None) -> dict[str, Any]:
+    """What `mudline lint` reports, and what comments hide, each with the section of the deck that it lies in."""
+    found = lint_one(given.name, given.data, settings, given.folder).found
+    sections = _section_lines(context)
+    reported = [_finding(one, sections) for one in found]
+    hidden = [] if context is None else _hidden(context, settings, sections)
+    return {"reported": reported, "hidden": hidden}
+
+
+def _section_lines(context: LintContext | None) -> list[tuple[int, str]]:
+    """The first line of each section of a text, with its name."""
+    origin = None if context is None else context.deck.origin
+    if context is None or not isinstance(origin, TextOrigin):
+        return []
+    places = (origin.source.position(one.head.span.start)[0] for one in origin.tree.sections if one.head)
+    return list(zip(places, (f"${one.name}" for one in context.deck.own_sections), strict=False))
+
+
+def _finding(found: Diagnostic, sections: Sequence[tuple[int, str]]) -> dict[str, Any]:
+    section = next((name for line, name in reversed(sections) if line <= found.line), "")
+    row = as_object(found) | {"section": section}
+    del row["url"], row["file"]
+    return row
+
+
+def _hidden(context: LintContext, settings: LintSettings, sections: list[tuple[int, str]]) -> list[dict[str, Any]]:
+    comments = suppressions(context)
+    if comments is None:
+        return []
+    rows = []
+    for problem in comments.split(joined_problems(context, settings.rules, suppress=False), ())[1]:
+        comment = comments.hiding(problem)
+        (found,) = context.deck.diagnose([problem])
+        rows.append(_finding(found, sections) | {"reason": "" if comment is None else comment.reason})
+    return rows
+
+
+def _titles(codes: Collection[str]) -> dict[str, str]:
+    found = {rule.code.code: rule for rule in rules()} if codes else {}
+    return {code: found[code].page.title if code in found else "" for code in sorted(set(codes))}
+
+
+# ----------------------------------------------------------------------------------------------------- model and curves
+
+
+def _model(scene: Scene) -> dict[str, Any]:
+    found = summarise(scene)
+    names = ("nodes", "elements", "length", "sets", "diameters", "floor", "static_embedment", "extensions")
+    return {name: found[name] for name in names} | {"keywords": found["sections"]}
+
+
+def _curves(scene: Scene) -> dict[str, Any]:
+    """Every curve as it is evaluated; what each set of elements follows, with the lines of the deck that give it."""
+    laws = []
+    for index, grant in enumerate(scene.laws.set_laws):
+        values: dict[str, Any] = {} if np.isnan(grant.stiffness) else {"stiffness": finite(grant.stiffness)}
+        laws.append(
+            _law(scene, scene.law_name(grant), grant.set_.name, values, scene.laws.of_element == index, grant.where)
+        )
+    for index, (given, where) in enumerate(zip(scene.resistance.values, scene.resistance.places, strict=True)):
+        values = {key.replace("_", " "): read for key, one in given._asdict().items() if (read := _given(one))}
+        entry: Any = scene.deck.sections[where.section].blocks[where.block]
+        name: str | None = entry.sets[where.path[1]].set_name if where.path[0] == "sets" else None
+        if values:
+            laws.append(_law(scene, "resistance", name, values, scene.resistance.of_element == index, where))
+    for keyword, extension in scene.extensions.items():
+        for index, (record, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
+            values = record.model_dump(mode="json", by_alias=True, exclude_none=True, exclude_defaults=True)
+            of_set = values.pop("set", None)
+            laws.append(_law(scene, f"*{keyword}", of_set, values, extension.of_element == index, where))
+    return {"curves": curve_rows(scene, (), None), "laws": laws}
+
+
+def _law(
+    scene: Scene, law: str, set_name: str | None, values: dict[str, Any], follow: Mask, where: Where
+) -> dict[str, Any]:
+    (found,) = scene.deck.diagnose([Problem(SBD025, "", where=where)])
+    name = set_name or "ALL"
+    known = scene.set_table.find(name)
+    counts = {"elements": int(follow.sum()), "open": known is not None and known.open}
+    place = {"file": found.file, "line": found.line}
+    return {"law": law, "set": name} | counts | {"values": values} | place
+
+
+def _given(value: Any) -> Any:  # noqa: ANN401 - a number, or one for each direction
+    """What the deck gives of a value; None for nothing."""
+    if isinstance(value, tuple):
+        numbers = [finite(float(one)) for one in value]
+        return None if all(one is None for one in numbers) else numbers
+    return finite(float(value))
+
+
+# ------------------------------------------------------------------------------------------ contact, study and plan
+
+
+def _contact(scene: Scene, made: Report) -> dict[str, Any]:
+    """The contact of the deck's own coordinates."""
+    evaluation = evaluate_scene(scene, tension=_tension(scene))
+    made.drawn = PlotData.of_evaluation(evaluation)
+    watch = ContactWatch.of(evaluation)
+    (part,) = evaluation.parts()
+    for one in (made.drawn, watch):
+        one.take(part)
+    warnings = watch.warnings()
+    made.doubt = caption(warnings)
+    result = part.result.step(0)
+    lying = scene.law != LawKind.NONE  # others may be held in soil
+    lying = lying if lying.any() else ~lying
+    depth = np.where(lying & result.evaluated & ~np.isnan(result.depth), result.depth, -np.inf)
+    deepest = int(depth.argmax()) if depth.size else -1
+    touches = deepest >= 0 and depth[deepest] > 0.0
+    return {
+        "laws": [each._asdict() for each in totals(evaluation, part)],
+        "reaction": finite(reaction(evaluation, result)),
+        "weight": None if watch.balance is None else finite(watch.balance.weight),
+        "ratio": None if watch.balance is None else finite(watch.balance.ratio),
+        "deepest": {"depth": float(depth[deepest]), "element": int(scene.element_ids[deepest])} if touches else None,
+        "lines": [row.row() for row in line_steps(evaluation, part)],
+        "states": [{"law": law, "state": state, "count": count} for law, state, count in states(evaluation, result)],
+        "warnings": [one.row() for one in warnings],
+    }
+
+
+def _plan(scene: Scene) -> dict[str, Any]:
+    plan = prepare(scene, None, _tension(scene)).model.plan
+    return {"stages": plan_rows(plan), "steps": plan.steps}
+
+
+def _of_plan(plan: dict[str, Any] | None) -> list[dict[str, Any]]:
+    """The stages whose law is inferred."""
+    stages = [one for one in (plan or {}).get("stages", ()) if one["active"] and "(inferred)" in one["why"]]
+    return [{"keyword": "", "fields": [one["stage"]], "inferred": one["why"], "blocks": 1} for one in stages]
+
+
+def _tension(scene: Scene) -> Tension:
+    """Curves that pull are cut where the deck could not be evaluated otherwise."""
+    return "cut" if scene.blocking("keep") else "keep"

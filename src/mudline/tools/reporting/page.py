@@ -1,0 +1,139 @@
+"""The HTML of a page, from its content: tables of it, and jinja2 templates, which escape every text. Needs jinja2."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Sequence
+from itertools import groupby
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import jinja2
+from jinja2.sandbox import SandboxedEnvironment
+from markupsafe import Markup
+
+from mudline.basics.quantities import shown, unit_names
+from mudline.basics.short_repr import counted, cut
+from mudline.checks.output import visible
+from mudline.tools.reporting.content import Look, Report
+from mudline.tools.reporting.pictures import Picture
+from mudline.tools.reporting.tables import LONGEST, TABLES, study_tables
+from mudline.tools.study.screen import extremes_sentences
+
+MOST_FINDINGS = 500
+_LONGEST_LINE = 160
+"""Characters of a line of the deck that a page shows."""
+_AROUND = 1
+"""Lines of the deck above and below that of a finding."""
+
+
+class LookError(ValueError):
+    """A template or a logo that cannot be used; the message names the file."""
+
+
+def page(report: Report, pictures: Sequence[Picture], left_out: int, look: Look) -> str:
+    """Return the page about a deck. Raises LookError."""
+    given = report.json
+    sections = given["sections"]
+    names = unit_names(given["units"])
+    tables = {name: list(shape(sections[name], names)) for name, shape in TABLES.items() if sections.get(name)}
+    if report.study is not None:
+        tables["study"] = study_tables(report.study)
+    return _rendered(
+        look,
+        "page.html",
+        report=given,
+        tables=tables,
+        extremes=extremes_sentences(report.study) if report.study is not None else [],
+        findings=_groups(report, "reported"),
+        hidden=_groups(report, "hidden"),
+        rules=report.named,
+        pictures=[one._replace(markup=Markup(one.markup)) for one in pictures],  # noqa: S704 - made from our figures
+        pictures_left=left_out,
+        most=MOST_FINDINGS,
+    )
+
+
+def index_page(rows: Sequence[dict[str, Any]], version: str, look: Look) -> str:
+    """Return the index of many pages, whose `rows` have the names that the template uses. Raises LookError."""
+    return _rendered(look._replace(template=None), "index.html", rows=rows, version=version)
+
+
+def _rendered(look: Look, name: str, **values: object) -> str:
+    loaders: list[jinja2.BaseLoader] = [jinja2.PackageLoader("mudline.tools.reporting")]
+    if look.template is not None:
+        loaders.insert(0, jinja2.FileSystemLoader(look.template.parent))
+        name = look.template.name
+    # A text of a deck goes through `visible` wherever it stands, and is escaped behind it.
+    environment = SandboxedEnvironment(
+        loader=jinja2.ChoiceLoader(loaders),
+        autoescape=True,
+        finalize=_finalized,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+    )
+    environment.filters |= {"number": _number, "counted": counted}
+    values["logo"] = _logo(look.logo)
+    try:
+        return environment.get_template(name).render(values)
+    except jinja2.TemplateError as error:
+        where = f", line {error.lineno}" if isinstance(error, jinja2.TemplateSyntaxError) else ""
+        raise LookError(f"{look.template}: the template cannot be used: {error}{where}") from error
+    except OSError as error:
+        raise LookError(f"{look.template}: cannot be read: {error.strerror or error}") from error
+
+
+def _finalized(value: object) -> object:
+    return visible(value) if type(value) is str else "" if value is None else value
+
+
+def _number(value: str | float | None) -> str:
+    return value if isinstance(value, str) else shown(value)
+
+
+_LOGOS = {".svg": ("image/svg+xml", (b"<",)), ".png": ("image/png", (b"\x89PNG",))}
+_LARGEST_LOGO = 300_000
+
+
+def _logo(path: Path | None) -> str:
+    """The logo as an address of data, in which nothing can act."""
+    if path is None:
+        return ""
+    if path.suffix.lower() not in _LOGOS:
+        raise LookError(f"{path}: a logo is a .svg or .png file")
+    form, begins = _LOGOS[path.suffix.lower()]
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise LookError(f"{path}: cannot be read: {error.strerror or error}") from error
+    if not data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(begins) or len(data) > _LARGEST_LOGO:
+        raise LookError(f"{path}: expected a {path.suffix[1:].upper()} image of at most {_LARGEST_LOGO // 1000} kB")
+    return f"data:{form};base64,{b64encode(data).decode()}"
+
+
+# ------------------------------------------------------------------------------------------------------------- findings
+
+
+class Shown(NamedTuple):
+    """A finding on the page: its number, content, and lines of the deck with their numbers."""
+
+    number: int
+    found: dict[str, Any]
+    lines: Sequence[tuple[int, str]]
+
+
+def _groups(report: Report, kind: str) -> list[tuple[str, list[Shown]]]:
+    """The first findings by section of the deck."""
+    found = (report.json["sections"].get("findings") or {}).get(kind, [])[:MOST_FINDINGS]
+    rows = [
+        Shown(number, one | {"message": cut(one["message"], LONGEST)}, _lines(report, one["line"]))
+        for number, one in enumerate(found, 1)
+    ]
+    return [(name, list(group)) for name, group in groupby(rows, key=lambda one: str(one.found["section"]))]
+
+
+def _lines(report: Report, line: int) -> list[tuple[int, str]]:
+    last = len(report.source.line_starts)
+    around = range(max(1, line - _AROUND), min(last, line + _AROUND) + 1)
+    return [(number, cut(report.source.line(number), _LONGEST_LINE)) for number in around]

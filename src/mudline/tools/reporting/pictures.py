@@ -1,0 +1,102 @@
+"""The pictures of a page: SVG that stands in it, or PNG where that is smaller. Needs matplotlib."""
+
+from __future__ import annotations
+
+import re
+from base64 import b64encode
+from collections.abc import Callable, Iterator
+from functools import partial
+from io import BytesIO
+from typing import NamedTuple
+from xml.etree import ElementTree as ET
+
+import matplotlib as mpl
+from matplotlib.figure import Figure
+
+from mudline.checks.output import visible
+from mudline.model.results.curve_rows import curve_units
+from mudline.model.results.plots import can_draw, curves_figure, evaluation_figure, model_figure, save
+from mudline.tools.reporting.content import Report
+from mudline.tools.study.picture import study_figure
+
+MOST_PICTURES = 20
+MOST_BYTES = 600_000
+"""Of all pictures of a page, which is to be sent by mail."""
+_LARGEST_SVG = 120_000
+
+_REFERENCE = re.compile(r"url\(#([^)]+)\)")
+
+
+class Picture(NamedTuple):
+    """A picture: which section it is in, what it shows in words, and its markup."""
+
+    section: str
+    alternative: str
+    markup: str
+
+
+def pictures_of(report: Report) -> tuple[list[Picture], int]:
+    """Return the pictures of a page, and how many were left out of it."""
+    made: list[Picture] = []
+    size = left = 0
+    for number, (section, alternative, draw) in enumerate(_drawings(report)):
+        if len(made) == MOST_PICTURES or size > MOST_BYTES:
+            left += 1
+            continue
+        markup = _markup(draw(), f"p{number}", alternative)
+        size += len(markup)
+        made.append(Picture(section, alternative, markup))
+    return made, left
+
+
+def _drawings(report: Report) -> Iterator[tuple[str, str, Callable[[], Figure]]]:
+    """Yield each picture that the sections have, the most telling first, and what draws it."""
+    scene, found, drawn, study = report.scene, report.json["sections"], report.drawn, report.study
+    if scene is None:
+        return
+    if found.get("model") and can_draw(scene):
+        words = "Elevation and plan of the line in the deck's own coordinates, by set, over the seabed"
+        yield "model", words, partial(model_figure, scene, drawn)
+    if found.get("contact") and drawn is not None:
+        words = "Contact along the line: its height, the seabed reaction, embedment and stiffness"
+        yield "contact", words, partial(evaluation_figure, drawn, report.doubt)
+    if study is not None and study.drawn is not None and study.drawn.curves:
+        words = "Error against run time of three schemes on the stiffest contacts of the deck"
+        yield "study", words, partial(study_figure, study)
+    units_of = curve_units(scene)
+    for row in (found.get("curves") or {}).get("curves", ()):
+        words = f"The {row['kind']} {visible(row['name'])}: {row['axes'][1]} over {row['axes'][0]}"
+        yield "curves", words, partial(curves_figure, [row], scene.units, units_of)
+
+
+def _markup(figure: Figure, prefix: str, alternative: str) -> str:
+    """Return SVG without what it does not need inside a page; a large one as PNG, whose size has a bound."""
+    stream = BytesIO()
+    with mpl.rc_context({"svg.fonttype": "none"}):  # texts stay texts
+        save(figure, "svg", stream)
+    root = ET.fromstring(stream.getvalue())  # noqa: S314 - matplotlib made it
+    _strip(root, prefix)
+    root.attrib.update({"role": "img", "aria-label": alternative})
+    for name in ("width", "height", "version"):
+        root.attrib.pop(name, None)
+    text = ET.tostring(root, encoding="unicode")
+    if len(text) <= _LARGEST_SVG:
+        return text
+    stream = BytesIO()
+    save(figure, "png", stream)
+    image = ET.Element("img", src=f"data:image/png;base64,{b64encode(stream.getvalue()).decode()}", alt=alternative)
+    return ET.tostring(image, encoding="unicode", method="html")
+
+
+def _strip(root: ET.Element, prefix: str) -> None:
+    """Drop namespaces and metadata, and make ids differ from those of other pictures."""
+    for element in list(root.iter()):
+        element.tag = element.tag.rpartition("}")[2]
+        for child in element.findall("{*}metadata"):
+            element.remove(child)
+        for name, value in list(element.attrib.items()):
+            short, mark = name.rpartition("}")[2], "#" if name.endswith("href") else ""
+            del element.attrib[name]
+            own = short == "id" or (mark and value.startswith(mark))
+            renamed = f"{mark}{prefix}-{value.removeprefix(mark)}" if own else value
+            element.set(short, _REFERENCE.sub(rf"url(#{prefix}-\1)", renamed))

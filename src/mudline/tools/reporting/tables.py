@@ -1,0 +1,184 @@
+"""The sections of a page as tables, from their content."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Sequence
+from typing import Any, NamedTuple
+
+from mudline.basics.display import Cell, DisplayTable, number, text
+from mudline.basics.limits import SHOWN_ROWS
+from mudline.basics.quantities import UnitNames, labelled, shown
+from mudline.basics.short_repr import counted, cut
+from mudline.model.results.summary_tables import OPEN, diameter_table, elements_of, law_table, set_table, static_table
+from mudline.model.results.totals import NOT_KNOWN, touchdown_words
+from mudline.model.scene.deck_curves import OF_SEABED
+from mudline.tools.study import Study
+from mudline.tools.study.screen import precision_table, stability_table, stages_table
+
+MOST_CURVES = 50
+"""Curves and sets that a page shows."""
+_MOST_TOUCHDOWNS = 5
+LONGEST, LONGEST_NAME = 600, 80
+"""Characters of a message and of a name that a page shows."""
+
+
+class Table(NamedTuple):
+    """A table on a page: its caption, heads and rows; what it says of rows that are left out; anchors.
+
+    Columns of which `numeric` has the place are set to the right also where their cells are texts.
+    """
+
+    caption: str
+    heads: Sequence[str]
+    rows: Sequence[Sequence[Cell]]
+    note: str = ""
+    anchors: Sequence[str] = ()
+    anchor: str = ""
+    numeric: Collection[int] = ()
+
+
+def _on_page(
+    table: DisplayTable,
+    most: int = SHOWN_ROWS,
+    anchors: str = "",
+    longest: int = LONGEST_NAME,
+    numeric: Collection[int] = (),
+) -> Table:
+    """A table of at most so many rows, of which each has an anchor if wanted; longer texts are cut."""
+    rows = [[cut(cell, longest) if isinstance(cell, str) else cell for cell in row] for row in table.cells()]
+    note = " ".join(filter(None, (_more(len(rows) - most, "row"), table.note)))
+    names = [f"{anchors}-{row}" for row in range(1, len(rows[:most]) + 1)] if anchors else []
+    heads = [one.head.replace("\n", " ") for one in table.columns]
+    return Table(table.title, heads, rows[:most], note, names, numeric=numeric)
+
+
+def _more(count: int, what: str) -> str:
+    return f"{counted(count, f'more {what}')}: the JSON of this report has all" if count > 0 else ""
+
+
+def _model(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
+    more = "+" if found["sets"][0]["open"] else ""  # of ALL, which comes first
+    counts = [(name, f"{found[name]}{more}") for name in ("nodes", "elements")]
+    counts += [("seabed", found["floor"]["kind"]), (labelled("length of line", names.length), found["length"])]
+    yield _on_page(DisplayTable("Size", _FIGURES, counts), numeric={1})
+    yield _on_page(set_table(found["sets"], names), MOST_CURVES, numeric={1})
+    yield _on_page(diameter_table(found["diameters"], names))
+    yield _on_page(static_table(found["static_embedment"], names, first=False, stiffness=names.stiffness))
+    keywords = [(section["name"], one) for section in found["keywords"] for one in section["keywords"]]
+    columns = (
+        text("section", lambda row: f"${row[0]}"),
+        text("keyword", lambda row: f"*{row[1]['keyword']}"),
+        text("lines", lambda row: _extent(row[1])),
+    )
+    yield _on_page(DisplayTable("Keywords", columns, keywords), 4 * SHOWN_ROWS)
+
+
+_FIGURES = (text("what", 0), number("value", 1))
+
+
+def _extent(keyword: dict[str, Any]) -> str:
+    return "read in part" if keyword["partly"] else "read" if keyword["read"] else "not read"
+
+
+def _curves(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
+    columns = (
+        text("law", lambda one: cut(one["law"], LONGEST_NAME)),
+        text("set", lambda one: cut(one["set"], LONGEST_NAME)),
+        number("elements", elements_of),
+        text("values", lambda one: _values(one["values"])),
+        text("deck line", lambda one: f"line {one['line']} of {one['file']}"),
+    )
+    note = OPEN if any(one["open"] for one in found["laws"]) else ""
+    laws = DisplayTable("Laws and resistance by set", columns, found["laws"], note)
+    yield _on_page(laws, MOST_CURVES, "law", LONGEST, numeric={2})
+    for place, row in enumerate(found["curves"][:MOST_CURVES], 1):
+        over, value = row["axes"]
+        slopes = [one["slope"] for one in row["segments"]]
+        points = [(x, y, slope) for (x, y), slope in zip(row["points"], [*slopes, None], strict=True)]
+        caption = f"{row['kind']} {cut(row['name'], LONGEST_NAME)} (*{row['keyword']}): {counted(len(points), 'point')}"
+        ends = f"; slope {shown(slopes[0])} below the first, {shown(slopes[-1])} above the last" if slopes else ""
+        unit = names.line_force if row["kind"] == OF_SEABED else ""
+        of_points = (number(over, 0), number(value, 1, unit), number("slope to the next", 2, unit))
+        yield _on_page(DisplayTable(caption + ends, of_points, points))._replace(anchor=f"curve-{place}")
+    yield Table("", (), (), _more(len(found["curves"]) - MOST_CURVES, "curve"))
+
+
+def _values(values: dict[str, Any]) -> str:
+    return "; ".join(f"{name.replace('_', ' ')} {_value(value)}" for name, value in values.items())
+
+
+def _value(value: Any) -> str:  # noqa: ANN401 - whatever JSON holds
+    if isinstance(value, dict):
+        return ", ".join(_value(one) for one in value.values())
+    if isinstance(value, list):
+        between = " / " if any(isinstance(one, list) for one in value) else ", "
+        return between.join("-" if one is None else _value(one) for one in value)
+    return shown(value) if isinstance(value, float) else str(value)
+
+
+def _contact(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
+    figures = [
+        (labelled("total reaction", names.force), _known(found["reaction"])),
+        (labelled("submerged weight of the elements in contact", names.force), found["weight"]),
+        ("reaction over weight", found["ratio"]),
+    ]
+    if deepest := found["deepest"]:
+        words = labelled(f"largest penetration, element {deepest['element']}", names.length)
+        figures.append((words, deepest["depth"]))
+    yield _on_page(DisplayTable("Equilibrium of the deck's own coordinates", _FIGURES, figures))
+    yield _on_page(law_table("By law and set", found["laws"], names, "reaction"), MOST_CURVES)
+    columns = [
+        number("line", "line"),
+        text("elements", lambda one: f"{one['first_element']} to {one['last_element']}"),
+        number("touchdown at arc length", _touchdown, names.length),
+        number("length in contact", "contact_length", names.length),
+        number("largest force", lambda one: (one["largest_force"] or {}).get("force"), names.line_force),
+        number("reaction", lambda one: _known(one["reaction"]), names.force),
+        number("over weight", "ratio"),
+    ]
+    yield _on_page(DisplayTable("Touchdown", columns, found["lines"]))
+    columns = [text("law", "law"), text("state", "state"), number("count", "count")]
+    yield _on_page(DisplayTable("States", columns, found["states"]))
+    columns = [text("code", "code"), number("deck line", "line"), text("message", "message")]
+    warnings = found["warnings"][:SHOWN_ROWS]
+    yield _on_page(DisplayTable("Warnings about these results", columns, warnings), longest=LONGEST)
+
+
+def _known(reaction: float | None) -> float | str:
+    return NOT_KNOWN if reaction is None else reaction
+
+
+def _touchdown(line: dict[str, Any]) -> str:
+    places = [point["arc_length"] for point in line["touchdown"]]
+    return touchdown_words(places, line["contact_length"], line["length"], _MOST_TOUCHDOWNS)
+
+
+def study_tables(found: Study) -> list[Table]:
+    """The tables of the screen of a study."""
+    screens = [screen for make in (precision_table, stability_table, stages_table) if (screen := make(found))]
+    return [
+        Table(
+            screen.title,
+            [head.replace("\n", " ") for head in screen.heads],
+            screen.rows,
+            screen.note,
+            numeric=[at for at, head in enumerate(screen.heads) if head not in screen.left],
+        )
+        for screen in screens
+    ]
+
+
+def _plan(found: dict[str, Any], _names: UnitNames) -> Iterator[Table]:
+    stages = found["stages"]
+    columns = (text("stage", "stage"), text("in or out", lambda one: "in" if one["active"] else "left out"))
+    table = DisplayTable(f"Stages of the evaluation, {found['steps']}", [*columns, text("why", "why")], stages)
+    yield _on_page(table, len(stages), longest=LONGEST)
+
+
+TABLES: dict[str, Callable[[dict[str, Any], UnitNames], Iterator[Table]]] = {
+    "model": _model,
+    "curves": _curves,
+    "contact": _contact,
+    "plan": _plan,
+}
+"""What makes the tables of a section."""

@@ -1,0 +1,399 @@
+"""Functions over many items: here while that is quickest, then in other processes, or by the workers of a scheduler.
+
+A scheduler and its workers are Dask's own, and so are retries, heartbeats and TLS, by Dask's configuration.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import sys
+import threading
+import time
+import traceback
+from collections import deque
+from collections.abc import Callable, Generator, Iterable, Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, field
+from importlib.util import find_spec
+from ipaddress import ip_address
+from itertools import islice
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple, TypeVar, TypeVarTuple
+
+from mudline import __version__
+from mudline.basics.outside import refusing_outside
+from mudline.basics.overwriting import Outputs, OverwriteError, continue_run, outputs
+from mudline.language.diagnostics import PluginError
+
+if TYPE_CHECKING:  # imported by runs that are large enough
+    from concurrent.futures import Executor, Future
+
+    from distributed import Client
+
+PAYS = {"fork": 0.1, "forkserver": 1.5, "spawn": 1.5}
+"""Seconds of remaining work from which on other processes are started, by the way in which they are.
+
+A copy of this process is there at once; the others take a part of a second to import everything.
+"""
+TRIED = 0.05
+"""Seconds of work in this process by which the remaining work is estimated."""
+
+CONNECTING = 10.0
+"""Seconds to wait for a scheduler, and for its first worker."""
+
+_AHEAD = 3
+"""Parts for each process or thread of a worker that are sent ahead."""
+_SECONDS = {False: 0.2, True: 1.0}
+"""Seconds that the items should take that are sent together: to a process, and to a worker on another machine."""
+_FIRST = 4
+_TOGETHER = 500
+"""Items that are sent together: before their pace is known, and at most."""
+_COUNTED = 5.0
+"""Seconds after which the workers of a scheduler are counted again: they come and go."""
+_MOST_ON_WINDOWS = 61
+"""Processes that one process can wait for there."""
+
+_SAFE_PATH = "PYTHONSAFEPATH"
+
+_ADDRESS = r"(?P<protocol>tcp|tls)://(?P<host>\[[0-9A-Fa-f:.]+\]|[A-Za-z0-9._-]+):(?P<port>[0-9]{1,5})"
+"""Strict: what Dask takes apart in another way would not be checked."""
+
+_ENDED = "a process has ended early, perhaps out of memory: give fewer files, or use --jobs 1"
+
+_Item = TypeVar("_Item")
+_Given = TypeVarTuple("_Given")
+_Made = TypeVar("_Made")
+
+
+class RunError(Exception):
+    """Items cannot be done elsewhere, or no longer; the message says why and what to do."""
+
+
+# -------------------------------------------------------------------------------------------------------- what to use
+
+
+@dataclass(eq=False)
+class Pool:
+    """At most so many processes (0: one for each processor), or the workers of a scheduler, once they are used."""
+
+    jobs: int
+    scheduler: str | None
+    _stack: ExitStack
+    _executor: Executor | None = None
+    _client: Client | None = None
+    _threads: int = 1
+    _counted: float = field(default=0.0, init=False)
+
+    @property
+    def size(self) -> int:
+        """The number of items that may be under way at a time."""
+        if self.scheduler is None:
+            return processors(self.jobs)
+        if self._client is not None and time.monotonic() - self._counted > _COUNTED:
+            self._threads = max(1, sum(self._client.nthreads().values()))
+            self._counted = time.monotonic()
+        return self._threads
+
+    def submit(
+        self, work: Callable[[*_Given], _Made], orders: list[tuple[*_Given]]
+    ) -> Future[tuple[float, list[_Made | Crash]]]:
+        """Have the work done for each order; what comes back are seconds and results. Raises RunError."""
+        if self._executor is None:
+            if self.scheduler is None:
+                self._executor = self._stack.enter_context(_processes(self.size, work.__module__))
+            else:
+                self._client = self._stack.enter_context(_connected(self.scheduler))
+                self._executor = self._client.get_executor(pure=False)
+                self._stack.callback(self._executor.shutdown, wait=False)
+        from concurrent.futures.process import BrokenProcessPool  # noqa: PLC0415 - most runs are too small for it
+
+        try:
+            with interrupt_deferred():
+                return self._executor.submit(_done, __version__, work, orders)
+        except (BrokenProcessPool, EOFError, ConnectionError) as error:  # also of what starts the processes
+            raise RunError(_ENDED) from error
+
+    def result(self, future: Future[_Made]) -> _Made:
+        """What came back; raises RunError, and whatever the function raised."""
+        from concurrent.futures import CancelledError  # noqa: PLC0415 - most runs are too small for it
+        from concurrent.futures.process import BrokenProcessPool  # noqa: PLC0415 - as above
+
+        try:
+            return future.result()
+        except BrokenProcessPool as error:
+            raise RunError(_ENDED) from error
+        except CancelledError as error:
+            raise RunError(f"{self.scheduler}: the scheduler has gone away: start it, and run this again") from error
+        except (ImportError, AttributeError) as error:
+            if self.scheduler is None:
+                raise
+            what = f"a worker lacks what this command has ({error}): install mudline {__version__} and its plugins"
+            raise RunError(f"{self.scheduler}: {what}") from error
+        except Exception as error:
+            if type(error).__name__ != "KilledWorker":
+                raise
+            what = "each worker that tried some of the files has ended, perhaps out of memory: see their logs"
+            raise RunError(f"{self.scheduler}: {what}") from error
+
+
+def many(
+    work: Callable[[*_Given], _Made],
+    items: Iterable[tuple[_Item, tuple[*_Given] | None]],
+    count: int,
+    jobs: int = 0,
+    scheduler: str | None = None,
+) -> Generator[tuple[_Item, _Made | Crash | None], None, None]:
+    """Each of about `count` items with what the work makes of it, in order; only so many are taken ahead as needed.
+
+    An item comes with what the work is given, which is pickled; with None there is nothing to do and its result is
+    None. The work is a function of a module, by whose name others find it. Where it fails of an item, that comes with
+    a Crash. Raises RunError, and whatever else is in NO_CRASH.
+
+    Processes are started, and a scheduler is reached, when that is needed. Close what this gives: then processes end
+    at once, and what a scheduler still has to do is cancelled.
+    """
+    rest = iter(items)
+    spent, done, number = 0.0, 0, 0
+    with ExitStack() as stack:
+        pool = Pool(jobs, scheduler, stack)
+        for item, given in rest if scheduler is None else ():
+            seconds, made = _timed(work, [] if given is None else [given])
+            spent, done, number = spent + seconds, done + len(made), number + 1
+            yield item, made[0] if made else None
+            if spent >= TRIED and done and pool.size > 1 and spent / done * (count - number) >= PAYS[start_method()]:
+                break
+        waiting: deque[tuple[list[tuple[_Item, bool]], Future[tuple[float, list[_Made | Crash]]] | None]] = deque()
+        under_way = 0
+        while True:
+            wanted = _SECONDS[scheduler is not None] * done / spent if spent else _FIRST
+            share = (count - number) / (2 * pool.size)
+            part = list(islice(rest, max(1, min(int(wanted), int(share), _TOGETHER))))
+            number += len(part)
+            if part:
+                orders = [given for _, given in part if given is not None]
+                sent = [(item, given is not None) for item, given in part]
+                waiting.append((sent, pool.submit(work, orders) if orders else None))
+                under_way += bool(orders)
+            while waiting and (not part or waiting[0][1] is None or under_way > _AHEAD * pool.size):
+                sent, future = waiting.popleft()
+                seconds, results = (0.0, []) if future is None else pool.result(future)
+                under_way -= future is not None
+                spent, done = spent + seconds, done + len(results)
+                found = iter(results)
+                yield from ((item, next(found) if is_sent else None) for item, is_sent in sent)
+            if not part:
+                return
+
+
+class Crash(NamedTuple):
+    """A fault of the program itself: what was raised and where, on one line, and its traceback."""
+
+    summary: str
+    traceback: str
+
+    @classmethod
+    def of(cls, error: Exception) -> Crash:
+        """Return what is known of an exception."""
+        *_, last = traceback.extract_tb(error.__traceback__)
+        text = "".join(traceback.format_exception(error))
+        what = " ".join("".join(traceback.format_exception_only(error)).split())
+        return cls(f"{what} ({Path(last.filename).name}, line {last.lineno})", text)
+
+
+NO_CRASH = (RunError, OverwriteError, PluginError, MemoryError, ImportError)
+"""Exceptions that end a run, whatever the item."""
+
+
+def _timed(work: Callable[[*_Given], _Made], orders: list[tuple[*_Given]]) -> tuple[float, list[_Made | Crash]]:
+    """The seconds that the work takes, and what it makes of each order, or how it fails."""
+    start = time.perf_counter()
+    made: list[_Made | Crash] = []
+    for given in orders:
+        try:
+            made.append(work(*given))
+        except NO_CRASH:
+            raise
+        except Exception as error:  # noqa: BLE001 - a fault of the program, which is reported as one
+            made.append(Crash.of(error))
+    return time.perf_counter() - start, made
+
+
+def _done(
+    version: str, work: Callable[[*_Given], _Made], orders: list[tuple[*_Given]]
+) -> tuple[float, list[_Made | Crash]]:
+    """What a process or a worker does, and the seconds that it took."""
+    if version != __version__:
+        raise RunError(f"a worker has mudline {__version__}, the command {version}: install the same version")
+    from mudline.checks.configuration import refuses_outside  # noqa: PLC0415 - only where there are workers
+
+    with refusing_outside(refuses_outside):
+        return _timed(work, orders)
+
+
+# ---------------------------------------------------------------------------------------------------------- processes
+
+
+def processors(jobs: int) -> int:
+    """The number of processes that may be used."""
+    if jobs:
+        wanted = jobs
+    elif hasattr(os, "sched_getaffinity"):
+        wanted = len(os.sched_getaffinity(0))
+    else:
+        wanted = os.cpu_count() or 1
+    return min(wanted, _MOST_ON_WINDOWS) if sys.platform == "win32" else wanted
+
+
+def start_method() -> str:
+    """How processes are started: as copies of this one on Linux, unless it has threads, which copies would lack."""
+    if sys.platform in ("win32", "darwin"):
+        return "spawn"
+    try:
+        threads = len(os.listdir("/proc/self/task"))  # noqa: PTH208 - those of libraries, too
+    except OSError:
+        return "forkserver"
+    return "fork" if threads == 1 else "forkserver"
+
+
+@contextmanager
+def _processes(count: int, module: str) -> Iterator[Executor]:
+    """Processes, which import a module before they start; they end at once when not all is done."""
+    import multiprocessing  # noqa: PLC0415 - most runs are too small to start processes
+    from concurrent.futures import ProcessPoolExecutor  # noqa: PLC0415 - as above
+
+    before = set(multiprocessing.active_children())
+    method = start_method()
+    context = multiprocessing.get_context(method)
+    if method == "forkserver":
+        context.set_forkserver_preload([module])
+    found = ProcessPoolExecutor(count, context, _begin, (outputs(),))
+    try:
+        with _safe_path():
+            yield found
+    except BaseException:
+        for child in set(multiprocessing.active_children()) - before:
+            child.kill()
+        raise
+    finally:
+        found.shutdown(cancel_futures=True)
+
+
+@contextmanager
+def _safe_path() -> Iterator[None]:
+    """Keep Python that is started until the block ends from importing modules of the working folder."""
+    before = os.environ.get(_SAFE_PATH)
+    os.environ[_SAFE_PATH] = "1"
+    try:
+        yield
+    finally:
+        if before is None:
+            os.environ.pop(_SAFE_PATH, None)
+        else:
+            os.environ[_SAFE_PATH] = before
+
+
+def _begin(known: Outputs) -> None:
+    """What each process does first: ignore Ctrl-C and a closed terminal, which reach all processes, and watch.
+
+    `known` are the outputs of the run, none of which the process may read.
+    """
+    continue_run(known)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    if hasattr(signal, "SIGHUP"):
+        signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    """End this process as soon as the one that started it has ended, by whatever it was killed."""
+    from multiprocessing import parent_process  # noqa: PLC0415 - other processes have loaded it
+    from multiprocessing.connection import wait  # noqa: PLC0415 - as above
+
+    parent = parent_process()
+    if parent is not None:
+        wait([parent.sentinel])
+        os._exit(1)
+
+
+@contextmanager
+def interrupt_deferred() -> Iterator[None]:
+    """Block Ctrl-C, also in processes that are started here until they ignore it; this one gets it afterwards."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    received: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, _: received.append(number))
+    masked = sys.platform != "win32" and signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        if sys.platform != "win32":
+            signal.pthread_sigmask(signal.SIG_SETMASK, masked or ())
+        signal.signal(signal.SIGINT, before)
+        if received:
+            signal.raise_signal(signal.SIGINT)
+
+
+# ---------------------------------------------------------------------------------------------------------- scheduler
+
+
+def check_address(address: str) -> None:
+    """Raise RunError for an address that is none, that is not safe to use, or where Dask is not installed.
+
+    A scheduler runs whatever code it is sent, and so do its workers: one that others can reach needs TLS.
+    """
+    found = re.fullmatch(_ADDRESS, address)
+    if found is None or not 0 < int(found["port"]) < 1 << 16:
+        raise RunError(f"--scheduler {address}: expected tcp://HOST:PORT or tls://HOST:PORT")
+    if find_spec("distributed") is None:
+        raise RunError("--scheduler needs dask.distributed: pip install 'mudline[cluster]'")
+    if found["protocol"] == "tls" or _is_loopback(found["host"].strip("[]")):
+        return
+
+    import dask.config  # noqa: PLC0415 - as above
+    import distributed  # noqa: F401, PLC0415 - brings its defaults, in which this is null
+
+    if dask.config.get("distributed.comm.require-encryption", None) is not False:
+        raise RunError(
+            f"--scheduler {address}: without TLS, whoever reaches it can run code on it and on this machine: use "
+            "tls:// with the certificates of Dask's configuration; on a network that nobody else reaches, set "
+            "distributed.comm.require-encryption to false there"
+        )
+
+
+def _is_loopback(host: str) -> bool:
+    if host == "localhost":
+        return True
+    try:
+        return ip_address(host).is_loopback
+    except ValueError:  # a name, whoever it belongs to
+        return False
+
+
+@contextmanager
+def _connected(address: str) -> Iterator[Client]:
+    """A client of the scheduler, which has a worker; raises RunError."""
+    import logging  # noqa: PLC0415 - few runs have a scheduler
+
+    import dask.config  # noqa: PLC0415 - as above
+    from distributed import Client  # noqa: PLC0415 - as above
+
+    for name in ("asyncio", *logging.root.manager.loggerDict):  # what goes wrong is reported once, by the command
+        if name.partition(".")[0] in {"asyncio", "distributed", "tornado"}:
+            logging.getLogger(name).setLevel(logging.CRITICAL)
+    dask.config.set({"distributed.admin.large-graph-warning-threshold": "1 TB"})  # files are sent, and may be large
+    try:
+        client = Client(address, timeout=CONNECTING, set_as_default=False)
+    except (OSError, TimeoutError, ValueError, RuntimeError, TypeError) as error:
+        text = " ".join(str(error).split())[:200]
+        raise RunError(f"{address}: the scheduler cannot be reached: {text}") from error
+    try:
+        client.wait_for_workers(1, timeout=CONNECTING)
+        yield client
+    except TimeoutError as error:
+        raise RunError(f"{address}: the scheduler has no worker: start one with dask worker {address}") from error
+    finally:
+        client.close(timeout=2)

@@ -1,0 +1,218 @@
+"""Results kept from run to run: what was found for the same content under the same settings by the same program.
+
+A memory is one file, whole or not at all, bounded in number and size: a head line with a digest of the rest, then a
+line for each result: its key, and the result with the files that it depends on. What is damaged is as good as none.
+Nothing here imports what makes results: a run in which nothing has changed ends without it.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import stat
+import sys
+import time
+from collections.abc import Iterable
+from contextlib import suppress
+from functools import cache
+from hashlib import blake2b
+from pathlib import Path
+from typing import Any
+
+from mudline.basics.cache_folder import cache_folder
+from mudline.basics.files import write_atomically
+from mudline.basics.installed import metadata_folders
+from mudline.basics.limits import LARGEST_MEMORY, LARGEST_NEIGHBOUR, LONGEST_REMEMBERED, MOST_MEMORIES, MOST_REMEMBERED
+from mudline.basics.overwriting import reading
+from mudline.basics.resources import grammar_file
+
+_KEY = 40
+_MAGIC = b"mudline-remembered/1 "
+_COARSE = 0.02
+"""Seconds by which the date of a file may lag behind the clock."""
+
+
+class Memory:
+    """The results in a file, of which those of other `settings` or another program are not found.
+
+    A file that is `shared` lies among others in the user's folder for caches.
+    """
+
+    def __init__(self, path: Path, settings: str = "", *, shared: bool = False) -> None:
+        self._path, self._shared = path, shared
+        self._entries = _read(path, own=shared)
+        self._start = blake2b(f"{program()}\0{settings}".encode("utf-8", "backslashreplace")).digest()
+        self._began = time.time()
+        self._state = cache(state)  # many results may depend on the same file
+        self._changed = False
+
+    def __bool__(self) -> bool:
+        """Whether anything is remembered."""
+        return bool(self._entries)
+
+    def key(self, *parts: str | bytes) -> str:
+        """The key of what a result is made from; two lists of parts share it only if they are equal."""
+        digest = blake2b(self._start, digest_size=_KEY // 2)
+        for part in parts:
+            data = part.encode("utf-8", "surrogatepass") if isinstance(part, str) else part
+            digest.update(b"%d " % len(data))
+            digest.update(data)
+        return digest.hexdigest()
+
+    def get(self, key: str) -> Any:  # noqa: ANN401 - what JSON holds
+        """The result, or None where none is known or a file that it depends on has changed."""
+        held = self._entries.get(key)
+        if not held:
+            return held if held is None else []
+        try:
+            result, states = json.loads(held)
+            for path in states:
+                reading(path)
+            holds = all(self._state(path) == before for path, before in states.items())
+        except (ValueError, AttributeError, TypeError, RecursionError):
+            del self._entries[key]
+            return None
+        return result if holds else None
+
+    def put(self, key: str, result: list[Any] | dict[str, Any], files: Iterable[str] = ()) -> None:
+        """Keep a result, which JSON holds and which depends on what is at some paths.
+
+        It is not kept where one of them has changed since the run began: what was read of it is not certain.
+        """
+        self.drop(key)
+        states = {}
+        for path in files:
+            if changed_since(self._began, path):
+                return
+            states[path] = self._state(path)
+        held = json.dumps([result, states], separators=(",", ":")) if result or states else ""
+        if len(held) <= LONGEST_REMEMBERED:
+            self._entries[key] = held
+            self._changed = True
+
+    def drop(self, key: str) -> None:
+        """Forget a result."""
+        self._changed |= self._entries.pop(key, None) is not None
+
+    def save(self) -> None:
+        """Write what has changed, if anything has; does nothing where that is not possible."""
+        if not self._changed:
+            return
+        lines = [f"{key} {held}\n".encode("ascii") for key, held in list(self._entries.items())[-MOST_REMEMBERED:]]
+        size = 0
+        for number, line in enumerate(reversed(lines)):
+            size += len(line)
+            if size > LARGEST_MEMORY - 1000:
+                lines = lines[len(lines) - number :]
+                break
+        body = b"".join(lines)
+        with suppress(OSError):
+            self._path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+            write_atomically(self._path, [_head(body), b"\n", body], synced=False)
+            if self._shared:
+                _drop_old(self._path)
+
+
+def of_working_folder(name: str, settings: str) -> Memory | None:
+    """The memory of the working folder in the user's folder for caches; None where there is no place for one."""
+    folder = cache_folder()
+    if folder is None:
+        return None
+    try:
+        place = blake2b(os.fsencode(Path.cwd()), digest_size=16).hexdigest()
+    except OSError:  # the working folder is gone
+        return None
+    return Memory(folder / f"{name}-{place}.txt", settings, shared=True)
+
+
+# ------------------------------------------------------------------------------------------- what results depend on
+
+
+def program() -> str:
+    """What the program is: its version and files, and the packages beside it, which bring libraries and rules."""
+    words = [sys.version]
+    for root in {Path(__file__).parents[2], grammar_file("deck.lark").parent}:
+        for folder, folders, names in os.walk(root):
+            if "__pycache__" in folders:  # grows while the program runs: compiled modules and loops
+                folders.remove("__pycache__")
+            words += (_version(f"{folder}/{name}") for name in names)
+    words += (_version(f"{folder}/entry_points.txt") for folder in metadata_folders())
+    words.sort()
+    return "\n".join(words)
+
+
+def _version(path: str) -> str:
+    """A file as far as its name, size and date tell what is in it."""
+    try:
+        found = os.stat(path)  # noqa: PTH116 - hundreds of files
+    except OSError:  # not there, or inside an archive
+        return path
+    return f"{path} {found.st_size} {found.st_mtime_ns}"
+
+
+def state(path: str) -> str:
+    """What is at a path: a digest of a file's content or of the names in a folder; "" for nothing that can be read.
+
+    What is neither, such as a pipe, is not opened: no deck is read from it. Very large files go by size and date.
+    """
+    digest = blake2b(digest_size=16)
+    try:
+        found = os.stat(path)  # noqa: PTH116 - as above
+        if stat.S_ISDIR(found.st_mode):
+            names = "\0".join(["", *sorted(os.listdir(path))])  # noqa: PTH208 - as above
+            digest.update(names.encode("utf-8", "surrogateescape"))
+        elif not stat.S_ISREG(found.st_mode):
+            return ""
+        elif found.st_size > LARGEST_NEIGHBOUR:
+            digest.update(_version(path).encode("utf-8", "surrogateescape"))
+        else:
+            with open(path, "rb") as stream:  # noqa: PTH123 - as above
+                while piece := stream.read(1 << 20):
+                    digest.update(piece)
+    except (OSError, ValueError):  # a name that no file has
+        return ""
+    return digest.hexdigest()
+
+
+def changed_since(moment: float, path: str) -> bool:
+    """Whether a file may have changed since a moment."""
+    try:
+        found = os.stat(path)  # noqa: PTH116 - as above
+    except (OSError, ValueError):  # still not there
+        return False
+    return max(found.st_mtime, found.st_ctime) > moment - _COARSE
+
+
+# ------------------------------------------------------------------------------------------------------------ the file
+
+
+def _read(path: Path, *, own: bool) -> dict[str, str]:
+    """Keys and results; nothing for a file that is missing, damaged, too large or no memory.
+
+    Nor for one of another user where only this user's `own` counts: nobody else says what was found.
+    """
+    try:
+        if not path.is_file() or path.stat().st_size > LARGEST_MEMORY:
+            return {}
+        if own and hasattr(os, "getuid") and path.stat().st_uid != os.getuid():
+            return {}
+        head, _, body = path.read_bytes().partition(b"\n")
+    except OSError:
+        return {}
+    if head != _head(body) or not body.isascii():
+        return {}
+    return {line[:_KEY]: line[_KEY + 1 :] for line in body.decode("ascii").split("\n") if line}
+
+
+def _head(body: bytes) -> bytes:
+    return _MAGIC + blake2b(body, digest_size=20).hexdigest().encode("ascii")
+
+
+def _drop_old(written: Path) -> None:
+    """Keep the memories of one name that were written last."""
+    start = f"{written.name.partition('-')[0]}-"
+    with os.scandir(written.parent) as entries:
+        files = [(entry.stat().st_mtime, entry.path) for entry in entries if entry.name.startswith(start)]
+    for _, path in sorted(files)[:-MOST_MEMORIES]:
+        with suppress(OSError):
+            Path(path).unlink()

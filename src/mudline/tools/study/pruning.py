@@ -1,0 +1,234 @@
+"""What a deck needs of the evaluator: the stages of its plan, what each takes of a step, and what others would add.
+
+A stage that can be left out takes what a step of the same elements without it is faster. One that the deck does not
+have is added with usual values to all elements with a normal law, and costs what a step is slower then.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
+from dataclasses import replace
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mudline.language.diagnostics import Where
+from mudline.model.contact import ContactInput, ContactModel, LawAssignment
+from mudline.model.contact.arrays import IndexArray
+from mudline.model.contact.laws import law_named
+from mudline.model.contact.laws.suction import from_cohesion
+from mudline.model.scene.model import Scene
+from mudline.model.scene.oscillation import line_of
+from mudline.tools.study.precision import Timer
+from mudline.tools.study.stability import file_of
+
+_ROUNDS = 9
+_LEAST = 1e-3
+"""Seconds that a round of each model takes."""
+_COHESION = 5000.0
+_DIAMETER = 0.3
+
+_STAGES = ("smoothing", "unloading", "suction", "friction", "lateral", "trench")
+"""The stages that a deck may lack; the law of smoothing takes the place of others."""
+_EXTENSIONS = {
+    "smoothing": "SEABED CONTACT",
+    "unloading": "SEABED UNLOADING",
+    "suction": "SEABED SUCTION",
+    "friction": "SEABED FRICTION",
+    "trench": "SEABED TRENCH",
+}
+_RESISTANCES = {"suction": "suction", "friction": "friction", "lateral": "lateral"}
+
+
+class StageRow(NamedTuple):
+    """A stage of the plan; None where it is not measured, or does not stand in the deck.
+
+    time: seconds per step of all elements. share: of the time of a whole step. cost_if_added: seconds per step and node
+    if the deck had it.
+    """
+
+    stage: str
+    active: bool
+    why: str
+    file: str | None
+    deck_line: int | None
+    share: float | None
+    time: float | None
+    cost_if_added: float | None
+
+
+class Pruning(NamedTuple):
+    """The stages, seconds of a step and how many elements it has."""
+
+    rows: list[StageRow]
+    step: float
+    elements: int
+
+
+def pruned(scene: Scene, given: ContactInput, timer: Timer) -> Pruning:
+    """Return the stages of a scene and what they take, measured in turns on the deck's own elements."""
+    model = ContactModel(given, backend="numpy")
+    models = {"": model, "floor": ContactModel(replace(given, laws=()), backend="numpy")}
+    for stage in model.plan:
+        if stage.stage in _STAGES:
+            changed = without(given, stage.stage) if stage.active else with_added(given, stage.stage)
+            with suppress(ValueError):  # a law that is added may not go with those that are there
+                models |= {} if changed is None else {stage.stage: ContactModel(changed, backend="numpy")}
+    removable = any(stage.active for stage in model.plan if stage.stage in _STAGES)
+    if removable:
+        models["normal law"] = ContactModel(without(given, *_STAGES), backend="numpy")
+    taken = seconds_per_step(models, timer)
+    if "" not in taken:
+        taken = {}
+    whole, floor = taken.get("", 0.0), taken.get("floor", 0.0)
+    if taken and not removable:
+        taken["normal law"] = whole
+    rows = []
+    for stage in model.plan:
+        where = _place(scene, stage.stage) if stage.active else None
+        row = StageRow(
+            stage.stage,
+            stage.active,
+            stage.why,
+            None if where is None else file_of(scene, where),
+            None if where is None else line_of(scene, where),
+            None,
+            None,
+            None,
+        )
+        if stage.active and stage.stage in taken:
+            less = taken[stage.stage]
+            part = {"floor": floor, "normal law": less - floor}.get(stage.stage, whole - less)
+            row = row._replace(time=max(part, 0.0), share=min(max(part, 0.0) / whole, 1.0))
+        elif stage.stage in taken and stage.stage in _STAGES:
+            row = row._replace(cost_if_added=max(taken[stage.stage] - whole, 0.0) / len(given.node_ids))
+        rows.append(row)
+    return Pruning(rows, whole, len(given.element_ids))
+
+
+def seconds_per_step(models: Mapping[str, ContactModel], timer: Timer) -> dict[str, float]:
+    """Measure a step of each model at its own coordinates: the least of rounds in which they take turns."""
+    calls: dict[str, Callable[[], object]] = {}
+    for name, model in models.items():
+        points = model.input.coordinates
+        try:
+            _, state = model.step(points, np.zeros_like(points), model.initial_state())
+        except ValueError:  # a law that is added may not go with a curve that pulls, and forces may overflow
+            continue
+        rates = np.full_like(points, 1e-3)
+        calls[name] = partial(model.step, points, rates, state)
+    repeats = max(1, round(_LEAST / max(_seconds(calls.values(), 1, timer)[0], 1e-7)))
+    rounds = [_seconds(calls.values(), repeats, timer) for _ in range(_ROUNDS)]
+    return dict(zip(calls, np.min(rounds, axis=0).tolist(), strict=True))
+
+
+def _seconds(calls: Iterable[Callable[[], object]], repeats: int, timer: Timer) -> list[float]:
+    found = []
+    for call in calls:
+        began = timer()
+        for _ in range(repeats):
+            call()
+        found.append(max(timer() - began, 1e-9) / repeats)
+    return found
+
+
+# ----------------------------------------------------------------------------------------------- with less, with more
+
+
+def without(given: ContactInput, *stages: str) -> ContactInput:
+    """Return the input without the laws of some stages; smoothed laws become linear ones."""
+    laws = [law for law in given.laws if law_named(law.law).stage not in stages]
+    if "smoothing" in stages:
+        laws = [_sharp(law) for law in laws]
+    return replace(given, laws=tuple(laws))
+
+
+def _sharp(law: LawAssignment) -> LawAssignment:
+    """A law without its zone about the mudline."""
+    if law.law == "smoothed":
+        return LawAssignment("linear", law.rows, {"stiffness": law.parameters["stiffness"]})
+    if law.law == "nodal":
+        return replace(law, parameters={**law.parameters, "half_width": 0.0})
+    return law
+
+
+def with_added(given: ContactInput, stage: str) -> ContactInput | None:
+    """Return the input with the law of a stage where elements have a normal law; None where none can have it."""
+    # a normal law with a history has unloading and suction of its own
+    fit = [law.rows for law in given.normal_laws if not (law.law.history and stage in {"unloading", "suction"})]
+    rows = np.sort(np.concatenate([np.zeros(0, np.intp), *fit]))
+    if not rows.size:
+        return None
+    if stage == "smoothing":
+        return _smoothed(given)
+    names = _ADDED.get(stage, (stage,))
+    if given.has("friction"):
+        names = tuple(name for name in names if name != "friction")
+    nodes = np.unique(given.element_nodes[rows])
+    usual = _usual(given, rows)
+    added = [LawAssignment(name, nodes if law_named(name).acts_on == "nodes" else rows, usual[name]) for name in names]
+    return replace(given, laws=(*given.laws, *added))
+
+
+_ADDED: dict[str, tuple[str, ...]] = {"trench": ("friction", "trench peak")}
+"""The laws of a stage that are added where their name is not that of the stage."""
+
+
+def _smoothed(given: ContactInput) -> ContactInput | None:
+    """With zones of a hundredth of the diameter about the mudline on all linear laws; None without any."""
+    if not given.has("linear"):
+        return None
+    size = _size(given)
+    laws = [
+        replace(law, law="smoothed", parameters={**law.parameters, "half_width": 0.01 * size})
+        if law.law == "linear"
+        else law
+        for law in given.laws
+    ]
+    return replace(given, laws=tuple(laws))
+
+
+def _size(given: ContactInput) -> float:
+    known = given.diameter[np.isfinite(given.diameter)]
+    return float(np.median(known)) if known.size else _DIAMETER
+
+
+def _usual(given: ContactInput, rows: IndexArray) -> dict[str, Mapping[str, ArrayLike]]:
+    """Usual values of laws by their names, for elements (k,) like those of the deck."""
+    size = _size(given)
+    steepest = ContactModel(given, backend="numpy").stiffest().per_length(np.maximum(given.length, 1e-300))[rows]
+    stiffness = float(np.max(steepest[np.isfinite(steepest)], initial=1.0))
+    return {
+        "unloading": {"stiffness": 2.0 * stiffness},
+        "suction": from_cohesion(np.array(_COHESION), np.array(size))._asdict(),
+        "lateral": {"stiffness": 0.1 * stiffness},
+        "friction": {
+            "axial_coefficient": 0.35,
+            "lateral_coefficient": 0.6,
+            "axial_mobilisation": 0.01 * size,
+            "lateral_mobilisation": 0.1 * size,
+        },
+        "trench peak": {"bottom": 2.0 * size, "upper": 4.0 * size, "peak": 0.1 * stiffness * size},
+    }
+
+
+# ---------------------------------------------------------------------------------------------------------------- place
+
+
+def _place(scene: Scene, stage: str) -> Where | None:
+    """The first place in the deck that gives a stage to an element."""
+    if stage == "normal law":
+        return next((law.where for law in scene.laws.set_laws), None)
+    extension = scene.extensions.get(_EXTENSIONS.get(stage, ""))
+    if extension is not None and (extension.of_element >= 0).any():
+        return extension.places[int(extension.of_element[extension.of_element >= 0].min())]
+    if stage not in _RESISTANCES:
+        return None
+    name, resistance = _RESISTANCES[stage], scene.resistance
+    values = resistance.column(name)
+    having = np.greater(values, 0.0) if values.ndim == 1 else np.greater(values, 0.0).any(axis=1)
+    at = resistance.of_element[having & (resistance.of_element >= 0)]
+    return resistance.places[int(at.min())].inside(name) if at.size else None

@@ -1,0 +1,214 @@
+"""A deck through JSON, YAML and keyword text and back: equal models, numbers to the last bit, every comment."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from hypothesis import assume, example, given, settings
+from hypothesis import strategies as st
+
+from mudline.language.deck.forms import form_of
+from mudline.language.deck.loading import dump, load_bytes
+from mudline.language.deck.model import Deck
+from mudline.language.diagnostics import DeckError, Severity
+from mudline.language.keywords.model import Block
+from mudline.language.keywords.ranges import is_refused
+from tests.helpers.builders.documents import validator
+from tests.helpers.builders.keyword_texts import deck_texts, mutated
+from tests.helpers.builders.scenes import deck_of
+from tests.helpers.samples import FAULTY, SAMPLES
+
+NAME = "deck.keyxm"
+DECKS = sorted(path for path in SAMPLES.glob("*.keyx*") if path.name not in FAULTY)
+
+
+def same(one: Deck, other: Deck) -> None:
+    """Hold all that a file says of two decks against each other."""
+    assert one.sections == other.sections
+    assert one.comments == other.comments
+    assert one.preamble == other.preamble
+
+
+def has_refused_values(deck: Deck) -> bool:
+    blocks = (block for section in deck.sections for block in section.blocks)
+    return any(isinstance(block, Block) and is_refused(block) for block in blocks)
+
+
+def held(deck: Deck) -> None:
+    """Every way between the forms gives the same deck and the same text, and the schema takes what is written.
+
+    A deck with a value that its model refuses is a deck as keyword text only.
+    """
+    as_json = dump(deck, "json")
+    if has_refused_values(deck):
+        assert not validator().is_valid(json.loads(as_json))
+        with pytest.raises(DeckError, match="DOC002"):
+            deck_of(as_json, "deck.json")
+        same(deck, deck_of(dump(deck, "keyword")))
+        return
+    validator().validate(json.loads(as_json))
+    from_json = deck_of(as_json, "deck.json")
+    same(deck, from_json)
+    assert (from_json.source, from_json.units) == (deck.source, deck.units)
+    assert dump(from_json, "json") == as_json
+    as_yaml = dump(from_json, "yaml")
+    from_yaml = deck_of(as_yaml, "deck.yaml")
+    same(deck, from_yaml)
+    assert dump(from_yaml, "json") == as_json
+    assert dump(from_yaml, "yaml") == as_yaml
+    as_keyword = dump(deck, "keyword")
+    again = deck_of(as_keyword)
+    same(deck, again)
+    assert dump(again, "keyword") == as_keyword
+    assert dump(from_yaml, "keyword") == as_keyword
+
+
+def remarks(text: str) -> list[str]:
+    """What follows the C of each comment line, in order."""
+    return [line[1:] for line in re.split(r"\r\n|\r|\n", text) if line[:1] in ("C", "c") and "=" not in line[:12]]
+
+
+@pytest.mark.covered
+@pytest.mark.parametrize("path", DECKS, ids=lambda path: path.name)
+def test_samples(path: Path) -> None:
+    deck = load_bytes(path.read_bytes(), path.name)
+    assert deck.require() is deck
+    held(deck)
+    text = path.read_text(encoding="utf-8")
+    assert remarks(dump(deck, "keyword")) == remarks(text)
+
+
+@pytest.mark.parametrize("value", ["-", "+", "1E", "-2e-"])
+def test_a_curve_named_like_the_beginning_of_a_number(value: str) -> None:
+    text = f"$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS={value}"
+    assert [found.code.code for found in load_bytes(text.encode(), NAME).problems] == ["SYN014"]
+    deck = deck_of(f"{text}\n")
+    assert deck.problems == []
+    held(deck)
+
+
+@given(mutated(deck_texts().map(str.encode)))
+@settings(max_examples=20)
+def test_what_reads_without_an_error_is_the_same_in_every_form(data: bytes) -> None:
+    deck = load_bytes(data, NAME)
+    assume(all(problem.weight is not Severity.ERROR for problem in deck.problems))
+    held(deck)
+
+
+@given(
+    st.lists(st.tuples(st.floats(allow_nan=False, allow_infinity=False), st.floats(-1e9, 1e9)), min_size=2, max_size=30)
+)
+@example([(-0.0, 5e-324), (1.7976931348623157e308, 0.1 + 0.2)])
+@settings(max_examples=15)
+def test_numbers_to_the_last_bit(points: list[tuple[float, float]]) -> None:
+    text = "$MODEL\n*SEABED STIFFNESS\nCURVE=a\n" + "".join(f"{x!r},{y!r}\n" for x, y in points)
+    deck = deck_of(text)
+    held(deck)
+    for form, name in (("json", "d.json"), ("yaml", "d.yaml"), ("keyword", NAME)):
+        _, block = next(deck_of(dump(deck, form), name).blocks("SEABED STIFFNESS"))
+        values = block.curves[0].points.values
+        assert [value.hex() for row in values.tolist() for value in row] == [v.hex() for p in points for v in p]
+
+
+@pytest.mark.parametrize("field", ["-0", "-0.0", "0", "+0", "-0."])
+@pytest.mark.parametrize("end", ["", "\n 7, 1, 2, 3", "\n =[n], 1, 2"])
+def test_zero_as_a_node_number(field: str, end: str) -> None:
+    held(deck_of(f"$MODEL\n*NODE\n {field}, -0, 2{end}\n*ELEMENT\n {field}, {field}, 2\n"))
+
+
+def test_comments_among_settings_in_another_order() -> None:
+    settings_ = ["C a", " SUCTION=3", "C b", " FRICTION=,1", "C c", " STIFFNESS=1", "C d", " LATERAL=0"]
+    deck = deck_of("\n".join(["$MODEL", "*SEABED PROPERTIES", " SET=x", *settings_, ""]))
+    assert deck.problems == []
+    held(deck)
+    assert sorted(remarks(dump(deck, "keyword"))) == [" a", " b", " c", " d"]
+
+
+@pytest.mark.parametrize("keyword", ["SEABED STIFFNESS", "EMBEDMENT"])
+def test_a_curve_without_points(keyword: str) -> None:
+    key = "CURVE" if keyword == "SEABED STIFFNESS" else "SET"
+    held(deck_of(f"$MODEL\n*{keyword}\n {key}=a\n {key}=b\n 1, 2\n {key}=c\n"))
+
+
+@pytest.mark.parametrize("row", [" =[n], 1, 2, 3,", " 1, 2, =[x], 4, , ,", " 1, 2, 3, ,", " 1, =[x], 2,"])
+def test_commas_behind_the_last_field(row: str) -> None:
+    deck = deck_of(f"$MODEL\n*NODE\n{row}\n 5, 0, 0\n")
+    assert deck.problems == []
+    held(deck)
+
+
+def test_equations_and_opaque_lines_stay_as_written() -> None:
+    lines = [
+        " =[ a +  B*( c ) ], 1025.0",
+        "*PROPERTIES",
+        "\t 1 ,2;x  ",
+        "",
+        "C-- kept",
+        '  {"no": [json',
+        "-: yaml #",
+    ]
+    text = "$MODEL\n*OCEAN\n" + "\n".join(lines) + "\n"
+    deck = deck_of(text)
+    held(deck)
+    assert dump(deck, "keyword") == text
+    assert json.loads(dump(deck, "json"))["sections"][0]["blocks"] == [
+        {"keyword": "OCEAN", "depth": "=[ a +  B*( c ) ]", "density": 1025.0},
+        {"keyword": "PROPERTIES", "lines": lines[2:]},
+    ]
+
+
+def test_a_long_table_in_yaml_is_a_block_of_rows() -> None:
+    rows = [f" {i}, =[x, {i}], 2" if i % 7 == 0 else f" {i}, -0.{i}1, {i}.5, " for i in range(1, 60)]
+    deck = deck_of("$MODEL\n*NODE\n" + "\n".join(rows) + "\n")
+    assert deck.problems == []
+    assert "nodes: |" in dump(deck, "yaml")
+    held(deck)
+
+
+@pytest.mark.parametrize(
+    ("name", "form"),
+    [
+        ("a.json", "json"),
+        ("a.JSON", "json"),
+        ("a.yaml", "yaml"),
+        ("a.YML", "yaml"),
+        ("a.keyx", "keyword"),
+        ("json", "keyword"),
+    ],
+)
+def test_form_of(name: str, form: str) -> None:
+    assert form_of(name) == form
+
+
+def test_a_form_and_units_can_be_given() -> None:
+    text = dump(deck_of("$MODEL\n*OCEAN\n 1.0\n"), "json")
+    deck = load_bytes(text.encode(), "<stdin>", form="json", units="imperial")
+    assert deck.units == "imperial"
+    assert load_bytes(b"\xef\xbb\xbf" + text.encode(), "a.yaml", form="json").units == "metric"
+
+
+def test_a_form_is_one_module(tmp_path: Path) -> None:
+    """A module in the folder of forms is read and written by suffix, and an option of `convert`."""
+    (tmp_path / "upper.py").write_text(
+        "from mudline.language.deck.forms import keyword\n"
+        "from mudline.language.deck.reading import read_source\n"
+        "from mudline.language.syntax.source import Source\n"
+        "def write(deck):\n    return keyword.write(deck).upper()\n"
+        "def read(data, file):\n    return read_source(Source.from_bytes(data, file))\n",
+        encoding="utf-8",
+    )
+    (tmp_path / "a.keyxm").write_text("$MODEL\n*OCEAN\n 500.0, 1025.0, 9.81\nC deep\n", encoding="utf-8")
+    program = (
+        "import sys; from mudline.language.deck import forms; forms.__path__.append('.')\n"
+        "from mudline.cli.main import run\n"
+        "first = run(['convert', 'a.keyxm', '-o', 'b.upper'])\n"
+        "sys.exit(first or run(['convert', 'b.upper', '--to', 'upper']))\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "mudline: a.keyxm -> b.upper\n")
+    assert done.stdout == "$MODEL\n*OCEAN\n 500.0, 1025.0, 9.81\nC DEEP\n"

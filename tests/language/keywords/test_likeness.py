@@ -1,0 +1,87 @@
+"""Names of sections and keywords that are not known, and what they were to be."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import mudline
+from mudline.language.diagnostics import Severity
+from mudline.language.keywords.catalogue import meant_in, meant_section, suggest_keyword
+from tests.helpers.builders.scenes import deck_of
+
+TABLE = "$MODEL\n*OCEAN\n 350.0, 1025.0, 9.81\n"
+
+
+@pytest.mark.parametrize(
+    ("written", "meant"),
+    [
+        ("OCAEN", "OCEAN"),
+        ("SEABED PROPERTY", "SEABED PROPERTIES"),
+        ("GEOMETRIC SET DATA", ""),
+        ("NODE (6 NODES)", "NODE"),
+        ("ELEMENT,PIPE", "ELEMENT"),
+        ("ELEMENT SETS OF KP 3", "ELEMENT SETS"),
+        ("CURRENT PROFILE", "CURRENT"),
+        ("NODES", "NODE"),
+        ("NODELIST", ""),
+        ("SOMETHING ELSE", ""),
+        ("", ""),
+    ],
+)
+def test_the_keyword_that_was_meant(written: str, meant: str) -> None:
+    assert suggest_keyword(written) == meant
+
+
+@pytest.mark.parametrize(
+    ("written", "meant"),
+    [
+        ("MODLE", "MODEL"),
+        ("MODEL ---- KP 3 ----", "MODEL"),
+        ("LOAD CASE 2", "LOAD CASE"),
+        ("DATABASE POSTPROC", ""),
+        ("DATABASE POSTPROCESS", "DATABASE POSTPROCESSING"),
+        ("MODES POSTPROCESSING TWO", "MODES POSTPROCESSING"),
+        ("OTHER", ""),
+    ],
+)
+def test_the_section_that_was_meant(written: str, meant: str) -> None:
+    assert meant_section(written) == meant
+
+
+def test_a_keyword_of_another_section_may_be_a_slip() -> None:
+    assert meant_in("ELEMENT SET", "MODEL") == "ELEMENT SETS"
+    assert meant_in("STATISTICS", "MODEL") == ""
+
+
+def test_words_behind_a_name_are_told_and_can_be_removed() -> None:
+    deck = deck_of(f"{TABLE}*NODE  (6 nodes)\n 1, 0.0, 0.0\n")
+    (found,) = [problem for problem in deck.problems if problem.code.code == "SYN009"]
+    assert found.weight is Severity.WARNING
+    assert "(did you mean NODE, with nothing after the name?)" in found.message
+    assert found.repair is not None
+    assert [text for _, text in found.repair.edits] == ["*NODE"]
+
+
+def test_sets_of_a_misplaced_keyword_are_there(tmp_path: Path) -> None:
+    text = f"{TABLE}*ELEMENT SET\n SET=Clay\n 1\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=Clay\n STIFFNESS=1.0E4\n"
+    deck = tmp_path / "deck.keyxm"
+    deck.write_text(text, encoding="utf-8")
+    found = {one.code: one.severity for one in mudline.lint(deck)}
+    assert found["SYN008"] is Severity.ERROR
+    assert "REF001" not in found
+
+
+@pytest.mark.parametrize("number", ["85 000.0", "1 250", "-2'500.5", "1_000_000"])
+def test_groups_of_digits_are_no_name_of_a_curve(number: str) -> None:
+    text = f"{TABLE}*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS={number}\n"
+    (found,) = deck_of(text).problems
+    plain = number.translate({ord(mark): None for mark in " '_"})
+    assert found.code.code == "SYN002"
+    assert f"write {plain} for STIFFNESS=" in found.message
+
+
+@pytest.mark.parametrize("name", ["Clay 100", "85 00", "5 to 6", "1 2345"])
+def test_other_names_stay_names(name: str) -> None:
+    assert deck_of(f"{TABLE}*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS={name}\n").problems == []

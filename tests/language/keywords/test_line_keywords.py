@@ -1,0 +1,177 @@
+"""The keywords of lines: two with models, five that are kept as they are."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+from mudline.language.deck.loading import dump
+from mudline.language.deck.model import Opaque
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.values import Names, OpaqueKeyword
+from tests.helpers.builders.scenes import deck_of, faults
+from tests.helpers.builders.spellings import no_head, texts
+from tests.language.deck.test_forms import held
+
+OPAQUE = [kept for kept in catalogue.opaque_keywords() if kept.sections == ("MODEL",)]
+MODELLED = ("line_section_groups", "line_path_sections")
+
+GROUPS = """\
+$MODEL
+*LINE SECTION GROUPS
+ NAME=Joint
+ SECTION=Pipe Joint, =[length]
+C thicker
+ ADDITIONAL=Coated Pipe, Riser
+ ADDITIONAL=Upper
+ 0.5, , 0.25
+ SECTION=Field Joint, 0.4
+"""
+PATHS = """\
+$MODEL
+*LINE PATH SECTIONS
+ LINE=Flowline
+ SECTION=Start Zone, 0.0, 150.0, REPEAT=Joint
+ ADDITIONAL=Coated Pipe
+ SECTION=End Zone, -50.0
+ LINE=Jumper
+"""
+
+
+def block(text: str) -> dict[str, object]:
+    """The only block of a deck as it stands in a document; reading it finds nothing."""
+    deck = deck_of(text)
+    assert deck.problems == []
+    held(deck)
+    (found,) = deck.sections[0].blocks
+    return found.model_dump(mode="json", exclude_defaults=True)
+
+
+# ------------------------------------------------------------------------------------------------------------- models
+
+
+@pytest.mark.parametrize("module", MODELLED)
+def test_examples(module: str) -> None:
+    declared = catalogue.load(module)
+    text = "$MODEL\n" + declared.example
+    assert dump(deck_of(text), "keyword") == text
+    assert list(block(text)) != []
+
+
+def test_groups() -> None:
+    joint: dict[str, object] = {
+        "section": {"set": "Pipe Joint", "length": "=[length]"},
+        "additional": [{"sets": ["Coated Pipe", "Riser"]}, {"sets": ["Upper"]}],
+        "mesh": {"start": 0.5, "end": 0.25},
+        "comments": [{"before": 0, "text": " thicker"}],
+    }
+    field = {"section": {"set": "Field Joint", "length": 0.4}}
+    assert block(GROUPS) == {"groups": [{"name": "Joint", "sections": [joint, field]}]}
+
+
+def test_paths() -> None:
+    start: dict[str, object] = {
+        "section": {"set": "Start Zone", "start": 0.0, "end": 150.0},
+        "repeat": "Joint",
+        "additional": [{"sets": ["Coated Pipe"]}],
+    }
+    end = {"section": {"set": "End Zone", "start": -50.0}}
+    assert block(PATHS) == {"paths": [{"line": "Flowline", "sections": [start, end]}, {"line": "Jumper"}]}
+
+
+@pytest.mark.parametrize("text", [GROUPS, PATHS])
+def test_written_as_read(text: str) -> None:
+    assert dump(deck_of(text), "keyword") == text
+
+
+def test_mesh_before_the_additional_sets() -> None:
+    before = "$MODEL\n*LINE SECTION GROUPS\n NAME=a\n SECTION=b, 1.0\n 0.5\n ADDITIONAL=c,\n"
+    after = "$MODEL\n*LINE SECTION GROUPS\n NAME=a\n SECTION=b, 1.0\n ADDITIONAL=c\n 0.5\n"
+    assert dump(deck_of(before), "keyword") == after
+
+
+@pytest.mark.parametrize(
+    ("lines", "fault"),
+    [
+        (
+            "*LINE SECTION GROUPS\n SECTION=a, 1\n",
+            "3:2 SYN001 expected NAME= before this line: write NAME= and its value above it",
+        ),
+        (
+            "*LINE SECTION GROUPS\n NAME=g\n SECTION=a\n",
+            "4:10 SYN003 2 fields expected (`set, length`), found 1",
+        ),
+        (
+            "*LINE SECTION GROUPS\n NAME=g\n SECTION=a, 1\n 1, 2, 3, 4\n",
+            "5:2 SYN003 0 to 3 fields expected (`[start] [, longest] [, end]`), found 4",
+        ),
+        (
+            "*LINE SECTION GROUPS\n NAME=g\n SECTION=a, 1\n ADDITIONAL= ,\n",
+            "5:2 SYN003 ADDITIONAL= has no value",
+        ),
+        (
+            "*LINE PATH SECTIONS\n LINE=x\n SECTION=, 1\n",
+            "4:10 SYN003 set is missing",
+        ),
+        (
+            "*LINE PATH SECTIONS\n LINE=x\n SECTION=a, 0, 1, REPAT=g\n",
+            "4:19 SYN004 REPAT= does not belong on this line (did you mean REPEAT?): expected SECTION=, REPEAT=",
+        ),
+        (
+            "*LINE PATH SECTIONS\n LINE=x\n 1, 2\n",
+            "4:2 SYN001 *LINE PATH SECTIONS has no place for a row here: expected LINE= or SECTION=",
+        ),
+    ],
+)
+def test_faults(lines: str, fault: str) -> None:
+    assert fault in faults("$MODEL\n" + lines)
+
+
+def test_blocks_with_faults_keep_what_could_be_read() -> None:
+    deck = deck_of("$MODEL\n*LINE SECTION GROUPS\n NAME=g\n SECTION=a\n SECTION=b, 2.0\n")
+    (_, found), *_ = deck.blocks("LINE SECTION GROUPS")
+    assert [section.section.set_name for section in found.groups[0].sections] == ["a", "b"]
+
+
+# --------------------------------------------------------------------------------------------------------------- kept
+
+
+@pytest.mark.parametrize("kept", OPAQUE, ids=lambda kept: kept.keyword)
+def test_what_a_kept_keyword_says_of_itself(kept: OpaqueKeyword) -> None:
+    name = kept.keyword
+    assert kept.sections == ("MODEL",) == catalogue.sections_of(name)
+    assert catalogue.opaque_keyword("MODEL", name) is kept
+    assert catalogue.block_class("MODEL", name) is None
+    assert name in catalogue.keywords()
+    assert name in catalogue.kept_keywords("MODEL")
+    assert all(words.endswith(".") for words in (kept.summary, kept.certain, kept.inferred))
+    assert set(kept.makes) <= {"NODE", "ELEMENT", "ELEMENT SETS"}
+    assert all(key in kept.inferred for key in (f"{key}=" for key in kept.name_settings))
+    assert ("ELEMENT SETS" in kept.makes) <= (Names.SET in kept.name_settings.values())
+
+
+@pytest.mark.parametrize("kept", OPAQUE, ids=lambda kept: kept.keyword)
+def test_examples_of_kept_keywords(kept: OpaqueKeyword) -> None:
+    text = "$MODEL\n" + kept.example
+    deck = deck_of(text)
+    assert deck.problems == []
+    assert deck.sections[0].blocks == [Opaque(keyword=kept.keyword, lines=kept.example.splitlines()[1:])]
+    assert dump(deck, "keyword") == text
+
+
+def test_other_keywords_are_not_kept_with_a_module() -> None:
+    assert catalogue.opaque_keyword("MODEL", "P-X") is None
+    assert catalogue.opaque_keyword("LOAD CASE", "LINES") is None
+    assert catalogue.kept_keywords("LOAD CASE") == ["NO FRICTION"]
+
+
+@given(st.sampled_from([kept.keyword for kept in OPAQUE]), st.lists(texts, max_size=5))
+@example("LINES", ["\ufeff$"])
+@settings(max_examples=50)
+def test_nothing_of_a_kept_block_is_lost(keyword: str, lines: list[str]) -> None:
+    text = f"$MODEL\n*{keyword}\n" + "".join(f"{no_head(line)}\n" for line in lines)
+    deck = deck_of(text)
+    assert {problem.code.code for problem in deck.problems} == ({"SYN012"} if "\ufeff" in text else set())
+    held(deck)
+    assert dump(deck, "keyword") == text

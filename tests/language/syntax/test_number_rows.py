@@ -1,0 +1,201 @@
+"""Rows of numbers that are read many at once: each number is the double that `float` gives, in every spelling."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+import mudline
+from mudline.language.diagnostics import DeckError, Span
+from mudline.language.syntax import rows
+from mudline.language.syntax.rows import (
+    line_spans,
+    read_number,
+    read_numbers,
+    read_rows,
+    read_rows_slow,
+    row_starts,
+)
+from mudline.language.syntax.source import Source
+from tests.language.syntax.test_rows import STRANGE, is_same
+
+RNG = np.random.default_rng(20)
+MANY = 10_000
+
+
+def bit_patterns() -> NDArray[np.float64]:
+    found = RNG.integers(0, 2**64, MANY + 200, dtype=np.uint64).view(np.float64)
+    return found[np.isfinite(found)][:MANY]
+
+
+UNIFORM = RNG.uniform(-1000.0, 1000.0, MANY)
+SMALL = RNG.random(MANY)
+WIDE = 10.0 ** RNG.uniform(-20, 20, MANY)
+TIES = RNG.integers(2**52, 2**53, MANY)
+SPELLINGS: dict[str, tuple[NDArray[np.generic], Callable[..., str]]] = {
+    "three places": (UNIFORM, "{:.3f}".format),
+    "nine digits": (UNIFORM, "{:.9g}".format),
+    "shortest": (UNIFORM, repr),
+    "shortest below one": (SMALL, repr),
+    "seventeen digits": (UNIFORM, "{:.16E}".format),
+    "six places and exponent": (WIDE, "{:.6E}".format),
+    "any bits": (bit_patterns(), repr),
+    "any bits, more digits than needed": (bit_patterns(), "{:.24e}".format),
+    "exact decimals": (SMALL, "{:.40f}".format),
+    "integers": (RNG.integers(-(10**18), 10**18, MANY), str),
+    "nineteen digits": (RNG.integers(10**18, 9 * 10**18, MANY), "{}.".format),
+    "ties": (TIES, "{}.5".format),
+    "nearly ties": (TIES, "{}.50000000000000000001".format),
+    "subnormals": (SMALL * 1e-308, repr),
+    "largest": (SMALL * 0.79 + 1.0, "{!r}e308".format),
+    "no whole part": (SMALL, lambda value: f"{value:.6f}"[1:]),
+    "no fraction": (UNIFORM, "{:.0f}.".format),
+    "plus": (UNIFORM, "{:+.4f}".format),
+    "exponent D": (WIDE, lambda value: f"{value:.8e}".replace("e", "D")),
+    "zeros in front": (UNIFORM, "{:030.12f}".format),
+}
+
+
+@pytest.mark.untraced
+@pytest.mark.parametrize("name", SPELLINGS)
+@pytest.mark.parametrize("comma", [", ", " "], ids=["commas", "blanks"])
+def test_many_numbers_of_a_spelling(name: str, comma: str) -> None:
+    values, spelling = SPELLINGS[name]
+    words = [spelling(value) for value in values.tolist()][comma == " " :: 2]
+    text = "".join(f" {first}{comma}{second}\n" for first, second in zip(words[::2], words[1::2], strict=False))
+    found = read_rows(text, Span(0, len(text)), 2)
+    given_words = words[: 2 * (len(words) // 2)]
+    expected = np.array([read_number(word) for word in given_words], dtype=np.float64)
+    assert found.values.ravel().tobytes() == expected.tobytes()
+    assert found.words == {}
+
+
+ODD_SPELLINGS = [
+    *STRANGE,
+    *("1D3", "1d-3", "1.5D+03", ".5", "5.", "-.5", "+1", "+.5", "1.e5", "-0.0", "0e999", "007", "1e05", "1E+05"),
+    *("'1'", "\\1", "#1", "x", "1\t", "\t1", " 1 ", "1;2", "1,", "0" * 500, "1" * 390 + ".5"),
+    *("0." + "3" * 398, "0." + "3" * 399, "1e" + "0" * 399 + "1", "1" * 200 + "." + "1" * 200),
+]
+
+
+def bits(value: int) -> str:
+    """The shortest spelling of a finite double of any bits."""
+    number = struct.unpack("<d", struct.pack("<Q", value))[0]
+    return repr(number) if np.isfinite(number) else "0"
+
+
+PLAIN = st.one_of(
+    st.integers(0, 2**64 - 1).map(bits),
+    st.integers(-(10**20), 10**20).map(str),
+    st.builds("{}{}{}{}".format, st.sampled_from(["", "-"]), st.integers(0, 10**25), st.sampled_from(["", ".", ".50"]),
+              st.one_of(st.just(""), st.integers(-330, 310).map("e{}".format), st.integers(0, 310).map("E+{}".format))),
+)  # fmt: skip
+
+
+def holds_the_slow_rows(text: str, columns: int) -> None:
+    span = Span(0, len(text))
+    slow = read_rows_slow(text, span, columns)
+    for piece in (1, 40, rows.PIECE):
+        with patch.multiple(rows, PIECE=piece, _SMALLEST=2):
+            assert is_same(read_rows(text, span, columns), slow)
+
+
+@given(
+    st.lists(
+        st.lists(st.one_of(PLAIN, st.sampled_from(ODD_SPELLINGS)), min_size=1, max_size=4), min_size=1, max_size=8
+    ),
+    st.sampled_from([", ", ",", " ", "\t,", " ,\t"]),
+    st.sampled_from(["\n", "\r\n", " \n", "\n\n", "\n \n", "\n\t\r\n"]),
+    st.integers(1, 4),
+)
+def test_rows_of_any_fields(fields: list[list[str]], comma: str, end: str, columns: int) -> None:
+    holds_the_slow_rows(end.join(comma.join(row) for row in fields), columns)
+
+
+@given(st.text(st.sampled_from("1.5e+-, \t\n\r\0\x0b\ufeff\"'"), max_size=60))
+@example("1,2\r3,4\n")
+@example("\ufeff1,2\n3,4\n")
+@example("1,2\n\n3,4\n")
+def test_any_text(text: str) -> None:
+    holds_the_slow_rows(text.replace("\r", "\r\n"), 2)
+
+
+@pytest.mark.parametrize(
+    "digits", ["1" * 400 + "e-300", "-0." + "1" * 398, "1" * 200 + "." + "1" * 198 + "e+" + "1" * 3]
+)
+def test_long_numbers_are_refused(digits: str) -> None:
+    assert read_number(digits) is None
+    assert read_numbers(f"1,2\n{digits},4\n" + "5,6\n" * 30, 2) is None
+
+
+@pytest.mark.parametrize("word", ["true", "null", "NaN", "Infinity", "[1]", "{}", '"1"', "1e400", "", "1 2"])
+def test_other_values_of_json_are_no_numbers(word: str) -> None:
+    assert read_numbers(f"1,2\n{word},4", 2) is None
+    assert read_numbers("1,2\n3,4", 2) is not None
+
+
+BAD = {
+    "letter": ("{}, 2O.5", 2),
+    "points": ("{}, 1.2.3", 2),
+    "signs": ("{}, --1", 2),
+    "exponent": ("{}, 1e", 2),
+    "too large": ("{}, 1e400", 2),
+    "not a number": ("{}, nan", 2),
+    "script": ("{}, \u0661", 2),
+    "no field": ("{}, ", 2),
+    "one field": ("{}", 1),
+    "three fields": ("{}, 1, 2", 1),
+}
+
+
+@pytest.mark.parametrize("kind", BAD)
+def test_every_bad_field_of_a_long_table_is_named(kind: str) -> None:
+    row, field = BAD[kind]
+    head = ["$MODEL", "*SEABED STIFFNESS", " CURVE=clay"]
+    lines = [f" {n}.25, {n}.5" for n in range(30_000)]
+    wrong = [0, 1, 2, 777, 12_000, 12_001, 20_000, 29_998]
+    for n in wrong:
+        lines[n] = f" {row.format(f'{n}.25')}"
+    with pytest.raises(DeckError) as caught:
+        mudline.from_keyword("\n".join([*head, *lines, ""]))
+    found = [(one.line, one.column) for one in caught.value.diagnostics]
+    columns = [lines[n].index(",") + 3 if field == 2 and kind != "no field" else 2 for n in wrong]
+    if kind != "no field":
+        assert found == [(len(head) + n + 1, column) for n, column in zip(wrong, columns, strict=True)]
+    else:
+        assert [line for line, _ in found] == [len(head) + n + 1 for n in wrong]
+
+
+@pytest.mark.covered
+def test_long_tables_are_slow_rows_whatever_stands_in_a_few_lines() -> None:
+    lines = [f" {n}, {n / 7!r}" for n in range(40_000)]
+    for n, line in ((3, "=[a*2], 4"), (9_999, "{end}, 1"), (20_000, "1, 2, 3, 4"), (20_001, "1 2"), (39_999, "7")):
+        lines[n] = f" {line}"
+    for end in ("\n", "\r\n"):
+        text = end.join(lines)
+        for columns in (2, 3):
+            found = read_rows(text, Span(0, len(text)), columns)
+            assert is_same(found, read_rows_slow(text, Span(0, len(text)), columns))
+
+
+@given(st.text(st.sampled_from("1, \t\r\n\xe9\u2028"), max_size=40), st.integers(0, 5))
+def test_rows_begin_where_their_lines_do(text: str, start: int) -> None:
+    text = text.replace("\r", "\r\n")
+    span = Span(min(start, len(text)), len(text))
+    assert row_starts(text, span).tolist() == [line.start for line in line_spans(text, span)]
+
+
+@given(st.text(st.sampled_from("1*$\x0c\x1a \r\n\xe9\u2028"), max_size=40))
+def test_lines_begin_behind_every_line_end(text: str) -> None:
+    source = Source("", text)
+    ends = text.replace("\r\n", "\x00\n").replace("\r", "\n").replace("\x00", " ")
+    assert list(source.line_starts) == [0, *(at + 1 for at, char in enumerate(ends) if char == "\n")]
+    for offset in range(len(text) + 1):
+        assert source.offset(*source.position(offset)) == offset

@@ -1,0 +1,64 @@
+"""Work arrays have a fixed size, however long the query, and serve one query at a time."""
+
+from __future__ import annotations
+
+import tracemalloc
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+from mudline.model.curves import ForceCurve
+from mudline.model.curves.points import FloatArray
+from tests.model.curves.plain import steps
+
+CURVES = {
+    "few": ForceCurve([(0.0, 0.0), (0.1, 2.0), (0.3, 4.0), (0.5, 6.0)]),
+    "even": ForceCurve(np.column_stack((np.linspace(0.0, 1.0, 200), np.arange(200.0)))),
+    "crowded": ForceCurve(np.column_stack(([0.0, *steps(0.5, 200), 1.0], np.arange(202.0)))),
+}
+FIXED = 3 * 2**20
+QUERY = 2**20
+
+
+def peak(action: Callable[[], object]) -> int:
+    tracemalloc.start()
+    try:
+        action()
+        return tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+
+
+@pytest.mark.parametrize("name", CURVES)
+def test_evaluating_into_given_arrays(name: str) -> None:
+    curve = CURVES[name]
+    wide = np.random.default_rng(1).random((QUERY, 2))
+    force, slope = np.empty(QUERY), np.empty(QUERY)
+    views = [wide[:, 0].copy(), wide[:, 0], wide[::-1, 1], wide[:, 0].astype(np.float32), wide.T.reshape(-1)[:QUERY]]
+    for view in views:
+        assert peak(lambda query=view: curve.evaluate(query, out=(force, slope))) < FIXED  # type: ignore[misc]
+    same = wide[:, 0].copy()
+    assert peak(lambda: curve.evaluate(same, out=(same, slope))) < FIXED
+
+
+@pytest.mark.parametrize("name", CURVES)
+def test_results_are_all_that_grows(name: str) -> None:
+    curve = CURVES[name]
+    query: FloatArray = np.random.default_rng(2).random(QUERY)
+    assert peak(lambda: curve.evaluate(query)) < 16 * QUERY + FIXED
+    assert peak(lambda: curve.segment(query)) < 8 * QUERY + FIXED
+    assert peak(lambda: curve.extrapolated(query)) < QUERY + FIXED
+
+
+def test_queries_in_several_threads_do_not_mix() -> None:
+    rng = np.random.default_rng(6)
+    curves = [ForceCurve(np.column_stack((np.sort(rng.random(count)), rng.random(count)))) for count in (5, 50, 500)]
+    jobs = [(curve, rng.random(60_000)) for curve in curves for _ in range(8)]
+    with ThreadPoolExecutor(6) as pool:
+        together = list(pool.map(lambda job: job[0].evaluate(job[1]), jobs))
+    for (curve, query), (force, slope) in zip(jobs, together, strict=True):
+        alone = curve.evaluate(query)
+        assert np.array_equal(force, alone[0])
+        assert np.array_equal(slope, alone[1])

@@ -1,0 +1,252 @@
+"""The curve as an object, and the arrays it takes and gives."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+from numpy.typing import ArrayLike
+
+from mudline.model.curves import CurveError, ForceCurve
+from mudline.model.curves import points as curve_points
+
+POINTS = [(0.3, 4500.0), (0.0, 0.0), (0.1, 2000.0)]
+
+
+def test_points_are_sorted_and_repeats_merged() -> None:
+    curve = ForceCurve([*POINTS, (0.1, 2000.0), (0.0, -0.0)], name="clay")
+    assert curve.name == "clay"
+    assert curve.ratios.tolist() == [0.0, 0.1, 0.3]
+    assert curve.forces.tolist() == [0.0, 2000.0, 4500.0]
+    assert curve.slopes == pytest.approx([20000.0, 12500.0], rel=1e-15)
+    assert not np.signbit(curve.forces).any()
+
+
+def test_points_may_be_an_array_of_any_real_kind() -> None:
+    whole = np.array([[0, 0], [2, 8]])
+    for kind in (np.int32, np.float32, np.float64, np.longdouble):
+        assert ForceCurve(whole.astype(kind)) == ForceCurve([(0, 0), (2, 8)])
+
+
+_VALUES = st.sampled_from([0.0, -0.0, 5e-324, 1e-308, 1e308, -1e308, np.inf, np.nan]) | st.floats(-5.0, 5.0)
+
+
+@given(st.lists(st.tuples(_VALUES, _VALUES), max_size=5), st.booleans())
+@example([(-0.0, -0.0), (1.0, 2.0)], True)
+@settings(max_examples=200)
+def test_a_short_curve_has_the_bits_of_any_other(points: list[tuple[float, float]], ascending: bool) -> None:
+    array = np.array(sorted(points) if ascending else points).reshape(-1, 2)
+
+    def made(given: ArrayLike) -> object:
+        try:
+            curve = ForceCurve(given, "clay")
+        except CurveError as error:
+            return str(error), error.code, error.index
+        return [values.tobytes() for values in (curve.ratios, curve.forces, curve.slopes)]
+
+    assert made(array) == made(array.tolist() or np.empty((0, 2)))
+
+
+def test_which_curves_are_short() -> None:
+    """Those in order, of up to 64 points; any other is made by numpy, with the same result."""
+    points = np.column_stack((np.arange(65.0), np.arange(65.0) ** 2))
+    for count in (2, 64):
+        short = curve_points._short(points[:count])
+        assert short is not None
+        assert short.slopes.tolist() == (2.0 * np.arange(count - 1) + 1.0).tolist()
+        assert ForceCurve(points[:count]).slopes.tolist() == short.slopes.tolist()
+    others = [points[:1], points, points[::-1], points[:5].astype(np.float32), points[:4].reshape(2, 4), points[:, 0]]
+    others += [
+        np.array(rows) for rows in ([(0.0, 0.0), (0.0, 1.0)], [(0.0, 1.0), (1.0, 1.0)], [(0.0, 0.0), (1.0, np.inf)])
+    ]
+    others += [np.array([(-1.7e308, 0.0), (1.7e308, 1.0)])]
+    assert [curve_points._short(other) for other in others] == [None] * len(others)
+
+
+def test_a_curve_does_not_change() -> None:
+    given = np.array(POINTS)
+    curve = ForceCurve(given)
+    given[:] = 7.0
+    assert curve == ForceCurve(POINTS)
+    for array in (curve.ratios, curve.forces, curve.slopes):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1.0
+    with pytest.raises(AttributeError, match="cannot set name"):
+        curve.name = "mud"
+    with pytest.raises(AttributeError, match="cannot delete name"):
+        del curve.name
+
+
+def test_equality_and_hash_are_those_of_name_and_points() -> None:
+    curve = ForceCurve(POINTS, name="clay")
+    same = ForceCurve(sorted(POINTS), name="clay")
+    assert curve == same
+    assert hash(curve) == hash(same)
+    assert curve != ForceCurve(POINTS, name="sand")
+    assert curve != ForceCurve(POINTS[:2], name="clay")
+    assert curve != ForceCurve([(ratio, 2.0 * force) for ratio, force in POINTS], name="clay")
+    assert curve != ForceCurve([(2.0 * ratio, force) for ratio, force in POINTS], name="clay")
+    assert curve != "clay"
+    assert len({curve, same, ForceCurve(POINTS)}) == 2
+
+
+def test_copies_and_pickles_are_equal() -> None:
+    curve = ForceCurve(POINTS, name="clay")
+    for twin in (copy.copy(curve), copy.deepcopy(curve), pickle.loads(pickle.dumps(curve))):  # noqa: S301 - our own bytes
+        assert twin == curve
+        assert twin.evaluate(0.2) == curve.evaluate(0.2)
+
+
+def test_repr() -> None:
+    assert repr(ForceCurve([(1, 2), (0, 1)], name="a")) == "ForceCurve([(0.0, 1.0), (1.0, 2.0)], name='a')"
+    eight = [(float(ratio), float(ratio)) for ratio in range(8)]
+    assert repr(ForceCurve(eight)) == f"ForceCurve({eight}, name=None)"
+    assert repr(ForceCurve([*eight, (8, 8)])) == "ForceCurve(<9 points from (0.0, 0.0) to (8.0, 8.0)>, name=None)"
+
+
+def test_repr_is_of_a_length_that_can_be_read() -> None:
+    longest = [
+        (0.0, 1e-100),
+        (1.0, 1.0),
+        (2.0, 2.0),
+        (3.0, 3.0),
+        (4.0, 4.0),
+        (5.1234567, 5.1234567),
+        (6.0, 6.0),
+        (7.0, 1.2345678901),
+    ]
+    assert len(repr(longest)) == 120
+    assert repr(ForceCurve(longest)) == f"ForceCurve({longest}, name=None)"
+    longer = [*longest[:-1], (7.0, 1.23456789012)]
+    assert repr(ForceCurve(longer)) == "ForceCurve(<8 points from (0.0, 1e-100) to (7.0, 1.23456789012)>, name=None)"
+    assert repr(ForceCurve(longer, "c" * 60)).endswith(f"name='{'c' * 60}')")
+    assert repr(ForceCurve(longer, "c" * 61)).endswith(f"name='{'c' * 57}...')")
+
+
+def test_a_notebook_shows_the_points_with_their_slopes() -> None:
+    shown = ForceCurve(POINTS, name="clay <1>")._repr_html_()
+    assert "clay &lt;1&gt; 3 points" in shown
+    assert all(f">{number}<" in shown for number in ("0.1", "2000", "12500"))
+
+
+@pytest.mark.parametrize("shape", [(), (0,), (1,), (0, 3), (2, 3, 4), (3, 7000)])
+def test_results_have_the_shape_of_the_query(shape: tuple[int, ...]) -> None:
+    curve = ForceCurve(POINTS)
+    query = np.random.default_rng(1).uniform(-1.0, 1.0, shape)
+    force, slope = curve.evaluate(query)
+    assert force.shape == slope.shape == shape
+    assert curve.segment(query).shape == curve.extrapolated(query).shape == shape
+    assert np.array_equal(force.ravel(), curve.evaluate(np.ravel(query))[0])
+
+
+@pytest.mark.parametrize("points", [POINTS, [(0.01 * index, float(index % 7)) for index in range(50)]])
+def test_layout_and_number_type_of_the_query_do_not_matter(points: list[tuple[float, float]]) -> None:
+    curve = ForceCurve(points)
+    query = np.random.default_rng(2).uniform(-1.0, 1.0, (300, 400)).astype(np.float32).astype(np.float64)
+    expected = np.array([curve.evaluate(row) for row in query])
+    for view in (query, np.asfortranarray(query), query.astype(np.float32), query.astype(">f8")):
+        force, slope = curve.evaluate(view)
+        assert np.array_equal(force, expected[:, 0])
+        assert np.array_equal(slope, expected[:, 1])
+        assert np.array_equal(curve.segment(view), curve.segment(query))
+    assert np.array_equal(curve.evaluate(query[::3, ::-2].T)[0], expected[::3, 0, ::-2].T)
+    assert np.array_equal(curve.evaluate(np.array([[0], [1]]))[0], curve.evaluate([[0.0], [1.0]])[0])
+
+
+def test_out_is_written_in_place_and_returned() -> None:
+    curve = ForceCurve(POINTS)
+    query = np.random.default_rng(3).uniform(-1.0, 1.0, (40, 1000))
+    expected = curve.evaluate(query)
+    both = np.empty((40, 1000, 2))
+    out = (both[..., 0], both[..., 1])
+    returned = curve.evaluate(query, out=out)
+    assert returned[0] is out[0]
+    assert returned[1] is out[1]
+    assert np.array_equal(both, np.stack(expected, axis=-1))
+
+
+CLAY = [(0.0, 0.0), (0.1, 2000.0), (0.3, 4500.0), (0.5, 6000.0)]
+DIAMETER = 0.3
+
+
+@pytest.mark.parametrize(
+    ("ratio", "force", "stiffness"),
+    [
+        (-0.02, -400.0, 66666.666667),
+        (0.05, 1000.0, 66666.666667),
+        (0.1, 2000.0, 41666.666667),
+        (0.2, 3250.0, 41666.666667),
+        (0.3, 4500.0, 25000.0),
+        (0.4, 5250.0, 25000.0),
+        (0.5, 6000.0, 25000.0),
+        (0.8, 8250.0, 25000.0),
+    ],
+)
+def test_worked_table(ratio: float, force: float, stiffness: float) -> None:
+    found_force, found_slope = ForceCurve(CLAY).evaluate(ratio)
+    assert found_force == pytest.approx(force, rel=1e-12)
+    assert found_slope / DIAMETER == pytest.approx(stiffness, rel=1e-11)
+
+
+def test_segments_and_extrapolation() -> None:
+    curve = ForceCurve(CLAY)
+    ratios = [-1.0, 0.0, 0.05, 0.1, 0.3, 0.5, 0.6]
+    assert curve.segment(ratios).tolist() == [0, 0, 0, 1, 2, 2, 2]
+    assert curve.extrapolated(ratios).tolist() == [-1, 0, 0, 0, 0, 0, 1]
+    assert curve.extrapolated(ratios).dtype == np.int8
+    assert curve.segment(0.2) == 1
+    assert curve.extrapolated(0.7) == 1
+
+
+def test_falling_forces_give_negative_slopes() -> None:
+    force, slope = ForceCurve([(0.0, 10.0), (1.0, 4.0)]).evaluate([-1.0, 0.5, 2.0])
+    assert force.tolist() == [16.0, 7.0, -2.0]
+    assert slope.tolist() == [-6.0, -6.0, -6.0]
+
+
+def test_roots_on_a_rising_curve() -> None:
+    curve = ForceCurve(CLAY)
+    assert curve.ratios_at_force(3250.0) == pytest.approx((0.2,), rel=1e-15)
+    assert curve.ratios_at_force(2000.0) == (0.1,)
+    assert curve.ratios_at_force(8250.0) == pytest.approx((0.8,), rel=1e-15)
+    assert curve.ratios_at_force(-400.0) == pytest.approx((-0.02,), rel=1e-15)
+
+
+def test_every_root_of_a_curve_that_turns_is_found_in_order() -> None:
+    curve = ForceCurve([(0.0, 0.0), (1.0, 4.0), (2.0, 1.0), (4.0, 3.0)])
+    assert curve.ratios_at_force(2.5) == (0.625, 1.5, 3.5)
+    assert curve.ratios_at_force(4.0) == (1.0, 5.0)
+    assert curve.ratios_at_force(1.0) == (0.25, 2.0)
+    assert curve.ratios_at_force(-1.0) == (-0.25,)
+
+
+def test_roots_of_a_falling_curve_lie_beyond_either_end() -> None:
+    curve = ForceCurve([(0.0, 10.0), (1.0, 4.0)])
+    assert curve.ratios_at_force(16.0) == (-1.0,)
+    assert curve.ratios_at_force(-2.0) == (2.0,)
+
+
+def test_a_flat_stretch_is_given_by_its_points() -> None:
+    curve = ForceCurve([(0.0, 0.0), (1.0, 5.0), (2.0, 5.0), (3.0, 9.0)])
+    assert curve.ratios_at_force(5.0) == (1.0, 2.0)
+    flat = ForceCurve([(0.0, 5.0), (1.0, 5.0)])
+    assert flat.ratios_at_force(5.0) == (0.0, 1.0)
+    assert flat.ratios_at_force(6.0) == ()
+
+
+def test_a_root_too_far_away_for_a_float64_is_left_out() -> None:
+    curve = ForceCurve([(0.0, 0.0), (1e10, 1.0), (2e10, 1e300)])
+    assert curve.ratios_at_force(-1e300) == ()
+    assert curve.ratios_at_force(1.0) == (1e10,)
+    # the distance is a float64, the ratio is none
+    assert ForceCurve([(1e308, 0.0), (1.5e308, 2.0)]).ratios_at_force(6.0) == ()
+
+
+def test_roots_between_forces_whose_difference_overflows() -> None:
+    curve = ForceCurve([(0.0, -1.5e308), (4.0, 1.5e308)])
+    assert curve.ratios_at_force(0.75e308) == pytest.approx((3.0,), rel=1e-15)
+    assert curve.ratios_at_force(0.0) == pytest.approx((2.0,), rel=1e-15)

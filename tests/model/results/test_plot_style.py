@@ -1,0 +1,72 @@
+"""The style of all plots: curves that differ without colours, axes with quantity and unit, safe names."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib")
+
+from matplotlib.axes import Axes
+
+from mudline.model.results.curve_rows import curve_rows, curve_units
+from mudline.model.results.evaluation import evaluate_scene
+from mudline.model.results.plot_data import PlotData
+from mudline.model.results.plots import curves_figure, evaluation_figure, model_figure
+from mudline.model.results.plots.style import COLORS, SEABED, style_of
+from mudline.model.scene.deck_curves import OF_SEABED
+from mudline.model.scene.model import resolve
+from tests.helpers.samples import sample
+
+
+def row(name: str, *points: tuple[float, float], **more: Any) -> dict[str, Any]:  # noqa: ANN401 - as in rows
+    return {"name": name, "kind": OF_SEABED, "points": points, **more}
+
+
+def segments(axes: Axes, style: str) -> list[list[list[float]]]:
+    """The points of the lines of a style that are drawn."""
+    lines = [line for line in axes.get_lines() if line.get_linestyle() == style and len(np.asarray(line.get_xdata()))]
+    return [np.asarray(line.get_xydata()).tolist() for line in lines]
+
+
+def test_many_curves_differ_in_colour_and_marker() -> None:
+    assert len({(style.color, style.marker) for style in map(style_of, range(64))}) == 64
+    axes = curves_figure([row(str(n), (0.0, 0.0), (1.0, n)) for n in range(20)], "metric").axes[0]
+    drawn = [line for line in axes.get_lines() if str(line.get_label()).isdigit()]
+    assert len({(line.get_color(), line.get_marker()) for line in drawn}) == 20
+
+
+def test_axes_of_every_kind_have_their_units() -> None:
+    scene = resolve(sample("scr-vessel.keyxm"))
+    figure = curves_figure(curve_rows(scene, (), None), scene.units, curve_units(scene))
+    assert [(axes.get_xlabel(), axes.get_ylabel().replace("\n", " ")) for axes in figure.axes] == [
+        ("embedment ratio, depth / diameter [-]", "seabed reaction per unit length [N/m]"),
+        ("elevation [m]", "velocity [m/s]"),
+        ("ratio [-]", "coefficient [-]"),
+        ("strain [-]", "force [N]"),
+        ("curvature [1/m]", "moment [N m]"),
+        ("twist [1/m]", "torque [N m]"),
+    ]
+
+
+def test_a_curve_goes_on_to_zero_to_a_margin_and_to_what_was_asked_for() -> None:
+    at = [{"ratio": 3.0, "force": 5.0}]
+    both = [row("a", (0.5, 1.0), (1.0, 2.0), at=at), row("b", (-2.0, 1.0), (2.0, 3.0))]
+    dashed = segments(curves_figure(both, "user").axes[0], "--")
+    assert dashed == [[[0.5, 1.0], [0.0, 0.0]], [[1.0, 2.0], [3.0, 6.0]], [[2.0, 3.0], [2.3, pytest.approx(3.15)]]]
+
+
+def test_figures_of_a_deck_have_the_colours_of_the_style() -> None:
+    scene = resolve(sample("legacy-flowline.keyxm"))
+    evaluation = evaluate_scene(scene)
+    data = PlotData.of_evaluation(evaluation)
+    for part in evaluation.parts():
+        data.take(part)
+    curves = curves_figure(curve_rows(scene, (), None), scene.units)
+    wanted = {*COLORS, SEABED}
+    for figure in (model_figure(scene, data), evaluation_figure(data), curves):
+        found = {str(line.get_color()) for axes in figure.axes for line in axes.get_lines()}
+        assert {color for color in found if color.startswith("#")} <= wanted
+        assert {color for color in found if not color.startswith("#")} <= {"0.2", "0.3", "0.4", "black"}

@@ -1,0 +1,68 @@
+"""Results of long series and large models: written in pieces, exact in every format."""
+
+from __future__ import annotations
+
+import tracemalloc
+
+import numpy as np
+import pytest
+
+from mudline.language.diagnostics import DeckError
+from mudline.model.contact import numpy_driver
+from mudline.model.results.evaluation import Evaluation, Tension, evaluate_scene
+from mudline.model.results.forms import text
+from mudline.model.results.totals import StepTotal
+from mudline.model.scene.positions import Positions
+from tests.helpers.builders.decks import CLEAN
+from tests.helpers.builders.scenes import scene_of
+from tests.model.results.written import arrays_of, json_of, pieces, steps_of
+
+
+def series(steps: int, text: str = CLEAN, tension: Tension = "keep", *, absent: tuple[int, ...] = ()) -> Evaluation:
+    """The deck going down by 1 mm a step."""
+    found = scene_of(text)
+    moved = found.coordinates - np.arange(steps)[:, np.newaxis, np.newaxis] * np.array([0.001, 0.0, 0.0])
+    present = ~np.isin(found.node_ids, absent)
+    moved[:, ~present] = np.nan
+    return evaluate_scene(found, Positions(moved, present, np.arange(steps, dtype=np.float64)), tension)
+
+
+@pytest.mark.untraced
+def test_pieces_are_small(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With pieces of an eighth of the usual size, so that an eighth of the steps is many pieces."""
+    monkeypatch.setattr(numpy_driver, "BLOCK", numpy_driver.BLOCK // 8)
+    monkeypatch.setattr(text, "_BLOCK", text._BLOCK // 8)
+    monkeypatch.setattr(text, "_PIECE", text._PIECE // 8)
+    evaluation = series(4_500)
+    tracemalloc.start()
+    sizes = {
+        name: sum(len(piece) for piece in found)
+        for name, found in (
+            ("json", pieces(evaluation, "json")),
+            ("csv", pieces(evaluation, "csv")),
+            ("nodes", pieces(evaluation, "csv", "nodes")),
+        )
+    }
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert sizes["json"] > 7e6
+    assert peak < 5e6, "the results of a chunk, not of all steps"
+
+
+def test_totals_of_steps() -> None:
+    evaluation = series(300)
+    found = steps_of(evaluation)
+    assert len(found) == 300
+    assert found[0] == StepTotal(0.0, 1, 1, 1, 0.1, 15000.0)
+    assert found[-1][1:4] == (2, 1, 2)
+    assert steps_of(evaluation, 3) == found[:3]
+    summed = arrays_of(evaluation)["reaction"][..., 0].sum(axis=1)
+    assert np.allclose([each.reaction for each in found], summed, rtol=1e-12)
+
+
+def test_positions_that_are_not_finite() -> None:
+    found = scene_of(CLEAN)
+    values = np.zeros((2, 3, 3))
+    values[1, 1, 1] = np.inf
+    with pytest.raises(DeckError, match=r"RUN001 node 2 at step 1: its position \(0.0, inf, 0.0\) is not finite"):
+        json_of(evaluate_scene(found, Positions(values, np.ones(3, dtype=bool), np.arange(2.0))))

@@ -1,0 +1,67 @@
+"""An evaluation written in each form, and read again."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import ExitStack
+from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mudline.model.results.evaluation import Evaluation
+from mudline.model.results.forms import FORMS, Output, Sink, contents_of, table_path, tables_of
+from mudline.model.results.forms.text import text_writer
+from mudline.model.results.totals import First, StepTotal, step_totals
+
+Json: TypeAlias = Any
+
+
+def pieces(evaluation: Evaluation, form: str, table: str = "elements") -> Iterator[str]:
+    """All that a form of text writes, piece by piece as it comes."""
+    written: list[Iterator[str]] = []
+    tables = tables_of(evaluation, form, evaluation.element_table(), table)
+    sink = Sink(evaluation, tables, text_writer(form, contents_of(evaluation, tables), written.append, table))
+    for part in evaluation.parts():
+        sink.take(part)
+        yield from written.pop()
+    sink.finish({})
+    for rest in written:
+        yield from rest
+
+
+def json_of(evaluation: Evaluation) -> Json:
+    """What the JSON holds."""
+    return json.loads("".join(pieces(evaluation, "json")))
+
+
+def write(evaluation: Evaluation, path: Path) -> Path:
+    """Write an evaluation in the form of the suffix, as the command does."""
+    form = path.suffix[1:]
+    tables = tables_of(evaluation, form, evaluation.element_table())
+    with ExitStack() as stack:
+        paths = [path, *(table_path(path, table) for table in FORMS[form].beside)]
+        streams = [stack.enter_context(one.open("wb")) for one in paths]
+        writer = stack.enter_context(Output(form, contents_of(evaluation, tables), streams, path.parent).opened())
+        sink = Sink(evaluation, tables, writer)
+        for part in evaluation.parts():
+            sink.take(part)
+        sink.finish({})
+    return path
+
+
+def arrays_of(evaluation: Evaluation) -> dict[str, NDArray[Any]]:
+    """What the NPZ archive holds."""
+    with TemporaryDirectory() as folder, np.load(write(evaluation, Path(folder) / "out.npz")) as archive:
+        return dict(archive)
+
+
+def steps_of(evaluation: Evaluation, most: int | None = None) -> list[StepTotal]:
+    """The figures of the first steps."""
+    first = First(partial(step_totals, evaluation), most)
+    evaluation.run([first])
+    return first.rows

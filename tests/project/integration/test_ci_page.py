@@ -1,0 +1,159 @@
+"""The examples of docs/ci.md: the YAML is read, the scripts are run."""
+
+from __future__ import annotations
+
+import json
+import re
+import shlex
+import sys
+from pathlib import Path
+
+import pytest
+import yaml
+
+from tests.cli.runner import Json
+from tests.docs.blocks import Page
+from tests.project.integration.recipes import CLEAN, ROOT, checkout, installed, shell
+
+PAGE = Page.read(ROOT / "docs" / "ci.md")
+EXAMPLES = [yaml.safe_load(block.text) for block in PAGE.blocks if block.language == "yaml"]
+HOOKS = {hook["id"] for hook in yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8"))}
+
+
+def example(key: str) -> Json:
+    """The one example with a key at its top."""
+    (found,) = (each[key] for each in EXAMPLES if key in each)
+    return found
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    return checkout(tmp_path)
+
+
+def test_the_job_of_gitlab_leaves_a_report_and_fails(folder: Path) -> None:
+    job = example("mudline")
+    assert job["image"].startswith("python:3")
+    done = shell("\n".join(job["script"]), folder)
+    assert (done.returncode, done.stderr) == (1, "")
+    assert done.stdout.startswith("decks/bad.keyxm:3:9: error SYN002 ")
+    assert installed(folder) == "pip install mudline\n"
+    report = folder / job["artifacts"]["reports"]["codequality"]
+    (issue,) = json.loads(report.read_text(encoding="utf-8"))
+    assert issue["location"] == {"path": "decks/bad.keyxm", "lines": {"begin": 3, "end": 3}}
+    assert job["artifacts"]["when"] == "always"  # the report of a failed job is the one that is wanted
+
+
+def test_the_job_of_gitlab_passes_for_clean_decks(folder: Path) -> None:
+    (folder / "decks" / "bad.keyxm").write_text(CLEAN)
+    done = shell("\n".join(example("mudline")["script"]), folder)
+    assert (done.returncode, done.stdout) == (0, "No findings in 2 files.\nAll 2 keywords read.\n")
+    assert json.loads((folder / "gl-code-quality.json").read_text(encoding="utf-8")) == []
+
+
+def test_the_workflow_of_github_gives_inputs_that_the_action_has() -> None:
+    action = yaml.safe_load((ROOT / "action.yml").read_text(encoding="utf-8"))
+    steps = [*example("steps"), *example("jobs")["decks"]["steps"]]
+    given = [step["with"] for step in steps if step["uses"].startswith("OWNER/mudline@")]
+    assert len(given) == 2
+    assert all(inputs.keys() <= action["inputs"].keys() for inputs in given)
+
+
+def test_the_sarif_that_is_uploaded_is_the_one_that_is_written() -> None:
+    _, lint, upload = example("jobs")["decks"]["steps"]
+    assert lint["with"]["args"] == f"--output-format sarif={upload['with']['sarif_file']}"
+    assert upload["if"] == "always()"
+
+
+def test_the_hooks_that_are_named_are_there() -> None:
+    assert {hook["id"] for repo in example("repos") for hook in repo["hooks"]} == HOOKS
+
+
+def test_the_other_commands_of_the_page_run(folder: Path) -> None:
+    """In the order of the page: a baseline is written before it is used."""
+    blocks = [line for block in PAGE.blocks if block.language == "text" for line in block.text.splitlines()]
+    inline = [command for command in re.findall(r"`(mudline lint [^`]+)`", PAGE.prose) if " decks" in command]
+    codes = {command: shell(command, folder).returncode for command in (*inline, *blocks)}
+    assert inline
+    assert [codes[command] for command in inline] == [1] * len(inline)
+    assert [codes[command] for command in blocks] == [0] * len(blocks)
+    assert (folder / "mudline.xml").exists()
+    assert (folder / "known.json").exists()
+
+
+# --------------------------------------- The steps of action.yml, run one after the other with the inputs of a workflow
+
+
+ACTION = yaml.safe_load((ROOT / "action.yml").read_text(encoding="utf-8"))
+
+
+def steps(folder: Path, **inputs: str) -> list[tuple[int, str]]:
+    """Exit code and standard output of each `run` step, up to the first that fails."""
+    given = {name: about["default"] for name, about in ACTION["inputs"].items()} | inputs
+    done: list[tuple[int, str]] = []
+    for step in ACTION["runs"]["steps"]:
+        if "run" not in step or any(code for code, _ in done):
+            continue
+        assert step["shell"] == "bash"
+        env = {name: filled(text, given) for name, text in step["env"].items()}
+        ran = shell(step["run"], folder, GITHUB_ACTION_PATH=str(ROOT), **env)
+        assert "Traceback" not in ran.stderr
+        done.append((ran.returncode, ran.stdout))
+    return done
+
+
+def filled(text: str, given: dict[str, str]) -> str:
+    """An expression of the workflow with the value of the input; an unknown input is a KeyError."""
+    return re.sub(r"\$\{\{ inputs\.([a-z-]+) \}\}", lambda match: given[match[1]], text)
+
+
+def test_findings_are_annotations_and_fail_the_job(folder: Path) -> None:
+    (install, _), (code, printed) = steps(folder)
+    assert (install, code) == (0, 1)
+    assert printed.startswith("::error file=decks/bad.keyxm,line=3,endLine=3,col=9,endColumn=14,title=SYN002 ")
+    assert installed(folder) == f"pip install --quiet --disable-pip-version-check {ROOT}\n"
+
+
+def test_the_inputs_of_the_page_pass(folder: Path) -> None:
+    inputs = {"paths": "decks/good.keyxm\ndecks\n", "args": "--fail-on error --baseline known.json"}
+    assert steps(folder, **inputs, version="1.2.0")[1][0] == 2  # there is no such baseline yet
+    assert installed(folder).endswith(" mudline==1.2.0\n")
+    steps(folder, paths="decks", args="--baseline known.json --write-baseline")
+    assert steps(folder, **inputs)[1] == (0, "")
+
+
+def test_sarif_is_written_besides(folder: Path) -> None:
+    more = "--output-format sarif=mudline.sarif --exit-zero"
+    (_, (code, printed)) = steps(folder, args=more)
+    assert (code, printed.count("::error ")) == (0, 1)
+    assert '"version": "2.1.0"' in (folder / "mudline.sarif").read_text(encoding="utf-8")
+
+
+def test_no_module_of_the_checkout_is_imported(folder: Path) -> None:
+    for name in ("click", "pip", "multiprocessing", "pickle"):
+        (folder / f"{name}.py").write_text("from pathlib import Path\nPath('run').touch()\n")
+    given = {"MUDLINE_PYTHON": sys.executable, "PIP_NO_INDEX": "1", "MUDLINE_VERSION": "1.2.0", "MUDLINE_PATHS": "."}
+    install = shell(f"bash {shlex.quote(str(ROOT / '.github' / 'install.sh'))}", folder, **given)
+    assert "No matching distribution found for mudline==1.2.0" in install.stderr
+    lint = shell(f"bash {shlex.quote(str(ROOT / '.github' / 'lint.sh'))}", folder, **given)
+    assert (lint.returncode, lint.stdout.count("::error ")) == (1, 1)
+    assert not (folder / "run").exists()
+
+
+def test_an_input_is_never_run(folder: Path) -> None:
+    bad = "$(touch run);`touch run`;touch run *"
+    assert steps(folder, paths=bad, args=bad, format=bad)[1][0] == 2
+    assert not list(folder.rglob("run*"))
+
+
+def test_wrong_usage_is_told_and_fails(folder: Path) -> None:
+    assert [code for code, _ in steps(folder, format="xml")] == [0, 2]
+
+
+def test_the_action_names_what_a_workflow_needs() -> None:
+    assert ACTION["runs"]["using"] == "composite"
+    assert all(about["description"] and "default" in about for about in ACTION["inputs"].values())
+    page = (ROOT / "docs" / "ci.md").read_text(encoding="utf-8")
+    assert all(f"| `{name}` |" in page for name in ACTION["inputs"])
+    assert all(f"inputs.{name}" in str(ACTION["runs"]["steps"]) for name in ACTION["inputs"])
+    assert not any("${{" in step.get("run", "") for step in ACTION["runs"]["steps"])

@@ -1,0 +1,109 @@
+"""What holds for the package as a whole: its version, its files, its dependencies, its wheel."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+import tarfile
+import tomllib
+import zipfile
+from importlib import metadata
+from pathlib import Path
+
+import pytest
+
+import mudline
+from mudline.basics.resources import grammar_file
+from tests.helpers.lowest import constraints
+from tests.helpers.processes import TIMEOUT
+
+ROOT = Path(__file__).parents[2]
+GRAMMAR = sorted(path.name for path in (ROOT / "grammar").glob("*.lark"))
+TABLES = ("deck.tables", "blocks.tables", "expression.tables")
+LONGEST_FILE = 450
+
+
+def built(kind: str, of: Path, into: Path) -> Path:
+    """The wheel or the source archive of a folder."""
+    build = [sys.executable, "-m", "hatchling", "build", "-t", kind, "-d", str(into)]
+    subprocess.run(build, cwd=of, capture_output=True, timeout=TIMEOUT, check=True)
+    (made,) = into.glob("*.whl" if kind == "wheel" else "*.tar.gz")
+    return made
+
+
+def contents(wheel: Path) -> dict[str, bytes]:
+    with zipfile.ZipFile(wheel) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+@pytest.mark.slow
+def test_the_source_archive_makes_the_same_wheel(tmp_path: Path) -> None:
+    with tarfile.open(built("sdist", ROOT, tmp_path / "source")) as archive:
+        archive.extractall(tmp_path / "unpacked", filter="data")
+    (unpacked,) = (tmp_path / "unpacked").iterdir()
+    one = contents(built("wheel", ROOT, tmp_path / "checkout"))
+    other = contents(built("wheel", unpacked, tmp_path / "archive"))
+    assert list(one) == list(other)
+    differ = {Path(name).name for name, data in one.items() if data != other[name]}
+    assert differ <= {"RECORD", *TABLES}  # lark numbers the states of a parser in another order each time
+
+
+@pytest.fixture(scope="module")
+def wheel_names(tmp_path_factory: pytest.TempPathFactory) -> set[str]:
+    folder = tmp_path_factory.mktemp("dist")
+    return set(contents(built("wheel", ROOT, folder)))
+
+
+def test_version_is_that_of_the_metadata() -> None:
+    assert mudline.__version__ == metadata.version("mudline")
+
+
+def test_package_is_typed() -> None:
+    assert (Path(mudline.__file__).parent / "py.typed").is_file()
+
+
+@pytest.mark.parametrize("name", GRAMMAR)
+def test_checkout_finds_its_grammar(name: str) -> None:
+    assert grammar_file(name).samefile(ROOT / "grammar" / name)
+
+
+def test_wheel_holds_every_module(wheel_names: set[str]) -> None:
+    source = ROOT / "src"
+    modules = {path.relative_to(source).as_posix() for path in (source / "mudline").rglob("*.py")}
+    assert modules <= wheel_names
+
+
+def test_wheel_holds_the_grammar_and_the_marker_of_types(wheel_names: set[str]) -> None:
+    assert {f"mudline/grammar/{name}" for name in (*GRAMMAR, *TABLES)} <= wheel_names
+    assert {"mudline/py.typed", "mudline/language/highlighting/words.json"} <= wheel_names
+
+
+def test_wheel_holds_the_pages_of_rules(wheel_names: set[str]) -> None:
+    pages = {f"mudline/docs/rules/{path.name}" for path in (ROOT / "docs/rules").glob("*.md")}
+    assert len(pages) > 100
+    assert pages <= wheel_names
+
+
+def test_dependencies_have_lower_bounds_only() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    extras = project["optional-dependencies"].values()
+    requirements = [*project["dependencies"], *(line for extra in extras for line in extra)]
+    others = [line for line in requirements if not line.startswith("mudline[")]
+    assert len(others) > 5
+    assert [line for line in others if not re.fullmatch(r"[a-z0-9-]+>=[0-9.]+", line)] == []
+
+
+def test_the_oldest_libraries_are_those_of_the_project() -> None:
+    text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    found = constraints(text)
+    assert "pydantic==2.11" in found
+    assert all(re.fullmatch(r"[a-z0-9-]+==[0-9.]+", line) for line in found)
+    assert {line.partition("==")[0] for line in found} >= {"click", "matplotlib", "numba", "pyarrow", "scipy"}
+
+
+def test_no_file_is_too_long_to_read() -> None:
+    files = [path for folder in ("src", "tests") for path in (ROOT / folder).rglob("*.py")]
+    lengths = {path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8").count("\n") for path in files}
+    assert len(lengths) > 5
+    assert {name: length for name, length in lengths.items() if length > LONGEST_FILE} == {}

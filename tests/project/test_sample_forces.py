@@ -1,0 +1,241 @@
+"""The samples make physical sense: what the bed carries is the weight of what lies on it."""
+
+from __future__ import annotations
+
+import math
+from typing import cast
+
+import numpy as np
+import pytest
+
+from mudline.language.deck.loading import load_bytes
+from mudline.language.deck.parameters import Parameters
+from mudline.language.keywords.library.geometric_sets import FlexibleSection, GeometricSets
+from mudline.model.scene.csv_file import read_external
+from mudline.model.scene.model import resolve
+from mudline.model.scene.positions import read_positions
+from tests.helpers.samples import SAMPLES, Evaluated, evaluated, penetration, sample, submerged_weight
+
+# ------------------------------------------------------------------------------------------- steel catenary riser
+
+
+@pytest.fixture(scope="module")
+def riser() -> Evaluated:
+    return evaluated(sample("scr-touchdown.keyxm"))
+
+
+def test_riser_has_its_elements_and_sets(riser: Evaluated) -> None:
+    scene = riser.scene
+    assert (len(scene.node_ids), len(scene.element_ids)) == (201, 200)
+    sizes = {name: len(ids) for name, ids in scene.sets.items()}
+    assert sizes == {
+        "ALL": 200,
+        "Flowline": 40,
+        "Trench Zone": 100,
+        "Lower Riser": 20,
+        "Upper Riser": 40,
+        "Bare Riser": 120,
+        "Fatigue Hot Spot": 20,
+    }
+    assert set(scene.diameter.tolist()) == {0.27305}
+    assert scene.length == pytest.approx(np.repeat([5.0, 2.0, 5.0, 26.0], [40, 100, 20, 40]), rel=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("curve", "strength", "gradient"), [("Trench Clay", 900.0, 1200.0), ("Flowline Clay", 1800.0, 1500.0)]
+)
+def test_clays_are_sampled_from_the_formula_that_their_comment_names(
+    riser: Evaluated, curve: str, strength: float, gradient: float
+) -> None:
+    clay = riser.scene.curves[curve]
+    expected = [round(penetration(ratio, 0.27305, strength, gradient)) for ratio in clay.ratios.tolist()]
+    assert clay.forces.tolist() == expected
+
+
+def test_riser_weight_in_water() -> None:
+    scene = resolve(sample("scr-touchdown.keyxm"))
+    # pi/4 (0.27305^2 - 0.22225^2) 7850 = 155.1285 kg/m of steel, pi/4 0.27305^2 1025 = 60.0203 kg/m of water
+    assert submerged_weight(scene) == pytest.approx((155.1285 - 60.0203) * 9.81, rel=1e-5)
+
+
+def test_flat_flowline_is_carried(riser: Evaluated) -> None:
+    weight = submerged_weight(riser.scene)
+    flat = slice(0, 31)
+    reaction = riser.result.reaction[flat].sum(axis=0)
+    # 30 elements and the half of the 31st that its first node carries
+    carried = riser.scene.length[:30].sum() + 0.5 * riser.scene.length[30]
+    assert reaction[0] == pytest.approx(weight * carried, rel=3e-3)
+    assert reaction[1:].tolist() == [0.0, 0.0]
+
+
+def test_riser_hangs_in_equilibrium(riser: Evaluated) -> None:
+    """The bed carries what lies on it and the shear of the bend behind the touchdown point."""
+    weight, contact = submerged_weight(riser.scene), riser.result.contact
+    assert np.flatnonzero(contact).tolist() == list(range(97))
+    on_bed = weight * riser.scene.length[contact].sum()
+    total = riser.result.normal_force.sum()
+    assert total == pytest.approx((riser.result.force * riser.scene.length).sum(), rel=1e-12)
+    assert 1.0 < total / on_bed < 1.02
+    in_trench = riser.result.force[50:97]
+    assert int(in_trench.argmax()) + 51 == 91
+    assert 1.1 < in_trench.max() / weight < 1.2
+
+
+def test_riser_by_hand(riser: Evaluated) -> None:
+    """Element 1: depth 0.0088. Element 91: depth (0.0597 + 0.0596)/2, on the segment (0.20, 1058) to (0.30, 1210)."""
+    ratio = 0.0088 / 0.27305
+    assert riser.result.ratio[0] == pytest.approx(ratio, rel=1e-12)
+    assert riser.result.force[0] == pytest.approx(751 + (1195 - 751) / 0.03 * (ratio - 0.02), rel=1e-12)
+    ratio = 0.05965 / 0.27305
+    assert riser.result.ratio[90] == pytest.approx(ratio, rel=1e-12)
+    assert riser.result.force[90] == pytest.approx(1058 + 1520 * (ratio - 0.2), rel=1e-12)
+    assert riser.result.slope[90] == pytest.approx(1520, rel=1e-12)
+    assert riser.result.stiffness[90] == pytest.approx(1520 / 0.27305, rel=1e-12)
+    assert riser.scene.law_names[39:41] == ["curve:Flowline Clay", "curve:Trench Clay"]
+    assert riser.scene.law_names[160] == "none"
+
+
+def test_touchdown_moves_with_heave(riser: Evaluated) -> None:
+    scene = riser.scene
+    positions = read_positions(SAMPLES / "positions.csv", scene.nodes)
+    assert positions.time is not None
+    assert positions.time.tolist() == [1.5 * step for step in range(8)]
+    assert scene.node_ids[positions.present].tolist() == list(range(71, 132))
+    result = scene.contact().evaluate(positions.whole, present=positions.present)
+    assert int(result.evaluated.sum()) == 60
+    last = [int(scene.element_ids[np.flatnonzero(step)[-1]]) for step in result.contact]
+    assert last == [97, 95, 94, 95, 97, 99, 100, 99]
+    total = np.nansum(result.normal_force, axis=1)
+    assert np.argsort(total)[[0, -1]].tolist() == [2, 6]
+    still = riser.result.force[result.evaluated]
+    assert result.force[0, result.evaluated] == pytest.approx(still, rel=1e-12)
+    assert result.force[4, result.evaluated] == pytest.approx(still, abs=5.0)
+
+
+# ----------------------------------------------------------------------------------------------- the other decks
+
+
+def test_legacy_line_is_carried_by_each_soil() -> None:
+    line = evaluated(sample("legacy-flowline.keyxm"))
+    weight = submerged_weight(line.scene)
+    zones = {"curve:CLAY WEST": (0, 20), "curve:SAND": (21, 35), "linear": (36, 45), "curve:CLAY EAST": (46, 60)}
+    for law, (start, stop) in zones.items():
+        assert set(line.scene.law_names[start:stop]) == {law}
+        assert line.result.force[start:stop] == pytest.approx(weight, rel=0.011)
+    assert line.result.force[40] == pytest.approx(40000.0 * 0.0082, rel=1e-12)
+    ratio = 0.0055 / 0.2191
+    assert line.result.force[5] == pytest.approx(300 + 6000 * (ratio - 0.02), rel=1e-12)
+    assert line.result.normal_force.sum() == pytest.approx(weight * 300.0, rel=0.02)
+
+
+def test_legacy_curve_is_sorted() -> None:
+    scene = resolve(sample("legacy-flowline.keyxm"))
+    assert set(scene.curves) == {"CLAY WEST", "SAND", "CLAY EAST"}
+    assert scene.curves["CLAY EAST"].ratios.tolist() == [0.0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5]
+    for name, strength in (("CLAY WEST", 900.0), ("CLAY EAST", 1600.0)):
+        curve = scene.curves[name]
+        expected = [round(penetration(ratio, 0.2191, strength, 1500.0), -1) for ratio in curve.ratios.tolist()]
+        assert curve.forces.tolist() == expected
+    sand = scene.curves["SAND"]
+    assert sand.forces.tolist() == [round(9000.0 * 0.2191**2 * (ratio / 0.037) ** 1.5, -1) for ratio in sand.ratios]
+
+
+def test_imperial_riser() -> None:
+    riser = evaluated(sample("imperial-riser.keyxi"))
+    scene = riser.scene
+    assert scene.units == "imperial"
+    assert (len(scene.node_ids), len(scene.element_ids)) == (94, 93)
+    assert scene.diameter.tolist() == [1.05] * 82 + [1.9] * 11
+    assert [section.source for section in scene.section_table.sections] == ["Dd", "Do"]
+    weight = submerged_weight(scene)  # (3.6 - 1.9888 pi/4 1.05^2) 32.174 lbf/ft
+    assert weight == pytest.approx(60.419, abs=1e-3)
+    assert np.flatnonzero(riser.result.contact).tolist() == list(range(30))
+    ratio = 0.048 / 1.05
+    assert riser.result.force[0:30] == pytest.approx(40.2 + 800.0 * (ratio - 0.02), rel=1e-12)
+    assert riser.result.normal_force.sum() == pytest.approx(weight * 300.0, rel=0.01)
+    _, sections = next(scene.deck.blocks("GEOMETRIC SETS"))
+    bare = cast("GeometricSets", sections).sets[0]
+    assert (bare.ei_curve, bare.compression_check) == ("Bending", "YES")
+    assert isinstance(bare.section, FlexibleSection)
+    assert (bare.section.eiyy, bare.section.eizz, bare.section.gj) == (None, None, 2.6e6)
+
+
+def test_parametric_values() -> None:
+    deck = sample("parametric.keyxm")
+    parameters = Parameters(deck)
+    outer, wall = 10.75 * 0.0254, 0.719 * 0.0254
+    inner = outer - 2 * wall
+    area = math.pi / 4 * (outer**2 - inner**2)
+    weight = (7850.0 * area - 1025.0 * math.pi / 4 * outer**2) * 9.81
+    force = penetration(0.02, outer, 2000.0, 1400.0)
+    expected = {
+        "od": outer,
+        "id": inner,
+        "contents": 0.0,
+        "weight": weight,
+        "su_high": 3.2,
+        "su0": 2.0,
+        "f02": force,
+        "ratio": 0.02 * weight / force,
+        "embedded": 0.02 * weight / force * outer,
+        "friction_axial": 0.4,
+        "friction_lateral": 0.75,
+        "mobilisation_1": 0.01 * outer,
+        "mobilisation_2": 0.5 * outer,
+    }
+    values = {name: parameters.values[name] for name in expected}
+    assert values == pytest.approx(expected, rel=1e-12)
+    assert parameters.values["case folder"] == "Clay Cases"
+    scene = resolve(deck)
+    assert scene.diameter == pytest.approx(outer, rel=1e-15)
+    assert scene.curves["Clay"].forces[[1, -1]] == pytest.approx(
+        [force, penetration(0.5, outer, 2000.0, 1400.0)], rel=1e-12
+    )
+    assert scene.coordinates[-1].tolist()[1:] == [360.0 + 9 * 4.0, 0.0]
+
+
+@pytest.mark.parametrize("soil", [1, 2, 3])
+@pytest.mark.parametrize("flooded", [0, 1])
+def test_every_case_of_the_parametric_deck_is_in_equilibrium(soil: int, flooded: int) -> None:
+    name = "parametric.keyxm"
+    text = (SAMPLES / name).read_text(encoding="utf-8")
+    text = text.replace(" Soil Case, 2\n", f" Soil Case, {soil}\n").replace(" Flooded, 0\n", f" Flooded, {flooded}\n")
+    deck = load_bytes(text.encode(), name)
+    line = evaluated(deck)
+    weight = cast("float", Parameters(deck).values["weight"])
+    assert line.scene.law_names == ["curve:Clay"] * 90 + ["linear"] * 10
+    assert line.result.force[0:90] == pytest.approx(weight, rel=1e-9)
+    mattress = 220e3 if soil == 3 else 150e3
+    assert line.result.stiffness[90:] == pytest.approx(mattress, rel=1e-15)
+    assert line.result.gap[line.scene.node_ids == 101] == pytest.approx(-weight / mattress, rel=1e-12)
+    on_the_second_segment = [(1, 0), (1, 1), (2, 1)]
+    assert (line.result.ratio[0] > 0.02) == ((soil, flooded) in on_the_second_segment)
+
+
+def test_generated_flowline() -> None:
+    line = evaluated(sample("flowline-gen.keyxm"))
+    assert (len(line.scene.node_ids), len(line.scene.element_ids)) == (501, 500)
+    assert line.scene.length == pytest.approx(4.0, rel=1e-12)
+    assert line.result.force == pytest.approx(485.0, rel=1e-12)
+    assert line.result.normal_force.sum() == pytest.approx(submerged_weight(line.scene) * 2000.0, rel=1e-3)
+
+
+def test_lines_deck_gets_its_elements_from_a_file() -> None:
+    deck = sample("lines-deck.keyxm")
+    assert len(resolve(deck).element_ids) == 0
+    scene = resolve(deck, read_external(SAMPLES / "elements.csv")).require()
+    assert (len(scene.node_ids), len(scene.element_ids)) == (81, 80)
+    assert {name: len(ids) for name, ids in scene.sets.items()} == {
+        "ALL": 80,
+        "Umbilical": 80,
+        "Static Section": 40,
+        "Dynamic Section": 40,
+    }
+    positions = read_positions(SAMPLES / "lines-positions.csv", scene.nodes)
+    assert positions.present.all()
+    result = scene.contact().evaluate(positions.values[0])
+    assert np.flatnonzero(result.contact).tolist() == list(range(42))
+    weight = submerged_weight(scene)
+    assert result.force[:42] == pytest.approx(weight, rel=5e-3)
+    on_bed = 200.0 + 2 * 9.14
+    assert result.normal_force.sum() == pytest.approx(weight * on_bed, rel=5e-3)

@@ -1,0 +1,81 @@
+"""Outline, folding, layout and hints, over the protocol."""
+
+from __future__ import annotations
+
+import pytest
+from lsprotocol import types
+from pygls.exceptions import JsonRpcException
+
+from mudline.editing.formatting.document import formatted
+from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
+from tests.tools.lsp.editor import Editor, applied, document
+
+pytestmark = pytest.mark.asyncio(loop_scope="session")
+
+PARAMETERS = "$PREPROCESSOR\n*PARAMETERS\n depth, 100.0\n wide, =[depth/2]\n"
+CURVE = CLEAN.replace("STIFFNESS=Clay", "STIFFNESS=Clay\n LATERAL==[wide*2]")
+WHOLE = types.Range(types.Position(0, 0), types.Position(10**6, 0))
+
+
+async def test_the_outline_has_sections_keywords_and_names(editor: Editor) -> None:
+    text = PARAMETERS + CLEAN
+    uri = await editor.open(text)
+    symbols = await editor.client.text_document_document_symbol_async(types.DocumentSymbolParams(document(uri)))
+    tree = [symbol for symbol in symbols or () if isinstance(symbol, types.DocumentSymbol)]
+    assert [symbol.name for symbol in tree] == ["$PREPROCESSOR", "$MODEL"]
+    blocks = {block.name: block for symbol in tree for block in symbol.children or ()}
+    assert list(blocks)[:4] == ["*PARAMETERS", "*OCEAN", "*NODE", "*ELEMENT"]
+    assert [one.name for one in blocks["*PARAMETERS"].children or ()] == ["depth", "wide"]
+    assert [one.name for one in blocks["*SEABED STIFFNESS"].children or ()] == ["Clay"]
+    assert [one.name for one in blocks["*SEABED PROPERTIES"].children or ()] == ["Pipe"]
+    node = blocks["*NODE"]
+    assert (node.range.start.line, node.range.end.line) == (7, 10)
+    assert node.selection_range == types.Range(types.Position(7, 0), types.Position(7, 5))
+
+
+async def test_sections_blocks_and_comments_fold(editor: Editor) -> None:
+    text = CLEAN.replace("*NODE\n", "*NODE\nC one\nC two\n")
+    uri = await editor.open(text)
+    ranges = await editor.client.text_document_folding_range_async(types.FoldingRangeParams(document(uri)))
+    found = {(one.start_line, one.end_line, one.kind) for one in ranges or ()}
+    assert (0, text.count("\n") - 1, "region") in found
+    assert (3, 8, "region") in found
+    assert (4, 5, "comment") in found
+
+
+UGLY = CLEAN.replace(" 1, -0.1, 0.0\n", "1,-0.1,0.0\n").replace(" 0.1, 1000.0\n", "0.1,1000.0\n")
+
+
+async def test_a_deck_is_formatted(editor: Editor) -> None:
+    uri = await editor.open(UGLY)
+    options = types.FormattingOptions(tab_size=4, insert_spaces=True)
+    edits = await editor.client.text_document_formatting_async(types.DocumentFormattingParams(document(uri), options))
+    assert applied(UGLY, list(edits or ())).encode() == formatted(UGLY.encode(), "deck.keyxm")
+
+
+async def test_a_deck_with_an_error_is_not_formatted(editor: Editor) -> None:
+    uri = await editor.open(BAD_NUMBER)
+    options = types.FormattingOptions(tab_size=4, insert_spaces=True)
+    with pytest.raises(JsonRpcException, match=r"correct the error in line 6 first \(SYN002\)"):
+        await editor.client.text_document_formatting_async(types.DocumentFormattingParams(document(uri), options))
+
+
+async def test_a_deck_in_json_is_formatted(editor: Editor) -> None:
+    text = '{"format": "mudline-deck/1", "sections": [{"name": "MODEL", "blocks": []}]}'
+    uri = editor.uri("deck.json")
+    await editor.shown(uri, lambda: editor.send_open(uri, text, language="json"))
+    options = types.FormattingOptions(tab_size=4, insert_spaces=True)
+    edits = await editor.client.text_document_formatting_async(types.DocumentFormattingParams(document(uri), options))
+    assert applied(text, list(edits or ())).encode() == formatted(text.encode(), "deck.json")
+
+
+async def test_equations_have_hints(editor: Editor) -> None:
+    text = PARAMETERS + CURVE
+    uri = await editor.open(text)
+    hints = await editor.client.text_document_inlay_hint_async(types.InlayHintParams(document(uri), WHOLE))
+    found = [(one.position.line, one.label) for one in hints or ()]
+    lines = text.split("\n")
+    assert found == [
+        (lines.index(" wide, =[depth/2]"), "= 50"),
+        (lines.index(" LATERAL==[wide*2]"), "= 100"),
+    ]

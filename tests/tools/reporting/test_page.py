@@ -1,0 +1,394 @@
+"""The page to sign: what it says of a deck, that nothing of a deck becomes markup, and its size."""
+
+from __future__ import annotations
+
+import json
+import re
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mudline.cli import DONE, FOUND, WRONG_USAGE
+from tests.cli.runner import run
+from tests.helpers.samples import FAULTY, SAMPLES
+
+NO_STUDY = "verdict,findings,model,curves,contact,plan"
+ACTING = {"script", "iframe", "object", "embed", "base", "form", "link", "a:http"}
+CSP = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
+CHOSEN = ("broken.keyxm", "scr-vessel.keyxm", "scr-soil.keyxm", "lines-deck.keyxm", "imperial-riser.keyxi")
+
+
+class Page(HTMLParser):
+    """Elements, ids, references and texts of a page."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.tags: list[str] = []
+        self.ids: list[str] = []
+        self.references: list[str] = []
+        self.policy = self.text = ""
+        self.headings: list[int] = []
+        self.attributes: list[tuple[str, str | None]] = []
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        given = dict(attrs)
+        self.attributes += attrs
+        if re.fullmatch(r"h[1-6]", tag):
+            self.headings.append(int(tag[1]))
+        if given.get("http-equiv") == "Content-Security-Policy":
+            self.policy = given["content"] or ""
+        self.ids += [value for name, value in attrs if name == "id" and value]
+        self.references += [value for name, value in attrs if name in {"href", "src", "xlink:href"} and value]
+
+    def handle_data(self, data: str) -> None:
+        self.text += data
+
+
+def checked(text: str) -> Page:
+    """A page that stands alone, with one policy, unique ids and references that lead somewhere."""
+    page = Page(text)
+    assert page.policy == CSP
+    assert not ACTING & {*page.tags}
+    assert not [name for name, _ in page.attributes if name.startswith("on")]
+    assert not re.search(r"https?:|//[a-z]", re.sub('base64,[^"]*', "", text))
+    assert sorted(page.ids) == sorted({*page.ids})
+    inside = [one[1:] for one in page.references if one.startswith("#")]
+    assert {*inside} <= {*page.ids}
+    assert all(one.startswith(("#", "data:image/")) for one in page.references)
+    assert page.headings[0] == 1
+    assert all(after - before <= 1 for before, after in zip(page.headings, page.headings[1:], strict=False))
+    return page
+
+
+def made(tmp_path: Path, *words: str, sections: str = NO_STUDY, code: int = DONE) -> str:
+    target = tmp_path / "out.html"
+    outcome = run("report", *words, "-o", str(target), "--sections", sections, "-q")
+    assert (outcome.code, outcome.err) == (code, "")
+    return target.read_text(encoding="utf-8")
+
+
+def content(*words: str, sections: str = NO_STUDY) -> dict[str, Any]:
+    outcome = run("report", *words, "--output-format", "json", "--sections", sections)
+    (found,) = json.loads(outcome.out)["reports"]
+    assert isinstance(found, dict)
+    return found
+
+
+@pytest.mark.parametrize("name", CHOSEN)
+def test_a_sample_has_a_page_that_stands_alone(tmp_path: Path, name: str) -> None:
+    text = made(tmp_path, str(SAMPLES / name), code=FOUND if name in FAULTY else DONE)
+    page = checked(text)
+    assert len(text.encode()) < 1_500_000
+    assert {"verdict", "findings", "model", "curves", "contact", "plan", "interpretation", "sign"} <= {*page.ids}
+    assert all(role in page.text for role in ("Prepared", "Checked", "Approved"))
+    assert name != "scr-vessel.keyxm" or {"law-1", "curve-1", "picture-model-1"} <= {*page.ids}
+    assert "table" in page.tags
+
+
+@pytest.mark.covered
+def test_the_same_deck_gives_the_same_bytes(tmp_path: Path) -> None:
+    deck = str(SAMPLES / "scr-vessel.keyxm")
+    assert made(tmp_path, deck) == made(tmp_path, deck)
+
+
+def test_the_content_is_what_the_other_commands_say() -> None:
+    deck = str(SAMPLES / "scr-touchdown.keyxm")
+    found = content(deck)
+    evaluated = json.loads(run("evaluate", deck, "--output-format", "json").out)
+    assert found["sections"]["contact"]["lines"] == evaluated["summary"]
+    assert found["sections"]["curves"]["curves"] == json.loads(run("curves", deck, "--output-format", "json").out)
+    (verdict,) = json.loads(run("validate", deck, "--output-format", "json").out)["decks"]
+    assert {name: found["verdict"][name] for name in ("verdict", "errors", "warnings", "keywords")} == {
+        name: verdict[name] for name in ("verdict", "errors", "warnings", "keywords")
+    }
+    reported = json.loads(run("lint", deck, "--output-format", "json").out)
+    assert [(one["code"], one["line"]) for one in found["sections"]["findings"]["reported"]] == [
+        (one["code"], one["line"]) for one in reported
+    ]
+    assert found["sections"]["contact"]["ratio"] == pytest.approx(1.0058074086334154, rel=1e-12)
+    assert found["sections"]["contact"]["deepest"] == {"depth": pytest.approx(0.05965), "element": 91}
+    assert {(one["law"], one["line"]) for one in found["sections"]["curves"]["laws"]} >= {
+        ("curve:Flowline Clay", 296),
+        ("resistance", 295),
+    }
+    assert any(one["keyword"] == "SEABED STIFFNESS" for one in found["inferred"])
+
+
+ON_SOIL = """$MODEL
+*NODE
+ 1, -0.01, 0, 0
+ 2, -0.01, 5, 0
+ 3, -0.01, 10, 0
+ 4, 7.0, 15, 0
+*ELEMENT
+ 1, 1, 2
+ GEN=1, 2
+ 11, 3, 4
+*ELEMENT SETS
+ SET=Laid
+ 1, 2
+ SET=Free
+ 11
+*GEOMETRIC SETS
+ OPTION=RIGID
+ SET=ALL
+ 2.07E11, 7.96E10, 0.3, 0.27, 7850
+*SEABED PROPERTIES
+ TYPE=ELASTIC
+ SET=Laid
+ STIFFNESS=Clay
+ SET=Free
+ STIFFNESS=Clay
+*SEABED STIFFNESS
+ CURVE=Clay
+ 0, 0
+ 0.5, 900
+*SEABED FRICTION
+ SET=Laid
+ COEFFICIENTS=0.4, 0.7
+ STIFFNESS=40000, 60000
+ LATERAL=PEAK-RESIDUAL
+ PEAK=1.3, 0.03
+ RESIDUAL=0.6, 0.5
+"""
+
+
+def row_of(text: str, first: str) -> str:
+    """The text of the row of a table that begins with a cell."""
+    row = re.search(rf"<tr[^>]*><td[^>]*>{re.escape(first)}</td>.*?</tr>", text, re.DOTALL)
+    assert row is not None, first
+    return " | ".join(re.findall(r"<td[^>]*>(.*?)</td>", row[0]))
+
+
+def test_values_are_written_for_people(tmp_path: Path) -> None:
+    (tmp_path / "deck.keyxm").write_text(ON_SOIL, encoding="utf-8")
+    text = made(tmp_path, str(tmp_path / "deck.keyxm"))
+    law = "coefficients 0.4, 0.7; stiffness 40000, 60000; lateral PEAK-RESIDUAL; peak 1.3, 0.03; residual 0.6, 0.5"
+    assert row_of(text, "*SEABED FRICTION").startswith(f"*SEABED FRICTION | Laid | 2 | {law} | line 31")
+    assert ">force [N/m]</th>" in text
+    assert ">slope to the next [N/m]</th>" in text
+    assert '<td>seabed</td><td class="number">flat</td>' in text
+    assert "curve:Clay | Free | 1 | 0 |  | 0" in re.sub('</td><td(?: class="number")?>', " | ", text)
+
+
+def test_the_touchdown_is_said_as_evaluate_says_it(tmp_path: Path) -> None:
+    laid = tmp_path / "deck.keyxm"
+    laid.write_text(ON_SOIL.replace(" 11, 3, 4\n", "").replace(" SET=Free\n 11\n", " SET=Free\n"), encoding="utf-8")
+    assert "all on the seabed" in run("evaluate", str(laid)).out
+    text = made(tmp_path, str(laid))
+    assert row_of(text, "1").split(" | ")[2] == "all on the seabed"
+    assert "touchdown point</" not in text
+    laid.write_text(ON_SOIL, encoding="utf-8")
+    assert "touchdown point</" in made(tmp_path, str(laid))
+
+
+def test_sets_of_lines_that_are_not_read_may_have_more_elements(tmp_path: Path) -> None:
+    text = made(tmp_path, str(SAMPLES / "lines-deck.keyxm"))
+    assert row_of(text, "Static Section").startswith("Static Section | 0+")
+    assert row_of(text, "elements") == "elements | 0+"
+    assert row_of(text, "curve:Clay").startswith("curve:Clay | Static Section | 0+")
+    assert text.count("+ a block that is not read may add elements to this set") == 2
+
+
+def test_a_study_is_on_the_page_only_where_it_is_asked_for(tmp_path: Path) -> None:
+    deck = str(SAMPLES / "legacy-flowline.keyxm")
+    page = checked(made(tmp_path, deck, sections="verdict,study"))
+    assert "Stable steps of velocity Verlet" in page.text
+    assert re.search(r"Extremes of this deck: \d+ of \d+ held \(at the mudline", page.text)
+    assert "What the deck needs: a step of" in page.text
+    assert "model" not in page.ids
+
+
+def test_a_faulty_deck_gets_a_page_that_says_what_is_missing(tmp_path: Path) -> None:
+    page = checked(made(tmp_path, str(SAMPLES / "broken.keyxm"), code=FOUND))
+    assert "illegal" in page.text
+    assert page.text.count("This could not be computed: line") == 4
+    assert "finding-1" in page.ids
+    assert "rule-SYN011" in page.ids
+
+
+def test_a_file_that_holds_no_deck_gets_a_page(tmp_path: Path) -> None:
+    (tmp_path / "deck.json").write_text('{"format": "mudline-deck/1", "sections": 5}', encoding="utf-8")
+    page = checked(made(tmp_path, str(tmp_path / "deck.json"), code=FOUND))
+    assert "the file holds no deck" in page.text
+
+
+def test_suppressed_findings_stand_with_their_reason(tmp_path: Path) -> None:
+    text = (SAMPLES / "scr-touchdown.keyxm").read_text(encoding="utf-8")
+    marked = text.replace(
+        "*NON LINEAR STATIC", "C mudline: ignore TIM005 -- kept <for> the old run\n*NON LINEAR STATIC"
+    )
+    deck = tmp_path / "deck.keyxm"
+    deck.write_text(marked, encoding="utf-8")
+    page = checked(made(tmp_path, str(deck)))
+    assert "hidden-1" in page.ids
+    assert "Reason given in the deck: kept <for> the old run" in page.text
+    assert "1 finding." in page.text
+    (hidden,) = content(str(deck))["sections"]["findings"]["hidden"]
+    assert (hidden["code"], hidden["reason"]) == ("TIM005", "kept <for> the old run")
+
+
+HOSTILE = (
+    "<script>alert(1)</script>",
+    "</style><script>alert(1)</script>",
+    '"><img src=x onerror=alert(1)>',
+    "javascript:alert(1)",
+    "&lt;b&gt;",
+    "{{ 7*7 }}{% raw %}",
+    "\u202egpj.exe",
+    "a\x07b\x1b[31m",
+    "]]>--><svg onload=alert(1)>",
+    "$\\frac{1}{0}$",
+)
+
+
+@pytest.mark.covered
+@pytest.mark.parametrize("name", HOSTILE)
+def test_nothing_of_a_deck_becomes_markup(tmp_path: Path, name: str) -> None:
+    text = (SAMPLES / "scr-touchdown.keyxm").read_text(encoding="utf-8")
+    for old in ("Flowline Clay", "Fatigue Hot Spot"):
+        text = text.replace(old, f"{old[0]}{name}")
+    deck = tmp_path / "deck.keyxm"
+    deck.write_text(f"C {name}\n{text}\n*GUIDES {name}\n {name}, {name}\n", encoding="utf-8")
+    outcome = run("report", str(deck), "-o", str(tmp_path / "out.html"), "--sections", NO_STUDY, "-q")
+    assert outcome.code in {DONE, FOUND}
+    written = (tmp_path / "out.html").read_text(encoding="utf-8")
+    page = checked(written.replace("javascript:alert(1)", ""))
+    assert not re.search("[\u202a-\u202e\u2066-\u2069\x00-\x08\x0b-\x1f]", written)
+    assert "img" not in page.tags
+    assert "F49" not in page.text
+
+
+@pytest.mark.covered
+def test_very_many_findings_and_curves_are_cut_and_counted(tmp_path: Path) -> None:
+    slips = "".join(f" CURVE=<b>{'n' * 200} {number}\n 0, 0\n x, {'y' * 900}\n" for number in range(1500))
+    deck = tmp_path / "deck.keyxm"
+    deck.write_text(f"$MODEL\n*SEABED STIFFNESS\n{slips}", encoding="utf-8")
+    text = made(tmp_path, str(deck), code=FOUND)
+    page = checked(text)
+    assert sum(one.startswith("finding-") for one in page.ids) == 500
+    assert "the first 500 are shown" in " ".join(page.text.split())
+    assert len(text.encode()) < 1_500_000
+    curves = "".join(f" CURVE=c{number}\n 0, 0\n 1, {number + 1}\n" for number in range(400))
+    deck.write_text(
+        f"$MODEL\n*NODE\n 1, 0, 0\n 2, 0, 1\n*ELEMENT\n 1, 1, 2\n*SEABED STIFFNESS\n{curves}", encoding="utf-8"
+    )
+    outcome = run("report", str(deck), "-o", str(tmp_path / "out.html"), "--sections", "curves", "-q")
+    text = (tmp_path / "out.html").read_text(encoding="utf-8")
+    assert outcome.code in {DONE, FOUND}
+    page = checked(text)
+    assert sum(one.startswith("picture-") for one in page.ids) == 20
+    assert "380 more pictures" in page.text
+    assert "350 more curves" in page.text
+    assert len(content(str(deck), sections="curves")["sections"]["curves"]["curves"]) == 400
+
+
+def test_a_large_picture_becomes_an_image_of_data(tmp_path: Path) -> None:
+    count = 6000
+    nodes = "".join(f" {number}, {-0.02 + 0.01 * (number % 7)}, {number}\n" for number in range(1, count + 2))
+    elements = "".join(f" {number}, {number}, {number + 1}\n" for number in range(1, count + 1))
+    section = "*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 207.0E9, 79.6E9, 0.3, 0.28, 7850.0\n"
+    deck = tmp_path / "deck.keyxm"
+    deck.write_text(
+        f"$MODEL\n*NODE\n{nodes}*ELEMENT\n{elements}{section}*SEABED PROPERTIES\n TYPE=ELASTIC\n STIFFNESS=5000\n",
+        encoding="utf-8",
+    )
+    text = made(tmp_path, str(deck))
+    page = checked(text)
+    assert any(one.startswith("data:image/png;base64,") for one in page.references)
+    assert len(text.encode()) < 1_500_000
+
+
+# ------------------------------------------------------------------------------------------------------------- command
+
+
+def test_several_decks_have_an_index_and_a_page_each(tmp_path: Path) -> None:
+    folder = tmp_path / "decks"
+    for inside in ("a", "b"):
+        (folder / inside).mkdir(parents=True)
+    for name in ("a/x y.keyxm", "b/x_y.keyxm"):
+        (folder / name).write_bytes((SAMPLES / "legacy-flowline.keyxm").read_bytes())
+    (folder / "bad.keyxm").write_bytes((SAMPLES / "broken.keyxm").read_bytes())
+    out = tmp_path / "all.html"
+    outcome = run("report", str(folder), "-o", str(out), "--sections", "verdict", "--jobs", "2")
+    assert (outcome.code, outcome.err) == (FOUND, f"mudline: report -> {out.as_posix()}, 1 of 3 decks not legal\n")
+    index = Page(out.read_text(encoding="utf-8"))
+    assert index.policy == CSP
+    pages = sorted((tmp_path / "all").iterdir())
+    assert len(pages) == 3
+    assert sorted(index.references) == sorted(f"all/{one.name}" for one in pages)
+    assert "illegal (1)" in index.text
+    for one in pages:
+        checked(one.read_text(encoding="utf-8"))
+
+
+def test_the_index_may_be_inside_a_folder(tmp_path: Path) -> None:
+    decks = [str(SAMPLES / name) for name in ("legacy-flowline.keyxm", "slope-friction.keyxm")]
+    assert run("report", *decks, "-o", str(tmp_path / "site"), "--sections", "verdict", "-q").code == DONE
+    index = Page((tmp_path / "site" / "index.html").read_text(encoding="utf-8"))
+    assert all((tmp_path / "site" / one).is_file() for one in index.references)
+    assert len(index.references) == 2
+
+
+def test_a_company_has_its_own_template_and_logo(tmp_path: Path) -> None:
+    (tmp_path / "ours.html").write_text(
+        '{% extends "page.html" %}{% block heading %}Check of {{ report.deck }}{% endblock %}', encoding="utf-8"
+    )
+    (tmp_path / "logo.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg"/>', encoding="utf-8")
+    deck = str(SAMPLES / "legacy-flowline.keyxm")
+    words = ("--template", str(tmp_path / "ours.html"), "--logo", str(tmp_path / "logo.svg"), "--date", "1 May 2026")
+    page = checked(made(tmp_path, deck, *words, sections="verdict"))
+    assert f"Check of {deck}" in page.text
+    assert "1 May 2026" in page.text
+    assert any(one.startswith("data:image/svg+xml;base64,") for one in page.references)
+
+
+@pytest.mark.parametrize(
+    ("option", "file", "text", "words"),
+    [
+        ("--template", "bad.html", "{% if %}", "the template cannot be used"),
+        ("--template", "bad.html", "{{ nothing.at.all }}", "the template cannot be used"),
+        ("--template", "bad.html", "{{ ''.__class__.__mro__ }}", "the template cannot be used"),
+        ("--logo", "logo.png", "no image", "expected a PNG image"),
+        ("--logo", "logo.gif", "GIF89a", "a logo is a .svg or .png file"),
+    ],
+)
+def test_a_template_or_logo_that_cannot_be_used(tmp_path: Path, option: str, file: str, text: str, words: str) -> None:
+    (tmp_path / file).write_text(text, encoding="utf-8")
+    deck = str(SAMPLES / "legacy-flowline.keyxm")
+    target = tmp_path / "out.html"
+    outcome = run("report", deck, "-o", str(target), option, str(tmp_path / file), "--sections", "verdict")
+    assert outcome.code == WRONG_USAGE
+    assert words in outcome.err
+    assert not target.exists()
+
+
+def test_missing_files_of_a_company(tmp_path: Path) -> None:
+    deck = str(SAMPLES / "legacy-flowline.keyxm")
+    for option, name in (("--template", "none.html"), ("--logo", "none.png")):
+        outcome = run(
+            "report", deck, "-o", str(tmp_path / "o.html"), option, str(tmp_path / name), "--sections", "verdict"
+        )
+        assert outcome.code == WRONG_USAGE
+        assert name in outcome.err
+
+
+def test_wrong_usage(tmp_path: Path) -> None:
+    deck = str(SAMPLES / "legacy-flowline.keyxm")
+    assert "-o OUT.html" in run("report", deck).err
+    outcome = run("report", deck, "-o", "x.html", "--sections", "verdict,soup")
+    assert (outcome.code, "'soup' is not one of verdict, findings" in outcome.err) == (WRONG_USAGE, True)
+    assert run("report", str(tmp_path / "none.keyxm"), "-o", str(tmp_path / "x.html")).code == WRONG_USAGE
+
+
+def test_the_content_goes_into_a_file_too(tmp_path: Path) -> None:
+    target = tmp_path / "out.json"
+    deck = str(SAMPLES / "legacy-flowline.keyxm")
+    run("report", deck, "-o", str(target), "--output-format", "json", "--sections", "verdict")
+    (found,) = json.loads(target.read_text(encoding="utf-8"))["reports"]
+    assert found["format"] == "mudline-report/1"
+    assert found["shown"] == ["verdict"]
