@@ -130,8 +130,8 @@ def _box_width(name: str) -> int:
 
 def _room(name: str) -> str:
     """The room of a box, "" for one that is a room of its own."""
-    found = (room for room in ROOMS if (ROOT / room / name.split(", ")[0]).with_suffix(".py").exists())
-    return next(found, next((room for room in ROOMS if (ROOT / room / name).is_dir()), ""))
+    first = name.split(", ", maxsplit=1)[0]
+    return next((room for room in ROOMS if (ROOT / room / first).exists()), "")
 
 
 def _box(name: str, x: float, y: float) -> str:
