@@ -2,8 +2,8 @@
 
 The stiffness and damping are facts of the laws (`mudline.model.contact.stiffest`), the largest that they can reach. The
 mass is the one that a node carries: of half of each of its elements, without contents or added water. Elements give a
-node half of their stiffness and damping each, laws of nodes their own. The rules about time steps and the study of stability
-share these numbers.
+node half of their stiffness and damping each, laws of nodes their own. The rules about time steps and the study of
+stability share these numbers.
 """
 
 from __future__ import annotations
