@@ -124,23 +124,10 @@ def repeated_set(context: LintContext) -> Iterator[Problem]:
     Whoever changes one of them expects the set to change, but the elements of the other one stay in it, with their
     stiffness and curve. Names are case-insensitive. Put the elements under one SET=, or choose another name.
 
-    Example:
-         $MODEL
-         *NODE
-          1, 12.0, 0.0
-          5, 12.0, 40.0
-          GEN=1, 5
-         *ELEMENT
-          1, 1, 2
-          GEN=1, 4
-         *ELEMENT SETS
-          SET=Coated
-        - 1, 2
-        + 1, 2, 4
-          SET=Bare
-          3
-        - SET=COATED
-        - 4
+    Example on sets:
+          GEN=3, 4
+        - SET=RISER
+        - 3
 
     Finds: 14:6
     """
@@ -183,16 +170,9 @@ def repeated_parameter(context: LintContext) -> Iterator[Problem]:
     Equations before the second definition use its value too: the first definition is overridden, although a reader
     finds it first. Items of a list have the name of the list in front, as in Soil_stiffness. Remove one of the two.
 
-    Example:
-         $PREPROCESSOR
-         *PARAMETERS
-        - depth, 850.0
-        + depth, 910.0
+    Example on parameters:
           od, 0.3239
         - Depth, 910.0
-         $MODEL
-         *OCEAN
-          =[depth], 1025.0, 9.81
 
     Finds: 5:2
     """
@@ -235,27 +215,21 @@ def missing_ocean(context: LintContext) -> Iterator[Problem]:
     no default. Give *OCEAN, or remove the waves and currents of a model in air. A deck with *RESTART takes the water
     from the deck that it continues.
 
-    Example:
+    Example on held:
          $MODEL
         +*OCEAN
         + 500.0, 1025.0, 9.81
-         *NODE
-          1, 0.0, 0.0
-          2, 0.0, 10.0
-         *ELEMENT
-          1, 1, 2
-         *HYDRODYNAMIC SETS
-          SET=ALL, TYPE=CONSTANT
-          1.0
-         $LOAD CASE
-         *BOUNDARY
-          TYPE=CONSTANT
-          1, 1
-          2, 1
-         *WAVE-REGULAR
-          3.0, 11.0, 180.0
 
-    Finds: 15:1
+          GEN=1, 2
+        |*HYDRODYNAMIC SETS
+        | SET=ALL, TYPE=CONSTANT
+        | 1.0
+
+          3, 1
+        |*WAVE-REGULAR
+        | 3.0, 11.0, 180.0
+
+    Finds: 17:1
     """
     scene = context.scene
     if "OCEAN" in context.keywords or not scene.element_ids.size or scene.context.possible_definition("OCEAN"):
