@@ -18,6 +18,7 @@ Check = Callable[[Any], Iterable[Problem]]
 F = TypeVar("F", bound=Check)
 
 _HEADINGS = r"(?m)^(Example(?: on .+)?|Finds|File|Bytes|Cut|Dialect):[ \t]*(.*)$"
+_MARKS = " -+"
 _MARKED = re.compile(r"    ([ +|-])(.*)")
 _BASES = Path(__file__).parent / "codes" / "examples"
 """Folder of the decks that examples stand on."""
@@ -93,12 +94,13 @@ def rule(code: Code, *, off: bool = False, blocks: bool = False) -> Callable[[F]
 
     The docstring begins with the title, a sentence on a line of its own; the text after it says why. Below `Example:`
     are a bad and a good deck in one, indented by four spaces: a line after a space is in both, one after `-` in the bad
-    deck only, one after `+` in the good deck only. Below `Example on clay:` are only the lines around a change of the
-    deck clay.keyxm in `mudline/codes/examples`, whose other lines are in both decks: the lines after a space, with
-    those after `+` or without them, stand in it once and one below the other. A line after `|` is in both decks and not
-    in clay.keyxm. An empty line stands between changes at two places. `Finds: line:column` is the place of the only finding in the bad
-    deck. `File: name` (default deck.keyxm) is the name of both decks. `Bytes: encoding` saves the bad deck in another
-    encoding than UTF-8; `Cut: yes` leaves out its last line end; `Dialect: name` reads both decks in a dialect.
+    deck only, one after `+` in the good deck only. `Example on clay:` stands on the deck clay.keyxm of
+    `mudline/codes/examples` and has only the lines around each change, with an empty line between two changes. The
+    lines of a change after a space, with those after `+` or without them, stand once in that deck, one below the other;
+    the other lines of the deck are in both decks, and a line after `|` is added to both. `Finds: line:column` is the
+    place of the only finding in the bad deck. `File: name` (default deck.keyxm) is the name of both decks.
+    `Bytes: encoding` saves the bad deck in another encoding than UTF-8; `Cut: yes` leaves out its last line end;
+    `Dialect: name` reads both decks in a dialect.
 
     Raises ValueError for a code or slug that another rule has. A docstring that lacks a part, a line of the example
     that has no mark or no place, and two decks that are the same are faults of a plugin, found when it is loaded.
@@ -139,7 +141,7 @@ def described_by(code: Code, docstring: str) -> RulePage:
         raise ValueError(f"Finds: {words['Finds']} of {code.code} must be line:column of the bad deck")
     example = found[heading][1].strip("\n").replace(r"\t", "\t")  # Python 3.13 makes blanks of TABs in docstrings
     base = heading.partition(" on ")[2]
-    rows = _rows_on(code, base, example) if base else _rows(code, example, " +-")
+    rows = _rows_on(base, code, example) if base else _rows(code, example, _MARKS)
     bad, good = ("".join(f"{text}\n" for mark, text in rows if mark != other) for other in "+-")
     described = RulePage(
         title=title.strip(),
@@ -162,40 +164,40 @@ def _rows(code: Code, example: str, marks: str) -> list[tuple[str, str]]:
     for line in example.split("\n"):
         marked = _MARKED.fullmatch(line or "     ")
         if marked is None or marked[1] not in marks:
-            wanted = f"{', '.join(marks[:-1]).replace(' ', 'a space', 1)} or {marks[-1]}"
+            wanted = "a space, - or +" if marks == _MARKS else "a space, |, - or +"
             raise ValueError(f"the line {line!r} of the example of {code.code} must have four spaces, then {wanted}")
         rows.append((marked[1], marked[2]))
     return rows
 
 
-def _rows_on(code: Code, base: str, example: str) -> list[tuple[str, str]]:
-    """The rows of an example on a base deck, and those of the deck around them."""
-    rest = _base_deck(code, base)
+def _rows_on(base: str, code: Code, example: str) -> list[tuple[str, str]]:
+    """The marks and the texts of an example on a base deck, and of the lines of that deck around them."""
+    bases = {file.stem: file for file in sorted(_BASES.glob("*.keyxm"))}
+    if base not in bases:
+        raise ValueError(f"the example of {code.code} must be on {', '.join(bases)}, and is on {base}")
+    rest = bases[base].read_text(encoding="utf-8").splitlines()
     rows: list[tuple[str, str]] = []
-    for part in example.split("\n\n"):
-        changed = _rows(code, part, " |+-")
-        for marks in (" +", " "):
-            known = [text for mark, text in changed if mark in marks]
-            places = [at for at in range(len(rest)) if rest[at : at + len(known)] == known]
-            if len(places) == 1:
-                break
-        else:
-            lines = ", ".join(repr(text) for mark, text in changed if mark in " +")
+    for change in example.split("\n\n"):
+        changed = _rows(code, change, f"{_MARKS}|")
+        with_good = [text for mark, text in changed if mark in " +"]
+        without = [text for mark, text in changed if mark == " "]
+        places = _places(rest, with_good) or _places(rest, without)
+        if len(places) != 1:
+            lines = ", ".join(repr(mark + text) for mark, text in changed)
             raise ValueError(
-                f"the lines {lines} of the example of {code.code} must stand once in the rest of {base}, "
-                "those after a space with or without those after +"
+                f"of the lines {lines} of the example of {code.code}, those after a space, with or without those "
+                f"after +, must stand once in the rest of {base}"
             )
-        rows += [*((" ", text) for text in rest[: places[0]]), *changed]
-        rest = rest[places[0] + len(known) :]
+        rows += [*((" ", text) for text in rest[: places[0].start]), *changed]
+        rest = rest[places[0].stop :]
     return [*rows, *((" ", text) for text in rest)]
 
 
-def _base_deck(code: Code, name: str) -> list[str]:
-    """The lines of a deck that examples stand on."""
-    known = sorted(file.stem for file in _BASES.glob("*.keyxm"))
-    if name not in known:
-        raise ValueError(f"the deck {name} of the example of {code.code} must be {', '.join(known)}")
-    return (_BASES / f"{name}.keyxm").read_text(encoding="utf-8").splitlines()
+def _places(lines: list[str], sought: list[str]) -> list[slice]:
+    """Where lines stand one below the other in a deck; nowhere if there are none."""
+    count = len(sought)
+    places = [slice(at, at + count) for at in range(len(lines)) if count]
+    return [place for place in places if lines[place] == sought]
 
 
 def first_reported(problems: Iterable[Problem]) -> list[Problem]:

@@ -83,7 +83,6 @@ REF007 = Code(
     Example on sets:
           GEN=1, 5
         - 5, 12.0, 50.0
-        + 6, 12.0, 50.0
 
     Finds: 6:2
     """,

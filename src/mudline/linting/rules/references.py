@@ -39,21 +39,13 @@ def long_name(context: LintContext) -> Iterator[Problem]:
     The language allows 256. A longer name may be cut when the deck is run, and names that differ only after the cut
     would then be one set. Choose a shorter name.
 
-    Example:
-         $MODEL
-         *NODE
-          1, 12.0, 0.0
-          2, 12.0, 10.0
-         *ELEMENT
-          1, 1, 2
-         *ELEMENT SETS
+    Example on sets:
         - SET=Eastern export flowline from the manifold to the platform between kilometre post 12.400 and kilometre\
  post 12.900 as surveyed before the trench was made and again after it was filled with the crossings of both cables\
  and the two mattresses that were laid on the eastern one in the second season
-        + SET=Export KP 12.400 to 12.900
-          1
+        + SET=Flowline
 
-    Finds: 8:6
+    Finds: 12:6
     """
     for where, entry in entries_of_sets(context.blocks("ELEMENT SETS")):
         length = len(cast("str | None", entry.name) or "")
@@ -125,6 +117,9 @@ def repeated_set(context: LintContext) -> Iterator[Problem]:
     stiffness and curve. Names are case-insensitive. Put the elements under one SET=, or choose another name.
 
     Example on sets:
+          1, 2
+        + 3
+          SET=Flowline
           GEN=3, 4
         - SET=RISER
         - 3
@@ -171,10 +166,10 @@ def repeated_parameter(context: LintContext) -> Iterator[Problem]:
     finds it first. Items of a list have the name of the list in front, as in Soil_stiffness. Remove one of the two.
 
     Example on parameters:
-          od, 0.3239
         - Depth, 910.0
+          depth, 850.0
 
-    Finds: 5:2
+    Finds: 4:2
     """
     known: set[str] = set()
     for where, block in context.written("PARAMETERS", "PREPROCESSOR"):

@@ -225,11 +225,10 @@ def stiff_jump(context: LintContext) -> Iterator[Problem]:
     beside mud needs a transition.
 
     Example on clay:
-        - 0.1, 5.0
-        - 0.3, 2.0E6
-        - 0.5, 4.0E6
+        - 0.1, 1.2E-3
         + 0.1, 1200.0
-        + 0.5, 4200.0
+          0.5, 4200.0
+        | 1.0, 8000.0
 
     Finds: 5:2
     """

@@ -136,11 +136,9 @@ def trailing_blank(text: TextOrigin, source: str) -> Iterator[Problem]:
     They are invisible, and an editor that removes them changes lines in the history of the deck. Remove them. Lines of
     blocks that are passed through unchanged are not checked. This rule is off unless it is selected.
 
-    Example:
-         $MODEL
+    Example on ocean:
         -*OCEAN \x20
         +*OCEAN
-          500.0, 1025.0, 9.81
 
     Finds: 2:7
     """  # noqa: D301 - a blank that an editor cannot take away
