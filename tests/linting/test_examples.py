@@ -179,10 +179,10 @@ def test_an_example_on_a_base_deck_has_only_the_lines_around_the_change(lines: s
 @pytest.mark.parametrize(
     ("base", "lines", "said"),
     [
-        ("", "     $MODEL\n    |*A", "line '    |*A' of the example of ABC001 must have four spaces, then a space, - or +"),
-        (" on ocean", "    *OCEAN", "line '    *OCEAN' of the example of ABC001 must have four spaces, then a space, |"),
+        ("", "     $MODEL\n    |*A", "'    |*A' of the example of ABC001 must have four spaces, then a space, - or +"),
+        (" on ocean", "    *OCEAN", "'    *OCEAN' of the example of ABC001 must have four spaces, then a space, |, -"),
         (" on oceans", "    -*OCEAN", "the example of ABC001 must be on clay, held, ocean, "),
-        (" on ocean", "     *Ocean\n    + 1", "the lines ' *Ocean', '+ 1' of the example of ABC001, those after a space"),
+        (" on ocean", "     *Ocean\n    + 1", "the lines ' *Ocean', '+ 1' of the example of ABC001, those"),
         (" on ocean", "     $MODEL\n      500.0, 1025.0, 9.81\n    -A", "the lines ' $MODEL', '  500.0, 1025.0, 9.81'"),
         (" on ocean", "     *OCEAN\n    -A\n\n     $MODEL\n    -B", "the lines ' $MODEL', '-B' of"),
         (" on pipe", "      SET=ALL\n    -A", "the lines '  SET=ALL', '-A' of"),
