@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+import mudline.language.codes
 from mudline.checks.engine import LintSettings, lint_bytes
 from mudline.checks.fixing import FixState, Reader
 from mudline.checks.registry import rules
@@ -126,7 +127,8 @@ def test_everything_that_reading_and_resolving_notice_has_a_rule() -> None:
 OF_MODELS = {"CRV001", "SBD010"}
 """What the models of JSON and YAML refuse themselves."""
 
-EXAMPLE = "A title.\n\nA reason.\n\nExample:\n{lines}\n\nFinds: 1:1\n"
+EXAMPLE = "A title.\n\nA reason.\n\nExample{base}:\n{lines}\n\nFinds: 1:1\n"
+NOTHING = Code("ABC001", "nothing", Severity.INFO)
 
 
 @pytest.mark.parametrize(
@@ -142,5 +144,57 @@ EXAMPLE = "A title.\n\nA reason.\n\nExample:\n{lines}\n\nFinds: 1:1\n"
     ids=["both", "bad only", "empty lines", "empty lines of one", "blanks and tabs", "signs"],
 )
 def test_an_example_holds_both_decks(lines: str, bad: str, good: str) -> None:
-    said = described_by(Code("ABC001", "nothing", Severity.INFO), EXAMPLE.format(lines=lines))
+    said = described_by(NOTHING, EXAMPLE.format(base="", lines=lines))
     assert (said.bad, said.good) == (bad, good)
+
+
+OCEAN = " 500.0, 1025.0, 9.81\n"
+
+
+@pytest.mark.parametrize(
+    ("lines", "bad", "good"),
+    [
+        ("    - 500.0\n    + 500.0, 1025.0, 9.81", "$MODEL\n*OCEAN\n 500.0\n", f"$MODEL\n*OCEAN\n{OCEAN}"),
+        ("    +*OCEAN", f"$MODEL\n{OCEAN}", f"$MODEL\n*OCEAN\n{OCEAN}"),
+        ("     *OCEAN\n    -c\n    +C", f"$MODEL\n*OCEAN\nc\n{OCEAN}", f"$MODEL\n*OCEAN\nC\n{OCEAN}"),
+        ("    -C\n     $MODEL", f"C\n$MODEL\n*OCEAN\n{OCEAN}", f"$MODEL\n*OCEAN\n{OCEAN}"),
+        (
+            "     $MODEL\n    |*A\n    - 1\n    + 2\n    | 3\n     *OCEAN",
+            f"$MODEL\n*A\n 1\n 3\n*OCEAN\n{OCEAN}",
+            f"$MODEL\n*A\n 2\n 3\n*OCEAN\n{OCEAN}",
+        ),
+        (
+            "    -$Model\n    +$MODEL\n\n      500.0, 1025.0, 9.81\n    -*OCEAN",
+            f"$Model\n*OCEAN\n{OCEAN}*OCEAN\n",
+            f"$MODEL\n*OCEAN\n{OCEAN}",
+        ),
+    ],
+    ids=["replaced", "left out", "put in", "at the top", "added to both", "two changes"],
+)
+def test_an_example_on_a_base_deck_has_only_the_lines_around_the_change(lines: str, bad: str, good: str) -> None:
+    said = described_by(NOTHING, EXAMPLE.format(base=" on ocean", lines=lines))
+    assert (said.bad, said.good) == (bad, good)
+
+
+@pytest.mark.parametrize(
+    ("base", "lines", "said"),
+    [
+        ("", "     $MODEL\n    |*A", "'    |*A' of the example of ABC001 must have four spaces, then a space, - or +"),
+        (" on ocean", "    *OCEAN", "'    *OCEAN' of the example of ABC001 must have four spaces, then a space, |, -"),
+        (" on oceans", "    -*OCEAN", "the example of ABC001 must be on clay, held, ocean, "),
+        (" on ocean", "     *Ocean\n    + 1", "the lines ' *Ocean', '+ 1' of the example of ABC001, those"),
+        (" on ocean", "     $MODEL\n      500.0, 1025.0, 9.81\n    -A", "the lines ' $MODEL', '  500.0, 1025.0, 9.81'"),
+        (" on ocean", "     *OCEAN\n    -A\n\n     $MODEL\n    -B", "the lines ' $MODEL', '-B' of"),
+        (" on pipe", "      SET=ALL\n    -A", "the lines '  SET=ALL', '-A' of"),
+        (" on ocean", "     $MODEL\n     *OCEAN\n    -A\n\n    -B", "the lines '-B' of"),
+    ],
+    ids=["added to no base", "no mark", "no base", "other case", "not together", "other order", "twice", "no place"],
+)
+def test_a_line_of_an_example_has_a_mark_and_one_place(base: str, lines: str, said: str) -> None:
+    with pytest.raises(ValueError, match=re.escape(said)):
+        described_by(NOTHING, EXAMPLE.format(base=base, lines=lines))
+
+
+def test_examples_stand_on_every_base_deck() -> None:
+    there = {file.stem for file in (Path(mudline.language.codes.__file__).parent / "examples").iterdir()}
+    assert there == {base for given in rules() for base in re.findall(r"Example on (\w+):", given.docstring)}

@@ -79,10 +79,12 @@ def test_wheel_holds_the_grammar_and_the_marker_of_types(wheel_names: set[str]) 
     assert {"mudline/py.typed", "mudline/language/highlighting/words.json"} <= wheel_names
 
 
-def test_wheel_holds_the_pages_of_rules(wheel_names: set[str]) -> None:
+def test_wheel_holds_the_pages_of_rules_and_the_decks_that_examples_stand_on(wheel_names: set[str]) -> None:
     pages = {f"mudline/docs/rules/{path.name}" for path in (ROOT / "docs/rules").glob("*.md")}
     assert len(pages) > 100
-    assert pages <= wheel_names
+    decks = {path.relative_to(ROOT / "src").as_posix() for path in (ROOT / "src").rglob("*.keyxm")}
+    assert decks
+    assert pages | decks <= wheel_names
 
 
 def test_dependencies_have_lower_bounds_only() -> None:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import cache
 from itertools import islice
+from pathlib import Path
 from textwrap import dedent
 from typing import Any, NamedTuple, TypeVar
 
@@ -16,7 +17,11 @@ from mudline.language.diagnostics import MORE, Code, Problem
 Check = Callable[[Any], Iterable[Problem]]
 F = TypeVar("F", bound=Check)
 
-_HEADINGS = r"(?m)^(Example|Finds|File|Bytes|Cut|Dialect):[ \t]*(.*)$"
+_HEADINGS = r"(?m)^(Example(?: on .+)?|Finds|File|Bytes|Cut|Dialect):[ \t]*(.*)$"
+_MARKS = " -+"
+_MARKED = re.compile(r"    ([ +|-])(.*)")
+_BASES = Path(__file__).parent / "codes" / "examples"
+"""Folder of the decks that examples stand on."""
 RULES: dict[str, Rule] = {}
 """The rules that are registered, by code, in the order of their registration."""
 
@@ -90,12 +95,16 @@ def rule(code: Code, *, off: bool = False, blocks: bool = False) -> Callable[[F]
 
     The docstring begins with the title, a sentence on a line of its own; the text after it says why. Below `Example:`
     are a bad and a good deck in one, indented by four spaces: a line after a space is in both, one after `-` in the bad
-    deck only, one after `+` in the good deck only. `Finds: line:column` is the place of the only finding in the bad
-    deck. `File: name` (default deck.keyxm) is the name of both decks. `Bytes: encoding` saves the bad deck in another
-    encoding than UTF-8; `Cut: yes` leaves out its last line end; `Dialect: name` reads both decks in a dialect.
+    deck only, one after `+` in the good deck only. `Example on clay:` stands on the deck clay.keyxm of
+    `mudline/language/codes/examples` and has only the lines around each change, with an empty line between two changes.
+    The lines of a change after a space, with those after `+` or without them, stand once in that deck, one below the
+    other; the other lines of the deck are in both decks, and a line after `|` is added to both. `Finds: line:column` is
+    the place of the only finding in the bad deck. `File: name` (default deck.keyxm) is the name of both decks. `Bytes:
+    encoding` saves the bad deck in another encoding than UTF-8; `Cut: yes` leaves out its last line end; `Dialect:
+    name` reads both decks in a dialect.
 
     Raises ValueError for a code or slug that another rule has. A docstring that lacks a part, a line of the example
-    that has no mark, and two decks that are the same are faults of a plugin, found when it is loaded.
+    that has no mark or no place, and two decks that are the same are faults of a plugin, found when it is loaded.
     """
 
     def register(check: F) -> F:
@@ -115,19 +124,26 @@ def add(declared: Rule) -> None:
 
 @cache
 def described_by(code: Code, docstring: str) -> RulePage:
-    """Return what a docstring says of a rule (see `rule`); raises ValueError for a docstring that lacks a part."""
+    """Return what a docstring says of a rule (see `rule`).
+
+    Raises ValueError for a docstring that lacks a part, or an example that makes no two decks.
+    """
     first, _, rest = docstring.partition("\n")
     parts = re.split(_HEADINGS, f"{first.strip()}\n{dedent(rest)}")
     title, _, why = parts[0].strip().partition("\n")
     found = {name: (line, body) for name, line, body in zip(parts[1::3], parts[2::3], parts[3::3], strict=True)}
-    lacking = [name for name in ("Example", "Finds") if name not in found]
+    heading = next((name for name in found if name.startswith("Example")), "Example")
+    lacking = [name for name in (heading, "Finds") if name not in found]
     if lacking or not title or not why.strip():
         raise ValueError(f"the docstring of {code.code} must have {' and '.join(lacking) or 'a title and a reason'}")
     words = {name: line.strip() for name, (line, _) in found.items()}
     place = re.fullmatch(r"([0-9]+):([0-9]+)", words["Finds"])
     if place is None:
         raise ValueError(f"Finds: {words['Finds']} of {code.code} must be line:column of the bad deck")
-    bad, good = _decks(code, found["Example"][1].replace(r"\t", "\t"))  # Python 3.13 makes blanks of TABs in docstrings
+    example = found[heading][1].strip("\n").replace(r"\t", "\t")  # Python 3.13 makes blanks of TABs in docstrings
+    base = heading.partition(" on ")[2]
+    rows = _rows_on(base, code, example) if base else _rows(code, example, _MARKS)
+    bad, good = ("".join(f"{text}\n" for mark, text in rows if mark != other) for other in "+-")
     described = RulePage(
         title=title.strip(),
         why=why.strip(),
@@ -143,22 +159,46 @@ def described_by(code: Code, docstring: str) -> RulePage:
     return described
 
 
-def _decks(code: Code, example: str) -> tuple[str, str]:
-    """The bad and the good deck of an example; an empty line is in both."""
-    bad: list[str] = []
-    good: list[str] = []
-    for line in example.strip("\n").split("\n"):
-        marked = re.fullmatch(r"    ([ +-])(.*)", line or "     ")
-        if marked is None:
+def _rows(code: Code, example: str, marks: str) -> list[tuple[str, str]]:
+    """The mark and the text of each line of an example; an empty line is in both decks."""
+    rows: list[tuple[str, str]] = []
+    for line in example.split("\n"):
+        marked = _MARKED.fullmatch(line or "     ")
+        if marked is None or marked[1] not in marks:
+            wanted = "a space, - or +" if marks == _MARKS else "a space, |, - or +"
+            raise ValueError(f"the line {line!r} of the example of {code.code} must have four spaces, then {wanted}")
+        rows.append((marked[1], marked[2]))
+    return rows
+
+
+def _rows_on(base: str, code: Code, example: str) -> list[tuple[str, str]]:
+    """The marks and the texts of an example on a base deck, and of the lines of that deck around them."""
+    bases = {file.stem: file for file in sorted(_BASES.glob("*.keyxm"))}
+    if base not in bases:
+        raise ValueError(f"the example of {code.code} must be on {', '.join(bases)}, and is on {base}")
+    rest = bases[base].read_text(encoding="utf-8").splitlines()
+    rows: list[tuple[str, str]] = []
+    for change in example.split("\n\n"):
+        changed = _rows(code, change, f"{_MARKS}|")
+        with_good = [text for mark, text in changed if mark in " +"]
+        without = [text for mark, text in changed if mark == " "]
+        places = _places(rest, with_good) or _places(rest, without)
+        if len(places) != 1:
+            lines = ", ".join(repr(mark + text) for mark, text in changed)
             raise ValueError(
-                f"the line {line!r} of the example of {code.code} must have four spaces, then a space, - or +"
+                f"of the lines {lines} of the example of {code.code}, those after a space, with or without those "
+                f"after +, must stand once in the rest of {base}"
             )
-        mark, text = marked.groups()
-        if mark != "+":
-            bad.append(f"{text}\n")
-        if mark != "-":
-            good.append(f"{text}\n")
-    return "".join(bad), "".join(good)
+        rows += [*((" ", text) for text in rest[: places[0].start]), *changed]
+        rest = rest[places[0].stop :]
+    return [*rows, *((" ", text) for text in rest)]
+
+
+def _places(lines: list[str], sought: list[str]) -> list[slice]:
+    """Where lines stand one below the other in a deck; nowhere if there are none."""
+    count = len(sought)
+    places = [slice(at, at + count) for at in range(len(lines)) if count]
+    return [place for place in places if lines[place] == sought]
 
 
 def first_reported(problems: Iterable[Problem]) -> list[Problem]:

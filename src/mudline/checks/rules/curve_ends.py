@@ -61,18 +61,8 @@ def force_at_zero(context: LintContext) -> Iterator[Problem]:
     it. Below its first point a curve continues with its first slope, so a curve without the point (0, 0) may have such
     a force too. A force above a hundredth of the largest one of the curve is reported. Add the point 0, 0.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Clay
-        + 0.00, 0.0
-          0.05, 800.0
-          0.10, 1200.0
-          0.50, 4200.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Clay
+    Example on clay:
+        + 0.0, 0.0
 
     Finds: 3:2
     """
@@ -101,18 +91,9 @@ def curve_pulls(context: LintContext) -> Iterator[Problem]:
     decreasing beyond its last point, or one whose first slope is so steep that it crosses 0 too late. Suction belongs
     in *SEABED SUCTION or SUCTION=, where it acts on a rising pipe. Correct the force.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Clay
-          0.0, 0.0
+    Example on clay:
         - 0.1, -1200.0
         + 0.1, 1200.0
-          0.5, 4200.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Clay
 
     Finds: 5:2
     """
@@ -143,19 +124,10 @@ def steep_extrapolation(context: LintContext) -> Iterator[Problem]:
     greater depth. A rounded ratio or two points very close together make such a slope by accident. Correct the last
     point, or remove it. Flat segments are left out of the comparison.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Clay
-          0.0, 0.0
-          0.1, 1200.0
+    Example on clay:
           0.5, 4200.0
         - 0.5001, 4400.0
         + 0.6, 5200.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Clay
 
     Finds: 7:2
     """
@@ -179,20 +151,12 @@ def flat_last_segment(context: LintContext) -> Iterator[Problem]:
     A curve continues beyond its last point with its last slope, which is zero here. A pipe that is heavier than the
     last force sinks without end, and a static run does not converge. Add a point with a larger force.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Clay
-          0.0, 0.0
+    Example on clay:
           0.5, 4200.0
         - 1.0, 4200.0
         + 1.0, 4600.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Clay
 
-    Finds: 6:2
+    Finds: 7:2
     """
     for entry in context.scene.laws.curves:
         if entry.curve is not None and entry.whole and entry.curve.slopes[-1] == 0.0:
@@ -212,29 +176,21 @@ def beyond_curve(context: LintContext) -> Iterator[Problem]:
     coordinates have another datum than the seabed, X = 0; otherwise add points down to the depth of the elements.
     Nothing is reported in models whose seabed is not flat.
 
-    Example:
+    Example on clay:
          $MODEL
-         *NODE
+        |*NODE
         - 1, -0.25, 0.0
         - 5, -0.25, 40.0
         + 1, -0.05, 0.0
         + 5, -0.05, 40.0
-          GEN=1, 5
-         *ELEMENT
-          1, 1, 2
-          GEN=1, 4
-         *GEOMETRIC SETS
-          OPTION=RIGID
-          SET=ALL
-          207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
-         *SEABED STIFFNESS
-          CURVE=Clay
-          0.0, 0.0
-          0.5, 4200.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Clay
+        | GEN=1, 5
+        |*ELEMENT
+        | 1, 1, 2
+        | GEN=1, 4
+        |*GEOMETRIC SETS
+        | OPTION=RIGID
+        | SET=ALL
+        | 207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
 
     Finds: 14:2
     """

@@ -42,21 +42,13 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
     equation, as its parameters choose the curve, or for a curve whose name reads as a number (SBD017). The curves of
     *MOMENT-CURVATURE and the like are looked at too: it is an info where mudline knows no keyword that would use one.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Soft Clay
-          0.0, 0.0
-          0.1, 1200.0
+    Example on clay:
+          0.5, 4200.0
         - CURVE=Backfill
         - 0.0, 0.0
         - 0.1, 300.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Soft Clay
 
-    Finds: 6:8
+    Finds: 7:8
     """
     yield from unused(context.scene.context, CURVES, REF003)
     if _chosen_elsewhere(context):
@@ -142,21 +134,13 @@ def duplicate_curve(context: LintContext) -> Iterator[Problem]:
     The later one is used (inferred: the language does not say what happens) and overrides the earlier one. Names are
     case-insensitive. Choose another name, or remove one of the curves.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Clay
-          0.0, 0.0
-          0.1, 1200.0
+    Example on clay:
+          0.5, 4200.0
         - CURVE=CLAY
         - 0.0, 0.0
         - 0.1, 2500.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Clay
 
-    Finds: 6:8
+    Finds: 7:8
     """
     known: set[tuple[bool, str]] = set()
     for curve in context.scene.laws.curves:
@@ -229,18 +213,12 @@ def curve_named_as_number(context: LintContext) -> Iterator[Problem]:
     STIFFNESS= takes a number or the name of a curve, and a number comes first: the elements get a linear stiffness of
     that value, and the curve is never used. Give the curve a name that begins with a letter.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
+    Example on clay:
         - CURVE=100
-        + CURVE=Clay 100
-          0.0, 0.0
-          0.5, 4200.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+        + CURVE=Clay
+
         - STIFFNESS=100
-        + STIFFNESS=Clay 100
+        + STIFFNESS=Clay
 
     Finds: 3:8
     """

@@ -51,19 +51,11 @@ def swapped_columns(context: LintContext) -> Iterator[Problem]:
     of soil springs, such as those of *P-Y, have the force first, and were perhaps copied. With the columns exchanged
     the seabed has next to no stiffness. Exchange them.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Clay
-          0.0, 0.0
+    Example on clay:
         - 1200.0, 0.1
         - 4200.0, 0.5
         + 0.1, 1200.0
         + 0.5, 4200.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Clay
 
     Finds: 3:2
     """
@@ -100,19 +92,11 @@ def ratio_range(context: LintContext) -> Iterator[Problem]:
     the seabed. Depths in millimetres or percentages of the diameter look like this, and give a seabed that is far too
     soft. Write ratios.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Clay
-          0.0, 0.0
+    Example on clay:
         - 10.0, 1200.0
         - 50.0, 4200.0
-        + 0.10, 1200.0
-        + 0.50, 4200.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Clay
+        + 0.1, 1200.0
+        + 0.5, 4200.0
 
     Finds: 6:2
     """
@@ -136,18 +120,10 @@ def unsorted_points(context: LintContext) -> Iterator[Problem]:
     This is legal: they are sorted before anything else. A reader of the deck sees another curve than the one that is
     used, though, and a point out of order sometimes has a wrong ratio. Put the points in order.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Sand
-          0.00, 0.0
-        + 0.05, 1800.0
-          0.20, 9000.0
-        - 0.05, 1800.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Sand
+    Example on clay:
+        + 0.1, 1200.0
+          0.5, 4200.0
+        - 0.1, 1200.0
 
     Finds: 6:2
     """
@@ -195,21 +171,13 @@ def decreasing_force(context: LintContext) -> Iterator[Problem]:
     the external diameter. Softening soil is real, but a static run rarely converges on it; give the curve a force that
     does not decrease, or keep this one knowingly. Neighbouring segments are one finding, at the first of them.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Crust
-          0.00, 0.0
-        - 0.10, 3000.0
-        + 0.10, 2400.0
-          0.20, 2400.0
-          0.50, 5000.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Crust
+    Example on clay:
+          0.5, 4200.0
+        - 0.7, 3900.0
+        + 0.7, 4800.0
+        | 1.0, 6000.0
 
-    Finds: 6:2
+    Finds: 7:2
     """
     for number, curve in enumerate(context.scene.laws.curves):
         order = _distinct(curve)
@@ -262,19 +230,11 @@ def negative_ratio(context: LintContext) -> Iterator[Problem]:
     at -0.5; its part above 0 is lost, and the force jumps when contact begins. Remove the point, or draw the curve for
     the centreline. A curve that has the force 0 up to ratio 0 loses nothing, and is not reported.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Clay
+    Example on clay:
         - -0.5, 0.0
         - 0.0, 2100.0
         + 0.0, 0.0
-        + 0.1, 900.0
-          0.5, 4800.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Clay
+        + 0.1, 1200.0
 
     Finds: 4:2
     """
@@ -303,18 +263,9 @@ def repeated_point(context: LintContext) -> Iterator[Problem]:
     It counts once, so nothing is wrong yet; but when one of the two is changed later, the curve has two forces at one
     ratio. Remove it.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Sand
-          0.00, 0.0
-        - 0.05, 1800.0
-          0.05, 1800.0
-          0.20, 9000.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Sand
+    Example on clay:
+        - 0.1, 1200.0
+          0.1, 1200.0
 
     Finds: 6:2
     """

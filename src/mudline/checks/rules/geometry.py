@@ -93,28 +93,20 @@ def drag_diameter_assumed(context: LintContext) -> Iterator[Problem]:
     drag diameter is often larger, as it takes in marine growth, fairings or strakes. Give Do, the last field but one of
     the property line.
 
-    Example:
+    Example on clay:
          $MODEL
-         *NODE
-          1, -0.05, 0.0
-          5, -0.05, 40.0
-          GEN=1, 5
-         *ELEMENT
-          1, 1, 2
-          GEN=1, 4
-         *GEOMETRIC SETS
-          OPTION=FLEXIBLE
-          SET=ALL
+        |*NODE
+        | 1, -0.05, 0.0
+        | 5, -0.05, 40.0
+        | GEN=1, 5
+        |*ELEMENT
+        | 1, 1, 2
+        | GEN=1, 4
+        |*GEOMETRIC SETS
+        | OPTION=FLEXIBLE
+        | SET=ALL
         - 23.5E3, 23.5E3, 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3910, 0.3429
         + 23.5E3, 23.5E3, 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3910, 0.3429, 0.3429
-         *SEABED STIFFNESS
-          CURVE=Clay
-          0.0, 0.0
-          0.5, 4200.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Clay
 
     Finds: 12:53
     """
@@ -145,27 +137,15 @@ def repeated_section(context: LintContext) -> Iterator[Problem]:
     come from lines or from another deck, where a section names a set that is not defined (REF001), where every element
     has a section, or where a curve lacks a diameter (SBD009).
 
-    Example:
-         $MODEL
-         *NODE
-          1, 0.0, 0.0
-          5, 0.0, 40.0
-          GEN=1, 5
-         *ELEMENT
-          1, 1, 2
-          GEN=1, 4
-         *ELEMENT SETS
-          SET=West
-          GEN=1, 2
-          SET=East
+    Example on sets:
           GEN=3, 4
-         *GEOMETRIC SETS
-          OPTION=RIGID
-          SET=West
-          207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
-        - SET=West
-        + SET=East
-          207.0E9, 79.6E9, 0.3239, 0.2731, 7850.0
+        |*GEOMETRIC SETS
+        | OPTION=RIGID
+        | SET=Riser
+        | 207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+        - SET=Riser
+        + SET=Flowline
+        | 207.0E9, 79.6E9, 0.3239, 0.2731, 7850.0
 
     Finds: 18:6
     """

@@ -156,11 +156,7 @@ def extension_keyword(context: LintContext) -> Iterator[Problem]:
     The keyword belongs to mudline alone: Flexcom does not know it and will not run the deck. It is reported only where
     the deck is checked for that dialect. Remove it, or keep a copy of the deck for Flexcom.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on seabed:
           STIFFNESS=50000.0
         -*SEABED SUCTION
         - SET=ALL

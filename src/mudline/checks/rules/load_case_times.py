@@ -35,14 +35,11 @@ def end_not_after_start(context: LintContext) -> Iterator[Problem]:
     Nothing else is said of the length of such a run. Correct the start or the end. The same holds for the part of a
     run that is summarised.
 
-    Example:
-         $LOAD CASE
-         *TIME
-          STEP=FIXED
-        - 120.0, 0.0, 0.05
-        + 0.0, 120.0, 0.05
+    Example on storm:
+        - 120.0, 0.0, 0.05, 24.0
+        + 0.0, 120.0, 0.05, 24.0
 
-    Finds: 4:9
+    Finds: 7:9
     """
     for where, block in context.blocks("TIME", "LOAD CASE"):
         for name in ("fixed", "variable"):

@@ -67,28 +67,16 @@ def element_without_section(context: LintContext) -> Iterator[Problem]:
     the model or only the load case are left out, and models with joints, springs and the like, whose elements take no
     properties.
 
-    Example:
-         $MODEL
-         *NODE
-          1, 50.0, 0.0
-          3, 50.0, 20.0
-          GEN=1, 3
-         *ELEMENT
-          1, 1, 2
+    Example on held:
           GEN=1, 2
-         *ELEMENT SETS
-          SET=Pipe
+        |*ELEMENT SETS
+        | SET=Pipe
         - 1
         + 1, 2
-         *GEOMETRIC SETS
-          OPTION=RIGID
-          SET=Pipe
-          207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
-         $LOAD CASE
-         *BOUNDARY
-          TYPE=CONSTANT
-          1, 1
-          3, 1
+        |*GEOMETRIC SETS
+        | OPTION=RIGID
+        | SET=Pipe
+        | 207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
 
     Finds: 8:2
     """
@@ -109,32 +97,23 @@ def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
     No set of *HYDRODYNAMIC SETS holds them, so neither drag nor added mass acts on them. That is right inside another
     pipe or in a moonpool, and a slip elsewhere. Put them into a set with coefficients.
 
-    Example:
+    Example on held:
          $MODEL
-         *OCEAN
-          420.0, 1025.0, 9.81
-         *NODE
-          1, 50.0, 0.0
-          3, 50.0, 20.0
-          GEN=1, 3
-         *ELEMENT
-          1, 1, 2
+        |*OCEAN
+        | 420.0, 1025.0, 9.81
+
           GEN=1, 2
-         *ELEMENT SETS
-          SET=Pipe
+        |*ELEMENT SETS
+        | SET=Pipe
         - 1
         + 1, 2
-         *HYDRODYNAMIC SETS
-          SET=Pipe, TYPE=CONSTANT
-          1.0, 0.0, 2.0
+        |*HYDRODYNAMIC SETS
+        | SET=Pipe, TYPE=CONSTANT
+        | 1.0, 0.0, 2.0
          $LOAD CASE
-         *CURRENT
-          TYPE=UNIFORM
-          0.5
-         *BOUNDARY
-          TYPE=CONSTANT
-          1, 1
-          3, 1
+        |*CURRENT
+        | TYPE=UNIFORM
+        | 0.5
 
     Finds: 10:2
     """
@@ -166,21 +145,11 @@ def node_without_element(context: LintContext) -> Iterator[Problem]:
     It has no effect. It is left over from an earlier layout, or the number of a node in *ELEMENT is wrong. Remove the
     node, or correct the element.
 
-    Example:
-         $MODEL
-         *NODE
-          1, 50.0, 0.0
-          2, 50.0, 10.0
-        - 9, 50.0, 20.0
-         *ELEMENT
-          1, 1, 2
-         $LOAD CASE
-         *BOUNDARY
-          TYPE=CONSTANT
-          1, 1
-          2, 1
+    Example on held:
+          GEN=1, 3
+        - 9, 50.0, 30.0
 
-    Finds: 5:2
+    Finds: 6:2
     """
     scene = context.scene
     if not _is_whole(context):
@@ -204,18 +173,8 @@ def end_not_held(context: LintContext) -> Iterator[Problem]:
     is laid or hangs from one end, and else a wrong number. Hold the node, or correct the number. A deck that holds no
     node at all is left out.
 
-    Example:
-         $MODEL
-         *NODE
-          1, 50.0, 0.0
-          2, 50.0, 10.0
-         *ELEMENT
-          1, 1, 2
-         $LOAD CASE
-         *BOUNDARY
-          TYPE=CONSTANT
-          1, 1
-        + 2, 1
+    Example on held:
+        + 3, 1
 
     Finds: 4:2
     """

@@ -44,27 +44,15 @@ def not_on_the_seabed(context: LintContext) -> Iterator[Problem]:
     Nothing is reported where elements come from lines or from another deck, where the shape of the seabed is not known,
     or in models with soil curves.
 
-    Example:
+    Example on pipe:
          $MODEL
-         *OCEAN
-          420.0, 1025.0, 9.81
+        |*OCEAN
+        | 420.0, 1025.0, 9.81
          *NODE
         - 1, 420.0, 0.0
         - 5, 420.0, 40.0
-        + 1, -0.01, 0.0
-        + 5, -0.01, 40.0
-          GEN=1, 5
-         *ELEMENT
-          1, 1, 2
-          GEN=1, 4
-         *GEOMETRIC SETS
-          OPTION=RIGID
-          SET=ALL
-          207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=50000.0
+        + 1, -0.05, 0.0
+        + 5, -0.05, 40.0
 
     Finds: 5:2
     """

@@ -39,21 +39,13 @@ def long_name(context: LintContext) -> Iterator[Problem]:
     The language allows 256. A longer name may be cut when the deck is run, and names that differ only after the cut
     would then be one set. Choose a shorter name.
 
-    Example:
-         $MODEL
-         *NODE
-          1, 12.0, 0.0
-          2, 12.0, 10.0
-         *ELEMENT
-          1, 1, 2
-         *ELEMENT SETS
+    Example on sets:
         - SET=Eastern export flowline from the manifold to the platform between kilometre post 12.400 and kilometre\
  post 12.900 as surveyed before the trench was made and again after it was filled with the crossings of both cables\
  and the two mattresses that were laid on the eastern one in the second season
-        + SET=Export KP 12.400 to 12.900
-          1
+        + SET=Flowline
 
-    Finds: 8:6
+    Finds: 12:6
     """
     for where, entry in entries_of_sets(context.blocks("ELEMENT SETS")):
         length = len(cast("str | None", entry.name) or "")
@@ -124,23 +116,13 @@ def repeated_set(context: LintContext) -> Iterator[Problem]:
     Whoever changes one of them expects the set to change, but the elements of the other one stay in it, with their
     stiffness and curve. Names are case-insensitive. Put the elements under one SET=, or choose another name.
 
-    Example:
-         $MODEL
-         *NODE
-          1, 12.0, 0.0
-          5, 12.0, 40.0
-          GEN=1, 5
-         *ELEMENT
-          1, 1, 2
-          GEN=1, 4
-         *ELEMENT SETS
-          SET=Coated
-        - 1, 2
-        + 1, 2, 4
-          SET=Bare
-          3
-        - SET=COATED
-        - 4
+    Example on sets:
+          1, 2
+        + 3
+          SET=Flowline
+          GEN=3, 4
+        - SET=RISER
+        - 3
 
     Finds: 14:6
     """
@@ -183,18 +165,11 @@ def repeated_parameter(context: LintContext) -> Iterator[Problem]:
     Equations before the second definition use its value too: the first definition is overridden, although a reader
     finds it first. Items of a list have the name of the list in front, as in Soil_stiffness. Remove one of the two.
 
-    Example:
-         $PREPROCESSOR
-         *PARAMETERS
-        - depth, 850.0
-        + depth, 910.0
-          od, 0.3239
+    Example on parameters:
         - Depth, 910.0
-         $MODEL
-         *OCEAN
-          =[depth], 1025.0, 9.81
+          depth, 850.0
 
-    Finds: 5:2
+    Finds: 4:2
     """
     known: set[str] = set()
     for where, block in context.written("PARAMETERS", "PREPROCESSOR"):
@@ -235,27 +210,21 @@ def missing_ocean(context: LintContext) -> Iterator[Problem]:
     no default. Give *OCEAN, or remove the waves and currents of a model in air. A deck with *RESTART takes the water
     from the deck that it continues.
 
-    Example:
+    Example on held:
          $MODEL
         +*OCEAN
         + 500.0, 1025.0, 9.81
-         *NODE
-          1, 0.0, 0.0
-          2, 0.0, 10.0
-         *ELEMENT
-          1, 1, 2
-         *HYDRODYNAMIC SETS
-          SET=ALL, TYPE=CONSTANT
-          1.0
-         $LOAD CASE
-         *BOUNDARY
-          TYPE=CONSTANT
-          1, 1
-          2, 1
-         *WAVE-REGULAR
-          3.0, 11.0, 180.0
 
-    Finds: 15:1
+          GEN=1, 2
+        |*HYDRODYNAMIC SETS
+        | SET=ALL, TYPE=CONSTANT
+        | 1.0
+
+          3, 1
+        |*WAVE-REGULAR
+        | 3.0, 11.0, 180.0
+
+    Finds: 17:1
     """
     scene = context.scene
     if "OCEAN" in context.keywords or not scene.element_ids.size or scene.context.possible_definition("OCEAN"):

@@ -42,15 +42,11 @@ def lateral_and_friction(context: LintContext) -> Iterator[Problem]:
     zero. Lateral walking is then resisted by the spring alone, however large the coefficient is. Keep the one that the
     assessment relies on.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on seabed:
           STIFFNESS=50000.0
         - FRICTION=0.3, 0.6
         + FRICTION=0.3, 0.0
-          LATERAL=2000.0
+        | LATERAL=2000.0
 
     Finds: 7:10
     """
@@ -70,11 +66,7 @@ def legacy_friction_order(context: LintContext) -> Iterator[Problem]:
     FRICTION= has mobilisation lengths. A line copied from a legacy deck then spreads the build-up of friction over
     metres, and the pipe slides far before it is held. Leave the field empty, or give the mobilisation length.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on seabed:
           STIFFNESS=50000.0
         - FRICTION=0.3, 0.6, 3.048, 3.048
         + FRICTION=0.3, 0.6, 0.03, 0.05
@@ -99,11 +91,7 @@ def unused_friction_stiffness(context: LintContext) -> Iterator[Problem]:
     this direction the pipe is free, and the modes have less restraint than the deck suggests. The same holds for
     *FRICTION of a load case or of modes. Give a coefficient, or remove the stiffness.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on seabed:
           STIFFNESS=50000.0
         - FRICTION=0.0, 0.6, , , , 500.0, 250.0
         + FRICTION=0.3, 0.6, , , , 500.0, 250.0
@@ -147,11 +135,7 @@ def extent_without_stiffness(context: LintContext) -> Iterator[Problem]:
     The extent is the height over which suction resists a rising pipe; without a stiffness there is no suction. Give the
     suction stiffness, or remove the extent.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on seabed:
           STIFFNESS=50000.0
         - SUCTION=0.0, 0.15
         + SUCTION=8000.0, 0.15
@@ -201,11 +185,7 @@ def one_friction_coefficient(context: LintContext) -> Iterator[Problem]:
     for both directions write it once. Give both, or a 0 where no transverse friction is meant. A line with LATERAL=
     needs none, as its spring replaces transverse friction.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on seabed:
           STIFFNESS=50000.0
         - FRICTION=0.6
         + FRICTION=0.6, 0.6
@@ -232,22 +212,7 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
     Friction then builds up almost at once: its spring is so stiff that the solution jumps between stick and slip and
     hardly converges. Soil mobilises friction over some thousandths of a diameter at least. Give a longer one.
 
-    Example:
-         $MODEL
-         *NODE
-          1, -0.05, 0.0
-          5, -0.05, 40.0
-          GEN=1, 5
-         *ELEMENT
-          1, 1, 2
-          GEN=1, 4
-         *GEOMETRIC SETS
-          OPTION=RIGID
-          SET=ALL
-          207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on pipe:
           STIFFNESS=50000.0
         - FRICTION=0.3, 0.6, 0.00001, 0.05
         + FRICTION=0.3, 0.6, 0.03, 0.05

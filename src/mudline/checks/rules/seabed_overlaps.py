@@ -36,28 +36,18 @@ def overlapping_sets(context: LintContext) -> Iterator[Problem]:
     curves of *EMBEDMENT no order is documented: there any overlap of two different curves is a warning. Put the larger
     set first, or give each element one definition.
 
-    Example:
-         $MODEL
-         *NODE
-          1, -0.05, 0.0
-          5, -0.05, 40.0
-          GEN=1, 5
-         *ELEMENT
-          1, 1, 2
-          GEN=1, 4
-         *ELEMENT SETS
-          SET=Crossing
-          2, 3
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
+    Example on sets:
+          GEN=3, 4
+        |*SEABED PROPERTIES
+        | TYPE=ELASTIC
         + SET=ALL
         + STIFFNESS=50000.0
-          SET=Crossing
-          STIFFNESS=500000.0
+        | SET=Flowline
+        | STIFFNESS=500000.0
         - SET=ALL
         - STIFFNESS=50000.0
 
-    Finds: 16:6
+    Finds: 18:6
     """
     new = _own_grants(context, "new")
     if len(new) > 1:
@@ -85,28 +75,16 @@ def law_without_effect(context: LintContext) -> Iterator[Problem]:
     the stiffness of a legacy surface beside curves for every element, and values that an extension keyword replaces, as
     Flexcom still reads them.
 
-    Example:
-         $MODEL
-         *NODE
-          1, -0.05, 0.0
-          5, -0.05, 40.0
-          GEN=1, 5
-         *ELEMENT
-          1, 1, 2
-          GEN=1, 4
-         *ELEMENT SETS
-          SET=West
-          GEN=1, 2
-          SET=East
+    Example on sets:
           GEN=3, 4
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
+        |*SEABED PROPERTIES
+        | TYPE=ELASTIC
         - SET=ALL
         - STIFFNESS=50000.0
-          SET=West
-          STIFFNESS=40000.0
-          SET=East
-          STIFFNESS=60000.0
+        | SET=Riser
+        | STIFFNESS=40000.0
+        | SET=Flowline
+        | STIFFNESS=60000.0
 
     Finds: 16:6
     """

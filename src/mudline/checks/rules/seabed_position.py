@@ -223,23 +223,11 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
     three-dimensional seabed only its lowest point is used; cubic and compiled profiles, and models with soil curves,
     are left out.
 
-    Example:
-         $MODEL
-         *NODE
+    Example on pipe:
         - 1, -500.0, 0.0
-        - 2, -500.0, 10.0
-        + 1, -0.02, 0.0
-        + 2, -0.02, 10.0
-         *ELEMENT
-          1, 1, 2
-         *GEOMETRIC SETS
-          OPTION=RIGID
-          SET=ALL
-          207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=50000.0
+        - 5, -500.0, 40.0
+        + 1, -0.05, 0.0
+        + 5, -0.05, 40.0
 
     Finds: 3:2
     """

@@ -48,22 +48,7 @@ def suction_snap(context: LintContext) -> Iterator[Problem]:
     message gives the stiffness at the velocity of REGULARISATION=, for the element that needs most. Use smaller steps
     at lift-off, or a linear SUCTION=.
 
-    Example:
-         $MODEL
-         *NODE
-          1, -0.05, 0.0
-          5, -0.05, 40.0
-          GEN=1, 5
-         *ELEMENT
-          1, 1, 2
-          GEN=1, 4
-         *GEOMETRIC SETS
-          OPTION=RIGID
-          SET=ALL
-          207.0E9, 79.6E9, 0.3, 0.265, 7850.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on pipe:
           STIFFNESS=50000.0
         -*SEABED SUCTION
         - SET=ALL
@@ -117,28 +102,13 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
     static normal force; the third value of *TIME is read as the step (inferred). Give the step that the message names.
     `mudline study` has the same numbers.
 
-    Example:
-         $MODEL
-         *NODE
-          1, -0.05, 0.0
-          5, -0.05, 40.0
-          GEN=1, 5
-         *ELEMENT
-          1, 1, 2
-          GEN=1, 4
-         *GEOMETRIC SETS
-          OPTION=MOORING
-          SET=ALL
-          480.0E6, 200.0, 0.3
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on pipe:
           STIFFNESS=50000.0
-         $LOAD CASE
-         *TIME
-          STEP=FIXED
+        |$LOAD CASE
+        |*TIME
+        | STEP=FIXED
         - 0.0, 120.0, 0.1, 24.0
-        + 0.0, 120.0, 0.03, 24.0
+        + 0.0, 120.0, 0.02, 24.0
 
     Finds: 20:14
     """
@@ -180,29 +150,16 @@ def lateral_softening(context: LintContext) -> Iterator[Problem]:
     that needs most, and the step that resolves the rate, where weight and mass are known. Use that step through
     breakout, or a static solution by displacements.
 
-    Example:
+    Example on pipe:
          $MODEL
-         *NODE
-          1, -0.05, 0.0
-          5, -0.05, 40.0
-          GEN=1, 5
-         *ELEMENT
-          1, 1, 2
-          GEN=1, 4
-         *GEOMETRIC SETS
-          OPTION=MOORING
-          SET=ALL
-          480.0E6, 200.0, 0.3
-         *OCEAN
-          100.0, 1025.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+        |*OCEAN
+        | 100.0, 1025.0
+
           STIFFNESS=50000.0
-         *SEABED FRICTION
-          SET=ALL
-          COEFFICIENTS=0.3, 0.6
-          STIFFNESS=20000.0
+        |*SEABED FRICTION
+        | SET=ALL
+        | COEFFICIENTS=0.3, 0.6
+        | STIFFNESS=20000.0
         - LATERAL=PEAK-RESIDUAL
         - PEAK=1.2, 0.03
         - RESIDUAL=0.6, 0.3
@@ -267,21 +224,11 @@ def stiff_jump(context: LintContext) -> Iterator[Problem]:
     the pipe bends sharply at the edge. Usually an exponent is wrong. Correct the point or the stiffness; real rock
     beside mud needs a transition.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Clay over Rock
-          0.0, 0.0
-        - 0.1, 5.0
-        - 0.2, 2.0E6
-        - 0.3, 4.0E6
-        + 0.1, 5.0E2
-        + 0.2, 2.0E4
-        + 0.3, 4.0E4
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Clay over Rock
+    Example on clay:
+        - 0.1, 1.2E-3
+        + 0.1, 1200.0
+          0.5, 4200.0
+        | 1.0, 8000.0
 
     Finds: 5:2
     """
@@ -369,25 +316,14 @@ def soft_unloading(context: LintContext) -> Iterator[Problem]:
     Soil unloads at least as stiffly as it was loaded: with a softer return path a cycle would give energy back, and the
     trench would lie above the seabed. The stiffness is raised to the slope reached. Give a higher one.
 
-    Example:
-         $MODEL
-         *NODE
-          1, -0.05, 0.0
-          5, -0.05, 40.0
-          GEN=1, 5
-         *ELEMENT
-          1, 1, 2
-          GEN=1, 4
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on pipe:
           STIFFNESS=50000.0
-         *SEABED UNLOADING
-          SET=ALL
+        |*SEABED UNLOADING
+        | SET=ALL
         - STIFFNESS=20000.0
         + STIFFNESS=500000.0
 
-    Finds: 15:12
+    Finds: 19:12
     """
     scene = context.scene
     extension = scene.extensions.get("SEABED UNLOADING")

@@ -115,12 +115,10 @@ def lower_case_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
     The mark of a comment is a capital C in column 1. A lower-case c is accepted here, but stricter programs read the
     line as data. Write a capital C.
 
-    Example:
-         $MODEL
+    Example on ocean:
          *OCEAN
         -c Depth from the survey
         +C Depth from the survey
-          500.0, 1025.0, 9.81
 
     Finds: 3:1
     """
@@ -139,17 +137,9 @@ def key_like_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
     It is read as data here, since its keyword knows the setting. Programs that read any line with a C in column 1 as a
     comment skip it without a warning, and with it the name of a curve or a whole group of values. Put a space in front.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
+    Example on clay:
         -CURVE=Clay
         + CURVE=Clay
-          0.0, 0.0
-          0.5, 4200.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Clay
 
     Finds: 3:1
     """
@@ -170,12 +160,10 @@ def indented_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
     read as values of its keyword, as the name of a set for instance, or cannot be read. If it is a comment, remove the
     spaces. Lines of blocks that are passed through unchanged are not checked.
 
-    Example:
-         $MODEL
+    Example on ocean:
          *OCEAN
         -  C Depth from the survey
         +C Depth from the survey
-          500.0, 1025.0, 9.81
 
     Finds: 3:3
     """
@@ -194,11 +182,9 @@ def indented_keyword(text: TextOrigin, source: str) -> Iterator[Problem]:
     Spaces before the `*` or the `$` are ignored here, but a program that expects the mark in column 1 reads the line as
     data of the block above. Remove the spaces.
 
-    Example:
-         $MODEL
+    Example on ocean:
         -  *OCEAN
         +*OCEAN
-          500.0, 1025.0, 9.81
 
     Finds: 2:3
     """
@@ -219,11 +205,9 @@ def keyword_case(text: TextOrigin, source: str) -> Iterator[Problem]:
     Case is ignored here. Manuals and other decks write these names in upper case, though, and a search of many decks
     for a keyword may miss others. Write it in upper case.
 
-    Example:
-         $MODEL
+    Example on ocean:
         -*Ocean
         +*OCEAN
-          500.0, 1025.0, 9.81
 
     Finds: 2:1
     """
@@ -256,22 +240,14 @@ def unused_suppression(context: LintContext) -> Iterator[Problem]:
     before anyone has seen it. Only rules that run are judged: with `--ignore CRV005` a comment for CRV005 is not
     unused. The fix removes the code, or the comment when it names nothing else.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Clay
-          0.0, 0.0
-          0.1, 1200.0
+    Example on clay:
+          0.5, 4200.0
         -C mudline: ignore CRV0O5 -- remoulded, see the survey
         +C mudline: ignore CRV005 -- remoulded, see the survey
-          0.5, 900.0
-          1.0, 2000.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Clay
+        | 0.7, 3900.0
+        | 1.0, 6000.0
 
-    Finds: 6:19
+    Finds: 7:19
     """
     found = context.once(suppressions)
     if found is not None:

@@ -55,17 +55,9 @@ def tab_character(text: TextOrigin, source: str) -> Iterator[Problem]:
     error. Write spaces. The fix fills up to the next multiple of 8 columns, and removes TABs at the end of a line; a
     TAB inside a name or an equation is left to you.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Clay
+    Example on clay:
         - 0.0,\t0.0
         + 0.0, 0.0
-          0.5, 4200.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Clay
 
     Finds: 4:6
     """
@@ -106,17 +98,9 @@ def blank_separated_row(text: TextOrigin, source: str) -> Iterator[Problem]:
     They are read as if there were commas between them, but the language separates fields by commas, and an empty field
     cannot be seen among spaces. Use commas.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Clay
+    Example on clay:
         - 0.0   0.0
         + 0.0, 0.0
-          0.5, 4200.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Clay
 
     Finds: 4:2
     """
@@ -152,11 +136,9 @@ def trailing_blank(text: TextOrigin, source: str) -> Iterator[Problem]:
     They are invisible, and an editor that removes them changes lines in the history of the deck. Remove them. Lines of
     blocks that are passed through unchanged are not checked. This rule is off unless it is selected.
 
-    Example:
-         $MODEL
+    Example on ocean:
         -*OCEAN \x20
         +*OCEAN
-          500.0, 1025.0, 9.81
 
     Finds: 2:7
     """  # noqa: D301 - a blank that an editor cannot take away
@@ -182,13 +164,9 @@ def fortran_exponent(text: TextOrigin, source: str) -> Iterator[Problem]:
     It is read as E here, but the language has only E, and other programs stop at the D or read the number without its
     exponent. Write E. A name such as `2D4` is not reported.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on seabed:
         - STIFFNESS=5.0D4
-        + STIFFNESS=5.0E4
+        + STIFFNESS=50000.0
 
     Finds: 5:12
     """

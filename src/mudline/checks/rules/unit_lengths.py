@@ -203,15 +203,11 @@ def suspicious_length(context: LintContext) -> Iterator[Problem]:
     In user units only ratios are checked: masses against displaced water where *OCEAN gives its density, bores of walls
     as dense as steel, mobilisation lengths above 100 diameters, curves, elements, and nodes above ten depths.
 
-    Example:
-         $MODEL
-         *GEOMETRIC SETS
-          OPTION=RIGID
-          SET=ALL
+    Example on pipe:
         - 207.0E9, 79.6E9, 323.9, 288.9, 7850.0
         + 207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
 
-    Finds: 5:19
+    Finds: 12:19
     """
     for kind in (_diameters, _mobilisation, _curves, odd_coordinates, _ocean):
         yield from kind(context)

@@ -61,9 +61,7 @@ def gravity_mismatch(context: LintContext) -> Iterator[Problem]:
     gravity 32.2. A deck with the gravity of the other system was saved under the wrong suffix, or only half of it was
     converted. Correct the gravity, or give the file its suffix. A difference above 2 % is reported.
 
-    Example:
-         $MODEL
-         *OCEAN
+    Example on ocean:
         - 500.0, 1025.0, 32.2
         + 500.0, 1025.0, 9.81
 
@@ -98,11 +96,7 @@ def suspicious_magnitude(context: LintContext) -> Iterator[Problem]:
     value is usually written in other units. Write it in newtons or pounds. For cables thinner than 0.1 m the least
     force of a curve falls with their diameter. A stiffness or a cohesion of 0 is accepted.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on seabed:
         - STIFFNESS=50.0
         + STIFFNESS=50000.0
 
@@ -183,11 +177,7 @@ def large_friction(context: LintContext) -> Iterator[Problem]:
     mobilisation length: the fields of FRICTION= have another order than those of *ELASTIC SURFACE, which begin with the
     stiffness. Correct the field.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on seabed:
           STIFFNESS=50000.0
         - FRICTION=50000.0, 0.3, 0.6
         + FRICTION=0.3, 0.6

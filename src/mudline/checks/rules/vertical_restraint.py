@@ -35,27 +35,17 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
     deck's coordinates, and no law, or a stiffness of 0, applies to them; inner pipes of *PIP SECTION need none. A
     static run may then have no unique solution. Give STIFFNESS=, or put the elements into a set that has it.
 
-    Example:
-         $MODEL
-         *NODE
-          1, -0.05, 0.0
-          5, -0.05, 40.0
-          GEN=1, 5
-         *ELEMENT
-          1, 1, 2
-          GEN=1, 4
-         *ELEMENT SETS
-          SET=Crossing
-          2, 3
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=50000.0
-          SET=Crossing
+    Example on sets:
+          GEN=3, 4
+        |*SEABED PROPERTIES
+        | TYPE=ELASTIC
+        | SET=ALL
+        | STIFFNESS=50000.0
+        | SET=Flowline
         + STIFFNESS=50000.0
-          FRICTION=0.8, 0.9
+        | FRICTION=0.8, 0.9
 
-    Finds: 16:2
+    Finds: 18:2
     """
     scene = context.scene
     reading = scene.context

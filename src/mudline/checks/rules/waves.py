@@ -65,16 +65,11 @@ def breaking_wave(context: LintContext) -> Iterator[Problem]:
     shallow water it breaks at a lower height still. Height and period were exchanged, the height is given where the
     amplitude belongs, or a unit is wrong. Correct the wave.
 
-    Example:
-         $MODEL
-         *OCEAN
-          420.0, 1025.0, 9.81
-         $LOAD CASE
-         *WAVE-REGULAR
+    Example on storm:
         - 9.0, 6.0, 180.0
         + 3.0, 9.0, 180.0
 
-    Finds: 6:2
+    Finds: 9:2
     """
     gravity = _gravity(context)
     for wave in context.once(waves):
@@ -105,16 +100,11 @@ def ramp_does_not_fit(context: LintContext) -> Iterator[Problem]:
     reach their full size. Correct the ramp, the last value of the first line of *TIME. A ramp of 0 and runs that
     continue another one are left out.
 
-    Example:
-         $LOAD CASE
-         *TIME
-          STEP=FIXED
+    Example on storm:
         - 0.0, 120.0, 0.05, 5.0
         + 0.0, 120.0, 0.05, 24.0
-         *WAVE-STOKES
-          6.0, 12.0, 180.0
 
-    Finds: 4:20
+    Finds: 7:20
     """
     longest = max((wave.period for wave in context.once(waves)), default=0.0)
     continues = bool(context.blocks("RESTART", "LOAD CASE"))
@@ -136,16 +126,11 @@ def step_too_long_for_waves(context: LintContext) -> Iterator[Problem]:
     step the largest one counts, of random seas no period is looked at. Shorten the step; what the seabed needs may be
     less: `mudline study` says so.
 
-    Example:
-         $LOAD CASE
-         *TIME
-          STEP=FIXED
+    Example on storm:
         - 0.0, 120.0, 1.0, 24.0
-        + 0.0, 120.0, 0.1, 24.0
-         *WAVE-REGULAR
-          1.5, 9.0, 180.0
+        + 0.0, 120.0, 0.05, 24.0
 
-    Finds: 4:14
+    Finds: 7:14
     """
     shortest = min((wave.period for wave in context.once(waves)), default=math.inf)
     for where, step in _steps(context):
@@ -182,18 +167,15 @@ def current_ends_below_surface(context: LintContext) -> Iterator[Problem]:
     profile that ends far below the surface was written from the surface down, or for another depth; the current is
     mostly strongest where it lacks points. Give a point at the surface, or OPTION=DESCEND.
 
-    Example:
-         $MODEL
-         *OCEAN
-          420.0, 1025.0, 9.81
-         $LOAD CASE
-         *CURRENT
-          TYPE=PIECEWISE LINEAR
-          0.0, 0.1
+    Example on storm:
+          3.0, 9.0, 180.0
+        |*CURRENT
+        | TYPE=PIECEWISE LINEAR
+        | 0.0, 0.1
         - 300.0, 0.9
         + 420.0, 0.9
 
-    Finds: 8:2
+    Finds: 13:2
     """
     oceans = context.blocks("OCEAN")
     depth = number(oceans[-1][1], "depth") if oceans else math.nan

@@ -17,9 +17,7 @@ SYN002 = Code(
     one: a dash or another minus sign, a blank that does not break, wide digits. Correct the field; an equation is
     written `=[...]`.
 
-    Example:
-         $MODEL
-         *OCEAN
+    Example on ocean:
         - 5O0.0, 1025.0, 9.81
         + 500.0, 1025.0, 9.81
 
@@ -37,18 +35,9 @@ SYN003 = Code(
     The place of a value on its line says what it is, so one comma too many or a value left out gives every later value
     another meaning. The message shows the format of the line. A field that may be empty is still set off by its comma.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Soft clay
-          0.0, 0.0
+    Example on clay:
         - 0.1
         + 0.1, 1200.0
-          0.5, 10000.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Soft clay
 
     Finds: 5:2
     """,
@@ -65,17 +54,12 @@ SYN006 = Code(
     swallows the rest of the line, and the values after it are lost. Close it on the same line: nothing continues on
     the next.
 
-    Example:
-         $PREPROCESSOR
-         *PARAMETERS
-          depth, 500.0
+    Example on parameters:
+          od, 0.3239
         - vessel_x, =[depth + 5.0
         + vessel_x, =[depth + 5.0]
-         $MODEL
-         *OCEAN
-          =[depth], 1025.0, 9.81
 
-    Finds: 4:12
+    Finds: 5:12
     """,
 )
 
@@ -91,18 +75,9 @@ SYN015 = Code(
     countries. Write decimal points, and look at the other lines from the same source: one whose last fields may be left
     out reads without an error and with other values.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Soft clay
-          0.0, 0.0
+    Example on clay:
         - 0,1, 1200,0
         + 0.1, 1200.0
-          0.5, 10000.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Soft clay
 
     Finds: 5:2
     """,
@@ -143,15 +118,9 @@ SYN017 = Code(
     field then has no value, and neither has anything that depends on it. Correct the equation at the place that the
     message names. A function that is not known here may be known elsewhere; that is a warning only.
 
-    Example:
-         $PREPROCESSOR
-         *PARAMETERS
-          surveyed, 118.5
-          tide, 1.5
-         $MODEL
-         *OCEAN
-        - =[surveyed + tide *], 1025.0, 9.81
-        + =[surveyed + tide], 1025.0, 9.81
+    Example on parameters:
+        - =[depth + ], 1025.0, 9.81
+        + =[depth], 1025.0, 9.81
 
     Finds: 7:2
     """,
@@ -168,16 +137,9 @@ CRV001 = Code(
     The slope of the curve is the stiffness of the seabed, and one point has no slope. The same point twice counts once.
     Give the curve a second point; a straight line through the origin is the constant stiffness of a STIFFNESS= number.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Rock
+    Example on clay:
         + 0.0, 0.0
-          0.01, 25000.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Rock
+        + 0.1, 1200.0
 
     Finds: 3:2
     """,
@@ -193,20 +155,10 @@ CRV003 = Code(
     The curve would rise at once, with an infinite stiffness, and no solver can follow it. Often the ratios were rounded
     to too few digits. Give the points different ratios, or remove one.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Sand
-          0.00, 0.0
-        - 0.05, 1800.0
-        - 0.05, 2100.0
-        + 0.048, 1800.0
-        + 0.054, 2100.0
-          0.20, 9000.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Sand
+    Example on clay:
+          0.1, 1200.0
+        - 0.1, 1500.0
+        + 0.13, 1500.0
 
     Finds: 6:2
     """,
@@ -222,19 +174,11 @@ CRV011 = Code(
     Numbers reach to 1.8E308 and down to 2.2E-308. Beyond them a slope would become infinite or lose its digits, and
     with it the stiffness. Usually an exponent has a digit too many: correct the point.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Clay
-          0.0, 0.0
+    Example on clay:
         - 0.0001, 1.2E305
-        - 0.1, 1.4E305
-        + 0.0001, 1.2E3
-        + 0.1, 1.4E3
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Clay
+        - 0.5, 1.4E305
+        + 0.1, 1200.0
+        + 0.5, 4200.0
 
     Finds: 5:2
     """,

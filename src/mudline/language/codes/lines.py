@@ -16,11 +16,7 @@ SYN001 = Code(
     from the model. The message says which lines were expected: often a KEY= was forgotten in front of a number, or a
     line is one place too early or too late.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on seabed:
         - 50000.0
         + STIFFNESS=50000.0
 
@@ -38,11 +34,7 @@ SYN004 = Code(
     A setting that is misspelt is not read, and the default or nothing at all holds in its place: a seabed without its
     stiffness carries nothing. The message lists the keys of the keyword and suggests the nearest.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on seabed:
         - STIFNESS=50000.0
         + STIFFNESS=50000.0
 
@@ -60,13 +52,9 @@ SYN005 = Code(
     A choice decides how the lines below it are read and which law holds, so it cannot be guessed. The message lists the
     words and suggests the nearest. Upper or lower case does not matter.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
+    Example on seabed:
         - TYPE=ELSTIC
         + TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=50000.0
 
     Finds: 3:7
     """,
@@ -83,10 +71,8 @@ SYN007 = Code(
     read. The section line may have been lost when decks were put together. Put the line that the message names, for
     most keywords `$MODEL`, in front of it.
 
-    Example:
+    Example on ocean:
         +$MODEL
-         *OCEAN
-          500.0, 1025.0, 9.81
 
     Finds: 1:1
     """,
@@ -104,15 +90,13 @@ SYN008 = Code(
     Move the block to a section that the message names; a missing `$LOAD CASE` line above it is the usual cause. It is
     an error in `$PREPROCESSOR`, `$MODEL` and `$LOAD CASE` for a keyword whose section is certain, else an info.
 
-    Example:
-         $MODEL
-         *OCEAN
+    Example on ocean:
           500.0, 1025.0, 9.81
         +$LOAD CASE
-         *BOUNDARY
-          TYPE=CONSTANT
-          1, 1
-          1, 2
+        |*BOUNDARY
+        | TYPE=CONSTANT
+        | 1, 1
+        | 1, 2
 
     Finds: 4:1
     """,
@@ -130,11 +114,9 @@ SYN009 = Code(
     warning, as a misspelt keyword takes its whole block out of the model. Correct the name, put a remark into a comment
     line, or ignore this rule where the keyword is right.
 
-    Example:
-         $MODEL
+    Example on ocean:
         -*OCAEN
         +*OCEAN
-          500.0, 1025.0, 9.81
 
     Finds: 2:1
     """,
@@ -151,14 +133,12 @@ SYN010 = Code(
     here; a name that differs from a known one by a letter or two, has the same beginning or has words after it is a
     warning, as everything in a misspelt section is missing from the analysis. Correct the name.
 
-    Example:
-         $MODEL
-         *OCEAN
+    Example on ocean:
           500.0, 1025.0, 9.81
         -$LOADCASE
         +$LOAD CASE
-         *ANALYSIS TYPE
-          TYPE=STATIC
+        |*ANALYSIS TYPE
+        | TYPE=STATIC
 
     Finds: 4:1
     """,
@@ -175,12 +155,10 @@ SYN011 = Code(
     Title lines at the top of a deck are common and do no harm: words above the first section are an info. Numbers there
     are numbers that the model lacks. Turn a title into a comment (C and a space), and put data under their keyword.
 
-    Example:
+    Example on ocean:
         -Flowline on soft clay, as laid
         +C Flowline on soft clay, as laid
          $MODEL
-         *OCEAN
-          120.0, 1025.0, 9.81
 
     Finds: 1:1
     """,
@@ -200,11 +178,9 @@ SYN012 = Code(
     binary data are not read at all. Where only comments hold such letters, as a degree sign, it is an info. Save the
     file as UTF-8, and remove what the message names.
 
-    Example:
+    Example on ocean:
          $MODEL
-         C Flowline Ø 323.9 mm on soft clay
-         *OCEAN
-          120.0, 1025.0, 9.81
+        |C Flowline Ø 323.9 mm on soft clay
 
     Bytes: cp1252
     Finds: 2:12
@@ -223,12 +199,10 @@ SYN013 = Code(
     keyword knows; any other is taken for a comment, which is our reading and not a documented rule. A misspelt `CURV=`
     drops a whole curve in this way. Put a space after the C of a comment, and in front of data.
 
-    Example:
-         $MODEL
+    Example on ocean:
          *OCEAN
         -Carried over from the survey report
         +C Carried over from the survey report
-          120.0, 1025.0, 9.81
 
     Finds: 3:1
     """,

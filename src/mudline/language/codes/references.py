@@ -18,25 +18,15 @@ REF001 = Code(
     *LINE SECTION GROUPS, and a LINE= there that *LINE PATHS does not name. And a VARIATIONS= of *COMBINATIONS that
     names no variation is an error, as no deck could be made.
 
-    Example:
-         $MODEL
-         *NODE
-          1, -0.05, 0.0
-          5, -0.05, 40.0
-          GEN=1, 5
-         *ELEMENT
-          1, 1, 2
-          GEN=1, 4
-         *ELEMENT SETS
-          SET=Touchdown
-          GEN=1, 4
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-        - SET=Touch Down
-        + SET=TOUCHDOWN
-          STIFFNESS=50000.0
+    Example on sets:
+          GEN=3, 4
+        |*SEABED PROPERTIES
+        | TYPE=ELASTIC
+        - SET=Flow Line
+        + SET=FLOWLINE
+        | STIFFNESS=50000.0
 
-    Finds: 14:6
+    Finds: 16:6
     """,
 )
 
@@ -51,19 +41,9 @@ REF005 = Code(
     mesh is made coarser and the sets stay as they were. Correct the number, or define the element. A range of which
     only some elements exist is a warning. Elements that only *CABLE can define are one info for it.
 
-    Example:
-         $MODEL
-         *NODE
-          1, 12.0, 0.0
-          5, 12.0, 40.0
-          GEN=1, 5
-         *ELEMENT
-          1, 1, 2
-          GEN=1, 4
-         *ELEMENT SETS
-          SET=Bend
-        - 3, 4, 5
-        + 3, 4
+    Example on sets:
+        - 1, 2, 5
+        + 1, 2
 
     Finds: 11:8
     """,
@@ -82,17 +62,9 @@ REF006 = Code(
     is spelt nearly as one in *LINES or *LINE LOCATIONS. Nodes that only *CABLE or *NODE,CURVILINEAR can
     define, whose lines are not read, are one info for the keyword.
 
-    Example:
-         $MODEL
-         *NODE
-          1, 12.0, 0.0
-          5, 12.0, 40.0
-          GEN=1, 5
-         *ELEMENT
-          1, 1, 2
-          GEN=1, 3
-        - 4, 4, 6
-        + 4, 4, 5
+    Example on sets:
+          GEN=1, 4
+        - 5, 5, 6
 
     Finds: 9:8
     """,
@@ -108,14 +80,9 @@ REF007 = Code(
     The later definition holds, and the earlier one is lost silently: a line copied and half changed puts a kink
     into the pipe, or leaves an element out. Remove one of the two, or give it another number.
 
-    Example:
-         $MODEL
-         *NODE
-          1, 12.0, 0.0
-          2, 12.0, 10.0
-          3, 12.0, 20.0
-        - 3, 12.0, 30.0
-        + 4, 12.0, 30.0
+    Example on sets:
+          GEN=1, 5
+        - 5, 12.0, 50.0
 
     Finds: 6:2
     """,
@@ -131,21 +98,15 @@ REF008 = Code(
     A set takes in all elements of its subsets. A set that is, through others, a subset of itself has no meaning, and a
     subset that does not exist leaves elements out. Remove one of the SUBSET= lines of the cycle, or correct the name.
 
-    Example:
-         $MODEL
-         *NODE
-          1, 12.0, 0.0
-          2, 12.0, 10.0
-         *ELEMENT
-          1, 1, 2
-         *ELEMENT SETS
-          SET=Riser
-          1
+    Example on sets:
+          1, 2
         - SUBSET=Whole Line
-          SET=Whole Line
-          SUBSET=Riser
+          SET=Flowline
+          GEN=3, 4
+        | SET=Whole Line
+        | SUBSET=Riser
 
-    Finds: 12:9
+    Finds: 16:9
     """,
 )
 
@@ -159,19 +120,11 @@ REF009 = Code(
     ALL holds every element of the model, whatever else the deck says, so the lines below this SET= have no effect,
     although a reader may expect it. Choose another name, or remove the lines.
 
-    Example:
-         $MODEL
-         *NODE
-          1, 12.0, 0.0
-          2, 12.0, 10.0
-         *ELEMENT
-          1, 1, 2
-         *ELEMENT SETS
+    Example on sets:
         - SET=All
-        + SET=Whole Line
-          1
+        + SET=Riser
 
-    Finds: 8:6
+    Finds: 10:6
     """,
 )
 
@@ -186,21 +139,11 @@ REF010 = Code(
     its start, whose increment does not lead to the end, or that would generate more than memory holds, is an error, as
     start and end may be exchanged or a digit wrong. Give the set its elements, or remove it.
 
-    Example:
-         $MODEL
-         *NODE
-          1, 12.0, 0.0
-          5, 12.0, 40.0
-          GEN=1, 5
-         *ELEMENT
-          1, 1, 2
-          GEN=1, 4
-         *ELEMENT SETS
-          SET=Upper
-        - GEN=4, 2
-        + GEN=2, 4
+    Example on sets:
+        - GEN=4, 3
+        + GEN=3, 4
 
-    Finds: 11:2
+    Finds: 13:2
     """,
 )
 
@@ -215,16 +158,11 @@ REF013 = Code(
     or correct its name. Items of a list have the name of the list in front, as in Soil_stiffness. Also reported are a
     PARA= of *VARIATION and a %name% in the names of files of *COMBINATIONS without a parameter: no deck could be made.
 
-    Example:
-         $PREPROCESSOR
-         *PARAMETERS
+    Example on parameters:
         - water depth, 850.0
         + depth, 850.0
-         $MODEL
-         *OCEAN
-          =[depth], 1025.0, 9.81
 
-    Finds: 6:2
+    Finds: 7:2
     """,
 )
 
@@ -237,14 +175,12 @@ REF014 = Code(
 
     Each of them needs the value of the other first, so none has a value. Give one of them as a number.
 
-    Example:
-         $PREPROCESSOR
-         *PARAMETERS
+    Example on parameters:
         - od, =[wall*17.0]
         + od, 0.3239
-          wall, =[od/17.0]
+        | wall, =[od/17.0]
 
-    Finds: 4:8
+    Finds: 5:8
     """,
 )
 

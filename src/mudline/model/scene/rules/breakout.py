@@ -29,18 +29,14 @@ def bad_breakout(scene: ResolvedDeck) -> Iterator[Problem]:
     the embedment. Both are a limit of their own across the line: CRITERION=ELLIPSE, and *SEABED TRENCH on the same
     element, have no place beside it. PEAK= or RESIDUAL= without them has no effect and is a warning.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on seabed:
           STIFFNESS=50000.0
-         *SEABED FRICTION
-          SET=ALL
-          COEFFICIENTS=0.3, 0.6
-          STIFFNESS=20000.0
-          LATERAL=PEAK-RESIDUAL
-          PEAK=1.2, 0.03
+        |*SEABED FRICTION
+        | SET=ALL
+        | COEFFICIENTS=0.3, 0.6
+        | STIFFNESS=20000.0
+        | LATERAL=PEAK-RESIDUAL
+        | PEAK=1.2, 0.03
         - RESIDUAL=1.3, 0.3
         + RESIDUAL=1.2, 0.3
 

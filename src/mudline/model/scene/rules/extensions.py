@@ -34,17 +34,15 @@ def extension_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     The laws of the extensions act on penetration, and nothing penetrates a rigid seabed or none at all. Write
     *SEABED PROPERTIES with TYPE=ELASTIC, or remove the keyword.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
+    Example on seabed:
         - TYPE=RIGID
         + TYPE=ELASTIC
           SET=ALL
         + STIFFNESS=50000.0
-          FRICTION=0.3, 0.6
-         *SEABED SUCTION
-          SET=ALL
-          COHESION=5000.0
+        | FRICTION=0.3, 0.6
+        |*SEABED SUCTION
+        | SET=ALL
+        | COHESION=5000.0
 
     Finds: 3:7
     """
@@ -75,15 +73,11 @@ def bad_cutoff(scene: ResolvedDeck) -> Iterator[Problem]:
     Suction rises up to the first corner, holds, and falls from the second one to breakout: both are fractions of the
     suction depth, 0.01 <= first <= second <= 0.99, so that rise and fall have a finite slope. Correct them.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on seabed:
           STIFFNESS=50000.0
-         *SEABED SUCTION
-          SET=ALL
-          COHESION=5000.0
+        |*SEABED SUCTION
+        | SET=ALL
+        | COHESION=5000.0
         - CUTOFF=0.8, 0.2
         + CUTOFF=0.2, 0.8
 
@@ -108,15 +102,11 @@ def suction_incomplete(scene: ResolvedDeck) -> Iterator[Problem]:
     depth is not dimensionally homogeneous, and the default of REGULARISATION= is in m/s: with user units neither can be
     converted, so that FORCE=, DEPTH= and REGULARISATION= must all be given. Give what is missing.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on seabed:
           STIFFNESS=50000.0
-         *SEABED SUCTION
-          SET=ALL
-          FORCE=3500.0, 0.18
+        |*SEABED SUCTION
+        | SET=ALL
+        | FORCE=3500.0, 0.18
         + DEPTH=0.3, 0.26
 
     Finds: 7:6
@@ -155,24 +145,9 @@ def suction_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     cut` the pull of a curve is left out, and there is one law only: such a deck is evaluated then. A curve that pulls
     only where it is extrapolated is a warning; a position that reaches this part of it is refused.
 
-    Example:
-         $MODEL
-         *NODE
-          1, -0.05, 0.0
-          5, -0.05, 40.0
-          GEN=1, 5
-         *ELEMENT
-          1, 1, 2
-          GEN=1, 4
-         *GEOMETRIC SETS
-          OPTION=RIGID
-          SET=ALL
-          207.0E9, 79.6E9, 0.3, 0.265, 7850.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on pipe:
           STIFFNESS=50000.0
-          SUCTION=8000.0, 0.15
+        | SUCTION=8000.0, 0.15
         -*SEABED SUCTION
         - SET=ALL
         - COHESION=5000.0
@@ -234,14 +209,10 @@ def unloading_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     divides and must be above 0. SMOOTHING=AUTO smooths nothing where the submerged weight is not known, or is not above
     0. NODAL STIFFNESS= replaces the law per unit length that would be unloaded.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on seabed:
           STIFFNESS=50000.0
-         *SEABED UNLOADING
-          SET=ALL
+        |*SEABED UNLOADING
+        | SET=ALL
         - STIFFNESS=0.0
         + STIFFNESS=500000.0
 

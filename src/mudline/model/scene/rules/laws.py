@@ -47,19 +47,11 @@ def rigid_with_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     meant. STIFFNESS= with a number, LATERAL= and SUCTION= have no effect and are a warning. Choose TYPE=ELASTIC, or
     remove the line.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Clay
-          0.0, 0.0
-          0.5, 4200.0
-         *SEABED PROPERTIES
+    Example on clay:
         - TYPE=RIGID
         + TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Clay
 
-    Finds: 9:12
+    Finds: 10:12
     """
     blocks = typed_blocks(scene.context) if "RIGID" in scene.laws.types and not extends_rigid(scene) else ()
     for where, properties, type_ in blocks:
@@ -84,11 +76,7 @@ def two_seabed_types(scene: ResolvedDeck) -> Iterator[Problem]:
     pasted from another deck is the usual cause. Remove one of them; a hard part of an elastic seabed takes a high
     stiffness.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on seabed:
           STIFFNESS=50000.0
         -*SEABED PROPERTIES
         - TYPE=RIGID
@@ -119,12 +107,8 @@ def missing_type(scene: ResolvedDeck) -> Iterator[Problem]:
     with the type of the one before it. A SET= that is missing at the beginning is a warning: the lines before the first
     SET= are read as SET=ALL (inferred), and so are the points of *EMBEDMENT before its first SET=.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
+    Example on seabed:
         + TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=50000.0
 
     Finds: 2:1
     """
@@ -230,33 +214,25 @@ def missing_diameter(scene: ResolvedDeck) -> Iterator[Problem]:
     diameter is Do of *GEOMETRIC SETS, or for OPTION=FLEXIBLE without Do the drag diameter Dd, and it must not be 0.
     Give the elements a section, or put them into a set that has one.
 
-    Example:
+    Example on clay:
          $MODEL
-         *NODE
-          1, -0.05, 0.0
-          5, -0.05, 40.0
-          GEN=1, 5
-         *ELEMENT
-          1, 1, 2
-          GEN=1, 4
-         *ELEMENT SETS
-          SET=Flowline
+        |*NODE
+        | 1, -0.05, 0.0
+        | 5, -0.05, 40.0
+        | GEN=1, 5
+        |*ELEMENT
+        | 1, 1, 2
+        | GEN=1, 4
+        |*ELEMENT SETS
+        | SET=Flowline
         - GEN=1, 3
         + GEN=1, 4
-         *GEOMETRIC SETS
-          OPTION=RIGID
-          SET=Flowline
-          207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
-         *SEABED STIFFNESS
-          CURVE=Clay
-          0.0, 0.0
-          0.5, 4200.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-          STIFFNESS=Clay
+        |*GEOMETRIC SETS
+        | OPTION=RIGID
+        | SET=Flowline
+        | 207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
 
-    Finds: 23:12
+    Finds: 24:12
     """
     if not scene.replaced and all(set_law.kind is not LawKind.CURVE for set_law in scene.laws.set_laws):
         return
@@ -302,18 +278,9 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     *MOMENT-CURVATURE, *FORCE-STRAIN and the like are looked up in the same way; without one of them the contact with
     the seabed can be computed all the same. It is a warning where a line that was not read may define the curve.
 
-    Example:
-         $MODEL
-         *SEABED STIFFNESS
-          CURVE=Soft Clay
-          0.0, 0.0
-          0.1, 1200.0
-          0.5, 4200.0
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
-        - STIFFNESS=Softclay
-        + STIFFNESS=Soft Clay
+    Example on clay:
+        - STIFFNESS=Caly
+        + STIFFNESS=Clay
 
     Finds: 10:12
     """

@@ -40,18 +40,16 @@ def profile_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     in three dimensions needs TYPE=ELASTIC. Cubic interpolation and DIRECTION= are described for elastic seabeds only,
     which is a warning (inferred).
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
+    Example on seabed:
         - TYPE=RIGID
         + TYPE=ELASTIC
           SET=ALL
         + STIFFNESS=50000.0
-          FRICTION=0.3, 0.6
-         *SEABED PROFILE
-          TYPE=SLOPING
-          DIRECTION=30.0
-          SLOPE=2.0
+        | FRICTION=0.3, 0.6
+        |*SEABED PROFILE
+        | TYPE=SLOPING
+        | DIRECTION=30.0
+        | SLOPE=2.0
 
     Finds: 8:12
     """
@@ -78,14 +76,10 @@ def steep_slope(scene: ResolvedDeck) -> Iterator[Problem]:
     A gradient in percent, typed as degrees, is a common cause. Correct it. A profile that rises by more than its whole
     width most likely has its columns exchanged: those of 2D are Y and elevation, those of 3D elevation, Y and Z.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on seabed:
           STIFFNESS=50000.0
-         *SEABED PROFILE
-          TYPE=SLOPING
+        |*SEABED PROFILE
+        | TYPE=SLOPING
         - SLOPE=95.0
         + SLOPE=2.5
 
@@ -162,19 +156,15 @@ def floor_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     *SEABED PLANES describes the whole seabed, and so does *SEABED PROFILE or the slope of a legacy surface. Which of
     them the pipe lies on would be a guess. Keep one of them.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on seabed:
           STIFFNESS=50000.0
         -*SEABED PROFILE
         - TYPE=SLOPING
         - SLOPE=2.0
-         *SEABED PLANES
-          PLANE=shelf
-          POINT=0.0, 0.0, 0.0
-          SLOPE=2.0
+        |*SEABED PLANES
+        | PLANE=shelf
+        | POINT=0.0, 0.0, 0.0
+        | SLOPE=2.0
 
     Finds: 9:1
     """
@@ -200,16 +190,12 @@ def bad_plane(scene: ResolvedDeck) -> Iterator[Problem]:
     first. Give what is missing. Two planes of one name are a warning: names are for readers, and case does not count in
     them.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on seabed:
           STIFFNESS=50000.0
-         *SEABED PLANES
-          PLANE=shelf
-          POINT=0.0, 0.0, 0.0
-          SLOPE=2.0
+        |*SEABED PLANES
+        | PLANE=shelf
+        | POINT=0.0, 0.0, 0.0
+        | SLOPE=2.0
         - BOUNDS=900.0, 200.0, -500.0, 500.0
         + BOUNDS=200.0, 900.0, -500.0, 500.0
 

@@ -50,26 +50,11 @@ def soil_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     soil replaces the curve of an element, which is said as information; the number that the keyword family asks for is
     replaced without a word.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on pipe:
           STIFFNESS=50000.0
-         *NODE
-          1, -0.05, 0.0
-          5, -0.05, 40.0
-          GEN=1, 5
-         *ELEMENT
-          1, 1, 2
-          GEN=1, 4
-         *GEOMETRIC SETS
-          OPTION=RIGID
-          SET=ALL
-          207.0E9, 79.6E9, 0.3, 0.265, 7850.0
-         *SEABED SOIL
-          SET=ALL
-          STRENGTH=5000.0, 1500.0
+        |*SEABED SOIL
+        | SET=ALL
+        | STRENGTH=5000.0, 1500.0
         -*SEABED UNLOADING
         - SET=ALL
         - STIFFNESS=500000.0
@@ -105,14 +90,10 @@ def impossible_soil(scene: ResolvedDeck) -> Iterator[Problem]:
     raised to powers and must be above 0; a strength that falls with depth would become negative, and ratios, weights
     and factors below 0 have no meaning. Correct the value.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on seabed:
           STIFFNESS=50000.0
-         *SEABED SOIL
-          SET=ALL
+        |*SEABED SOIL
+        | SET=ALL
         - STRENGTH=5000.0, -1500.0
         + STRENGTH=5000.0, 1500.0
 
@@ -141,15 +122,11 @@ def unusual_soil(scene: ResolvedDeck) -> Iterator[Problem]:
     as the resistance against penetration. A value in another unit or in the wrong field is the usual cause. With user
     units the numbers are taken as they are, which is said as information: use one system for lengths and forces.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on seabed:
           STIFFNESS=50000.0
-         *SEABED SOIL
-          SET=ALL
-          STRENGTH=5000.0, 1500.0
+        |*SEABED SOIL
+        | SET=ALL
+        | STRENGTH=5000.0, 1500.0
         - BEARING=6000.0, 0.25
         + BEARING=6.0, 0.25
 

@@ -44,18 +44,14 @@ def bad_trench(scene: ResolvedDeck) -> Iterator[Problem]:
     MODEL=WALL. PEAK= beside MODEL=WALL has no effect and is a warning, and so are elements whose friction this deck may
     not show. Correct the value, or give what is missing.
 
-    Example:
-         $MODEL
-         *SEABED PROPERTIES
-          TYPE=ELASTIC
-          SET=ALL
+    Example on seabed:
           STIFFNESS=50000.0
-          FRICTION=0.3, 0.6
-         *SEABED TRENCH
-          SET=ALL
+        | FRICTION=0.3, 0.6
+        |*SEABED TRENCH
+        | SET=ALL
         - GEOMETRY=0.5, 3.0, 1.0
         + GEOMETRY=0.5, 1.0, 3.0
-          PEAK=2000.0
+        | PEAK=2000.0
 
     Finds: 9:2
     """
