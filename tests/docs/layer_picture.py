@@ -11,11 +11,11 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2] / "src" / "mudline"
 
-ROOMS = ("language", "model", "editing", "tools")
-"""The rooms whose packages have a box each; the others are a box."""
+LAYERS = ("language", "model", "editing", "tools")
+"""The layers whose packages have a box each; each of the others is a box."""
 BASE = "codes, diagnostics, rules"
 API = ("api", "plugins")
-_ROOM_COLOURS = {"language": "#e8f0f7", "model": "#e6f4e6", "editing": "#fdf1d8", "tools": "#f3e8f5", "": "#f2f2f2"}
+_COLOURS = {"language": "#e8f0f7", "model": "#e6f4e6", "editing": "#fdf1d8", "tools": "#f3e8f5", "": "#f2f2f2"}
 
 _WIDTH, _ROW, _BOX = 880, 74, (118, 34)
 _GAP, _CROSSING = 10, 16
@@ -26,7 +26,7 @@ Graph = dict[str, set[str]]
 
 
 def packages() -> Graph:
-    """Return for each package of a room the packages that it imports; small modules beside each other are one."""
+    """Return for each package of a layer the packages that it imports; small modules beside each other are one."""
     graph: Graph = {}
     for path in ROOT.rglob("*.py"):
         importer = _package(path.relative_to(ROOT).with_suffix("").parts)
@@ -40,7 +40,7 @@ def _package(parts: tuple[str, ...]) -> str:
     """The box that a module belongs to, by the parts of its path; "" for the package mudline itself."""
     if parts[0] in API:
         return ", ".join(API)
-    if parts[0] not in ROOMS:
+    if parts[0] not in LAYERS:
         return "" if parts[0] in {"__init__", "__main__"} else parts[0]
     name = parts[1] if len(parts) > 1 else "__init__"
     return "" if name == "__init__" else BASE if name in BASE.split(", ") else name
@@ -51,7 +51,7 @@ def _imported(path: Path) -> Iterator[tuple[str, ...]]:
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.ImportFrom) and node.module and node.module.partition(".")[0] == "mudline":
             parts = tuple(node.module.split(".")[1:])
-            if not parts or parts in {(room,) for room in ROOMS}:
+            if not parts or parts in {(layer,) for layer in LAYERS}:
                 yield from ((*parts, alias.name) for alias in node.names if alias.name != "__version__")
             else:
                 yield parts
@@ -128,16 +128,16 @@ def _box_width(name: str) -> int:
     return max(_BOX[0], 8 * len(name) + 12)
 
 
-def _room(name: str) -> str:
-    """The room of a box, "" for one that is a room of its own."""
+def _layer(name: str) -> str:
+    """The layer of a box, "" for one that is a layer of its own."""
     first = name.split(", ", maxsplit=1)[0]
-    return next((room for room in ROOMS if (ROOT / room / first).exists()), "")
+    return next((layer for layer in LAYERS if (ROOT / layer / first).exists()), "")
 
 
 def _box(name: str, x: float, y: float) -> str:
     width, height = _box_width(name), _BOX[1]
     return (
         f'<rect x="{x - width / 2:.0f}" y="{y - height / 2:.0f}" width="{width}" height="{height}" rx="4"'
-        f' fill="{_ROOM_COLOURS[_room(name)]}" stroke="#36648b"/>'
+        f' fill="{_COLOURS[_layer(name)]}" stroke="#36648b"/>'
         f'<text x="{x:.0f}" y="{y + 4.5:.0f}" text-anchor="middle" style="{_STYLE}">{name}</text>\n'
     )
