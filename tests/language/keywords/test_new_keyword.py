@@ -79,7 +79,13 @@ def anchor(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """The keyword, as if the library had it."""
     (tmp_path / "seabed_anchor.py").write_text(MODULE, encoding="utf-8")
     monkeypatch.setattr(library, "__path__", [*library.__path__, str(tmp_path)])
-    caches = (catalogue._by_keyword, catalogue.keywords, catalogue.read_keywords, catalogue.sections_of, catalogue.load)
+    caches = [
+        found
+        for name, module in list(sys.modules.items())
+        if name.startswith(("mudline.language.keywords", "mudline.checks.recovery"))
+        for found in vars(module).values()
+        if hasattr(found, "cache_clear")
+    ]
     monkeypatch.setattr(index, "ENTRIES", tuple(declared_entries()))
     known, new = grammars.definitions("blocks"), load_grammar(RULES, "new", [], False)[0]
     monkeypatch.setattr(known, "rule_defs", [*known.rule_defs, *new.rule_defs])

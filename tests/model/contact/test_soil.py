@@ -53,7 +53,11 @@ soils = st.builds(
     lambda_rep=st.floats(0.0, 1.5),
     buoyancy=st.sampled_from([0.0, 9000.0]),
 )
-depths = st.one_of(st.floats(-0.05, 0.3), st.floats(0.0, 0.03), st.sampled_from([-0.01, 0.0, 0.1]))
+depths = st.one_of(
+    st.floats(-0.05, 0.3, allow_subnormal=False),
+    st.floats(0.0, 0.03, allow_subnormal=False),
+    st.sampled_from([-0.01, 0.0, 0.1]),
+)
 paths = st.lists(depths, min_size=1, max_size=9)
 
 # -------------------------------------------------------------------------------------------------------------- numbers
