@@ -9,13 +9,15 @@ from hypothesis import strategies as st
 from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Opaque
 from mudline.language.keywords import catalogue
+from mudline.language.keywords.library.lines import LinePathSections, LineSectionGroups
+from mudline.language.keywords.model import Block
 from mudline.language.keywords.values import Names, OpaqueKeyword
 from tests.helpers.builders.scenes import deck_of, faults
 from tests.helpers.builders.spellings import no_head, texts
 from tests.language.deck.test_forms import held
 
 OPAQUE = [kept for kept in catalogue.opaque_keywords() if kept.sections == ("MODEL",)]
-MODELLED = ("line_section_groups", "line_path_sections")
+MODELLED = (LineSectionGroups, LinePathSections)
 
 GROUPS = """\
 $MODEL
@@ -51,9 +53,8 @@ def block(text: str) -> dict[str, object]:
 # ------------------------------------------------------------------------------------------------------------- models
 
 
-@pytest.mark.parametrize("module", MODELLED)
-def test_examples(module: str) -> None:
-    declared = catalogue.load(module)
+@pytest.mark.parametrize("declared", MODELLED)
+def test_examples(declared: type[Block]) -> None:
     text = "$MODEL\n" + declared.example
     assert dump(deck_of(text), "keyword") == text
     assert list(block(text)) != []

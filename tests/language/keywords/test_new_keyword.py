@@ -61,8 +61,6 @@ class SeabedAnchor(Block):
     keyword: Literal["SEABED ANCHOR"] = "SEABED ANCHOR"
     sets: list[AnchorSet] = []
 
-
-BLOCK = SeabedAnchor
 '''
 RULES = """
 seabed_anchor: anchor_set*
@@ -79,7 +77,7 @@ def anchor(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """The keyword, as if the library had it."""
     (tmp_path / "seabed_anchor.py").write_text(MODULE, encoding="utf-8")
     monkeypatch.setattr(library, "__path__", [*library.__path__, str(tmp_path)])
-    caches = (catalogue._by_keyword, catalogue.keywords, catalogue.read_keywords, catalogue.sections_of, catalogue.load)
+    caches = [one for one in vars(catalogue).values() if hasattr(one, "cache_clear")]
     monkeypatch.setattr(index, "ENTRIES", tuple(declared_entries()))
     known, new = grammars.definitions("blocks"), load_grammar(RULES, "new", [], False)[0]
     monkeypatch.setattr(known, "rule_defs", [*known.rule_defs, *new.rule_defs])
@@ -150,7 +148,7 @@ def test_schema() -> None:
 
 
 def test_page() -> None:
-    page = keyword_page(catalogue.load("seabed_anchor"))
+    page = keyword_page(catalogue.declarations(NAME)[0])
     assert f"# `*{NAME}`" in page
     assert "SPACING=number" in page
     assert all(f"[{code}](../rules/{code}.md)" in page for code in ("EXT001", "REF001", "SBD010"))

@@ -33,22 +33,22 @@ ASKING = frozenset(
 CONSTANTS = frozenset({"KEYWORD", "_KEYWORD"})
 
 EXCEPTIONS = {
-    "comparison/comparing.py": "asks for the labels in the blocks of nodes and of elements",
-    "export/held.py": "ends on a vessel, by the TYPE= of a boundary",
-    "export/line_model.py": "the blocks that a line of another program says, and curves of which it takes a slope",
-    "export/report.py": "says in words what becomes of a keyword in another program",
-    "export/soil.py": "says which settings of a law another program has not",
-    "migration/refusals.py": "what a seabed or a deck before has instead, and whose laws a migrated surface would meet",
-    "migration/rewriting.py": "writes these blocks",
-    "results/evaluation.py": "says what may make the elements, or the nodes, that a deck lacks",
-    "results/laws_in_use.py": "inner pipes need no law of the seabed",
-    "results/warnings.py": "what is not read and makes a line heavier",
-    "results/summary.py": "says which of two blocks a curve came from",
-    "scene/rules/soil.py": "names the laws that it refuses beside a soil",
-    "scene/rules/fields.py": "leaves the geometry of a trench to EXT003, which has words of its own for it",
-    "scene/context.py": "a lost line of lines defines a set, as it names one",
-    "study/pruning.py": "the blocks that give the stages of a plan, whose lines it shows",
-    "variations/names.py": "asks whether the blocks that it reads may stand elsewhere",
+    "editing/comparison/comparing.py": "asks for the labels in the blocks of nodes and of elements",
+    "tools/exporting/held.py": "ends on a vessel, by the TYPE= of a boundary",
+    "tools/exporting/line_model.py": "blocks that a line of another program says, and curves whose slope it takes",
+    "tools/exporting/report.py": "says in words what becomes of a keyword in another program",
+    "tools/exporting/soil.py": "says which settings of a law another program has not",
+    "editing/migration/refusals.py": "what a seabed or a deck before has instead, and whose laws a surface would meet",
+    "editing/migration/rewriting.py": "writes these blocks",
+    "model/results/evaluation.py": "says what may make the elements, or the nodes, that a deck lacks",
+    "model/results/laws_in_use.py": "inner pipes need no law of the seabed",
+    "model/results/warnings.py": "what is not read and makes a line heavier",
+    "model/results/summary.py": "says which of two blocks a curve came from",
+    "model/scene/rules/soil.py": "names the laws that it refuses beside a soil",
+    "model/scene/rules/fields.py": "leaves the geometry of a trench to EXT003, which has words of its own for it",
+    "model/scene/context.py": "a lost line of lines defines a set, as it names one",
+    "tools/study/pruning.py": "the blocks that give the stages of a plan, whose lines it shows",
+    "editing/variations/names.py": "asks whether the blocks that it reads may stand elsewhere",
 }
 """Modules that name keywords in another way, and why."""
 
@@ -89,8 +89,7 @@ def test_no_module_lists_keywords_to_know_a_fact() -> None:
 
 
 def test_the_index_of_the_catalogue_says_what_the_classes_say() -> None:
-    for module in catalogue.modules():
-        block = catalogue.load(module)
+    for block in catalogue.block_classes():
         name = block.model_fields["keyword"].default
         assert get_args(block.model_fields["keyword"].annotation) == (name,)
         assert block in catalogue.declarations(name)
@@ -118,7 +117,7 @@ def test_a_keyword_of_which_only_the_name_is_known_imports_nothing() -> None:
 
 
 def test_facts_fit_each_other() -> None:
-    blocks = [catalogue.load(module) for module in catalogue.modules()]
+    blocks = catalogue.block_classes()
     newer = {successor.keyword for block in blocks for successor in block.facts.superseded_by}
     assert newer == {block.model_fields["keyword"].default for block in blocks if block.facts.supersedes}
     for block in blocks:

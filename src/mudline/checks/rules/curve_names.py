@@ -25,8 +25,8 @@ from mudline.model.contact.input import LawKind
 from mudline.model.scene.names import CURVES, repeated, unused
 
 if TYPE_CHECKING:
+    from mudline.language.keywords.library.preprocessor import Variation
     from mudline.language.keywords.library.seabed_properties import SeabedProperties
-    from mudline.language.keywords.library.variation import Variation
     from mudline.model.scene.force_curves import SceneCurve
 
 REF004 = Code("REF004", "duplicate-curve", Severity.WARNING)

@@ -28,8 +28,7 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Mask
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.cable import Cables
-    from mudline.language.keywords.library.node_curvilinear import CurvilinearNodes
+    from mudline.language.keywords.library.curvilinear import Cables, CurvilinearNodes
 
 GEO007 = Code("GEO007", "element-without-section", Severity.WARNING)
 GEO008 = Code("GEO008", "missing-hydrodynamics", Severity.INFO)

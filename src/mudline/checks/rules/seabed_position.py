@@ -19,7 +19,7 @@ from mudline.model.scene.seabed import SeabedKind, SeabedShape
 from mudline.model.scene.vertical_axis import FLAT
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.boundary import Boundary, FixedNode, FixedRange
+    from mudline.language.keywords.library.loads import Boundary, FixedNode, FixedRange
 
 SBD021 = Code("SBD021", "one-constrained-dof", Severity.WARNING)
 SBD022 = Code("SBD022", "deep-node", Severity.WARNING)

@@ -15,10 +15,9 @@ from mudline.language.rules import rule
 from mudline.model.scene.deck_values import DEFAULT_GRAVITY, number
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.current import Current
-    from mudline.language.keywords.library.time import TimeSpan
-    from mudline.language.keywords.library.wave_regular import RegularWaves
-    from mudline.language.keywords.library.wave_stokes import StokesWave
+    from mudline.language.keywords.library.analysis import TimeSpan
+    from mudline.language.keywords.library.currents import Current
+    from mudline.language.keywords.library.waves import RegularWaves, StokesWave
 
 WAV002 = Code("WAV002", "breaking-wave", Severity.WARNING)
 TIM003 = Code("TIM003", "ramp-does-not-fit", Severity.WARNING)

@@ -17,9 +17,8 @@ from mudline.language.keywords.unknown import is_unknown, known_name
 from mudline.language.syntax.tree import canonical_name
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.combinations import Combinations
-    from mudline.language.keywords.library.parameters import Parameters as ParameterBlock
-    from mudline.language.keywords.library.variation import Variation, VariedBlock
+    from mudline.language.keywords.library.preprocessor import Combinations, Variation, VariedBlock
+    from mudline.language.keywords.library.preprocessor import Parameters as ParameterBlock
 
 
 def unquoted(text: str) -> str:

@@ -32,7 +32,7 @@ from mudline.language.keywords.text import shown
 from mudline.language.syntax.source import Source
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.combinations import Combination
+    from mudline.language.keywords.library.preprocessor import Combination
 
 
 @dataclass(frozen=True, slots=True)

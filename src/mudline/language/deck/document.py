@@ -320,7 +320,7 @@ def json_schema() -> dict[str, Any]:
 
     In which section a keyword belongs is left to reading, as a deck may hold a keyword in the wrong one.
     """
-    blocks = [catalogue.load(module) for module in catalogue.modules()]
+    blocks = catalogue.block_classes()
     models: list[type[BaseModel]] = [*blocks, Opaque, Comment]
     made, schema = models_json_schema([(model, "validation") for model in models], ref_template=_REFERENCE)
     references = {model: made[model, "validation"] for model in models}
