@@ -8,8 +8,7 @@ from collections.abc import Iterable, Iterator
 from itertools import groupby
 from typing import TYPE_CHECKING, cast
 
-from mudline.checks.context import LintContext
-from mudline.checks.joints import Found, Joined, joint
+from mudline.checks.context import Found, Joined, LintContext, joint
 from mudline.checks.suppression import MARK
 from mudline.language.codes.contact import REF003, SBD006, SBD017
 from mudline.language.deck.parameters import folded

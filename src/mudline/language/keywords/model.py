@@ -22,9 +22,18 @@ from pydantic_core import CoreSchema, core_schema
 
 from mudline.basics.limits import MOST_KEYS
 from mudline.basics.short_repr import counted, with_fields
-from mudline.language.keywords.annotations import choices_of, is_list, kind_of, metadata_of, parts_of
-from mudline.language.keywords.fields import AS_TEXT, FieldInfo, Setting
-from mudline.language.keywords.json_schema import cell_schema, with_limits
+from mudline.language.keywords.fields import (
+    AS_TEXT,
+    FieldInfo,
+    Setting,
+    cell_schema,
+    choices_of,
+    is_list,
+    kind_of,
+    metadata_of,
+    parts_of,
+    with_limits,
+)
 from mudline.language.keywords.table import (
     AS_TABLES,
     Cell,

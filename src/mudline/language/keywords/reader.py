@@ -14,15 +14,13 @@ from mudline.basics.spelling import nearest
 from mudline.language.codes.lines import SYN001, SYN004, SYN013, SYN014
 from mudline.language.diagnostics import Problem, Severity, Span
 from mudline.language.keywords import grammar
-from mudline.language.keywords.attaching import Between, attach
+from mudline.language.keywords.attaching import Between, attach, doubtful, of_other_form
 from mudline.language.keywords.builder import Builder
-from mudline.language.keywords.constructing import construct, lose
 from mudline.language.keywords.fields import AS_TEXT
 from mudline.language.keywords.grammar import END, ROW, Content, Mismatch
 from mudline.language.keywords.keeping import is_choice, opened
-from mudline.language.keywords.kept_lines import doubtful, of_other_form
 from mudline.language.keywords.model import Block, Part, RecordSchema, record_schema
-from mudline.language.keywords.parsed import ParsedRecord
+from mudline.language.keywords.parsed import ParsedRecord, construct, lose
 from mudline.language.keywords.places import Places
 from mudline.language.keywords.text import hint, instead, merge_per_line, shown, suggestion
 from mudline.language.syntax.fields import first_key, trimmed
