@@ -199,9 +199,10 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
     Suppressed problems are among them; unused suppression comments are not.
     """
     found: list[Problem] = []
+    noticed = context.noticed
     for rule in chosen:
         if rule.check is None or rule.blocks:
-            found += context.problems_of(rule.code)
+            found += noticed.get(rule.code.code, ())
         else:
             found.extend(map(_advice, rule.findings(context)))
     return [problem for problem in found if not of_base(context.deck, problem)]

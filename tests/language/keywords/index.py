@@ -6,17 +6,15 @@ from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
-from typing import get_args
 
 from mudline.language.keywords import catalogue, library
 from mudline.language.keywords.model import Block
-from mudline.language.keywords.naming import Role, kinds_of
+from mudline.language.keywords.naming import ROLES, kinds_of
 from mudline.language.keywords.values import SUBJECTS, Entry, OpaqueKeyword
 
 _WIDE = 115
 INDEX = Path("src/mudline/language/keywords/index.py")
 
-ROLES: tuple[Role, ...] = get_args(Role)
 
 _PAGE = '''\
 """Every declaration of the library; `make index` makes this of them: change those."""
