@@ -141,13 +141,12 @@ class TextOrigin(Origin):
     tree: SyntaxTree
     read: dict[tuple[int, int], ReadBlock] = field(default_factory=dict)
     no_equations: bool = False
+    source: Source = field(init=False)
 
     __repr__ = short_repr
 
-    @property
-    def source(self) -> Source:
-        """The text."""
-        return self.tree.source
+    def __post_init__(self) -> None:
+        self.source = self.tree.source
 
     def span(self, where: Where) -> Span | None:
         """The span of a value, of its block or section where it has none."""

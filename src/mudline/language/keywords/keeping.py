@@ -74,9 +74,9 @@ def _holds_keepers(slot: FieldSpec) -> bool:
     return any(map(keeps_lines, slot.parts))
 
 
-def kept_lines(part: Part) -> Iterator[str]:
-    """Yield the lines that a part and those inside it keep."""
-    return (line for _, line in kept_places(part))
+def kept_lines(part: Part) -> list[str]:
+    """Return the lines that a part and those inside it keep."""
+    return [line for _, line in kept_places(part)]
 
 
 def kept_places(part: Part) -> Iterator[tuple[Path, str]]:
