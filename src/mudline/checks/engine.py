@@ -124,19 +124,24 @@ def _meant(context: LintContext, chosen: Sequence[Rule], *, suppress: bool) -> R
 
 
 def _as_severe(context: LintContext, meant: Recovered) -> list[Problem]:
-    """Return the causes of a deck, as severe as what follows from them: errors where the deck is refused for it."""
+    """Return the causes of a deck, as severe as what follows from them: errors where the deck is refused for it.
+
+    What follows from warnings beside errors is seen in the deck in which the errors are corrected.
+    """
     causes = meant.causes
-    if any(one.weight is Severity.ERROR for one in causes):
+    doubtful = [one for one in causes if one.weight is not Severity.ERROR]
+    judged = meant.without_errors(context) if doubtful else None
+    if judged is None:
         return causes
     others = {(one.code, one.message) for one in meant.context.scene.blocking()}
     following = [
         one
-        for one in context.scene.blocking()
+        for one in judged.scene.blocking()
         if one.weight is not Severity.INFO and (one.code, one.message) not in others
     ]
     if not following:
         return causes
-    worst = max((one.weight for one in causes), key=lambda severity: severity.rank)
+    worst = max((one.weight for one in doubtful), key=lambda severity: severity.rank)
     return [_as_error(one, strongest(following)) if one.weight is worst else one for one in causes]
 
 

@@ -82,9 +82,13 @@ class Reading:
 
 @dataclass
 class Recovered:
-    """A deck with its faults corrected, and the finding of each in terms of the file; `steps` lead back to that."""
+    """A deck with its faults corrected, and the finding of each in terms of the file; `steps` lead back to that.
+
+    `again` reads a text.
+    """
 
     context: LintContext
+    again: Callable[[bytes], Deck]
     causes: list[Problem] = field(default_factory=list)
     steps: list[Undoing] = field(default_factory=list)
 
@@ -93,20 +97,35 @@ class Recovered:
         """The deck."""
         return self.context.deck
 
-    def take(self, corrections: Sequence[Correction], again: Callable[[bytes], Deck]) -> bool:
+    def take(self, corrections: Sequence[Correction]) -> bool:
         """Read the deck with some corrections; whether these could be made."""
-        text = self.context.text
-        if text is None or not corrections:
+        if (text := self.context.text) is None or not corrections:
             return False
-        edits = with_line_ends(text.source, chain.from_iterable(one.edits for one in corrections))
-        try:
-            deck = again(edited_bytes(text.source, edits))
-        except (OverlapError, UnicodeEncodeError):  # of a character that the encoding lacks
+        made = [replace(one, edits=tuple(with_line_ends(text.source, one.edits))) for one in corrections]
+        edits = [edit for one in made for edit in one.edits]
+        after = self._edited(self.context, text.source, edits)
+        if after is None:
             return False
-        self.causes += self.as_written(map(_cause, corrections))
+        self.causes += self.as_written(map(_cause, made))
         self.steps.append(Undoing(edits))
-        self.context = LintContext(deck, self.context.dialect, self.context.fixing)
+        self.context = after
         return True
+
+    def _edited(self, context: LintContext, source: Source, edits: Sequence[TextEdit]) -> LintContext | None:
+        """The deck of a context with edits made; None where they cannot be made."""
+        try:
+            deck = self.again(edited_bytes(source, edits))
+        except (OverlapError, UnicodeEncodeError):  # of a character that the encoding lacks
+            return None
+        return LintContext(deck, context.dialect, context.fixing)
+
+    def without_errors(self, written: LintContext) -> LintContext | None:
+        """The deck as written with those causes alone corrected that are errors; None where one cannot be."""
+        repairs = [one.repair for one in self.causes if one.weight is Severity.ERROR]
+        if not repairs:
+            return written
+        edits = [TextEdit(*edit) for repair in repairs if repair for edit in repair.edits]
+        return self._edited(written, written.text.source, edits) if written.text and all(repairs) else None
 
     def as_written(self, problems: Iterable[Problem]) -> Iterator[Problem]:
         """Problems of the recovered deck at their places in the file, without those of what corrections put in.
@@ -137,19 +156,19 @@ def recovered(context: LintContext, codes: Collection[str], reading: Reading) ->
 
     `codes` are those of findings that are wanted at all.
     """
-    found = Recovered(context)
+    found = Recovered(context, reading.again)
     reported = reading.reported([one for one in context.deck.problems if one.code.code in codes])
     trials = MOST_TRIALS
     while len(found.steps) < MOST_ROUNDS and (text := found.context.text) is not None:
         round_ = _Round(Blocks(found.deck, text), reading.block, codes, trials)
-        if not found.take(round_.taken(reported), reading.again):
+        if not found.take(round_.taken(reported)):
             break
         trials = round_.trials
         reported = [one for one in found.deck.problems if one.code.code in codes]
     if found.context.scene.lacks:
         late = values.scene_corrections(found.context)
         wanted = [one for one in late if one.cause.code.code in codes]
-        found.take([one for one in wanted if reading.reported([*found.as_written([one.cause])])], reading.again)
+        found.take([one for one in wanted if reading.reported([*found.as_written([one.cause])])])
     return found if found.steps else None
 
 
