@@ -14,9 +14,8 @@ from typing import TYPE_CHECKING, Any, cast
 from mudline.checks.context import LintContext
 from mudline.checks.suppression import suppressions
 from mudline.language.codes.lines import SYN009, SYN010
-from mudline.language.deck.coverage import coverage_of
 from mudline.language.deck.faults import MisspeltDeckError
-from mudline.language.deck.loading import load_bytes
+from mudline.language.deck.loading import coverage_of, load_bytes
 from mudline.language.deck.model import BaseProblem, Deck, Opaque
 from mudline.language.deck.reading import TextOrigin, units_of
 from mudline.language.diagnostics import Blocks, Coverage, DeckError, Diagnostic, Problem, Severity, strongest

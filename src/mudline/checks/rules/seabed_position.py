@@ -113,7 +113,7 @@ def _is_bed(scene: Scene) -> bool:
 class Bounds(NamedTuple):
     """The highest and the deepest node, normal to the seabed, the lowest X, the first and the last Z: NaN with a NaN.
 
-    Of the known diameters the smallest and the largest, inf and 0 without any. With no nodes all is infinite.
+    Of the known diameters the smallest, inf without any. With no nodes all is infinite.
     """
 
     highest: float
@@ -122,7 +122,6 @@ class Bounds(NamedTuple):
     first: float
     last: float
     thinnest: float
-    thickest: float
 
 
 def bounds_of(context: LintContext) -> Bounds:
@@ -148,7 +147,6 @@ def bounds_of(context: LintContext) -> Bounds:
         first,
         last,
         float(np.fmin.reduce(scene.diameter, initial=np.inf)),
-        float(np.fmax.reduce(scene.diameter, initial=0.0)),
     )
 
 

@@ -33,12 +33,11 @@ _ROUNDED = 1e-3
 
 
 class _Wave(NamedTuple):
-    """A wave of one period: its height, and the places of height and period."""
+    """A wave of one period: its height, and the place of the height."""
 
     height: float
     period: float
     at_height: Where
-    at_period: Where
 
 
 def waves(context: LintContext) -> list[_Wave]:
@@ -48,11 +47,10 @@ def waves(context: LintContext) -> list[_Wave]:
         for index, entry in enumerate(cast("RegularWaves", block).waves):
             place = where.inside("waves", index, "wave")
             height, period = 2.0 * number(entry.wave, "amplitude"), number(entry.wave, "period")
-            found.append(_Wave(height, period, place.inside("amplitude"), place.inside("period")))
+            found.append(_Wave(height, period, place.inside("amplitude")))
     for where, block in context.blocks("WAVE-STOKES", "LOAD CASE"):
         wave = cast("StokesWave", block)
-        places = where.inside("height"), where.inside("period")
-        found.append(_Wave(number(wave, "height"), number(wave, "period"), *places))
+        found.append(_Wave(number(wave, "height"), number(wave, "period"), where.inside("height")))
     return [wave for wave in found if wave.height > 0.0 and wave.period > 0.0]
 
 

@@ -235,8 +235,7 @@ def _path(value: Any, steps: DocumentPath) -> DocumentPath:
     """The steps that a document has: pydantic puts the names of alternatives between them."""
     path: list[str | int] = []
     for step in steps:
-        here = step in value if isinstance(value, dict) else isinstance(value, list) and isinstance(step, int)
-        if here:
+        if _holds(value, step):
             path.append(step)
             value = value[step]
     return tuple(path)

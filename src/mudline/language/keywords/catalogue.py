@@ -105,13 +105,8 @@ def load_opaque(entry: Entry) -> OpaqueKeyword:
     return cast("OpaqueKeyword", getattr(import_module(f"{_LIBRARY}.{entry.module}"), entry.name))
 
 
-def kept_keywords(section: str) -> list[str]:
-    """The keywords of a section that `opaque_keyword` knows, in the order of the catalogue."""
-    return [entry.keyword for entry in index.ENTRIES if entry.kept and section in entry.sections]
-
-
 def opaque_keywords() -> list[OpaqueKeyword]:
-    """Every keyword that `opaque_keyword` knows, in the order of the catalogue."""
+    """Every declaration of a keyword whose lines are kept, in the order of the catalogue."""
     return [load_opaque(entry) for entry in index.ENTRIES if entry.kept]
 
 
