@@ -122,13 +122,20 @@ def _meant(context: LintContext, chosen: Sequence[Rule], *, suppress: bool) -> R
     return recovered(context, {rule.code.code for rule in chosen}, Reading(again, _read_once, reported))
 
 
+_MISSPELT = (SYN009, SYN010)
+"""Codes of keywords and sections that are not known."""
+
+
 def _as_severe(context: LintContext, meant: Recovered) -> list[Problem]:
     """Return the causes of a deck, as severe as what follows from them: errors where the deck is refused for it.
 
-    What follows from warnings beside errors is seen in the deck in which the errors are corrected.
+    Beside errors only misspelt keywords and sections are judged, whose lines are all lost: what follows from them is
+    seen in the deck in which the errors are corrected.
     """
     causes = meant.causes
     doubtful = [one for one in causes if one.weight is not Severity.ERROR]
+    if len(doubtful) < len(causes):
+        doubtful = [one for one in doubtful if one.code in _MISSPELT]
     judged = meant.without_errors(context) if doubtful else None
     if judged is None:
         return causes
@@ -141,7 +148,7 @@ def _as_severe(context: LintContext, meant: Recovered) -> list[Problem]:
     if not following:
         return causes
     worst = max((one.weight for one in doubtful), key=lambda severity: severity.rank)
-    return [_as_error(one, strongest(following)) if one.weight is worst else one for one in causes]
+    return [_as_error(one, strongest(following)) if one in doubtful and one.weight is worst else one for one in causes]
 
 
 def _as_error(problem: Problem, blocks: Blocks) -> Problem:
@@ -150,7 +157,7 @@ def _as_error(problem: Problem, blocks: Blocks) -> Problem:
 
 def _misspelt_as_errors(context: LintContext, found: list[Problem]) -> list[Problem]:
     """Make errors of the misspelt names in a deck of which nothing can be judged, as no keyword in it is read."""
-    misspelt = [one for one in found if one.repair and one.code in (SYN009, SYN010)]
+    misspelt = [one for one in found if one.repair and one.code in _MISSPELT]
     coverage = coverage_of(context.deck) if misspelt else None
     if coverage is None or coverage.read or coverage.partly:
         return found
