@@ -7,9 +7,8 @@ from dataclasses import replace
 import pytest
 
 from mudline.checks import joining
-from mudline.checks.context import LintContext
+from mudline.checks.context import Joined, LintContext
 from mudline.checks.joining import joined_findings
-from mudline.checks.joints import Joined
 from mudline.language.codes.fields import SYN002, SYN003
 from mudline.language.codes.lines import SYN014
 from mudline.language.deck.forms.json import to_json

@@ -249,6 +249,21 @@ def test_line_ends_and_units_change_nothing(name: str, end: str) -> None:
         assert len(told) == 1 or name == "deck.keyx"
 
 
+def test_a_proposed_line_ends_as_those_of_the_file() -> None:
+    (one,) = (one for one in found(changed(("*NODE\n", "")).replace("\n", "\r\n")) if one.code != "STY006")
+    assert one.fix is not None
+    assert [edit.text for edit in one.fix.edits] == ["*NODE\r\n"]
+
+
+def test_a_misspelt_keyword_is_an_error_beside_another_one() -> None:
+    keyword, setting = ("*GEOMETRIC SETS\n", "*GEOMETRIK SETS\n"), (" STIFFNESS=", " STIFNESS=")
+    alone = only(changed(keyword))
+    beside, other = found(changed(keyword, setting))
+    assert (alone.code, alone.severity, alone.blocks) == ("SYN009", Severity.ERROR, True)
+    assert beside == alone
+    assert (other.code, other.severity) == ("SYN004", Severity.ERROR)
+
+
 def test_a_fix_is_made_as_before() -> None:
     text = changed(("*NODE\n", "*NODS\n"))
     result = lint_one("deck.keyxm", text.encode(), LintSettings(tuple(rules()), fixing=Fixing.UNSAFE))

@@ -10,6 +10,7 @@ from mudline.checks.engine import LintSettings
 from mudline.checks.fixing import FileReport, lint_one
 from mudline.checks.registry import rules
 from mudline.language.keywords import catalogue
+from mudline.language.keywords.model import Block
 from tests.helpers.builders.decks import CLEAN
 
 NO_NODES = "$MODEL\n*ELEMENT\n 1, 1, 2\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=50000.0\n"
@@ -27,9 +28,9 @@ def cut(example: str) -> Iterator[str]:
         yield "".join([*lines[:end], " 100\n"])
 
 
-@pytest.mark.parametrize("module", catalogue.modules())
-def test_a_row_of_one_value_in_any_block(module: str) -> None:
-    for block in cut(catalogue.load(module).example):
+@pytest.mark.parametrize("declared", catalogue.block_classes())
+def test_a_row_of_one_value_in_any_block(declared: type[Block]) -> None:
+    for block in cut(declared.example):
         for deck in (CLEAN, NO_NODES):
             linted(deck + block)
 

@@ -67,7 +67,7 @@ def declarations() -> list[Declared]:
 
 def models() -> list[type[Block]]:
     """Those whose fields are read."""
-    return [catalogue.load(module) for module in dict.fromkeys(catalogue.modules())]
+    return catalogue.block_classes()
 
 
 def title(declared: Declared) -> str:

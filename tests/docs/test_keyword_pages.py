@@ -10,6 +10,7 @@ import pytest
 from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import rules
 from mudline.language.keywords import catalogue
+from mudline.language.keywords.library.seabed_properties import SeabedProperties
 from mudline.language.keywords.values import OpaqueKeyword
 from tests.docs.blocks import Page
 from tests.docs.keyword_fields import inferences
@@ -64,7 +65,7 @@ def test_every_rule_concerns_a_keyword() -> None:
 
 
 def test_what_is_inferred_is_said_once() -> None:
-    said = inferences(catalogue.load("seabed_properties"))
+    said = inferences(SeabedProperties)
     assert [each for each in said if each.startswith("`longitudinal mobilisation` of `FRICTION=`, `transverse ")]
     assert [each for each in said if each.startswith("`stiffness` of `SUCTION=`: the unit")]
     assert len(said) == len(set(said))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from functools import lru_cache, reduce
 from pathlib import Path
@@ -116,23 +116,6 @@ def read_configuration(
         chain.append(base)
         whole.append(at)
     return reduce(lambda above, own: own.over(above), reversed(whole))
-
-
-def base_paths(path: Path) -> Iterator[Path]:
-    """The files that a configuration extends, as far as they can be followed; faults are for those who read it."""
-    known = {os.path.realpath(path)}
-    while True:
-        try:
-            found = _read_one(path, demanded=False, code_fault=None)
-        except (OSError, ConfigurationError):
-            return
-        if found is None or EXTEND not in found.values:
-            return
-        path = _base_of(path, found.values[EXTEND])
-        yield path
-        if (real := os.path.realpath(path)) in known:
-            return
-        known.add(real)
 
 
 def _base_of(path: Path, given: str) -> Path:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import chain, islice
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from mudline.basics.limits import MOST_REPORTED
 from mudline.editing.variations.names import (
@@ -18,7 +18,7 @@ from mudline.editing.variations.names import (
 )
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin
-from mudline.language.diagnostics import Blocks, Code, Problem, Where
+from mudline.language.diagnostics import Blocks, Code, Problem, Span, Where
 from mudline.language.keywords.catalogue import holds_in_soil
 from mudline.model.scene.context import placed_blocks
 from mudline.model.scene.model import Scene, resolve
@@ -106,3 +106,31 @@ def _of_variations(deck: Deck) -> Iterator[Problem]:
     for find in (undefined_parameters, undefined_variations, misspelt_keywords, misspelt_sections):
         for problem in islice(find(deck), MOST_REPORTED):
             yield replace(problem, blocks=Blocks.NEVER)
+
+
+class Joined(NamedTuple):
+    """A finding and those that say no more than it does; its message and its place may be of all of them."""
+
+    first: Problem
+    others: Sequence[Problem]
+    words: str = ""
+    message: str = ""
+    place: Span | None = None
+
+
+Found = Mapping[str, Sequence[Problem]]
+"""The findings in a deck by code."""
+
+Join = Callable[[LintContext, Found], Iterator[Joined]]
+JOINTS: list[tuple[frozenset[str], Join]] = []
+"""Those of all rules, each with the codes of which the deck must have one."""
+
+
+def joint(*codes: Code) -> Callable[[Join], Join]:
+    """Register what puts findings under those of some codes, beside the rule that reports these."""
+
+    def register(join: Join) -> Join:
+        JOINTS.append((frozenset(code.code for code in codes), join))
+        return join
+
+    return register

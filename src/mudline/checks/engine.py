@@ -14,9 +14,8 @@ from typing import TYPE_CHECKING, Any, cast
 from mudline.checks.context import LintContext
 from mudline.checks.suppression import suppressions
 from mudline.language.codes.lines import SYN009, SYN010
-from mudline.language.deck.coverage import coverage_of
 from mudline.language.deck.faults import MisspeltDeckError
-from mudline.language.deck.loading import load_bytes
+from mudline.language.deck.loading import coverage_of, load_bytes
 from mudline.language.deck.model import BaseProblem, Deck, Opaque
 from mudline.language.deck.reading import TextOrigin, units_of
 from mudline.language.diagnostics import Blocks, Coverage, DeckError, Diagnostic, Problem, Severity, strongest
@@ -123,21 +122,33 @@ def _meant(context: LintContext, chosen: Sequence[Rule], *, suppress: bool) -> R
     return recovered(context, {rule.code.code for rule in chosen}, Reading(again, _read_once, reported))
 
 
+_MISSPELT = (SYN009, SYN010)
+"""Codes of keywords and sections that are not known."""
+
+
 def _as_severe(context: LintContext, meant: Recovered) -> list[Problem]:
-    """Return the causes of a deck, as severe as what follows from them: errors where the deck is refused for it."""
+    """Return the causes of a deck, as severe as what follows from them: errors where the deck is refused for it.
+
+    Beside errors only misspelt keywords and sections are judged, whose lines are all lost: what follows from them is
+    seen in the deck in which the errors are corrected.
+    """
     causes = meant.causes
-    if any(one.weight is Severity.ERROR for one in causes):
+    doubtful = [one for one in causes if one.weight is not Severity.ERROR]
+    if len(doubtful) < len(causes):
+        doubtful = [one for one in doubtful if one.code in _MISSPELT]
+    judged = meant.without_errors(context) if doubtful else None
+    if judged is None:
         return causes
     others = {(one.code, one.message) for one in meant.context.scene.blocking()}
     following = [
         one
-        for one in context.scene.blocking()
+        for one in judged.scene.blocking()
         if one.weight is not Severity.INFO and (one.code, one.message) not in others
     ]
     if not following:
         return causes
-    worst = max((one.weight for one in causes), key=lambda severity: severity.rank)
-    return [_as_error(one, strongest(following)) if one.weight is worst else one for one in causes]
+    worst = max((one.weight for one in doubtful), key=lambda severity: severity.rank)
+    return [_as_error(one, strongest(following)) if one in doubtful and one.weight is worst else one for one in causes]
 
 
 def _as_error(problem: Problem, blocks: Blocks) -> Problem:
@@ -146,7 +157,7 @@ def _as_error(problem: Problem, blocks: Blocks) -> Problem:
 
 def _misspelt_as_errors(context: LintContext, found: list[Problem]) -> list[Problem]:
     """Make errors of the misspelt names in a deck of which nothing can be judged, as no keyword in it is read."""
-    misspelt = [one for one in found if one.repair and one.code in (SYN009, SYN010)]
+    misspelt = [one for one in found if one.repair and one.code in _MISSPELT]
     coverage = coverage_of(context.deck) if misspelt else None
     if coverage is None or coverage.read or coverage.partly:
         return found
@@ -199,9 +210,10 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
     Suppressed problems are among them; unused suppression comments are not.
     """
     found: list[Problem] = []
+    noticed = context.noticed
     for rule in chosen:
         if rule.check is None or rule.blocks:
-            found += context.problems_of(rule.code)
+            found += noticed.get(rule.code.code, ())
         else:
             found.extend(map(_advice, rule.findings(context)))
     return [problem for problem in found if not of_base(context.deck, problem)]

@@ -107,16 +107,11 @@ def fix_bytes(data: bytes, name: str, settings: LintSettings, folder: Path | Non
     first = run.reader.read(data)
     last = run.fix(first)
     if last.unreadable:
-        note = f"not fixed: correct what cannot be read first, {_place(last)}" if run.wanted(first) else ""
-        return Fixed(None, (), note)
+        fault = last.deck.diagnose(last.unreadable)[0]
+        note = f"not fixed: correct what cannot be read first, {fault.code} in line {fault.line}"
+        return Fixed(None, (), note if run.wanted(first) else "")
     changed = last.data if last.data != data else None
     return Fixed(changed, tuple(run.fixed), run.note())
-
-
-def _place(state: FixState) -> str:
-    """The first error of reading, in a word."""
-    first = state.deck.diagnose(state.unreadable)[0]
-    return f"{first.code} in line {first.line}"
 
 
 class _Run:

@@ -11,8 +11,7 @@ from dataclasses import replace
 from itertools import chain
 
 from mudline.basics.short_repr import counted
-from mudline.checks.context import LintContext
-from mudline.checks.joints import JOINTS, Joined
+from mudline.checks.context import JOINTS, Joined, LintContext
 from mudline.checks.recovery.blocks import ROW_NUMBER, also_in
 from mudline.language.codes.fields import SYN002, SYN003, SYN015
 from mudline.language.codes.lines import SYN001, SYN004, SYN014

@@ -11,7 +11,7 @@ from mudline.checks.context import LintContext
 from mudline.checks.engine import joined_problems, unsuppressed
 from mudline.checks.registry import rules, select
 from mudline.language.codes.contact import SBD006
-from mudline.language.deck.coverage import coverage_of
+from mudline.language.deck.loading import coverage_of
 from mudline.language.diagnostics import Coverage, DeckError, Diagnostic, Problem, Severity
 from mudline.model.results.warnings import seabed_warnings
 

@@ -19,9 +19,8 @@ from mudline.language.deck.meaning import same_meaning
 from mudline.language.deck.model import Opaque
 from mudline.language.diagnostics import DeckError, Severity
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.library.element import ElementRow
-from mudline.language.keywords.library.node import NodeRow
-from mudline.language.keywords.model import Row, record_schema
+from mudline.language.keywords.library.mesh import ElementRow, NodeRow
+from mudline.language.keywords.model import Block, Row, record_schema
 from mudline.language.syntax.rows import read_number
 from mudline.language.syntax.source import Source
 from tests.helpers.builders.keyword_texts import deck_texts, mutated
@@ -84,9 +83,8 @@ def test_samples(path: Path, end: bytes, mark: bytes) -> None:
     check(mark + data.replace(b"\n", end).rstrip())
 
 
-@pytest.mark.parametrize("module", dict.fromkeys(catalogue.modules()))
-def test_the_example_of_every_keyword(module: str) -> None:
-    declared = catalogue.load(module)
+@pytest.mark.parametrize("declared", catalogue.block_classes())
+def test_the_example_of_every_keyword(declared: type[Block]) -> None:
     text = f"$MODEL\n*OCEAN\n 5\n${declared.sections[0]}\n{declared.example}"
     assert ink(check(text.lower().encode())) == ink(text.encode())
 

@@ -12,13 +12,12 @@ from hypothesis import strategies as st
 from mudline.basics.quantities import UNIT_SYSTEMS
 from mudline.language.deck.document import FORMAT, json_schema
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.library.database import Database
+from mudline.language.keywords.library.analysis import Database, TimeSpan
+from mudline.language.keywords.library.floating_bodies import MatrixRow
 from mudline.language.keywords.library.geometric_sets import GeometricSet
-from mudline.language.keywords.library.seabed_profile import SeabedProfile
-from mudline.language.keywords.library.time import TimeSpan
-from mudline.language.keywords.library.variation import VariedParameter
-from mudline.language.keywords.library.wave_jonswap import JonswapSea
-from mudline.language.keywords.matrices import MatrixRow
+from mudline.language.keywords.library.preprocessor import VariedParameter
+from mudline.language.keywords.library.seabed_surface import SeabedProfile
+from mudline.language.keywords.library.waves import JonswapSea
 from mudline.language.keywords.model import FEWEST_POINTS, Block, FieldSpec, ListRow, Record, Row, Rows, record_schema
 from mudline.language.keywords.values import Kind
 from mudline.language.syntax.rows import spells_number

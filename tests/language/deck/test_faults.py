@@ -10,9 +10,8 @@ import pytest
 from mudline.language.deck.loading import load_bytes
 from mudline.language.deck.model import Opaque
 from mudline.language.diagnostics import DeckError, Severity
-from mudline.language.keywords.library.embedment import Embedment
-from mudline.language.keywords.library.parameters import Parameters
-from mudline.language.keywords.library.seabed_stiffness import SeabedStiffness
+from mudline.language.keywords.library.preprocessor import Parameters
+from mudline.language.keywords.library.seabed_curves import Embedment, SeabedStiffness
 from tests.helpers.builders.scenes import deck_of
 
 Found = tuple[str, int, int]

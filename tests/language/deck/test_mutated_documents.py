@@ -27,6 +27,7 @@ BEYOND_THE_SCHEMA = (
     "too large for double precision",
     "fields, expected",
     "field, expected",
+    "lines are given: expected",
     "is no ",
 )
 """What the schema does not say: values that must fit one another, where a keyword belongs, what rows in a text hold."""

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
-from typing import get_args
 
 from mudline.language.keywords import catalogue, library
-from mudline.language.keywords.naming import Role, kinds_of
-from mudline.language.keywords.values import SUBJECTS, Entry
+from mudline.language.keywords.model import Block
+from mudline.language.keywords.naming import ROLES, kinds_of
+from mudline.language.keywords.values import SUBJECTS, Entry, OpaqueKeyword
 
 _WIDE = 115
 INDEX = Path("src/mudline/language/keywords/index.py")
 
-ROLES: tuple[Role, ...] = get_args(Role)
 
 _PAGE = '''\
 """Every declaration of the library; `make index` makes this of them: change those."""
@@ -37,33 +37,27 @@ def declared_entries() -> list[Entry]:
     return sorted(found, key=lambda entry: (SUBJECTS.index(entry.subject), places[entry.sections[0]], entry.keyword))
 
 
-def _entries(module: str) -> list[Entry]:
-    declared = import_module(f"{library.__name__}.{module}")
-    found: list[Entry] = []
-    if hasattr(declared, "BLOCK"):
-        block = catalogue.load(module)
-        keyword = block.model_fields["keyword"].default
-        names, defines = (tuple(sorted(kind.name for kind in kinds_of(block, role))) for role in ROLES)
-        short, telling = block.facts.zero_length, block.facts.telling
-        found.append(
-            Entry(
-                *(keyword, module, block.sections, block.subject),
-                zero_length=short,
+def _entries(module: str) -> Iterator[Entry]:
+    for name, found in vars(import_module(f"{library.__name__}.{module}")).items():
+        if isinstance(found, type) and issubclass(found, Block):
+            keyword = found.model_fields["keyword"].default
+            if not isinstance(keyword, str):  # a base of others
+                continue
+            names, defines = (tuple(sorted(kind.name for kind in kinds_of(found, role))) for role in ROLES)
+            yield Entry(
+                *(keyword, module, name, found.sections, found.subject),
+                zero_length=found.facts.zero_length,
                 names=names,
                 defines=defines,
-                telling=telling,
+                telling=found.facts.telling,
             )
-        )
-    if hasattr(declared, "OPAQUE"):
-        kept = catalogue.load_opaque(module)
-        keyword = kept.keyword
-        inferred, short = kept.sections_inferred, kept.zero_length
-        found.append(
-            Entry(
-                keyword, module, kept.sections, kept.subject, kept=True, sections_inferred=inferred, zero_length=short
+        elif isinstance(found, OpaqueKeyword):
+            yield Entry(
+                *(found.keyword, module, name, found.sections, found.subject),
+                kept=True,
+                sections_inferred=found.sections_inferred,
+                zero_length=found.zero_length,
             )
-        )
-    return found
 
 
 def index_text() -> str:

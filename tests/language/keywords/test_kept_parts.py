@@ -112,9 +112,8 @@ def test_any_lines_of_an_open_block_go_through_every_form(lines: list[str]) -> N
     assert dump(deck_of(text), "keyword") == text
 
 
-@pytest.mark.parametrize("module", catalogue.modules())
-def test_every_record_of_an_open_block_can_keep_lines(module: str) -> None:
-    block = catalogue.load(module)
+@pytest.mark.parametrize("block", catalogue.block_classes())
+def test_every_record_of_an_open_block_can_keep_lines(block: type[Block]) -> None:
     records = list(_records(block))
     if block.open_lines:
         assert issubclass(block, OpenBlock)

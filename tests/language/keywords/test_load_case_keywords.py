@@ -14,7 +14,7 @@ from tests.helpers.builders.scenes import deck_of, faults
 from tests.helpers.builders.spellings import cased, equations, idents, names, reals, rows, setting, whole_fields
 from tests.language.deck.test_forms import held
 
-MODULES = ("p_y", "t_z", "restart", "time", "boundary", "friction")
+KEYWORDS = ("P-Y", "T-Z", "RESTART", "TIME", "BOUNDARY", "FRICTION")
 Lines = list[str]
 
 
@@ -28,9 +28,9 @@ def values(section: str, lines: str) -> dict[str, object]:
     return found.model_dump(mode="json", exclude_defaults=True)
 
 
-@pytest.mark.parametrize("module", MODULES)
-def test_examples(module: str) -> None:
-    declared = catalogue.load(module)
+@pytest.mark.parametrize("keyword", KEYWORDS)
+def test_examples(keyword: str) -> None:
+    declared = catalogue.declarations(keyword)[0]
     for section in declared.sections:
         assert values(section, declared.example) != {}
         assert catalogue.block_class(section, declared.model_fields["keyword"].default) is declared
@@ -38,7 +38,7 @@ def test_examples(module: str) -> None:
 
 def test_friction_belongs_in_two_sections() -> None:
     assert catalogue.sections_of("FRICTION") == ("LOAD CASE", "MODES")
-    assert catalogue.modules().count("friction") == 1
+    assert len(catalogue.declarations("FRICTION")) == 1
     assert faults("$MODEL\n*FRICTION\n 1.0, 2.0\n")[0].startswith("2:1 SYN008 *FRICTION does not belong in $MODEL")
     assert values("MODES", "*FRICTION\n ,250\n") == {"transverse": 250.0}
 

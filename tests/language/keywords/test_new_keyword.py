@@ -10,6 +10,7 @@ import pytest
 from lark.load_grammar import load_grammar
 
 from mudline.checks.engine import lint_bytes
+from mudline.checks.recovery import lines
 from mudline.checks.registry import rules
 from mudline.editing.comparison.comparing import compare
 from mudline.language.deck.document import json_schema
@@ -61,8 +62,6 @@ class SeabedAnchor(Block):
     keyword: Literal["SEABED ANCHOR"] = "SEABED ANCHOR"
     sets: list[AnchorSet] = []
 
-
-BLOCK = SeabedAnchor
 '''
 RULES = """
 seabed_anchor: anchor_set*
@@ -79,13 +78,7 @@ def anchor(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """The keyword, as if the library had it."""
     (tmp_path / "seabed_anchor.py").write_text(MODULE, encoding="utf-8")
     monkeypatch.setattr(library, "__path__", [*library.__path__, str(tmp_path)])
-    caches = [
-        found
-        for name, module in list(sys.modules.items())
-        if name.startswith(("mudline.language.keywords", "mudline.checks.recovery"))
-        for found in vars(module).values()
-        if hasattr(found, "cache_clear")
-    ]
+    caches = [one for module in (catalogue, lines) for one in vars(module).values() if hasattr(one, "cache_clear")]
     monkeypatch.setattr(index, "ENTRIES", tuple(declared_entries()))
     known, new = grammars.definitions("blocks"), load_grammar(RULES, "new", [], False)[0]
     monkeypatch.setattr(known, "rule_defs", [*known.rule_defs, *new.rule_defs])
@@ -101,9 +94,9 @@ def anchor(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     sys.modules.pop(f"{library.__name__}.seabed_anchor", None)
 
 
-def found(lines: str, folder: Path | None = None, dialect: str = "mudline") -> list[tuple[str, int]]:
+def found(text: str, folder: Path | None = None, dialect: str = "mudline") -> list[tuple[str, int]]:
     """Code and line, from the first line below the keyword, of what is found in a deck with these lines."""
-    told = lint_bytes((DECK + lines).encode(), "deck.keyxm", rules(), folder=folder, dialect=dialect)
+    told = lint_bytes((DECK + text).encode(), "deck.keyxm", rules(), folder=folder, dialect=dialect)
     return [(each.code, each.line - LINE + 1) for each in told]
 
 
@@ -113,8 +106,8 @@ def test_a_block_without_a_fault(tmp_path: Path) -> None:
 
 
 def test_references_are_checked(tmp_path: Path) -> None:
-    lines = " SET=Riser\n CURVE=Sand\n FILE=pull.csv\n"
-    assert found(lines, tmp_path) == [("REF001", 1), ("REF002", 2), ("REF015", 3)]
+    text = " SET=Riser\n CURVE=Sand\n FILE=pull.csv\n"
+    assert found(text, tmp_path) == [("REF001", 1), ("REF002", 2), ("REF015", 3)]
 
 
 def test_a_curve_that_only_this_keyword_names_is_used() -> None:
@@ -156,7 +149,7 @@ def test_schema() -> None:
 
 
 def test_page() -> None:
-    page = keyword_page(catalogue.load("seabed_anchor"))
+    page = keyword_page(catalogue.declarations(NAME)[0])
     assert f"# `*{NAME}`" in page
     assert "SPACING=number" in page
     assert all(f"[{code}](../rules/{code}.md)" in page for code in ("EXT001", "REF001", "SBD010"))

@@ -35,10 +35,10 @@ CONSTANTS = frozenset({"KEYWORD", "_KEYWORD"})
 EXCEPTIONS = {
     "editing/comparison/comparing.py": "asks for the labels in the blocks of nodes and of elements",
     "tools/exporting/held.py": "ends on a vessel, by the TYPE= of a boundary",
-    "tools/exporting/line_model.py": "the blocks that a line of another program says, and curves of which it takes a slope",
+    "tools/exporting/line_model.py": "blocks that a line of another program says, and curves whose slope it takes",
     "tools/exporting/report.py": "says in words what becomes of a keyword in another program",
     "tools/exporting/soil.py": "says which settings of a law another program has not",
-    "editing/migration/refusals.py": "what a seabed or a deck before has instead, and whose laws a migrated surface would meet",
+    "editing/migration/refusals.py": "what a seabed or a deck before has instead, and whose laws a surface would meet",
     "editing/migration/rewriting.py": "writes these blocks",
     "model/results/evaluation.py": "says what may make the elements, or the nodes, that a deck lacks",
     "model/results/laws_in_use.py": "inner pipes need no law of the seabed",
@@ -89,8 +89,7 @@ def test_no_module_lists_keywords_to_know_a_fact() -> None:
 
 
 def test_the_index_of_the_catalogue_says_what_the_classes_say() -> None:
-    for module in catalogue.modules():
-        block = catalogue.load(module)
+    for block in catalogue.block_classes():
         name = block.model_fields["keyword"].default
         assert get_args(block.model_fields["keyword"].annotation) == (name,)
         assert block in catalogue.declarations(name)
@@ -118,7 +117,7 @@ def test_a_keyword_of_which_only_the_name_is_known_imports_nothing() -> None:
 
 
 def test_facts_fit_each_other() -> None:
-    blocks = [catalogue.load(module) for module in catalogue.modules()]
+    blocks = catalogue.block_classes()
     newer = {successor.keyword for block in blocks for successor in block.facts.superseded_by}
     assert newer == {block.model_fields["keyword"].default for block in blocks if block.facts.supersedes}
     for block in blocks:

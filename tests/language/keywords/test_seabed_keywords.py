@@ -14,9 +14,8 @@ from mudline.language.deck.document import FORMAT
 from mudline.language.deck.forms.keyword import to_keyword
 from mudline.language.deck.loading import dump, load_bytes
 from mudline.language.diagnostics import DeckError
-from mudline.language.keywords.library.seabed_soil import SeabedSoil
-from mudline.language.keywords.library.seabed_suction import CyclicLoading, SeabedSuction, SuctionSet
-from mudline.language.keywords.library.seabed_trench import Centreline, SeabedTrench, TrenchSet
+from mudline.language.keywords.library.seabed_lateral import Centreline, SeabedTrench, TrenchSet
+from mudline.language.keywords.library.seabed_normal import CyclicLoading, SeabedSoil, SeabedSuction, SuctionSet
 from mudline.language.keywords.writer import block_lines
 from tests.helpers.builders.documents import validator
 

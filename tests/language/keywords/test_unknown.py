@@ -10,8 +10,8 @@ from typing import cast
 import pytest
 
 from mudline.language.deck.loading import load_bytes
+from mudline.language.keywords.library.seabed_curves import SeabedStiffness
 from mudline.language.keywords.library.seabed_properties import SeabedProperties
-from mudline.language.keywords.library.seabed_stiffness import SeabedStiffness
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.unknown import UNKNOWN, UNKNOWN_NAME, is_partly_unknown, is_unknown, known_name
 from tests.checks.findings import found

@@ -7,7 +7,7 @@ import pytest
 from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import rules
 from mudline.language.keywords import catalogue
-from mudline.language.keywords.model import Part, Rows, record_schema
+from mudline.language.keywords.model import Block, Part, Rows, record_schema
 from mudline.model.scene.model import resolve
 from tests.helpers.builders.decks import CLEAN
 from tests.helpers.builders.scenes import deck_of
@@ -36,9 +36,9 @@ def test_a_curve_that_is_none_of_a_seabed_keeps_nothing_from_being_evaluated() -
     assert resolve(deck_of(HEAD + " 4.0, 1.0\n")).blocking() == []
 
 
-@pytest.mark.parametrize("module", catalogue.modules())
-def test_declared_curves_have_their_abscissa_and_another_column(module: str) -> None:
-    for about in _curves(catalogue.load(module)):
+@pytest.mark.parametrize("block", catalogue.block_classes())
+def test_declared_curves_have_their_abscissa_and_another_column(block: type[Block]) -> None:
+    for about in _curves(block):
         columns = [column.json for column in record_schema(about.row).columns] if about.row else []
         assert about.abscissa in columns
         assert len(columns) > 1

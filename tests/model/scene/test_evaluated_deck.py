@@ -14,7 +14,7 @@ from mudline.checks.engine import problems_in
 from mudline.checks.registry import rules
 from mudline.language.deck.loading import load_bytes
 from mudline.language.diagnostics import Diagnostic, Severity
-from mudline.language.keywords.library.boundary import Boundary
+from mudline.language.keywords.library.loads import Boundary
 from mudline.language.keywords.model import Part
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Equation

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 from mudline.language.deck.model import Deck, NamedPlace, Origin
 from mudline.language.deck.reading import TextOrigin
-from mudline.language.diagnostics import Code, Problem, Span
+from mudline.language.diagnostics import Problem, Span
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.model import Block
 from mudline.language.keywords.values import Names
@@ -39,37 +39,6 @@ class Correction:
     does: str = ""
     certain: bool = False
     joins: bool = False
-
-
-Corrector = Callable[["Blocks", Sequence[Problem]], Iterator[Correction]]
-"""Makes corrections of a deck from the problems under its codes."""
-
-
-@dataclass(frozen=True, slots=True)
-class Recovery:
-    """A corrector with the codes that it recovers from.
-
-    One that is `always` asked looks at decks without them too; the `last` ones see what has no correction before them.
-    """
-
-    codes: frozenset[Code]
-    corrector: Corrector
-    always: bool
-    last: bool
-
-
-RECOVERIES: list[Recovery] = []
-"""All of them, in the order in which they are asked."""
-
-
-def recovers_from(*codes: Code, always: bool = False, last: bool = False) -> Callable[[Corrector], Corrector]:
-    """Declare the codes from which a corrector recovers."""
-
-    def register(corrector: Corrector) -> Corrector:
-        RECOVERIES.append(Recovery(frozenset(codes), corrector, always, last))
-        return corrector
-
-    return register
 
 
 def start_of(text: TextOrigin, problem: Problem) -> int:

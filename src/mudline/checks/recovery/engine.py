@@ -7,26 +7,32 @@ what is found in it is reported at the lines that it has in the file.
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain
 
 from mudline.checks.context import LintContext
-from mudline.checks.recovery import lines, names, sections, undefined, values
-from mudline.checks.recovery.blocks import RECOVERIES, Blocks, Correction, line_at
+from mudline.checks.recovery import lines, values
+from mudline.checks.recovery.blocks import (
+    Blocks,
+    Correction,
+    also_in,
+    head_start,
+    line_at,
+    start_of,
+)
 from mudline.checks.rules.keyword_families import LEG001
-from mudline.language.codes.fields import SYN002
-from mudline.language.codes.lines import SYN007, SYN008, SYN009, SYN010, SYN013
+from mudline.language.codes.fields import SYN002, SYN003, SYN015, SYN016
+from mudline.language.codes.lines import SYN001, SYN004, SYN005, SYN007, SYN008, SYN009, SYN010, SYN011, SYN013
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source
 from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span
+from mudline.language.keywords import catalogue
 from mudline.language.keywords.reader import BlockReader
 from mudline.language.syntax.edits import OverlapError, TextEdit, Undoing, apply_edits, edited_bytes, with_line_ends
 from mudline.language.syntax.source import Source
-
-SUBJECTS = (names, sections, lines, values)
-"""The modules of correctors, which register them."""
 
 MOST_ROUNDS = 4
 """Times that the corrected lines are looked through for faults that the ones before them hid."""
@@ -44,6 +50,23 @@ _OF_SECTIONS = (SYN007, SYN010)
 """Faults whose correction says where blocks belong, and not how they read."""
 
 
+Corrector = Callable[[Blocks, Sequence[Problem]], Iterator[Correction]]
+"""Makes corrections of a deck from the problems under its codes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Recovery:
+    """A corrector with the codes that it recovers from.
+
+    One that is `always` asked looks at decks without them too; the `last` ones see what has no correction before them.
+    """
+
+    corrector: Corrector
+    codes: tuple[Code, ...]
+    always: bool = False
+    last: bool = False
+
+
 @dataclass(frozen=True, slots=True)
 class Reading:
     """How a deck is read and what is reported of it.
@@ -59,9 +82,13 @@ class Reading:
 
 @dataclass
 class Recovered:
-    """A deck with its faults corrected, and the finding of each in terms of the file; `steps` lead back to that."""
+    """A deck with its faults corrected, and the finding of each in terms of the file; `steps` lead back to that.
+
+    `again` reads a text.
+    """
 
     context: LintContext
+    again: Callable[[bytes], Deck]
     causes: list[Problem] = field(default_factory=list)
     steps: list[Undoing] = field(default_factory=list)
 
@@ -70,20 +97,35 @@ class Recovered:
         """The deck."""
         return self.context.deck
 
-    def take(self, corrections: Sequence[Correction], again: Callable[[bytes], Deck]) -> bool:
+    def take(self, corrections: Sequence[Correction]) -> bool:
         """Read the deck with some corrections; whether these could be made."""
-        text = self.context.text
-        if text is None or not corrections:
+        if (text := self.context.text) is None or not corrections:
             return False
-        edits = with_line_ends(text.source, chain.from_iterable(one.edits for one in corrections))
-        try:
-            deck = again(edited_bytes(text.source, edits))
-        except (OverlapError, UnicodeEncodeError):  # of a character that the encoding lacks
+        made = [replace(one, edits=tuple(with_line_ends(text.source, one.edits))) for one in corrections]
+        edits = [edit for one in made for edit in one.edits]
+        after = self._edited(self.context, text.source, edits)
+        if after is None:
             return False
-        self.causes += self.as_written(map(_cause, corrections))
+        self.causes += self.as_written(map(_cause, made))
         self.steps.append(Undoing(edits))
-        self.context = LintContext(deck, self.context.dialect, self.context.fixing)
+        self.context = after
         return True
+
+    def _edited(self, context: LintContext, source: Source, edits: Sequence[TextEdit]) -> LintContext | None:
+        """The deck of a context with edits made; None where they cannot be made."""
+        try:
+            deck = self.again(edited_bytes(source, edits))
+        except (OverlapError, UnicodeEncodeError):  # of a character that the encoding lacks
+            return None
+        return LintContext(deck, context.dialect, context.fixing)
+
+    def without_errors(self, written: LintContext) -> LintContext | None:
+        """The deck as written with those causes alone corrected that are errors; None where one cannot be."""
+        repairs = [one.repair for one in self.causes if one.weight is Severity.ERROR]
+        if not repairs:
+            return written
+        edits = [TextEdit(*edit) for repair in repairs if repair for edit in repair.edits]
+        return self._edited(written, written.text.source, edits) if written.text and all(repairs) else None
 
     def as_written(self, problems: Iterable[Problem]) -> Iterator[Problem]:
         """Problems of the recovered deck at their places in the file, without those of what corrections put in.
@@ -114,19 +156,19 @@ def recovered(context: LintContext, codes: Collection[str], reading: Reading) ->
 
     `codes` are those of findings that are wanted at all.
     """
-    found = Recovered(context)
+    found = Recovered(context, reading.again)
     reported = reading.reported([one for one in context.deck.problems if one.code.code in codes])
     trials = MOST_TRIALS
     while len(found.steps) < MOST_ROUNDS and (text := found.context.text) is not None:
         round_ = _Round(Blocks(found.deck, text), reading.block, codes, trials)
-        if not found.take(round_.taken(reported), reading.again):
+        if not found.take(round_.taken(reported)):
             break
         trials = round_.trials
         reported = [one for one in found.deck.problems if one.code.code in codes]
     if found.context.scene.lacks:
-        late = undefined.corrections(found.context)
+        late = values.scene_corrections(found.context)
         wanted = [one for one in late if one.cause.code.code in codes]
-        found.take([one for one in wanted if reading.reported([*found.as_written([one.cause])])], reading.again)
+        found.take([one for one in wanted if reading.reported([*found.as_written([one.cause])])])
     return found if found.steps else None
 
 
@@ -200,9 +242,9 @@ class _Round:
         text = self.text.source.unified[slice(*region)]
         moved = [TextEdit(edit.span.moved(-region.start), edit.text) for edit in edits]
         head = "" if text.startswith("$") else f"${section}\n"
-        lines = apply_edits(text, moved)
-        behind = ("" if lines.endswith("\n") else "\n") + "$MODEL\n"  # so that no block is the last one
-        source = Source(self.text.source.name, f"{head}{lines}{behind}", clean=self.text.source.clean)
+        edited = apply_edits(text, moved)
+        behind = ("" if edited.endswith("\n") else "\n") + "$MODEL\n"  # so that no block is the last one
+        source = Source(self.text.source.name, f"{head}{edited}{behind}", clean=self.text.source.clean)
         for one in read_source(source, units="user", read=self.read).problems:
             if one.weight is Severity.ERROR or one.code in (SYN009, SYN013):
                 yield one.code, one.message
@@ -210,3 +252,82 @@ class _Round:
 
 def _meet(one: Span, other: Span) -> bool:
     return one.start < other.end and other.start < one.end
+
+
+_DIGITS = re.compile(r"[0-9]+")
+
+
+def misspelt(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Names for which another one was meant; one that is misspelt several times is corrected everywhere."""
+    alike: dict[tuple[str, str], list[Problem]] = {}
+    for problem in problems:
+        if problem.repair is not None:
+            alike.setdefault((problem.code.code, problem.message), []).append(problem)
+    text = blocks.text
+    for found in alike.values():
+        problem = min(found, key=lambda one: start_of(text, one))
+        repairs = [one.repair.edits for one in found if one.repair is not None]
+        edits = tuple(TextEdit(span, written) for span, written in sorted(chain.from_iterable(repairs)))
+        first = edits[0].span
+        region = blocks.section_at(first.start) if problem.code is SYN010 else blocks.block_at(first.start)
+        others = [one for one in found if one is not problem]
+        message = f"{problem.message}; {also_in(text, others)}" if others else ""
+        does = problem.repair.message if problem.repair else ""
+        if all(_differs(text.source.unified[slice(*edit.span)], edit.text) for edit in edits):
+            yield Correction(problem, edits, region, message, does, joins=edits[0].text.startswith("C "))
+
+
+def _differs(written: str, meant: str) -> bool:
+    """Whether a name differs in more than its digits from the one that was meant: they tell things of a kind apart."""
+    return _DIGITS.sub("", meant).casefold() != _DIGITS.sub("", written).casefold()
+
+
+def before_sections(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Blocks that stand before any section: a `$SECTION` line in front of them."""
+    text = blocks.text
+    tree = text.tree
+    outside = {start_of(text, one): one for one in problems}
+    run = [(head_start(text, block), block.name) for block in tree.preamble.blocks]
+    if not run or any(head not in outside for head, _ in run):  # a deck of another program is reported once
+        return
+    end = tree.sections[0].head.span.start if tree.sections and tree.sections[0].head else blocks.end
+    start, name = run[0]
+    if name in catalogue.SECTIONS:
+        message = f"*{name} is no keyword: write ${name}"
+        yield Correction(
+            outside[start], (TextEdit(Span(start, start + 1), "$"),), Span(start, end), message, certain=True
+        )
+        return
+    edits, words = _section_lines(run, "")
+    message = ""
+    if len(run) > 1:
+        message = f"the line {words} is missing above this one: *{name} stands before any $SECTION"
+    yield Correction(outside[start], edits, Span(start, end), message, certain=True)
+
+
+def _section_lines(run: list[tuple[int, str]], current: str) -> tuple[tuple[TextEdit, ...], str]:
+    """A line in front of each keyword of a run that does not belong in the section of the one before; the first."""
+    edits: list[TextEdit] = []
+    for head, keyword in run:
+        sections = catalogue.sections_of(keyword) or ((current,) if current else ("MODEL",))
+        if current not in sections:
+            current = sections[0]
+            edits.append(TextEdit(Span(head, head), f"${current}\n"))
+    return tuple(edits), edits[0].text.strip() if edits else ""
+
+
+_OF_FOREIGN_LINES = (SYN001, SYN002, SYN003, SYN004)
+"""Faults of the lines of another keyword in a block."""
+
+RECOVERIES = (
+    Recovery(misspelt, (SYN004, SYN005, SYN008, SYN009, SYN010)),
+    Recovery(before_sections, (SYN007,)),
+    Recovery(lines.stars, (*_OF_FOREIGN_LINES, SYN011, SYN013, SYN016), always=True),
+    Recovery(lines.keyword_lines, _OF_FOREIGN_LINES, last=True),
+    Recovery(lines.legal_lines, (*_OF_FOREIGN_LINES, SYN005), always=True),
+    Recovery(values.numbers, (SYN002,)),
+    Recovery(values.rows, (SYN001, SYN003)),
+    Recovery(values.indented_comments, (SYN001, SYN002, SYN003)),
+    Recovery(values.decimal_commas, (SYN015,)),
+)
+"""All correctors, in the order in which they are asked."""

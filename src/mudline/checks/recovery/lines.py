@@ -16,14 +16,13 @@ from mudline.checks.recovery.blocks import (
     data_of,
     line_at,
     lines_of,
-    recovers_from,
     start_of,
     whole,
 )
 from mudline.checks.rules.seabed_overlaps import SBD008
 from mudline.language.codes.contact import SBD006
 from mudline.language.codes.fields import SYN002, SYN003, SYN016
-from mudline.language.codes.lines import SYN001, SYN004, SYN005, SYN011, SYN013
+from mudline.language.codes.lines import SYN001, SYN013
 from mudline.language.codes.references import REF007
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Problem, Severity, Span
@@ -51,13 +50,9 @@ MOST_NAMED = 5
 NAMED = CURVES | THINGS | {Names.SET, Names.CURVE}
 """Kinds of names that tell whose lines some are: one that is used, and that nothing defines."""
 
-_OF_FOREIGN_LINES = (SYN001, SYN002, SYN003, SYN004)
-"""What the lines of another keyword give in a block."""
-
 # ------------------------------------------------------------------------------------------------------------- the star
 
 
-@recovers_from(*_OF_FOREIGN_LINES, SYN011, SYN013, SYN016, always=True)
 def stars(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Lines that hold a keyword of their section without its star; where nothing is said of them, in column 1 only."""
     text = blocks.text
@@ -101,7 +96,6 @@ def _known() -> frozenset[str]:
 # ------------------------------------------------------------------------------------------------ the line of a keyword
 
 
-@recovers_from(*_OF_FOREIGN_LINES, last=True)
 def keyword_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Lines in a block that read well as lines of another keyword: that keyword in front of them."""
     text = blocks.text
@@ -212,7 +206,6 @@ def _of_whole_numbers(declared: type[Block]) -> bool:
     return bool(columns) and all(slot.kind in (Value.WHOLE, Value.IDENT) for slot in columns)
 
 
-@recovers_from(*_OF_FOREIGN_LINES, SYN005, always=True)
 def legal_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Lines that a block can have, and that another keyword has, which its section or the deck lacks."""
     text = blocks.text

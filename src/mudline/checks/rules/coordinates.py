@@ -16,7 +16,7 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices, Mask, blocks_of
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.node import Nodes
+    from mudline.language.keywords.library.mesh import Nodes
     from mudline.language.keywords.table import Table
 
 UNT006 = Code("UNT006", "suspicious-length", Severity.WARNING)

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mudline.checks.context import LintContext
-from mudline.checks.joints import Found, Joined, joint
+from mudline.checks.context import Found, Joined, LintContext, joint
 from mudline.checks.rules.curve_shape import is_upside_down
 from mudline.checks.rules.seabed_position import DEEPEST, bounds_of
 from mudline.language.diagnostics import Code, Problem, Severity

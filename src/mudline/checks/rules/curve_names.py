@@ -8,8 +8,7 @@ from collections.abc import Iterable, Iterator
 from itertools import groupby
 from typing import TYPE_CHECKING, cast
 
-from mudline.checks.context import LintContext
-from mudline.checks.joints import Found, Joined, joint
+from mudline.checks.context import Found, Joined, LintContext, joint
 from mudline.checks.suppression import MARK
 from mudline.language.codes.contact import REF003, SBD006, SBD017
 from mudline.language.deck.parameters import folded
@@ -25,8 +24,8 @@ from mudline.model.contact.input import LawKind
 from mudline.model.scene.names import CURVES, repeated, unused
 
 if TYPE_CHECKING:
+    from mudline.language.keywords.library.preprocessor import Variation
     from mudline.language.keywords.library.seabed_properties import SeabedProperties
-    from mudline.language.keywords.library.variation import Variation
     from mudline.model.scene.force_curves import SceneCurve
 
 REF004 = Code("REF004", "duplicate-curve", Severity.WARNING)

@@ -9,8 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.basics.limits import MOST_REPORTED
-from mudline.checks.context import LintContext
-from mudline.checks.joints import Found, Joined, joint
+from mudline.checks.context import Found, Joined, LintContext, joint
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span, Where
 from mudline.language.keywords.text import shown

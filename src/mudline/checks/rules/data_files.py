@@ -21,7 +21,7 @@ from mudline.model.scene.data_files import fault_of, has_uneven_times, unequal_f
 from mudline.model.scene.deck_values import file_name, find_file
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.rao import Raos
+    from mudline.language.keywords.library.vessel_motions import Raos
 
 DAT002 = Code("DAT002", "faulty-data", Severity.ERROR)
 

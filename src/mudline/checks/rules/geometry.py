@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mudline.checks.context import LintContext, entries_of_sets
-from mudline.checks.joints import Found, Joined, joint
+from mudline.checks.context import Found, Joined, LintContext, entries_of_sets, joint
 from mudline.checks.rules.coordinates import UNT006
 from mudline.checks.rules.unit_densities import UNT004, UNT005
 from mudline.language.deck.model import Opaque

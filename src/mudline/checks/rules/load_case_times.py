@@ -14,10 +14,10 @@ from mudline.language.rules import rule
 from mudline.model.scene.deck_values import bare
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.drift import Drift
-    from mudline.language.keywords.library.summary_time import SummaryTime
-    from mudline.language.keywords.library.time import StepLimits, TimeSpan
-    from mudline.language.keywords.library.wave_stokes import StokesWave
+    from mudline.language.keywords.library.analysis import StepLimits, TimeSpan
+    from mudline.language.keywords.library.summary import SummaryTime
+    from mudline.language.keywords.library.vessel_motions import Drift
+    from mudline.language.keywords.library.waves import StokesWave
 
 TIM001 = Code("TIM001", "end-not-after-start", Severity.ERROR)
 TIM002 = Code("TIM002", "step-limits-out-of-order", Severity.ERROR)

@@ -16,9 +16,8 @@ from mudline.language.rules import rule
 from mudline.model.scene.sets import set_key
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.analysis_type import AnalysisType
-    from mudline.language.keywords.library.vessel import Vessels
-    from mudline.language.keywords.library.vessel_integrated import IntegratedVessels
+    from mudline.language.keywords.library.analysis import AnalysisType
+    from mudline.language.keywords.library.vessels import IntegratedVessels, Vessels
 
 VES002 = Code("VES002", "vessel-without-rao", Severity.WARNING)
 TIM005 = Code("TIM005", "static-steps-without-effect", Severity.INFO)

@@ -28,8 +28,7 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Mask
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.cable import Cables
-    from mudline.language.keywords.library.node_curvilinear import CurvilinearNodes
+    from mudline.language.keywords.library.curvilinear import Cables, CurvilinearNodes
 
 GEO007 = Code("GEO007", "element-without-section", Severity.WARNING)
 GEO008 = Code("GEO008", "missing-hydrodynamics", Severity.INFO)
@@ -81,7 +80,7 @@ def element_without_section(context: LintContext) -> Iterator[Problem]:
     Finds: 8:2
     """
     scene = context.scene
-    if not _is_whole(context) or not context.blocks("GEOMETRIC SETS"):
+    if not context.once(_is_whole) or not context.blocks("GEOMETRIC SETS"):
         return
     bare = np.flatnonzero(scene.section_table.of_element < 0)
     if bare.size and bare.size < len(scene.element_ids):
@@ -122,7 +121,7 @@ def missing_hydrodynamics(context: LintContext) -> Iterator[Problem]:
     flows = any(WATER.fullmatch(block.keyword) for case in cases for block in case.blocks)
     blocks = context.blocks("HYDRODYNAMIC SETS")
     kept = any(True for _, block in blocks for _ in kept_lines(block))
-    if not flows or kept or not _is_whole(context):
+    if not flows or kept or not context.once(_is_whole):
         return
     covered = np.zeros(len(scene.element_ids), dtype=np.bool_)
     for _, block in blocks:
@@ -152,7 +151,7 @@ def node_without_element(context: LintContext) -> Iterator[Problem]:
     Finds: 6:2
     """
     scene = context.scene
-    if not _is_whole(context):
+    if not context.once(_is_whole):
         return
     used = np.zeros(len(scene.node_ids), dtype=np.bool_)
     ends = scene.element_nodes
@@ -179,7 +178,7 @@ def end_not_held(context: LintContext) -> Iterator[Problem]:
     Finds: 4:2
     """
     scene = context.scene
-    if not _is_whole(context) or (scene.element_nodes < 0).any():
+    if not context.once(_is_whole) or (scene.element_nodes < 0).any():
         return
     counts = np.bincount(scene.element_nodes.ravel(), minlength=len(scene.node_ids))
     held = _named(context)

@@ -19,8 +19,8 @@ from mudline.model.scene.names import THINGS, repeated
 from mudline.model.scene.sets import ALL, LONGEST_NAME
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.element_sets import SetList
-    from mudline.language.keywords.library.parameters import Parameter
+    from mudline.language.keywords.library.mesh import SetList
+    from mudline.language.keywords.library.preprocessor import Parameter
 
 REF011 = Code("REF011", "long-name", Severity.WARNING)
 REF012 = Code("REF012", "long-list", Severity.WARNING)

@@ -19,7 +19,7 @@ from mudline.model.scene.seabed import SeabedKind, SeabedShape
 from mudline.model.scene.vertical_axis import FLAT
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.boundary import Boundary, FixedNode, FixedRange
+    from mudline.language.keywords.library.loads import Boundary, FixedNode, FixedRange
 
 SBD021 = Code("SBD021", "one-constrained-dof", Severity.WARNING)
 SBD022 = Code("SBD022", "deep-node", Severity.WARNING)
@@ -113,7 +113,7 @@ def _is_bed(scene: Scene) -> bool:
 class Bounds(NamedTuple):
     """The highest and the deepest node, normal to the seabed, the lowest X, the first and the last Z: NaN with a NaN.
 
-    Of the known diameters the smallest and the largest, inf and 0 without any. With no nodes all is infinite.
+    Of the known diameters the smallest, inf without any. With no nodes all is infinite.
     """
 
     highest: float
@@ -122,7 +122,6 @@ class Bounds(NamedTuple):
     first: float
     last: float
     thinnest: float
-    thickest: float
 
 
 def bounds_of(context: LintContext) -> Bounds:
@@ -148,7 +147,6 @@ def bounds_of(context: LintContext) -> Bounds:
         first,
         last,
         float(np.fmin.reduce(scene.diameter, initial=np.inf)),
-        float(np.fmax.reduce(scene.diameter, initial=0.0)),
     )
 
 

@@ -21,7 +21,7 @@ from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.time import TimeSpan
+    from mudline.language.keywords.library.analysis import TimeSpan
     from mudline.model.contact.laws.suction import SuctionLaw
     from mudline.model.scene.oscillation import Oscillation
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import chain
 
-from mudline.checks.context import LintContext
-from mudline.checks.joints import Found, Joined, joint
+from mudline.checks.context import Found, Joined, LintContext, joint
 from mudline.checks.rules.coordinates import UNT006
 from mudline.checks.rules.unit_densities import UNT004, UNT005
 from mudline.language.syntax.rows import read_number

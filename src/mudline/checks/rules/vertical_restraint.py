@@ -23,7 +23,7 @@ from mudline.model.scene.rules.laws import SBD004
 from mudline.model.scene.seabed import SeabedKind
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.pip_section import PipSections
+    from mudline.language.keywords.library.pipe_in_pipe import PipSections
 
 
 @rule(SBD006)

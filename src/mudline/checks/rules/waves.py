@@ -15,10 +15,9 @@ from mudline.language.rules import rule
 from mudline.model.scene.deck_values import DEFAULT_GRAVITY, number
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.current import Current
-    from mudline.language.keywords.library.time import TimeSpan
-    from mudline.language.keywords.library.wave_regular import RegularWaves
-    from mudline.language.keywords.library.wave_stokes import StokesWave
+    from mudline.language.keywords.library.analysis import TimeSpan
+    from mudline.language.keywords.library.currents import Current
+    from mudline.language.keywords.library.waves import RegularWaves, StokesWave
 
 WAV002 = Code("WAV002", "breaking-wave", Severity.WARNING)
 TIM003 = Code("TIM003", "ramp-does-not-fit", Severity.WARNING)
@@ -34,12 +33,11 @@ _ROUNDED = 1e-3
 
 
 class _Wave(NamedTuple):
-    """A wave of one period: its height, and the places of height and period."""
+    """A wave of one period: its height, and the place of the height."""
 
     height: float
     period: float
     at_height: Where
-    at_period: Where
 
 
 def waves(context: LintContext) -> list[_Wave]:
@@ -49,11 +47,10 @@ def waves(context: LintContext) -> list[_Wave]:
         for index, entry in enumerate(cast("RegularWaves", block).waves):
             place = where.inside("waves", index, "wave")
             height, period = 2.0 * number(entry.wave, "amplitude"), number(entry.wave, "period")
-            found.append(_Wave(height, period, place.inside("amplitude"), place.inside("period")))
+            found.append(_Wave(height, period, place.inside("amplitude")))
     for where, block in context.blocks("WAVE-STOKES", "LOAD CASE"):
         wave = cast("StokesWave", block)
-        places = where.inside("height"), where.inside("period")
-        found.append(_Wave(number(wave, "height"), number(wave, "period"), *places))
+        found.append(_Wave(number(wave, "height"), number(wave, "period"), where.inside("height")))
     return [wave for wave in found if wave.height > 0.0 and wave.period > 0.0]
 
 

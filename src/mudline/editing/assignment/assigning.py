@@ -11,12 +11,12 @@ from typing import NamedTuple, cast
 from mudline.basics.limits import LISTED
 from mudline.basics.short_repr import cut
 from mudline.basics.spelling import nearest
-from mudline.editing.assignment.fields import Target, Value, blocks_of, cell, values_of
+from mudline.editing.assignment.fields import Target, Value, blocks_of, values_of
 from mudline.editing.assignment.paths import Assignment, Operand
 from mudline.language.deck.meaning import same_meaning
 from mudline.language.deck.model import Deck
 from mudline.language.deck.reading import TextOrigin, read_source
-from mudline.language.diagnostics import Diagnostic, Problem, Severity, Span
+from mudline.language.diagnostics import Diagnostic, Problem, Severity, Span, Where
 from mudline.language.keywords.ranges import range_fault
 from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Equation, Kind
@@ -78,7 +78,11 @@ def assigned(deck: Deck, assignment: Assignment, target: Target, units: str | No
     if _same(found.value, wanted):
         return Assigned((), line, written, written)
     edits = tuple(replacement_in_layout(origin.source, span, assignment.value))
-    content = _edited(origin.source, edits, line)
+    try:
+        content = edited_bytes(origin.source, edits)
+    except UnicodeEncodeError as error:
+        message = f"the file's encoding, {origin.source.encoding}, lacks a character of the value"
+        raise AssignmentError(message, line) from error
     after = read_source(Source.from_bytes(content, deck.file), units=units)
     after.folder = deck.folder
     _require_no_worse(deck, after, line)
@@ -149,15 +153,6 @@ def _same(one: object, other: object) -> bool:
     return one == other
 
 
-def _edited(source: Source, edits: Sequence[TextEdit], line: int) -> bytes:
-    try:
-        return edited_bytes(source, edits)
-    except UnicodeEncodeError as error:
-        raise AssignmentError(
-            f"the file's encoding, {source.encoding}, lacks a character of the value", line
-        ) from error
-
-
 def _require_no_worse(before: Deck, after: Deck, line: int) -> None:
     """Raise AssignmentError for a deck with errors that it did not have before."""
     old, new = (
@@ -178,11 +173,10 @@ def _require_only_this(
         raise AssignmentError(
             f"the units of the deck, {before.units}, would be taken for {after.units}: give them by --units", line
         )
-    new = _value_at(after, found)
+    new = _at(after, found.where)
     if _same(new, wanted):
         if isinstance(found.owner, Table):
-            row, column = cast("tuple[int, int]", found.where.path[-2:])
-            _set_cell(found.owner, row, column, after, found)
+            _set_cell(found.owner, after, found.where)
         else:
             setattr(found.owner, found.field.slot.name, new)
         if same_meaning(before, after):
@@ -190,8 +184,9 @@ def _require_only_this(
     raise AssignmentError(f"{assignment.value!r} would change more than {assignment.path}", line)
 
 
-def _set_cell(table: Table, row: int, column: int, after: Deck, found: Value) -> None:
-    other = _owner(after, found)
+def _set_cell(table: Table, after: Deck, where: Where) -> None:
+    row, column = cast("tuple[int, int]", where.path[-2:])
+    other = _at(after, where._replace(path=where.path[:-2]))
     if isinstance(other, Table) and other.values.shape == table.values.shape:
         table.values[row, column] = other.values[row, column]
         table.words.pop((row, column), None)
@@ -199,22 +194,12 @@ def _set_cell(table: Table, row: int, column: int, after: Deck, found: Value) ->
             table.words[row, column] = other.words[row, column]
 
 
-def _value_at(deck: Deck, found: Value) -> object:
-    owner = _owner(deck, found)
-    if isinstance(owner, Table):
-        row, column = cast("tuple[int, int]", found.where.path[-2:])
-        return cell(owner, row, column) if row < len(owner) else None
-    return getattr(owner, found.field.slot.name, None)
-
-
-def _owner(deck: Deck, found: Value) -> object:
-    """The record or table of a deck where that of the other deck is; None where there is none."""
+def _at(deck: Deck, where: Where) -> object:
+    """What stands at a place of a deck; None where it has none."""
     try:
-        block = deck.sections[found.where.section].blocks[found.where.block]
+        return deck.sections[where.section].blocks[where.block].at(where.path)[1]
     except IndexError:
         return None
-    path = found.where.path[: -2 if isinstance(found.owner, Table) else -1]
-    return block.at(path)[1]
 
 
 # ------------------------------------------------------------------------------------------------------------ alignment
@@ -240,7 +225,9 @@ def replacement_in_layout(source: Source, span: Span, text: str) -> list[TextEdi
     if row is None or index is None or not growth:
         return replaced
     blanks = _to_resize(source, row, index)
-    return replaced if blanks is None else [*replaced, _resized(blanks, growth)]
+    if blanks is None:
+        return replaced
+    return [*replaced, TextEdit(blanks, " " * max(blanks.end - blanks.start - growth, 1))]
 
 
 def _to_resize(source: Source, row: _Row, index: int) -> Span | None:
@@ -255,12 +242,6 @@ def _to_resize(source: Source, row: _Row, index: int) -> Span | None:
     if index + 1 < len(row.fields) and any(span.start - row.start == other.start - start for other, start in others):
         return _wide_blanks_before(source, row, row.fields[index + 1].span)
     return None
-
-
-def _resized(blanks: Span, growth: int) -> TextEdit:
-    """Blanks that are fewer by `growth`, but at least one."""
-    left = max(blanks.end - blanks.start - growth, 1)
-    return TextEdit(blanks, " " * left)
 
 
 def _wide_blanks_before(source: Source, row: _Row, span: Span) -> Span | None:

@@ -13,7 +13,7 @@ from mudline.language.deck.model import Opaque
 from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Where
 from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Record, Rows, record_schema
-from mudline.language.keywords.table import Cell, Table
+from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Kind, Names
 from mudline.language.keywords.writer import field_text, joined
 
@@ -57,13 +57,10 @@ def _identity(record: Record) -> str | None:
     slots = [slot for slot in record_schema(type(record)).slots if slot.required and not slot.record]
     values = [getattr(record, slot.name, None) for slot in slots]
     words = [field_text(value) for value in values if isinstance(value, float | int | str)]
-    words += [joined(_cells(value)) for value in values if isinstance(value, ListRow)]
+    for row in (value for value in values if isinstance(value, ListRow)):
+        given = (slot.name for slot in record_schema(type(row)).columns if slot.name in row.model_fields_set)
+        words.append(joined([getattr(row, name) for name in given]))
     return ", ".join(words) or None
-
-
-def _cells(row: ListRow) -> list[Cell]:
-    given = [getattr(row, slot.name) for slot in record_schema(type(row)).columns if slot.name in row.model_fields_set]
-    return cast("list[Cell]", given)
 
 
 class _Flattening:

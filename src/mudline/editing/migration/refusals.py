@@ -21,8 +21,8 @@ from mudline.language.keywords.catalogue import (
     suggest_keyword,
     supersedes,
 )
+from mudline.language.keywords.library.seabed_properties import Surface
 from mudline.language.keywords.model import Block
-from mudline.language.keywords.surfaces import Surface
 from mudline.language.keywords.values import Equation
 from mudline.language.syntax.tree import canonical_name
 from mudline.model.scene.deck_values import LARGEST_MOBILISATION

@@ -15,9 +15,9 @@ from mudline.language.deck.model import Deck
 from mudline.language.deck.parameters import folded
 from mudline.language.deck.reading import TextOrigin
 from mudline.language.diagnostics import Span, Where
-from mudline.language.keywords.library.embedment import Embedment
+from mudline.language.keywords.library.seabed_curves import Embedment
+from mudline.language.keywords.library.seabed_properties import Surface
 from mudline.language.keywords.model import record_schema
-from mudline.language.keywords.surfaces import Surface
 from mudline.language.keywords.text import reads_as_name
 from mudline.language.syntax.edits import TextEdit
 from mudline.language.syntax.fields import trimmed

@@ -29,8 +29,8 @@ from mudline.language.syntax.tree import Kind, canonical_name, parse
 from mudline.model.scene.deck_values import find_file, not_found
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.parameters import Parameters as Block_
-    from mudline.language.keywords.library.variation import NamedVariation, ValueRange, VariedBlock, VariedParameter
+    from mudline.language.keywords.library.preprocessor import NamedVariation, ValueRange, VariedBlock, VariedParameter
+    from mudline.language.keywords.library.preprocessor import Parameters as Block_
 
 
 _PLANNING = "PREPROCESSOR"

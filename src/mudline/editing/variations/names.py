@@ -14,12 +14,12 @@ from mudline.language.diagnostics import Problem, Severity, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.text import hint, shown, suggestion
 from mudline.language.keywords.unknown import is_unknown, known_name
+from mudline.language.keywords.values import Names
 from mudline.language.syntax.tree import canonical_name
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.combinations import Combinations
-    from mudline.language.keywords.library.parameters import Parameters as ParameterBlock
-    from mudline.language.keywords.library.variation import Variation, VariedBlock
+    from mudline.language.keywords.library.preprocessor import Parameters as ParameterBlock
+    from mudline.language.keywords.library.preprocessor import VariedBlock
 
 
 def unquoted(text: str) -> str:
@@ -68,7 +68,8 @@ def may_vary(deck: Deck) -> bool:
 
 def undefined_parameters(deck: Deck) -> Iterator[Problem]:
     """Parameters in PARA= or as `%name%` in a folder or file name that `*PARAMETERS` does not define."""
-    named = [*_varied(deck), *_in_names(deck)]
+    varied = (one for one in deck.names() if one.kind is Names.PARAMETER and one.role == "names")
+    named = [*((unquoted(one.name), one.where) for one in varied), *_in_names(deck)]
     known = _parameters(deck) if named else None
     effort = Effort()
     for name, where in named:
@@ -82,7 +83,9 @@ def undefined_variations(deck: Deck) -> Iterator[Problem]:
     present = deck.keywords(DEFINING)
     if not called or "EXCEL VARIATIONS" in present or _unsure(deck, "VARIATION"):
         return
-    variations = [known_name(variation.name) for _, block in _variations(deck) for variation in block.variations]
+    variations = [
+        known_name(variation.name) for _, block in deck.blocks("VARIATION", DEFINING) for variation in block.variations
+    ]
     if None in variations:
         return
     known = {name_key(name): unquoted(name) for name in variations if name is not None}
@@ -119,33 +122,15 @@ def _similar(name: str, known: Collection[str], effort: Effort) -> str:
 
 
 def _actions(deck: Deck) -> Iterator[tuple[VariedBlock, Where]]:
-    for where, block in _variations(deck):
+    for where, block in deck.blocks("VARIATION", DEFINING):
         for i, variation in enumerate(block.variations):
             for j, varied in enumerate(variation.blocks):
                 yield varied, where.inside("variations", i, "blocks", j)
 
 
-def _variations(deck: Deck) -> Iterable[tuple[Where, Variation]]:
-    return deck.blocks("VARIATION", DEFINING)
-
-
-def _combinations(deck: Deck) -> Iterable[tuple[Where, Combinations]]:
-    return deck.blocks("COMBINATIONS", DEFINING)
-
-
-def _varied(deck: Deck) -> Iterator[_Named]:
-    """The parameters that vary."""
-    for where, block in _variations(deck):
-        for i, variation in enumerate(block.variations):
-            for j, varied in enumerate(variation.parameters):
-                if known_name(varied.parameter) is not None:
-                    place = where.inside("variations", i, "parameters", j, "parameter")
-                    yield unquoted(varied.parameter), place
-
-
 def _in_names(deck: Deck) -> Iterator[_Named]:
     """The parameters in names of folders and files."""
-    for where, block in _combinations(deck):
+    for where, block in deck.blocks("COMBINATIONS", DEFINING):
         given = [(block.directory, where.inside("directory"))]
         for i, combination in enumerate(block.combinations):
             place = where.inside("combinations", i)
@@ -157,7 +142,7 @@ def _in_names(deck: Deck) -> Iterator[_Named]:
 
 def _called(deck: Deck) -> Iterator[_Named]:
     """The variations that combinations call."""
-    for where, block in _combinations(deck):
+    for where, block in deck.blocks("COMBINATIONS", DEFINING):
         for i, combination in enumerate(block.combinations):
             for j, line in enumerate(combination.variations):
                 for number, name in enumerate(cast("list[str] | None", line.names) or ()):

@@ -32,7 +32,7 @@ from mudline.language.keywords.text import shown
 from mudline.language.syntax.source import Source
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.combinations import Combination
+    from mudline.language.keywords.library.preprocessor import Combination
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +85,8 @@ class _Planner:
         self._raise_any()
         self._readable(decks)
         self._raise_any()
-        return ExpansionPlan(PurePath(self.deck.file).name, decks, self.rewriter, self._notes(), companions(self.text))
+        notes = ["*EXCEL VARIATIONS is not expanded: it is passed through unchanged"] if self._excel() else []
+        return ExpansionPlan(PurePath(self.deck.file).name, decks, self.rewriter, notes, companions(self.text))
 
     def _report(self, message: str, where: Where) -> None:
         self.problems.append(Problem(EXP001, message, None, None, where))
@@ -97,11 +98,6 @@ class _Planner:
     def _excel(self) -> str:
         there = "EXCEL VARIATIONS" in self.deck.keywords("PREPROCESSOR")
         return " (*EXCEL VARIATIONS is not expanded)" if there else ""
-
-    def _notes(self) -> list[str]:
-        if not self._excel():
-            return []
-        return ["*EXCEL VARIATIONS is not expanded: it is passed through unchanged"]
 
     # ------------------------------------------------------------------------------------------------- combinations
 

@@ -11,10 +11,9 @@ from pydantic.json_schema import models_json_schema
 
 from mudline.basics.quantities import UNIT_SYSTEMS
 from mudline.language.deck import MARK
-from mudline.language.deck.faults import DocumentPath, Faults, Locate, document_path, refusal, shown
+from mudline.language.deck.faults import DocumentPath, Faults, Locate, document_path, refusal, respelt, shown
 from mudline.language.deck.model import START, Deck, Opaque, Origin, Range, Section
 from mudline.language.deck.reading import Findings
-from mudline.language.deck.respelling import respelt
 from mudline.language.diagnostics import Problem, Severity, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.keeping import is_read
@@ -320,7 +319,7 @@ def json_schema() -> dict[str, Any]:
 
     In which section a keyword belongs is left to reading, as a deck may hold a keyword in the wrong one.
     """
-    blocks = [catalogue.load(module) for module in catalogue.modules()]
+    blocks = catalogue.block_classes()
     models: list[type[BaseModel]] = [*blocks, Opaque, Comment]
     made, schema = models_json_schema([(model, "validation") for model in models], ref_template=_REFERENCE)
     references = {model: made[model, "validation"] for model in models}

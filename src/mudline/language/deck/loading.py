@@ -1,4 +1,4 @@
-"""A file in any form to a deck, and back."""
+"""A file in any form to a deck and back, and how much of it was read."""
 
 from __future__ import annotations
 
@@ -11,8 +11,11 @@ from mudline.basics.limits import LARGEST_FILE
 from mudline.language.deck import forms
 from mudline.language.deck.faults import refusal
 from mudline.language.deck.forms import KEYWORD, form_of
-from mudline.language.deck.model import Deck
+from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.reading import read_source
+from mudline.language.diagnostics import Coverage
+from mudline.language.keywords.keeping import is_read
+from mudline.language.keywords.model import Block
 from mudline.language.keywords.reader import BlockReader, read_block
 from mudline.language.syntax.source import Source
 
@@ -58,3 +61,24 @@ def dump(deck: Deck, form: str) -> str:
 def _form(form: str) -> ModuleType:
     """The module of a form, imported when a file has it: keyword decks need neither JSON nor YAML."""
     return import_module(f"{forms.__name__}.{form}")
+
+
+def coverage_of(deck: Deck) -> Coverage:
+    """Count the keywords of a deck itself by how much of them was read."""
+    found = Coverage()
+    for section in deck.own_sections:
+        for block in section.blocks:
+            found.total += 1
+            if extent(block) == "read":
+                found.read += 1
+            else:
+                names = found.unread if type(block) is Opaque else found.partly
+                names[block.keyword] = names.get(block.keyword, 0) + 1
+    return found
+
+
+def extent(block: Block | Opaque) -> str:
+    """How much of a block was read: "read", "partly" or "unread"."""
+    if type(block) is Opaque:
+        return "unread"
+    return "read" if is_read(block) else "partly"

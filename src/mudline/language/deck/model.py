@@ -26,7 +26,7 @@ from mudline.language.diagnostics import (
     Where,
 )
 from mudline.language.keywords.model import Block, Comment, Part, record_schema
-from mudline.language.keywords.naming import Role, holds_name, is_name, roles_of
+from mudline.language.keywords.naming import Role, all_names_given
 from mudline.language.keywords.values import Names, Text
 
 
@@ -264,12 +264,10 @@ class Deck:
         Numbers and labels of nodes and elements are no names.
         """
         return [
-            NamedPlace(kind, role, value, Where(i, j, path))
+            NamedPlace(kind, role, name, Where(i, j, path))
             for i, section in enumerate(self.sections)
             for j, block in enumerate(section.blocks)
-            for path, slot, value in block.walk(holds_name)
-            if is_name(value)
-            for role, kind in roles_of(slot)
+            for kind, role, name, path in all_names_given(block)
         ]
 
     def keywords(self, section: str = "MODEL") -> set[str]:

@@ -25,7 +25,7 @@ from mudline.language.syntax.rows import read_number
 
 if TYPE_CHECKING:
     from mudline.language.expression.nodes import Expression, ExpressionError
-    from mudline.language.keywords.library.parameters import Parameter
+    from mudline.language.keywords.library.preprocessor import Parameter
 
 
 Value = float | str

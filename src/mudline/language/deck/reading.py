@@ -141,13 +141,12 @@ class TextOrigin(Origin):
     tree: SyntaxTree
     read: dict[tuple[int, int], ReadBlock] = field(default_factory=dict)
     no_equations: bool = False
+    source: Source = field(init=False)
 
     __repr__ = short_repr
 
-    @property
-    def source(self) -> Source:
-        """The text."""
-        return self.tree.source
+    def __post_init__(self) -> None:
+        self.source = self.tree.source
 
     def span(self, where: Where) -> Span | None:
         """The span of a value, of its block or section where it has none."""
@@ -386,16 +385,14 @@ def units_of(deck: Deck) -> str:
             return units.lower()
     gravity = gravity_of(deck)
     system = next((name for name, g in GRAVITIES.items() if gravity and abs(gravity - g) <= _NEAR * g), "user")
-    return "user" if system == "metric" and suffix == ".keyx" and _is_in_tonnes(deck) else system
+    if system == "metric" and suffix == ".keyx":
+        density = _of_ocean(deck, "density")
+        return "user" if density is not None and _TONNES[0] <= density <= _TONNES[1] else system
+    return system
 
 
 _TONNES = (0.9, 1.3)
 """Densities of water and brines in t/m3."""
-
-
-def _is_in_tonnes(deck: Deck) -> bool:
-    density = _of_ocean(deck, "density")
-    return density is not None and _TONNES[0] <= density <= _TONNES[1]
 
 
 def gravity_of(deck: Deck) -> float | None:

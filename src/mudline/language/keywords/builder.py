@@ -14,8 +14,7 @@ from mudline.language.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.language.keywords.grammar import ROW, Content, Node
 from mudline.language.keywords.model import Block, FieldSpec, ListRow, Part, Record, record_schema
 from mudline.language.keywords.numbers import cut_number
-from mudline.language.keywords.parsed import Item, ParsedRecord, Written
-from mudline.language.keywords.runs import TableBuilder
+from mudline.language.keywords.parsed import Item, ParsedRecord, TableBuilder, Written
 from mudline.language.keywords.table import fewest_fields, row_format
 from mudline.language.keywords.text import (
     MIXED_FIELDS,

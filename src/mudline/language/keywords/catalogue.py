@@ -70,7 +70,7 @@ def _read(keyword: str) -> list[Entry]:
 @lru_cache(_ASKED)
 def block_class(section: str, keyword: str) -> type[Block] | None:
     """The declaration of a keyword in a section, or None when it is passed through."""
-    return next((load(entry.module) for entry in _read(keyword) if section in entry.sections), None)
+    return next((load(entry) for entry in _read(keyword) if section in entry.sections), None)
 
 
 @lru_cache(_ASKED)
@@ -79,45 +79,40 @@ def declared(keyword: str, section: str = "") -> type[Block] | None:
 
     That for a section goes before others, as the keyword may stand in a wrong one.
     """
-    return block_class(section, keyword) or next((load(entry.module) for entry in _read(keyword)), None)
+    return block_class(section, keyword) or next(map(load, _read(keyword)), None)
 
 
 def declarations(keyword: str) -> list[type[Block]]:
     """The declarations of a keyword: it may mean other things in other sections."""
-    return [load(entry.module) for entry in _read(keyword)]
+    return [load(entry) for entry in _read(keyword)]
 
 
 @cache
-def load(module: str) -> type[Block]:
-    """The block class that a module of the library declares as BLOCK."""
-    return cast("type[Block]", import_module(f"{_LIBRARY}.{module}").BLOCK)
+def load(entry: Entry) -> type[Block]:
+    """The block class of a declaration; its module is imported."""
+    return cast("type[Block]", getattr(import_module(f"{_LIBRARY}.{entry.module}"), entry.name))
 
 
 def opaque_keyword(section: str, keyword: str) -> OpaqueKeyword | None:
     """What is known of a keyword that is passed through, or None when that is its name at most."""
     kept = (entry for entry in entries(keyword) if entry.kept and section in entry.sections)
-    return next((load_opaque(entry.module) for entry in kept), None)
+    return next(map(load_opaque, kept), None)
 
 
 @cache
-def load_opaque(module: str) -> OpaqueKeyword:
-    """What a module of the library says as OPAQUE of a keyword whose lines are kept."""
-    return cast("OpaqueKeyword", import_module(f"{_LIBRARY}.{module}").OPAQUE)
-
-
-def kept_keywords(section: str) -> list[str]:
-    """The keywords of a section that `opaque_keyword` knows, in the order of the catalogue."""
-    return [entry.keyword for entry in index.ENTRIES if entry.kept and section in entry.sections]
+def load_opaque(entry: Entry) -> OpaqueKeyword:
+    """The declaration of a keyword whose lines are kept; its module is imported."""
+    return cast("OpaqueKeyword", getattr(import_module(f"{_LIBRARY}.{entry.module}"), entry.name))
 
 
 def opaque_keywords() -> list[OpaqueKeyword]:
-    """Every keyword that `opaque_keyword` knows, in the order of the catalogue."""
-    return [load_opaque(entry.module) for entry in index.ENTRIES if entry.kept]
+    """Every declaration of a keyword whose lines are kept, in the order of the catalogue."""
+    return [load_opaque(entry) for entry in index.ENTRIES if entry.kept]
 
 
-def modules() -> list[str]:
-    """Names of the library modules that declare keywords whose lines are read, in the order of the catalogue."""
-    return [entry.module for entry in index.ENTRIES if not entry.kept]
+def block_classes() -> list[type[Block]]:
+    """Every declaration of a keyword whose lines are read, in the order of the catalogue."""
+    return [load(entry) for entry in index.ENTRIES if not entry.kept]
 
 
 def in_order(keywords: Iterable[str]) -> list[str]:

@@ -1,55 +1,25 @@
-"""What several keywords of the seabed or of lines share."""
+"""Parts that keywords of several subjects share."""
 
 from __future__ import annotations
 
 from typing import Annotated
 
-from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Part, Record, Row, record_schema
+from mudline.language.keywords.fields import about
+from mudline.language.keywords.model import Part, record_schema
 from mudline.language.keywords.table import Table
-from mudline.language.keywords.values import Name, Real
+from mudline.language.keywords.values import Ident, Names, Real, Whole
 
-CONSTANT_FRICTION = (
-    "no meaning: the manual names the field and says neither what it does nor its unit, so the value is kept and no "
-    "friction is computed from it"
-)
-SUCTION_STIFFNESS = (
-    "the unit, which the manual does not give: that of the linear stiffness, a force per unit length for each length "
-    "that the pipe rises"
-)
-_PER_LENGTH = "the force is per unit length, as is the linear stiffness that the curve replaces"
 NO_SET = (
     "lines before any SET= are read as those of SET=ALL, since the manual's default set of a force-embedment curve is "
     "every element on the seabed"
 )
-POINTS = "points of the curve in any order; at least two"
 
-
-class CurvePoint(Row):
-    """A point of a force-embedment curve."""
-
-    ratio: Annotated[
-        Real,
-        about(
-            "embedment ratio: mean depth of the element's nodes over external diameter",
-            unit="-",
-            heading="Embedment Ratio",
-        ),
-    ]
-    force: Annotated[
-        Real,
-        about("seabed force at that ratio", unit="F/L", inferred=_PER_LENGTH, heading="Seabed Force"),
-    ]
-
-
-class AdditionalSets(Record):
-    """More sets that the elements of a section belong to."""
-
-    rule = "additional_sets"
-    sets: Annotated[
-        list[Name],
-        setting("ADDITIONAL", "more element sets that hold this section", inferred="the line may be repeated"),
-    ]
+Node = Annotated[Ident, about("node number, or its label", names=Names.NODE)]
+Element = Annotated[Ident, about("element number, or its label", names=Names.ELEMENT)]
+Freedom = Annotated[
+    Whole, about("degree of freedom; 1 vertical, 2 and 3 horizontal, 4 to 6 rotations", at_least=1, at_most=6)
+]
+Direction = Annotated[Real | None, about("direction, anticlockwise from the global Y axis", unit="deg", default="0")]
 
 
 def require_one(part: Part, *names: str) -> None:

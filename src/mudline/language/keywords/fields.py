@@ -3,13 +3,32 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, cast
+from types import NoneType, UnionType
+from typing import Annotated, Any, Literal, Union, cast, get_args, get_origin
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
+from pydantic import fields as pydantic_fields
 from pydantic_core import CoreSchema, core_schema
 
-from mudline.language.keywords.json_schema import with_limits
-from mudline.language.keywords.values import Contents, Names
+from mudline.language.keywords.table import LARGEST_WHOLE, Column
+from mudline.language.keywords.values import Contents, Equation, Kind, Label, Names
+
+
+def cell_schema(column: Column) -> dict[str, Any]:
+    """The JSON Schema of a cell."""
+    words = [Label] * (column.kind in (Kind.IDENT, Kind.WHOLE_OR_LABEL)) + [Equation] * (column.kind is not Kind.IDENT)
+    number = {"type": "integer", "minimum": -LARGEST_WHOLE, "maximum": LARGEST_WHOLE}
+    options = [number if column.whole else {"type": "number"}, *(word.json_schema() for word in words)]
+    return {"description": column.label, "anyOf": options if column.required else [*options, {"type": "null"}]}
+
+
+def with_limits(schema: dict[str, Any], limits: dict[str, float]) -> dict[str, Any]:
+    """A JSON Schema in which the numbers have limits."""
+    if schema.get("type") in ("number", "integer"):
+        return schema | limits
+    if limits and "anyOf" in schema:
+        return schema | {"anyOf": [with_limits(one, limits) for one in schema["anyOf"]]}
+    return schema
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,3 +110,39 @@ def about(meaning: str, **details: Any) -> FieldInfo:
 def setting(key: str, meaning: str, **details: Any) -> Setting:
     """A field written `KEY=value`."""
     return Setting(meaning, key=key, **details)
+
+
+def parts_of(annotation: Any) -> list[Any]:
+    """A type taken apart: members of unions, items of lists, what is annotated."""
+    origin = get_origin(annotation)
+    if origin is Annotated:
+        return [*parts_of(get_args(annotation)[0]), *get_args(annotation)[1:]]
+    if origin in (Union, UnionType, list):
+        return [piece for member in get_args(annotation) for piece in parts_of(member)]
+    return [] if annotation is NoneType else [annotation]
+
+
+def metadata_of(info: pydantic_fields.FieldInfo) -> list[Any]:
+    """What a field is annotated with, and its types taken apart."""
+    return [*info.metadata, *parts_of(info.annotation)]
+
+
+def kind_of(info: pydantic_fields.FieldInfo) -> Kind | None:
+    """How the text of a field is read, None for a part."""
+    return next((item for item in metadata_of(info) if isinstance(item, Kind)), None)
+
+
+def choices_of(annotation: Any) -> tuple[str, ...]:
+    """The words that a field may hold, () where it is no choice."""
+    literal = (piece for piece in parts_of(annotation) if get_origin(piece) is Literal)
+    return next((get_args(piece) for piece in literal), ())
+
+
+def is_list(annotation: Any) -> bool:
+    """Whether a field holds a list."""
+    origin = get_origin(annotation)
+    if origin is Annotated:
+        return is_list(get_args(annotation)[0])
+    if origin in (Union, UnionType):
+        return any(is_list(member) for member in get_args(annotation))
+    return origin is list

@@ -12,26 +12,18 @@ from dataclasses import dataclass, field
 from functools import cache
 from itertools import chain
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
-from mudline.basics.short_repr import with_fields
 from mudline.language.keywords import grammar
-from mudline.language.keywords.model import Block, FieldSpec, Part, Path, Record, fields_of, record_schema
-from mudline.language.keywords.values import Count, Kind, Text
+from mudline.language.keywords.model import Block, Comment, FieldSpec, Part, Path, Record, fields_of, record_schema
+from mudline.language.keywords.values import Kind
 from mudline.language.syntax.fields import canonical_key
 
 _INLINE = re.compile(r",[ \t]*([A-Za-z][\w \t-]*)=([^,\r\n]*)")
 
 
-class KeptLine(BaseModel):
+class KeptLine(Comment):
     """A line that is passed through; `before` is the index of the item that it precedes, behind the comments there."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
-    before: Count
-    text: Text
-
-    def __repr__(self) -> str:
-        return with_fields(self, [("before", self.before), ("text", self.text)])
 
 
 def _no_lines() -> list[KeptLine]:
@@ -74,9 +66,9 @@ def _holds_keepers(slot: FieldSpec) -> bool:
     return any(map(keeps_lines, slot.parts))
 
 
-def kept_lines(part: Part) -> Iterator[str]:
-    """Yield the lines that a part and those inside it keep."""
-    return (line for _, line in kept_places(part))
+def kept_lines(part: Part) -> list[str]:
+    """Return the lines that a part and those inside it keep."""
+    return [line for _, line in kept_places(part)]
 
 
 def kept_places(part: Part) -> Iterator[tuple[Path, str]]:

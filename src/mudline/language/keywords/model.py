@@ -22,9 +22,18 @@ from pydantic_core import CoreSchema, core_schema
 
 from mudline.basics.limits import MOST_KEYS
 from mudline.basics.short_repr import counted, with_fields
-from mudline.language.keywords.annotations import choices_of, is_list, kind_of, metadata_of, parts_of
-from mudline.language.keywords.fields import AS_TEXT, FieldInfo, Setting
-from mudline.language.keywords.json_schema import cell_schema, with_limits
+from mudline.language.keywords.fields import (
+    AS_TEXT,
+    FieldInfo,
+    Setting,
+    cell_schema,
+    choices_of,
+    is_list,
+    kind_of,
+    metadata_of,
+    parts_of,
+    with_limits,
+)
 from mudline.language.keywords.table import (
     AS_TABLES,
     Cell,
@@ -167,12 +176,14 @@ class Part(BaseModel):
 
     __str__ = __repr__
 
-    def walk(self, wanted: Wanted | None = None) -> Iterator[Value]:
-        """Yield the values of the part, and of the parts inside it, whose field is wanted: of all if nothing tells.
+    def walk(self, wanted: Wanted | None = None) -> list[Value]:
+        """Return the values of the part, and of the parts inside it, whose field is wanted: of all if nothing tells.
 
         What is left out (None) is none.
         """
-        return _walk(self, (), wanted)
+        found: list[Value] = []
+        _walk(self, (), wanted, found)
+        return found
 
     def at(self, path: Path) -> tuple[FieldSpec | None, Any]:
         """Return the field and the value that a path leads to; None for a value that is not there."""
@@ -397,22 +408,17 @@ def is_part(kind: type[BaseModel]) -> bool:
     return issubclass(kind, Part)
 
 
-def _walk(part: Part, prefix: Path, wanted: Wanted | None) -> Iterator[Value]:
+def _walk(part: Part, prefix: Path, wanted: Wanted | None, found: list[Value]) -> None:
     for slot, own in _leading(type(part), wanted):
-        value = getattr(part, slot.name, None)
-        if isinstance(value, list):
-            for index, item in enumerate(value):
-                yield from _item((*prefix, slot.json, index), slot, item, wanted, own=own)
-        elif value is not None:
-            yield from _item((*prefix, slot.json), slot, value, wanted, own=own)
-
-
-def _item(path: Path, slot: FieldSpec, item: Any, wanted: Wanted | None, *, own: bool) -> Iterator[Value]:
-    if own:
-        yield Value(path, slot, item)
-    kind: type[BaseModel] = type(item)
-    if is_part(kind):
-        yield from _walk(item, path, wanted)
+        value: Any = getattr(part, slot.name, None)
+        listed = isinstance(value, list)
+        for index, item in enumerate(value if listed else () if value is None else (value,)):
+            path = (*prefix, slot.json, index) if listed else (*prefix, slot.json)
+            if own:
+                found.append(Value(path, slot, item))
+            kind: type[BaseModel] = type(item)
+            if is_part(kind):
+                _walk(item, path, wanted, found)
 
 
 @cache

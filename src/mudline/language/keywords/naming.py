@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cache
-from typing import Literal, TypeGuard, cast
+from typing import Literal, NamedTuple, TypeGuard, get_args
 
 from mudline.language.keywords.model import Block, FieldSpec, Part, Path, Wanted, fields_of, record_schema
 from mudline.language.keywords.unknown import UNKNOWN_NAME
@@ -12,6 +12,7 @@ from mudline.language.keywords.values import Equation, Label, Names
 
 Role = Literal["names", "defines"]
 """What a field does with a name: it uses that of another thing, or gives a thing its own."""
+ROLES: tuple[Role, ...] = get_args(Role)
 
 
 @cache
@@ -36,25 +37,43 @@ def may_name(part: type[Part], what: Names) -> bool:
     return what in kinds_of(part, "names")
 
 
-def holds_name(slot: FieldSpec) -> bool:
-    """Return True for a field that names or defines a thing by a text."""
-    return any(True for _ in roles_of(slot))
+class NameGiven(NamedTuple):
+    """A name that a part gives: the kind of the thing, the role of the field, the name as written, its path."""
+
+    kind: Names
+    role: Role
+    name: str
+    path: Path
 
 
-def roles_of(slot: FieldSpec) -> Iterator[tuple[Role, Names]]:
-    """Yield what a field does with names, and with which kind; numbers of nodes and elements are no names."""
-    for role, kind in (("names", slot.about.names), ("defines", slot.about.defines)):
+def all_names_given(part: Part) -> list[NameGiven]:
+    """Return every name that a part gives by a text; numbers and labels of nodes and elements are no names."""
+    return [
+        NameGiven(kind, role, name, path)
+        for path, slot, name in part.walk(_holds_name)
+        if is_name(name)
+        for role, kind in _roles_of(slot)
+    ]
+
+
+def _holds_name(slot: FieldSpec) -> bool:
+    return any(True for _ in _roles_of(slot))
+
+
+def _roles_of(slot: FieldSpec) -> Iterator[tuple[Role, Names]]:
+    for role in ROLES:
+        kind = getattr(slot.about, role)
         if kind is not None and kind not in (Names.NODE, Names.ELEMENT):
-            yield cast("Role", role), kind
+            yield role, kind
 
 
 def names_given(part: Part, what: Names, role: Role = "names") -> Iterator[tuple[Path, str]]:
-    """Yield the names of things of a kind that a part gives, with their paths; what is not a text is not a name."""
+    """Yield the names of things of a kind that a part gives, with their paths; numbers and equations are left out."""
     return ((path, name) for path, _, name in part.walk(naming(what, role)) if is_name(name))
 
 
 def is_name(item: object) -> TypeGuard[str]:
-    """Return True for a text that was read and is no equation."""
+    """Return True for a name that could be read: a text that is not an equation."""
     return isinstance(item, str) and item is not UNKNOWN_NAME and not isinstance(item, Equation)
 
 

@@ -2,15 +2,151 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from itertools import chain
+from typing import Any, NamedTuple, Protocol
 
-from mudline.language.diagnostics import Span
-from mudline.language.keywords.model import Record
-from mudline.language.keywords.runs import TableBuilder
-from mudline.language.keywords.unknown import UNKNOWN
-from mudline.language.syntax.fields import Field
+import numpy as np
+
+from mudline.basics.limits import MOST_REPORTED
+from mudline.language.codes.fields import SYN002, SYN003, SYN016
+from mudline.language.diagnostics import Problem, Span
+from mudline.language.keywords.model import FieldSpec, ListRow, Part, Record, record_schema
+from mudline.language.keywords.numbers import not_a_number
+from mudline.language.keywords.table import Column, Table, from_rows, row_format
+from mudline.language.keywords.text import Value, decimal_comma, in_braces, maybe_label, semicolons
+from mudline.language.keywords.unknown import UNKNOWN, UNKNOWN_NAME, Partly, is_unknown
+from mudline.language.keywords.values import Equation, Kind, Label
+from mudline.language.syntax.fields import Field, split
+from mudline.language.syntax.rows import Rows as RawRows
+from mudline.language.syntax.rows import read_rows, row_fields, row_starts
+
+
+class BlockReading(Protocol):
+    """The reading of a block, which a table in it adds to."""
+
+    text: str
+    problems: list[Problem]
+    unclosed: Span | None
+
+    def short(self, message: str, span: Span) -> None:
+        """Note a row that is too short."""
+
+
+class TableBuilder:
+    """Collects the runs of one table."""
+
+    def __init__(self, builder: BlockReading, slot: FieldSpec) -> None:
+        self.builder = builder
+        self.columns: list[Column] = slot.columns
+        self.runs: list[tuple[int, Span]] = []
+        self.parts: list[Table] = []
+        self.count = 0
+
+    def add(self, span: Span) -> int:
+        """Read one run; returns its number of rows."""
+        text = self.builder.text
+        raw = read_rows(text, span, len(self.columns))
+        self.runs.append((self.count, span))
+        table, faults = from_rows(raw, self.columns)
+        if faults:
+            self._report(span, raw, table, faults)
+        self.parts.append(table)
+        self.count += len(table)
+        return len(table)
+
+    def finish(self) -> Table:
+        """All rows in one table."""
+        if len(self.parts) == 1:
+            return self.parts[0]
+        width = max((part.values.shape[1] for part in self.parts), default=0)
+        values = np.full((self.count, width), np.nan)
+        words: dict[tuple[int, int], Equation | Label | None] = {}
+        start = 0
+        for part in self.parts:
+            values[start : start + len(part), : part.values.shape[1]] = part.values
+            words |= {(row + start, column): word for (row, column), word in part.words.items()}
+            start += len(part)
+        lengths = [part.lengths for part in self.parts] or [np.zeros(0, dtype=np.intp)]
+        return Table(values, np.concatenate(lengths), words)
+
+    def _report(self, span: Span, raw: RawRows, table: Table, faults: dict[tuple[int, int], str]) -> None:
+        text = self.builder.text
+        starts = row_starts(text, span)
+
+        def line(row: int) -> Span:
+            end = text.find("\n", starts[row], span.end)
+            return Span(starts[row], span.end if end < 0 else end)
+
+        short = {row for row, column in faults if column < 0}
+        reported = 0
+        broken: set[int] = set()
+        for (row, column), fault in sorted(faults.items()):
+            if row in short and column >= 0:
+                continue
+            if self._label(table, raw, line(row), row, column):
+                continue
+            reported += 1
+            if reported > MOST_REPORTED:
+                continue
+            if row not in broken and self._brackets(line(row)):
+                broken.add(row)
+            if row not in broken:
+                self._fault(line(row), row, column, fault, raw)
+        if reported > MOST_REPORTED:
+            message = f"{reported - MOST_REPORTED} more faulty rows or fields in this table"
+            self.builder.problems.append(Problem(SYN002, message, line(-1)))
+
+    def _label(self, table: Table, raw: RawRows, line: Span, row: int, column: int) -> bool:
+        """A word where a node number belongs is taken for a label whose braces were forgotten."""
+        word = raw.words.get((row, column), "")
+        if column < 0 or self.columns[column].kind is not Kind.IDENT or (label := maybe_label(word)) is None:
+            return False
+        table.words[row, column] = label
+        place = row_fields(self.builder.text, line, len(self.columns))[column].span
+        message = f"{word!r} is not a number: if it is a label, write {label}"
+        self.builder.problems.append(Problem(SYN016, message, place, repair=in_braces(word, place)))
+        return True
+
+    def _brackets(self, line: Span) -> bool:
+        """Whether the fault of a row is an unclosed bracket, which is then reported instead."""
+        _, problems = split(self.builder.text, line)
+        for problem in problems:
+            if problem.span != self.builder.unclosed:
+                self.builder.problems.append(problem)
+        return bool(problems)
+
+    def _fault(self, line: Span, row: int, column: int, fault: str, raw: RawRows) -> None:
+        text = self.builder.text
+        if column < 0:
+            fields, _ = split(text, line)
+            required = [column.required for column in self.columns]
+            if problem := decimal_comma(fields, [column.kind for column in self.columns], sum(required)):
+                self.builder.problems.append(problem)
+                return
+            if problem := semicolons(text, fields):
+                self.builder.problems.append(problem)
+                return
+            wanted = row_format([column.label for column in self.columns], required)
+            place = Span(fields[0].span.start, fields[-1].span.end)
+            message = f"{fault} (`{wanted}`)"
+            if len(fields) < sum(required):
+                self.builder.short(message, place)
+            else:
+                self.builder.problems.append(Problem(SYN003, message, place))
+            return
+        place = row_fields(text, line, len(self.columns))[column].span
+        word = raw.words.get((row, column))
+        if word == "":
+            self.builder.short(fault, place)
+            return
+        if word and (problem := semicolons(text, row_fields(text, line, len(self.columns)))):
+            self.builder.problems.append(problem)
+            return
+        wrong = word and not_a_number(word, place, self.columns[column].label, self.columns[column].kind)
+        self.builder.problems.append(wrong or Problem(SYN002, fault, place))
 
 
 class Item(NamedTuple):
@@ -65,3 +201,63 @@ class ParsedRecord:
             self.first = self.last = position
         elif position > self.last:
             self.last = position
+
+
+def lose(built: ParsedRecord, positions: Sequence[int]) -> None:
+    """Take note that lines of a record, or of those inside it, could not be used."""
+    built.unsure = True
+    inner = sorted(chain.from_iterable(built.children.values()), key=lambda child: child.first)
+    firsts = [child.first for child in inner]
+    of_child: dict[int, list[int]] = {}
+    for position in positions:
+        of_child.setdefault(bisect_right(firsts, position) - 1, []).append(position)
+    for child in inner[bisect_right(firsts, min(positions)) :]:  # a line above it may be that of its name
+        for slot in record_schema(child.part).slots[:1]:
+            if slot.key:
+                child.values.setdefault(slot.json, UNKNOWN)
+    for index, inside in of_child.items():
+        if index >= 0:
+            lose(inner[index], inside)
+
+
+def construct(built: ParsedRecord) -> Part:
+    """A model without validation, for a block in which something could not be read.
+
+    What is missing is None; it is unknown where it must not be missing, or a line that could not be used may have it.
+    """
+    ready: dict[str, Any] = {}
+    for slot in record_schema(built.part).slots:
+        given = _known(slot, built.values.get(slot.json))
+        if slot.record:
+            inner = [construct(child) for child in built.children.get(slot.json, [])]
+            ready[slot.name] = Partly(inner) if built.unsure else inner
+        elif slot.json not in built.values:
+            unknown = slot.required or (built.unsure and slot is not record_schema(built.part).table)
+            ready[slot.name] = _known(slot, UNKNOWN) if unknown else None
+        elif slot.row and isinstance(given, list):
+            columns = record_schema(slot.row).columns
+            ready[slot.name] = _bare(slot.row, {c.json: v for c, v in zip(columns, given, strict=False)})
+        elif slot.row and isinstance(given, dict):
+            ready[slot.name] = _bare(slot.row, given)
+        else:
+            ready[slot.name] = given
+    ready["comments"] = []
+    if "keyword" in built.values:
+        ready["keyword"] = built.values["keyword"]
+    return built.part.model_construct(_given(ready), **ready)
+
+
+def _bare(row: type[Part], values: dict[str, Value]) -> Part:
+    """A row as it was read."""
+    ready = {slot.name: _known(slot, values.get(slot.json)) for slot in record_schema(row).columns}
+    return row.model_construct(None if issubclass(row, ListRow) else _given(ready), **ready)
+
+
+def _given(fields: dict[str, Any]) -> set[str]:
+    """The names of the fields that are known: what is not is not written."""
+    return {name for name, value in fields.items() if not is_unknown(value)}
+
+
+def _known(slot: FieldSpec, value: object) -> Any:
+    """A value of a field, or what stands for one that could not be read."""
+    return UNKNOWN_NAME if value is UNKNOWN and slot.is_text else value

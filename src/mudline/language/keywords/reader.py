@@ -14,15 +14,13 @@ from mudline.basics.spelling import nearest
 from mudline.language.codes.lines import SYN001, SYN004, SYN013, SYN014
 from mudline.language.diagnostics import Problem, Severity, Span
 from mudline.language.keywords import grammar
-from mudline.language.keywords.attaching import Between, attach
+from mudline.language.keywords.attaching import Between, attach, doubtful, of_other_form
 from mudline.language.keywords.builder import Builder
-from mudline.language.keywords.constructing import construct, lose
 from mudline.language.keywords.fields import AS_TEXT
 from mudline.language.keywords.grammar import END, ROW, Content, Mismatch
 from mudline.language.keywords.keeping import is_choice, opened
-from mudline.language.keywords.kept_lines import doubtful, of_other_form
 from mudline.language.keywords.model import Block, Part, RecordSchema, record_schema
-from mudline.language.keywords.parsed import ParsedRecord
+from mudline.language.keywords.parsed import ParsedRecord, construct, lose
 from mudline.language.keywords.places import Places
 from mudline.language.keywords.text import hint, instead, merge_per_line, shown, suggestion
 from mudline.language.syntax.fields import first_key, trimmed
@@ -83,12 +81,10 @@ class BlockReader(Protocol):
 
 
 def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
-    """Read a block. `text` is the unified text of the source; `last` says that nothing follows the block in it."""
-    return _read(text, raw, declared, last=last)
+    """Read a block. `text` is the unified text of the source; `last` says that nothing follows the block in it.
 
-
-def _read(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
-    """Read a block, whose places are found by reading it again when somebody asks: few blocks are asked for them."""
+    The places in it are found by reading it again when somebody asks: few blocks are asked for them.
+    """
     read = _Reader(text, raw, declared, last=last).read()
     read.found = partial(_places, text, raw, declared, last=last)
     return read
@@ -124,12 +120,8 @@ def reads(text: str, raw: RawBlock, declared: type[Block]) -> bool:
 
 def read_piece(piece: str, start: int, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
     """Read a block as if its own lines were the whole text; `raw` is the block in the text, where it is at `start`."""
-    return _read(piece, _moved(raw, -start), declared, last=last)
-
-
-def _moved(raw: RawBlock, by: int) -> RawBlock:
-    leaves = [Leaf(leaf.kind, leaf.span.moved(by)) for leaf in raw.leaves]
-    return RawBlock(Leaf(raw.head.kind, raw.head.span.moved(by)), raw.name, leaves)
+    head, *leaves = (Leaf(leaf.kind, leaf.span.moved(-start)) for leaf in (raw.head, *raw.leaves))
+    return read_block(piece, RawBlock(head, raw.name, leaves), declared, last=last)
 
 
 class _Reader:
@@ -152,14 +144,13 @@ class _Reader:
         while True:
             self.problems, self.lost = [*noticed], lost
             found = self._attempt(contents)
-            odd = self._of_other_form(contents) if self.declared.open_lines and not self.declared.known_forms else ()
+            if not self.declared.open_lines or self.declared.known_forms:
+                return found
+            odd = of_other_form(self.text, self.problems, contents, tabular=self.declared.tabular)
             if not odd:
                 return found
             noticed += doubtful(self.problems)
             self._keep_all(odd, contents)
-
-    def _of_other_form(self, contents: list[Content]) -> set[Content]:
-        return of_other_form(self.text, self.problems, contents, tabular=self.declared.tabular)
 
     def _attempt(self, contents: list[Content]) -> ReadBlock:
         mismatches: list[Mismatch] = []

@@ -122,7 +122,11 @@ def decimal_comma(values: list[Field], kinds: list[Kind | None], fewest: int) ->
         numbers = [field for field in values if field.text.lstrip("+-").isdecimal()]
         names = sum(kind is Kind.NAME for kind in kinds[:length])
         first = widths.index(2) if 2 in widths else len(values)
-        if sum(widths) == len(values) > length and len(numbers) >= len(values) - names and _is_tight(*values[first:]):
+        if (
+            sum(widths) == len(values) > length
+            and len(numbers) >= len(values) - names
+            and _is_tight(*values[first : first + 2])
+        ):
             return _two_fields(values[first], values[first + 1], Severity.ERROR)
     return None
 
@@ -141,7 +145,7 @@ def semicolons(text: str, fields: list[Field]) -> Problem | None:
     return Problem(SYN003, message, span, repair=repair)
 
 
-def _is_tight(one: Field, two: Field, *_: Field) -> bool:
+def _is_tight(one: Field, two: Field) -> bool:
     """Whether two fields have a comma between them, and no blank."""
     return one.start + len(one.text) + 1 == two.start
 
@@ -157,7 +161,7 @@ def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> 
     One such pair may be a slip of the fingers, unless the second half begins with a zero or all other numbers have a
     point; two of them where real numbers belong are decimal commas.
     """
-    tight = [one.start + len(one.text) + 1 == two.start for one, two in pairwise(values)]
+    tight = [_is_tight(one, two) for one, two in pairwise(values)]
     if len(values) < MIXED_FIELDS or not any(tight) or all(tight):
         return None
     pairs = [at for at, joined in enumerate(tight) if joined]

@@ -227,7 +227,7 @@ SUBJECTS: tuple[Subject, ...] = get_args(Subject)
 
 
 class Entry(NamedTuple):
-    """A declaration in the index: which module has it, and what has to be known of it before it is imported.
+    """A declaration in the index: its module, its name there, and what has to be known of it before it is imported.
 
     The lines of a keyword that is `kept` are passed through. With `sections_inferred` it is not confirmed where it
     belongs. `names` and `defines` are the kinds of things, as members of `Names`, that its fields name and define;
@@ -236,6 +236,7 @@ class Entry(NamedTuple):
 
     keyword: str
     module: str
+    name: str
     sections: tuple[str, ...]
     subject: Subject
     kept: bool = False

@@ -5,26 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from operator import itemgetter
-from typing import Any, Protocol
+from typing import Any
 
 from pydantic_core import to_json
 
 from mudline.language.keywords.fields import Setting
+from mudline.language.keywords.keeping import KeptLine
 from mudline.language.keywords.model import Block, Comment, FieldSpec, Part, Record, Rows, record_schema
 from mudline.language.keywords.table import Cell, Listing, Table
-
-
-class Kept(Protocol):
-    """A line that is kept, before the item of an index."""
-
-    @property
-    def before(self) -> int:
-        """The index."""
-
-    @property
-    def text(self) -> str:
-        """The line."""
-
 
 Item = tuple[list[str], int]
 """Lines that comments can stand before, and how many items they count for: a line each of a table, else one."""
@@ -50,7 +38,7 @@ def _opens(record: Record) -> bool:
     return first is not None and isinstance(first.about, Setting)
 
 
-def with_comments(comments: list[Comment], items: Iterable[Item], kept: Iterable[Kept] = ()) -> Iterator[str]:
+def with_comments(comments: list[Comment], items: Iterable[Item], kept: Iterable[KeptLine] = ()) -> Iterator[str]:
     """The lines of items in their order, and between them comments and, behind these, lines that are kept."""
     between = [*((comment.before, f"C{comment.text}") for comment in comments)]
     between += [(line.before, line.text) for line in kept]
@@ -82,12 +70,15 @@ def _items(record: Record) -> Iterator[Item]:
         if value is None and slot not in own_row:
             continue
         setting = slot.about if isinstance(slot.about, Setting) else None
-        joins = bool(pending) and setting is not None and _joins(setting, pending)
+        joins = pending != "" and setting is not None and setting.inline
+        if joins and setting and setting.behind:
+            joins = pending.startswith(f" {setting.behind}=")
         if pending and not joins:
             yield [pending], 1
             pending = ""
         if slot in own_row:
-            pending = " " + _row(record, own_row) if _has_row(record, own_row) else ""
+            given = any(own.required or own.name in record.model_fields_set for own in own_row)
+            pending = " " + _row(record, own_row) if given else ""
         elif setting:
             text = f"{setting.key}={_value(value)}"
             pending = f"{pending}, {text}" if joins else f" {text}"
@@ -99,16 +90,6 @@ def _items(record: Record) -> Iterator[Item]:
             yield [f" {_value(value)}"], 1
     if pending:
         yield [pending], 1
-
-
-def _has_row(record: Record, columns: list[FieldSpec]) -> bool:
-    """Whether a record has its row, of which all values may be left out."""
-    return any(slot.required or slot.name in record.model_fields_set for slot in columns)
-
-
-def _joins(setting: Setting, line: str) -> bool:
-    """Whether a setting goes on the line before it."""
-    return setting.inline and (not setting.behind or line.startswith(f" {setting.behind}="))
 
 
 def table_lines(table: Table, slot: FieldSpec) -> Iterator[list[str]]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.basics.quantities import finite
-from mudline.language.deck.coverage import coverage_of, extent
+from mudline.language.deck.loading import coverage_of, extent
 from mudline.language.deck.model import Opaque
 from mudline.language.keywords.model import Block
 from mudline.model.contact.arrays import BoolArray

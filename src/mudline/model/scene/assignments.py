@@ -14,9 +14,8 @@ from mudline.model.scene.numbering import Floats, Indices, Mask, at_nodes, marke
 from mudline.model.scene.resolved import ResolvedDeck
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.seabed_friction import FrictionSet
-    from mudline.language.keywords.library.seabed_suction import SuctionSet
-    from mudline.language.keywords.library.seabed_trench import TrenchSet
+    from mudline.language.keywords.library.seabed_lateral import FrictionSet, TrenchSet
+    from mudline.language.keywords.library.seabed_normal import SuctionSet
     from mudline.model.contact.laws.suction import SuctionLaw
 
 _LINE = (("start_y", "y0"), ("start_z", "z0"), ("end_y", "y1"), ("end_z", "z1"))

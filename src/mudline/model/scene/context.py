@@ -31,7 +31,7 @@ from mudline.model.scene.deck_values import (
 )
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.surfaces import Surface
+    from mudline.language.keywords.library.seabed_properties import Surface
 
 T = TypeVar("T")
 MOST_NAMED = 3

@@ -18,8 +18,7 @@ from mudline.model.scene.context import Context
 from mudline.model.scene.numbering import Floats, Indices, Mask, identity, side_by_side
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.embedment import Embedment
-    from mudline.language.keywords.library.seabed_stiffness import SeabedStiffness
+    from mudline.language.keywords.library.seabed_curves import Embedment, SeabedStiffness
     from mudline.model.curves import CurveError, ForceCurve
 
 _CODES = {code.code: code for code in (CRV001, CRV011)}

@@ -23,8 +23,7 @@ from mudline.model.scene.numbering import FEW, Floats, Indices, Mask, looked_up,
 from mudline.model.scene.sets import NamedSet, Sets, later_wins
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.elastic_surface import ElasticSurface
-    from mudline.language.keywords.library.seabed_properties import SeabedProperties, SeabedSet
+    from mudline.language.keywords.library.seabed_properties import ElasticSurface, SeabedProperties, SeabedSet
     from mudline.language.keywords.model import Block, Part, Record
 
 

@@ -30,8 +30,7 @@ from mudline.model.scene.numbering import (
 )
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.element import ElementPattern, ElementRows, Elements
-    from mudline.language.keywords.library.node import NodeRange, NodeRows, Nodes
+    from mudline.language.keywords.library.mesh import ElementPattern, ElementRows, Elements, NodeRange, NodeRows, Nodes
     from mudline.model.scene.csv_file import ExternalElements
 
 

@@ -32,12 +32,10 @@ from mudline.model.scene.numbering import Numbered
 from mudline.model.scene.sets import Sets
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.boundary import Boundary, FixedRange, FixedValues
-    from mudline.language.keywords.library.element import ElementRows, Elements
-    from mudline.language.keywords.library.element_sets import ElementSets
-    from mudline.language.keywords.library.line_path_sections import LinePathSections
-    from mudline.language.keywords.library.line_section_groups import LineSectionGroups
-    from mudline.language.keywords.library.p_y import LateralSoil
+    from mudline.language.keywords.library.lines import LinePathSections, LineSectionGroups
+    from mudline.language.keywords.library.loads import Boundary, FixedRange, FixedValues
+    from mudline.language.keywords.library.mesh import ElementRows, Elements, ElementSets
+    from mudline.language.keywords.library.soil_springs import LateralSoil
 
 _FREEDOMS = 6
 

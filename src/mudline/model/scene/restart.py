@@ -23,7 +23,7 @@ from mudline.language.keywords.text import shown
 from mudline.model.scene.deck_values import file_name, find_file, not_found
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.restart import Restart
+    from mudline.language.keywords.library.analysis import Restart
 
 
 _ADVICE = "correct the name, or put the deck there"

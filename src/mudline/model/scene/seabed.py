@@ -23,9 +23,8 @@ from mudline.model.scene.deck_values import file_name, find_file, number
 from mudline.model.scene.numbering import Floats, side_by_side
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.seabed_planes import Plane, SeabedPlanes
-    from mudline.language.keywords.library.seabed_profile import SeabedProfile
-    from mudline.language.keywords.surfaces import Surface
+    from mudline.language.keywords.library.seabed_properties import Surface
+    from mudline.language.keywords.library.seabed_surface import Plane, SeabedPlanes, SeabedProfile
 
 
 _NO_POINTS = np.zeros((0, 2))

@@ -20,7 +20,7 @@ from mudline.model.scene.deck_values import bare
 from mudline.model.scene.numbering import FEW, Ids, Indices, Numbered, constant, identity
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.element_sets import (
+    from mudline.language.keywords.library.mesh import (
         ElementRange,
         ElementSet,
         ElementSets,

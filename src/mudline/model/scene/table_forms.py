@@ -65,7 +65,7 @@ class TableForm:
 @cache
 def table_forms() -> tuple[TableForm, ...]:
     """The tables of all keywords."""
-    classes = map(catalogue.load, catalogue.modules())
+    classes = catalogue.block_classes()
     records = ((one, record) for one in classes for slot in record_schema(one).slots for record in slot.record.values())
     return tuple(form for declared, record in records for form in _of_record(declared, record))
 

@@ -15,8 +15,7 @@ from mudline.checks.engine import LintSettings, lint_context
 from mudline.checks.fixing import with_severities
 from mudline.checks.verdict import all_findings, errors_of
 from mudline.language.codes.lines import SYN001
-from mudline.language.deck.coverage import coverage_of, extent
-from mudline.language.deck.loading import load_bytes
+from mudline.language.deck.loading import coverage_of, extent, load_bytes
 from mudline.language.deck.model import Deck, Opaque
 from mudline.language.deck.parameters import Parameters, folded
 from mudline.language.diagnostics import DeckError, Diagnostic, Problem, Severity, Where

@@ -16,7 +16,7 @@ from mudline.model.scene.references import freedom_and_step
 from mudline.tools.exporting.report import Report, Status
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.boundary import Boundary, BoundaryType
+    from mudline.language.keywords.library.loads import Boundary, BoundaryType
 
 TRANSLATIONS = frozenset({1, 2, 3})
 _NO_FREEDOMS: frozenset[int] = frozenset()

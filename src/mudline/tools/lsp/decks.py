@@ -74,7 +74,8 @@ class Analysis:
     def read(self) -> Self:
         """Read the deck; its scene and its names are found when somebody asks."""
         document, folder = self.document, self.document.path.parent if self.document.path else None
-        if _is_deck(document) and not document.is_too_large:
+        is_deck = form_of(document.name) == KEYWORD or MARK in document.text  # of JSON and YAML only decks are read
+        if is_deck and not document.is_too_large:
             with self.reading():
                 self.deck = read_deck(document.as_file(), document.name, units=self.settings.units, folder=folder)
                 self.context = LintContext(self.deck, dialect=self.settings.dialect)
@@ -167,7 +168,9 @@ class Decks:
         configuration, settings = self._settings(document)
         opened = [each for each in self.documents.values() if each.path]
         unsaved = {str(each.path.absolute()): Unsaved(each.revision, each.text.encode) for each in opened if each.path}
-        return Analysis(copy(document), settings, unsaved, _excluded(configuration, document))
+        exclude = configuration.words("exclude")
+        excluded = exclude and document.path and matches(configuration.relative(str(document.path)), exclude)
+        return Analysis(copy(document), settings, unsaved, bool(excluded))
 
     def keep(self, made: Analysis) -> None:
         """Keep an analysis of an open document for its text."""
@@ -214,13 +217,3 @@ class Decks:
         if message not in self._shown:
             self._shown.add(message)
             self.faults.append(message)
-
-
-def _is_deck(document: Document) -> bool:
-    """Whether a text is to be read: of JSON and YAML only decks."""
-    return form_of(document.name) == KEYWORD or MARK in document.text
-
-
-def _excluded(found: Configuration, document: Document) -> bool:
-    exclude = found.words("exclude")
-    return bool(exclude and document.path and matches(found.relative(str(document.path)), exclude))

@@ -26,9 +26,9 @@ from mudline.model.scene.sets import ALL, LONGEST_NAME
 from mudline.tools.lsp import names
 from mudline.tools.lsp.decks import Analysis, Decks, failed
 from mudline.tools.lsp.documents import Document, address_of
+from mudline.tools.lsp.help import is_label
 from mudline.tools.lsp.names import WORDS, Occurrence, Thing, occurrences
 from mudline.tools.lsp.sites import Site, site
-from mudline.tools.lsp.things import is_label
 
 # ----------------------------------------------------------------------------------------------------- decks of a chain
 
@@ -48,14 +48,12 @@ def chain(decks: Decks, analysis: Analysis) -> list[Linked]:
     for base in analysis.scene.deck.bases:
         if base.deck.folder is not None and isinstance(base.deck.origin, TextOrigin):
             path = base.deck.folder / Path(base.deck.file).name
-            found.append(Linked(decks.at(path) or _unopened(path, base.deck.origin), base.deck))
+            found.append(
+                Linked(decks.at(path) or Document(address_of(path), base.deck.origin.source.text, 0), base.deck)
+            )
     if analysis.document.path is not None:
         found += _dependents(decks, analysis.document.path)
     return found
-
-
-def _unopened(path: Path, origin: TextOrigin) -> Document:
-    return Document(address_of(path), origin.source.text, 0)
 
 
 def _dependents(decks: Decks, path: Path) -> Iterator[Linked]:
@@ -64,13 +62,8 @@ def _dependents(decks: Decks, path: Path) -> Iterator[Linked]:
         other = decks.analysis(uri)
         if other is not None and other.deck is not None and other.document.path != path:
             with other.reading():
-                if _continues(other.deck, path):
+                if os.path.abspath(path) in map(os.path.abspath, decks_before(other.deck)):  # noqa: PTH100 - links stay
                     yield Linked(other.document, other.deck)
-
-
-def _continues(deck: Deck, path: Path) -> bool:
-    """Whether a deck continues that of a file."""
-    return any(os.path.abspath(before) == os.path.abspath(path) for before in decks_before(deck))  # noqa: PTH100 - links stay
 
 
 # -------------------------------------------------------------------------------------------------------------- answers

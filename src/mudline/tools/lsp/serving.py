@@ -10,7 +10,8 @@ from typing import BinaryIO, Protocol
 
 from lsprotocol import types
 
-from mudline.tools.lsp import completion, findings, hover, structure, things
+from mudline.tools.lsp import completion, findings, structure
+from mudline.tools.lsp.help import hints, hover
 from mudline.tools.lsp.navigation import Navigator
 from mudline.tools.lsp.server import DeckServer
 
@@ -70,7 +71,7 @@ def _help(server: DeckServer) -> None:
     @server.feature(types.TEXT_DOCUMENT_HOVER)
     async def hovered(params: types.HoverParams) -> types.Hover | None:
         found = await server.analysis(params.text_document.uri)
-        return hover.hover(found, found.document.offset(params.position)) if found else None
+        return hover(found, found.document.offset(params.position)) if found else None
 
     options = types.CompletionOptions(trigger_characters=completion.TRIGGERS, resolve_provider=True)
 
@@ -149,7 +150,7 @@ def _layout(server: DeckServer) -> None:
     @server.feature(types.TEXT_DOCUMENT_INLAY_HINT)
     async def inlay_hints(params: types.InlayHintParams) -> list[types.InlayHint]:
         found = await server.analysis(params.text_document.uri)
-        return things.hints(found, params.range) if found else []
+        return hints(found, params.range) if found else []
 
 
 # ---------------------------------------------------------------------------------------------------------- the process

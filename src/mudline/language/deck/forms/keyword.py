@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any, TypeVar
 
@@ -65,12 +64,8 @@ def as_text(deck: Deck) -> Deck:
 
 
 def _text(deck: Deck) -> str:
-    return "\n".join([*_lines(deck), ""])
-
-
-def _lines(deck: Deck) -> Iterator[str]:
-    yield from deck.preamble
-    yield from with_comments(deck.comments, ((_section(section), 1) for section in deck.sections))
+    sections = with_comments(deck.comments, ((_section(section), 1) for section in deck.sections))
+    return "\n".join([*deck.preamble, *sections, ""])
 
 
 def _section(section: Section) -> list[str]:

@@ -1,12 +1,13 @@
-"""`*AUXILIARY`: bodies that are drawn, and move with vessels or nodes (superseded, still legal)."""
+"""Auxiliary bodies, which are drawn and have no stiffness (superseded, still legal)."""
 
 from __future__ import annotations
 
 from typing import Annotated, Literal
 
 from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, ListRow, Record
-from mudline.language.keywords.values import Name, Whole
+from mudline.language.keywords.model import Block, ListRow, Record, Row, rows
+from mudline.language.keywords.table import Table
+from mudline.language.keywords.values import Name, Real, Whole
 
 
 class AuxiliaryRange(ListRow):
@@ -51,4 +52,70 @@ class Auxiliary(Block):
     bodies: list[AuxiliaryBody] = []
 
 
-BLOCK = Auxiliary
+class AuxiliaryNode(Row):
+    """An auxiliary node."""
+
+    node: Annotated[Whole, about("number, that of no node of the structure")]
+    x: Annotated[Real, about("vertical coordinate", unit="L")]
+    y: Annotated[Real, about("horizontal coordinate", unit="L")]
+    z: Annotated[Real | None, about("horizontal coordinate", unit="L", default="0")] = None
+
+
+class AuxiliaryNodes(Block):
+    """Nodes."""
+
+    rule = "node_auxiliary"
+    page = "kwd_model_nodeauxiliary"
+    summary = "Nodes of auxiliary bodies, which are drawn and have no stiffness."
+    tabular = True
+    example = "*NODE,AUXILIARY\n 1001, 1000.0, 900.0\n 1002, 1020.0, 900.0, 5.0\n"
+
+    keyword: Literal["NODE,AUXILIARY"] = "NODE,AUXILIARY"
+    nodes: Annotated[Table | None, rows(AuxiliaryNode, "auxiliary nodes")] = None
+
+
+_ELEMENT_FORM = "the line: a number and 2 nodes; the manual page was not seen"
+
+
+class AuxiliaryElement(Row):
+    """An auxiliary element."""
+
+    element: Annotated[Whole, about("number", inferred=_ELEMENT_FORM)]
+    first: Annotated[Whole, about("its first auxiliary node")]
+    second: Annotated[Whole, about("its second auxiliary node")]
+
+
+class AuxiliaryElements(Block):
+    """Auxiliary elements."""
+
+    rule = "element_auxiliary"
+    summary = "Elements of auxiliary bodies, each between 2 auxiliary nodes."
+    tabular = True
+    example = "*ELEMENT,AUXILIARY\n 1, 1001, 1002\n"
+
+    keyword: Literal["ELEMENT,AUXILIARY"] = "ELEMENT,AUXILIARY"
+    elements: Annotated[Table | None, rows(AuxiliaryElement, "auxiliary elements")] = None
+
+
+_PANEL_FORM = "the line: a number and 3 nodes; the manual page was not seen"
+
+
+class AuxiliaryPanel(Row):
+    """An auxiliary panel."""
+
+    panel: Annotated[Whole, about("number", inferred=_PANEL_FORM)]
+    first: Annotated[Whole, about("its first auxiliary node")]
+    second: Annotated[Whole, about("its second auxiliary node")]
+    third: Annotated[Whole, about("its third auxiliary node")]
+
+
+class AuxiliaryPanels(Block):
+    """Auxiliary panels."""
+
+    rule = "panel_auxiliary"
+    summary = "Panels of auxiliary bodies, each between 3 auxiliary nodes."
+    tabular = True
+    example = "*PANEL,AUXILIARY\n 1, 1001, 1002, 1003\n"
+
+    keyword: Literal["PANEL,AUXILIARY"] = "PANEL,AUXILIARY"
+    panels: Annotated[Table | None, rows(AuxiliaryPanel, "auxiliary panels")] = None

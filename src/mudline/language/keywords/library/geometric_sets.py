@@ -151,6 +151,3 @@ class GeometricSets(Block):
                 found = " and ".join(given) or "none"
                 raise ValueError(f"sets[{index}]: OPTION={option} needs the section {option.lower()!r}, found {found}")
         return self
-
-
-BLOCK = GeometricSets

@@ -1,4 +1,4 @@
-"""`*HYDRODYNAMIC SETS`: drag and inertia coefficients by element set."""
+"""Drag, inertia and lift coefficients."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from pydantic import Field
 
 from mudline.language.keywords.fields import about, setting
 from mudline.language.keywords.keeping import OpenBlock, OpenRecord
-from mudline.language.keywords.model import Row
+from mudline.language.keywords.model import Block, Record, Row, curve_points
+from mudline.language.keywords.table import Table
 from mudline.language.keywords.values import Facts, Name, Names, Other, Real, RealOrName
 
 _ORDER = "the order, which is that of decks of a related program: the manual page of the keyword was not seen"
@@ -70,4 +71,29 @@ class HydrodynamicSets(OpenBlock):
     sets: list[HydrodynamicSet] = []
 
 
-BLOCK = HydrodynamicSets
+class LiftPoint(Row):
+    """A point of a curve."""
+
+    ratio: Annotated[Real, about("gap to the seabed over drag diameter", unit="-")]
+    coefficient: Annotated[Real, about("drag lift coefficient there", unit="-")]
+
+
+class LiftCurve(Record):
+    """A curve."""
+
+    rule = "lift_curve"
+    curve: Annotated[Name, setting("CURVE", "name of the curve, for *HYDRODYNAMIC SETS", defines=Names.DRAG_LIFT)]
+    points: Annotated[Table, curve_points(LiftPoint, "points in any order", "drag lift curve", abscissa="ratio")]
+
+
+class DragLift(Block):
+    """Curves of lift."""
+
+    rule = "drag_lift"
+    page = "kwd_model_draglift"
+    summary = "Drag lift coefficients by the gap to the seabed, named by *HYDRODYNAMIC SETS."
+    tabular = True
+    example = "*DRAG LIFT\n CURVE=Lift\n 0.0, 0.9\n 0.5, 0.3\n 1.0, 0.0\n"
+
+    keyword: Literal["DRAG LIFT"] = "DRAG LIFT"
+    curves: list[LiftCurve] = []

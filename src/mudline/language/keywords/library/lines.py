@@ -1,13 +1,58 @@
-"""`*LINES`: lines made of sections; their nodes, elements, labels and sets come from them.
+"""Lines, which make nodes, elements, labels and element sets in one.
 
-Its format is not public: the lines are kept, the names in them are used.
+The formats of `*LINES`, `*LINE PATHS` and `*LINE LOCATIONS` are not public: their lines are kept, the names in them
+are used.
 """
 
 from __future__ import annotations
 
-from mudline.language.keywords.values import LINE_SETS, OpaqueKeyword
+from typing import Annotated, Literal
 
-OPAQUE = OpaqueKeyword(
+from pydantic import Field
+
+from mudline.language.keywords.fields import about, setting
+from mudline.language.keywords.model import Block, Record, Row
+from mudline.language.keywords.values import LINE_SETS, Facts, Name, Names, OpaqueKeyword, Real
+
+
+class AdditionalSets(Record):
+    """More sets that the elements of a section belong to."""
+
+    rule = "additional_sets"
+    sets: Annotated[
+        list[Name],
+        setting("ADDITIONAL", "more element sets that hold this section", inferred="the line may be repeated"),
+    ]
+
+
+LINE_LOCATIONS = OpaqueKeyword(
+    keyword="LINE LOCATIONS",
+    summary="Labels for nodes at given distances along a line.",
+    example="*LINE LOCATIONS\n LINE=Umbilical\n Touchdown, 200.0\n",
+    certain="It gives labels to nodes at a distance along a line.",
+    inferred="LINE= names a line, which is an element set too; any other text in its lines may be a label.",
+    name_settings={"LINE": Names.SET},
+    labels=True,
+    makes=("NODE",),
+)
+
+
+LINE_PATHS = OpaqueKeyword(
+    keyword="LINE PATHS",
+    summary="Lines that follow a path; their sections are given in *LINE PATH SECTIONS.",
+    example="*LINE PATHS\n LINE=Flowline\n 0.0, 0.0, 0.0\n 0.0, 850.0, 0.0\n",
+    certain="It defines the lines that *LINE PATH SECTIONS divides into sections, with bends.",
+    inferred=(
+        "LINE= or NAME= gives the line's name, which is an element set too; SECTION= and ADDITIONAL= give such sets if "
+        "they belong here; a line makes nodes, elements and labels as those of *LINES do; any text may be a label."
+    ),
+    name_settings=LINE_SETS,
+    labels=True,
+    makes=("NODE", "ELEMENT", "ELEMENT SETS"),
+)
+
+
+LINES = OpaqueKeyword(
     keyword="LINES",
     summary="Lines made of sections: nodes, elements, labels and element sets in one.",
     example="*LINES\n LINE=Umbilical\n SECTION=Static Section, 200.0\n SECTION=Dynamic Section, 365.6\n",
@@ -23,3 +68,105 @@ OPAQUE = OpaqueKeyword(
     labels=True,
     makes=("NODE", "ELEMENT", "ELEMENT SETS"),
 )
+
+
+_DISTANCE = "; a negative one counts back from the end of the line, bend radii do not count"
+
+
+class SectionStretch(Row):
+    """Values of SECTION=."""
+
+    set_name: Annotated[Name, about("element set that the section makes")] = Field(alias="set")
+    start: Annotated[Real, about("distance along the line where the section starts" + _DISTANCE, unit="L")]
+    end: Annotated[Real | None, about("distance along the line where it ends" + _DISTANCE, unit="L")] = None
+
+
+class PathSection(Record):
+    """A section of a line."""
+
+    rule = "path_section"
+    section: Annotated[SectionStretch, setting("SECTION", "element set of the section, and where it lies")]
+    repeat: Annotated[
+        Name | None, setting("REPEAT", "group of *LINE SECTION GROUPS that is repeated here", inline=True)
+    ] = None
+    additional: list[AdditionalSets] = []
+
+
+class PathLine(Record):
+    """A line and its sections."""
+
+    rule = "path_line"
+    line: Annotated[Name, setting("LINE", "line of *LINE PATHS", inferred="it is an element set too")]
+    sections: list[PathSection] = []
+
+
+class LinePathSections(Block):
+    """Sections of lines that follow a path."""
+
+    rule = "line_path_sections"
+    facts = Facts(makes=("NODE", "ELEMENT", "ELEMENT SETS"))
+    page = "_line-path-sections"
+    summary = "Sections of the lines of *LINE PATHS: element sets by distance along the line."
+    example = (
+        "*LINE PATH SECTIONS\n"
+        " LINE=Flowline\n"
+        " SECTION=Start Zone, 0.0, 150.0\n ADDITIONAL=Coated Pipe\n"
+        " SECTION=Route, 150.0, -50.0\n"
+        " SECTION=End Zone, -50.0\n"
+    )
+
+    keyword: Literal["LINE PATH SECTIONS"] = "LINE PATH SECTIONS"
+    paths: list[PathLine] = []
+
+
+_RANGE = "it is not negative; the manual gives no range"
+
+
+class SectionLength(Row):
+    """Values of SECTION=."""
+
+    set_name: Annotated[Name, about("element set that the section makes")] = Field(alias="set")
+    length: Annotated[Real, about("length of the section", unit="L", at_least=0, inferred=_RANGE)]
+
+
+class SectionMesh(Row):
+    """Element lengths along a section."""
+
+    start: Annotated[Real | None, about("shortest element at the start", unit="L", at_least=0, inferred=_RANGE)] = None
+    longest: Annotated[Real | None, about("longest element", unit="L", at_least=0, inferred=_RANGE)] = None
+    end: Annotated[Real | None, about("shortest element at the end", unit="L", at_least=0, inferred=_RANGE)] = None
+
+
+class GroupSection(Record):
+    """A section of a group."""
+
+    rule = "group_section"
+    section: Annotated[SectionLength, setting("SECTION", "element set and length of the section")]
+    additional: list[AdditionalSets] = []
+    mesh: Annotated[SectionMesh | None, about("element lengths along the section")] = None
+
+
+class SectionGroup(Record):
+    """A group."""
+
+    rule = "section_group"
+    name: Annotated[Name, setting("NAME", "name of the group", inferred="it is an element set too")]
+    sections: list[GroupSection] = []
+
+
+class LineSectionGroups(Block):
+    """Groups of line sections."""
+
+    rule = "line_section_groups"
+    facts = Facts(makes=("NODE", "ELEMENT", "ELEMENT SETS"))
+    page = "kwd_model_linesectiongroups"
+    summary = "Groups of line sections, one after the other, for the REPEAT= of *LINE PATH SECTIONS."
+    example = (
+        "*LINE SECTION GROUPS\n"
+        " NAME=Joint\n"
+        " SECTION=Pipe Joint, 11.8\n ADDITIONAL=Coated Pipe, Riser\n 0.5, 2.0, 0.5\n"
+        " SECTION=Field Joint, 0.4\n"
+    )
+
+    keyword: Literal["LINE SECTION GROUPS"] = "LINE SECTION GROUPS"
+    groups: list[SectionGroup] = []

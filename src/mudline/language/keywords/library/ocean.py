@@ -28,6 +28,3 @@ class Ocean(Block):
         Real | None,
         about("kinematic viscosity", unit="L2/T", default="1.3e-6 m2/s, 1.4e-5 ft2/s, 1e-10 in user units", at_least=0),
     ] = None
-
-
-BLOCK = Ocean

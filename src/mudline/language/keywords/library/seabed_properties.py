@@ -1,4 +1,4 @@
-"""`*SEABED PROPERTIES`: contact type, stiffness, friction, lateral resistance and suction by element set."""
+"""Contact of the seabed by element set, and the legacy surfaces that it supersedes."""
 
 from __future__ import annotations
 
@@ -6,16 +6,25 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.language.keywords.common import CONSTANT_FRICTION, NO_SET, SUCTION_STIFFNESS
+from mudline.language.keywords.common import NO_SET
 from mudline.language.keywords.fields import about, setting
-from mudline.language.keywords.model import Block, Record, Row
-from mudline.language.keywords.values import Facts, Name, Names, Real, RealOrName
+from mudline.language.keywords.model import Block, Record, Row, rows
+from mudline.language.keywords.table import Table
+from mudline.language.keywords.values import Facts, Name, Names, Real, RealOrName, Successor
 
+_CONSTANT_FRICTION = (
+    "no meaning: the manual names the field and says neither what it does nor its unit, so the value is kept and no "
+    "friction is computed from it"
+)
+_SUCTION_STIFFNESS = (
+    "the unit, which the manual does not give: that of the linear stiffness, a force per unit length for each length "
+    "that the pipe rises"
+)
 _RANGE = "it is above 0, as friction divides by it; the manual gives no range"
 _MODAL = "the unit, which the manual does not give: that of the linear stiffness"
 
 
-class SeabedFriction(Row):
+class SetFriction(Row):
     """Values of FRICTION=."""
 
     longitudinal: Annotated[
@@ -30,7 +39,7 @@ class SeabedFriction(Row):
     transverse_mobilisation: Annotated[
         Real | None, about("transverse mobilisation length", unit="L", above=0, inferred=_RANGE)
     ] = None
-    constant: Annotated[Real | None, about("constant friction force coefficient", inferred=CONSTANT_FRICTION)] = None
+    constant: Annotated[Real | None, about("constant friction force coefficient", inferred=_CONSTANT_FRICTION)] = None
     longitudinal_stiffness: Annotated[
         Real | None,
         about("longitudinal friction stiffness of modal and frequency runs", unit="F/L2", at_least=0, inferred=_MODAL),
@@ -41,10 +50,10 @@ class SeabedFriction(Row):
     ] = None
 
 
-class SeabedSuction(Row):
+class SetSuction(Row):
     """Values of SUCTION=."""
 
-    stiffness: Annotated[Real, about("suction stiffness", unit="F/L2", at_least=0, inferred=SUCTION_STIFFNESS)]
+    stiffness: Annotated[Real, about("suction stiffness", unit="F/L2", at_least=0, inferred=_SUCTION_STIFFNESS)]
     extent: Annotated[
         Real | None,
         about(
@@ -73,11 +82,11 @@ class SeabedSet(Record):
             names=Names.CURVE,
         ),
     ] = None
-    friction: Annotated[SeabedFriction | None, setting("FRICTION", "friction coefficients and mobilisation")] = None
+    friction: Annotated[SetFriction | None, setting("FRICTION", "friction coefficients and mobilisation")] = None
     lateral: Annotated[
         Real | None, setting("LATERAL", "lateral resistance; replaces transverse friction", unit="F/L2", at_least=0)
     ] = None
-    suction: Annotated[SeabedSuction | None, setting("SUCTION", "suction stiffness and zone")] = None
+    suction: Annotated[SetSuction | None, setting("SUCTION", "suction stiffness and zone")] = None
 
 
 class SeabedProperties(Block):
@@ -103,4 +112,117 @@ class SeabedProperties(Block):
     sets: list[SeabedSet] = []
 
 
-BLOCK = SeabedProperties
+_CHARACTERISTIC_LENGTH = "10 ft or 3.048 m"
+_SLOPE = "a line of one value is a slope, one of two a point of the profile: nothing else tells them apart"
+_SURFACE_SUCCESSORS = (Successor("SEABED PROPERTIES"), Successor("SEABED PROFILE"))
+
+
+class ProfilePoint(Row):
+    """A point of an inline profile."""
+
+    y: Annotated[Real, about("horizontal coordinate Y", unit="L")]
+    elevation: Annotated[Real, about("elevation of the seabed there", unit="L")]
+
+
+class FrictionCoefficients(Row):
+    """Friction coefficients of a legacy surface."""
+
+    longitudinal: Annotated[
+        Real | None, about("longitudinal friction coefficient", unit="-", default="0", at_least=0)
+    ] = None
+    transverse: Annotated[Real | None, about("transverse friction coefficient", unit="-", default="0", at_least=0)] = (
+        None
+    )
+
+
+class FrictionLengths(Row):
+    """What else a legacy surface says of friction."""
+
+    longitudinal_length: Annotated[
+        Real | None,
+        about("largest longitudinal characteristic length", unit="L", default=_CHARACTERISTIC_LENGTH, above=0),
+    ] = None
+    transverse_length: Annotated[
+        Real | None,
+        about("largest transverse characteristic length", unit="L", default=_CHARACTERISTIC_LENGTH, above=0),
+    ] = None
+    constant: Annotated[Real | None, about("constant friction force coefficient", inferred=_CONSTANT_FRICTION)] = None
+    longitudinal_mobilisation: Annotated[Real | None, about("longitudinal mobilisation length", unit="L", above=0)] = (
+        None
+    )
+    transverse_mobilisation: Annotated[Real | None, about("transverse mobilisation length", unit="L", above=0)] = None
+
+
+class Surface(Block):
+    """A legacy surface: a line of properties, then a slope or a profile."""
+
+    properties: Annotated[Row, about("properties of the surface")]
+    slope: Annotated[
+        Real | None,
+        about("slope of the seabed about the origin", unit="deg", default="flat", inferred=_SLOPE),
+    ] = None
+    profile: Annotated[
+        Table | None,
+        rows(ProfilePoint, "arbitrary profile: Y and elevation, a line of two values a point", unordered=True),
+    ] = None
+
+    @classmethod
+    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+        """The first line holds the properties; then one value is a slope, two are a point of the profile."""
+        return "properties" if number == 0 else "slope" if fields == 1 else "profile"
+
+
+class _Stiffness(Row):
+    """What stands before the friction coefficients."""
+
+    stiffness: Annotated[
+        Real | None, about("stiffness per unit length; without it *EMBEDMENT is required", unit="F/L2", at_least=0)
+    ] = None
+
+
+class _Resistance(Row):
+    """What stands behind the friction coefficients."""
+
+    lateral: Annotated[Real | None, about("lateral stiffness", unit="F/L2", at_least=0)] = None
+    suction_stiffness: Annotated[
+        Real | None, about("suction stiffness", unit="F/L2", at_least=0, inferred=_SUCTION_STIFFNESS)
+    ] = None
+    suction_extent: Annotated[
+        Real | None, about("height of the suction zone above the seabed", unit="L", at_least=0)
+    ] = None
+
+
+class ElasticProperties(FrictionLengths, _Resistance, FrictionCoefficients, _Stiffness):  # the last base's fields first
+    """The first line."""
+
+
+class ElasticSurface(Surface):
+    """Elastic seabed."""
+
+    rule = "elastic_surface"
+    subject = "seabed"
+    facts = Facts(superseded_by=_SURFACE_SUCCESSORS, seabed_type="ELASTIC", beside=("EMBEDMENT",))
+    page = "kwd_model_elasticsurface"
+    summary = "Elastic seabed: stiffness, friction, slope or profile (superseded by *SEABED PROPERTIES)."
+    example = "*ELASTIC SURFACE\n 50000.0, 0.3, 0.5\n"
+
+    keyword: Literal["ELASTIC SURFACE"] = "ELASTIC SURFACE"
+    properties: Annotated[ElasticProperties, about("stiffness, friction, lateral resistance, suction")]
+
+
+class RigidProperties(FrictionLengths, FrictionCoefficients):
+    """The first line."""
+
+
+class RigidSurface(Surface):
+    """Rigid seabed."""
+
+    rule = "rigid_surface"
+    subject = "seabed"
+    facts = Facts(superseded_by=_SURFACE_SUCCESSORS, seabed_type="RIGID")
+    page = "kwd_model_rigidsurface"
+    summary = "Rigid seabed: friction, slope or profile (superseded by *SEABED PROPERTIES)."
+    example = "*RIGID SURFACE\n 0.3, 0.5\n"
+
+    keyword: Literal["RIGID SURFACE"] = "RIGID SURFACE"
+    properties: Annotated[RigidProperties, about("friction")]

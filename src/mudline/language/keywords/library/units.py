@@ -29,6 +29,3 @@ class Units(Block):
             ),
         ),
     ]
-
-
-BLOCK = Units

@@ -14,7 +14,7 @@ from mudline.model.scene.deck_values import number
 from mudline.model.scene.rules.laws import lacks_diameter
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.seabed_friction import FrictionSet
+    from mudline.language.keywords.library.seabed_lateral import FrictionSet
     from mudline.model.scene.resolved import ResolvedDeck
 
 EXT013 = Code("EXT013", "bad-breakout", Severity.ERROR)

@@ -19,8 +19,8 @@ from mudline.model.scene.laws import NOTHING, typed_blocks
 from mudline.model.scene.names import CURVES, names_used, undefined
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.elastic_surface import ElasticSurface
-    from mudline.language.keywords.library.embedment import Embedment
+    from mudline.language.keywords.library.seabed_curves import Embedment
+    from mudline.language.keywords.library.seabed_properties import ElasticSurface
     from mudline.model.scene.force_curves import SceneCurve
     from mudline.model.scene.resolved import ResolvedDeck
 

@@ -17,8 +17,7 @@ from mudline.model.scene.deck_values import file_name, missing_files, number
 from mudline.model.scene.seabed import COMPILED, SeabedKind, SeabedShape
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.seabed_planes import PlaneBounds, SeabedPlanes
-    from mudline.language.keywords.library.seabed_profile import SeabedProfile
+    from mudline.language.keywords.library.seabed_surface import PlaneBounds, SeabedPlanes, SeabedProfile
     from mudline.model.scene.resolved import ResolvedDeck
 
 

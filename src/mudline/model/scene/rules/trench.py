@@ -15,7 +15,7 @@ from mudline.model.scene.numbering import Floats, Mask, marked
 from mudline.model.scene.rules.laws import extends_rigid
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.library.seabed_trench import TrenchSet
+    from mudline.language.keywords.library.seabed_lateral import TrenchSet
     from mudline.model.contact.input import LawAssignment
     from mudline.model.scene.resolved import ResolvedDeck
 

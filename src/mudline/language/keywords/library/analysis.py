@@ -1,0 +1,269 @@
+"""Kind of run of a load case: time, steps, convergence, contact, restart, what is stored."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from mudline.language.keywords.common import require_one
+from mudline.language.keywords.fields import about, setting
+from mudline.language.keywords.keeping import OpenBlock
+from mudline.language.keywords.model import Block, Record, Row
+from mudline.language.keywords.values import Name, Names, Other, Real, Whole
+
+_PAGE = (
+    "no page of the manual was found: the types are those of known decks, other words and lines are passed through "
+    "unchanged"
+)
+_TYPES = ("STATIC", "QUASI-STATIC", "DYNAMIC", "TIME DOMAIN", "FREQUENCY DOMAIN")
+
+
+class AnalysisType(OpenBlock):
+    """The kind of run."""
+
+    rule = "analysis_type"
+    sections = ("LOAD CASE", "ANALYSIS")
+    subject = "analysis"
+    summary = "What kind of run a load case is: static, or dynamic in the time or frequency domain."
+    example = "*ANALYSIS TYPE\n TYPE=STATIC\n"
+
+    keyword: Literal["ANALYSIS TYPE"] = "ANALYSIS TYPE"
+    type_: Annotated[
+        Literal["STATIC", "QUASI-STATIC", "DYNAMIC", "TIME DOMAIN", "FREQUENCY DOMAIN"] | Other | None,
+        setting("TYPE", "kind of run", inferred=_PAGE, opaque=_TYPES),
+    ] = Field(default=None, alias="type")
+
+
+_START = "time at which the run starts"
+_END = "time at which it ends"
+_RAMP = "time over which loads grow"
+
+
+class FixedSpan(Row):
+    """The line under STEP=FIXED."""
+
+    start: Annotated[Real, about(_START, unit="T")]
+    end: Annotated[Real, about(_END, unit="T")]
+    increment: Annotated[
+        Real | None,
+        about("time step; a static run may leave it out", unit="T", default="end - start", above=0, also="step"),
+    ] = None
+    ramp: Annotated[Real | None, about(_RAMP, unit="T", at_least=0)] = None
+
+
+class VariableSpan(Row):
+    """The first line under STEP=VARIABLE."""
+
+    start: Annotated[Real, about(_START, unit="T")]
+    end: Annotated[Real, about(_END, unit="T")]
+    ramp: Annotated[Real | None, about(_RAMP, unit="T", at_least=0)] = None
+
+
+class StepLimits(Record):
+    """A line of limits of a variable step; of several all but the first say from when they hold."""
+
+    rule = "step_limits"
+    suggested: Annotated[Real, about("time step to begin with", unit="T", above=0)]
+    least: Annotated[Real, about("smallest time step", unit="T", above=0)]
+    largest: Annotated[Real, about("largest time step", unit="T", above=0)]
+    length: Annotated[Real | None, about("step length", default="0.055", above=0)] = None
+    since: Annotated[Real | None, about("time from which the line holds", unit="T")] = None
+
+
+class TimeSpan(Block):
+    """A span of time with a fixed or a variable step."""
+
+    rule = "time"
+    sections = ("LOAD CASE",)
+    subject = "analysis"
+    page = "kwd_loadcase_time"
+    summary = "Start and end of a load case in time, and its steps: of one length, or between limits."
+    sticky = "step"
+    example = "*TIME\n STEP=FIXED\n 0.0, 120.0, 0.05, 24.0\n"
+
+    keyword: Literal["TIME"] = "TIME"
+    step: Annotated[
+        Literal["FIXED", "VARIABLE"] | None,
+        setting("STEP", "one length of the steps, or limits", default="FIXED", inferred="its default, FIXED"),
+    ] = None
+    fixed: Annotated[FixedSpan | None, about("span under STEP=FIXED")] = None
+    variable: Annotated[VariableSpan | None, about("span under STEP=VARIABLE")] = None
+    limits: list[StepLimits] = []
+
+    @classmethod
+    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+        """The span that STEP= chose."""
+        return str(given.get("step") or "FIXED").lower()
+
+    @model_validator(mode="after")
+    def _fits(self) -> TimeSpan:
+        """Each form has its own lines."""
+        step = self.step or "FIXED"
+        if getattr(self, step.lower()) is None or (self.fixed and self.variable):
+            raise ValueError(f"STEP={step} needs the span {step.lower()!r}, and no other")
+        if step == "VARIABLE" and not self.limits:
+            raise ValueError("STEP=VARIABLE needs a line of suggested, least and largest step below its first line")
+        if step == "FIXED" and self.limits:
+            raise ValueError("STEP=FIXED takes one line: start, end, step and ramp")
+        if any(one.since is None for one in self.limits[1:]):
+            raise ValueError("of several lines of step limits each but the first needs the time from which it holds")
+        return self
+
+
+class NonLinearStatic(Block):
+    """Steps and iterations."""
+
+    rule = "non_linear_static"
+    sections = ("LOAD CASE",)
+    subject = "analysis"
+    page = "kwd_loadcase_nonlinearstatic"
+    summary = "Steps, tolerance and iterations of the static solution before dynamics in the frequency domain."
+    example = "*NON LINEAR STATIC\n 5, 0.001, 40\n"
+
+    keyword: Literal["NON LINEAR STATIC"] = "NON LINEAR STATIC"
+    steps: Annotated[Whole | None, about("number of steps", default="1", at_least=1)] = None
+    tolerance: Annotated[Real | None, about("tolerance", unit="-", default="0.001", above=0)] = None
+    iterations: Annotated[Whole | None, about("largest number of iterations", default="20", at_least=1)] = None
+
+
+class Criterion(Record):
+    """A value that is to be reached."""
+
+    rule = "criterion"
+    criterion: Annotated[
+        Literal[
+            "HANGOFF ANGLE",
+            "TENSION",
+            "AXIAL STRESS",
+            "AXIAL STRAIN",
+            "BENDING STRESS",
+            "BENDING STRAIN",
+            "BENDING MOMENT",
+            "SUPPORT REACTION",
+            "SEABED CONTACT",
+            "VON MISES STRESS",
+        ],
+        setting("CRITERION", "quantity"),
+    ]
+    monitor: Annotated[Name, setting("MONITOR", "element, element set or guide where it is looked at", inline=True)]
+    target: Annotated[Real, setting("TARGET", "value to be reached", inline=True)]
+    tolerance: Annotated[
+        Real | None, setting("TOLERANCE", "tolerance", unit="%", default="1", above=0, inline=True)
+    ] = None
+
+
+class Criteria(Block):
+    """Criteria of a static run."""
+
+    rule = "criteria"
+    sections = ("LOAD CASE",)
+    subject = "analysis"
+    page = "kwd_loadcase_criteria"
+    summary = "What a static run is to reach, and what is moved, or made longer, until it does."
+    example = (
+        "*CRITERIA\n CRITERION=TENSION, MONITOR=12, TARGET=2.5E5\n VARIABLE=VESSEL, ADJUST=FPSO, VECTOR=Away\n"
+        " MAX ITERATIONS=50\n"
+    )
+
+    keyword: Literal["CRITERIA"] = "CRITERIA"
+    criteria: list[Criterion] = []
+    variable: Annotated[Literal["NODE", "VESSEL", "LENGTH"] | None, setting("VARIABLE", "what is changed")] = None
+    option: Annotated[
+        Literal["LENGTH"] | None,
+        setting("OPTION", "the same of a length", inferred="the manual prints OPTION=LENGTH; VARIABLE=LENGTH is taken"),
+    ] = None
+    adjust: Annotated[Name, setting("ADJUST", "node, vessel, element or set that is changed", inline=True)]
+    vector: Annotated[
+        Name | None, setting("VECTOR", "of NODE and VESSEL: direction, of *VECTOR", inline=True, names=Names.VECTOR)
+    ] = None
+    iterations: Annotated[Whole | None, setting("MAX ITERATIONS", "most iterations", at_least=1)] = None
+    least: Annotated[
+        Real | None, setting("MIN ADJUSTMENT", "smallest change", inline=True, behind="MAX ITERATIONS")
+    ] = None
+    largest: Annotated[
+        Real | None, setting("MAX ADJUSTMENT", "largest change", inline=True, behind="MAX ITERATIONS")
+    ] = None
+
+    @model_validator(mode="after")
+    def _fits(self) -> Criteria:
+        """One thing is changed."""
+        require_one(self, "variable", "option")
+        return self
+
+
+class ContactModelling(Block):
+    """The ramp of contact."""
+
+    rule = "contact_modelling"
+    sections = ("LOAD CASE",)
+    subject = "analysis"
+    page = "kwd_loadcase_contactmodelling"
+    summary = "How the contact with guides grows over a distance."
+    example = "*CONTACT MODELLING\n RAMP=0.01, POWER=1.5\n"
+
+    keyword: Literal["CONTACT MODELLING"] = "CONTACT MODELLING"
+    ramp: Annotated[Real, setting("RAMP", "distance over which contact grows; 0 without", unit="L", at_least=0)]
+    power: Annotated[Real | None, setting("POWER", "exponent of the growth", default="1.5", above=0, inline=True)] = (
+        None
+    )
+
+
+_WORDS = "the words of the manual are taken as they are, and not checked"
+
+
+class Restart(OpenBlock):
+    """The run that goes before."""
+
+    rule = "restart"
+    sections = ("LOAD CASE",)
+    subject = "analysis"
+    page = "kwd_loadcase_restart"
+    summary = "The deck that this one continues: its model holds here, too."
+    example = "*RESTART\n LAST=static\n"
+
+    keyword: Literal["RESTART"] = "RESTART"
+    last: Annotated[
+        Name,
+        setting(
+            "LAST",
+            "file of the deck before, beside this one; its suffix may be left out",
+            inferred="the model of that deck comes before what this deck has of its own",
+            names=Names.DECK,
+        ),
+    ]
+    type_: Annotated[
+        Name | None,
+        setting("TYPE", "what follows the last run: DYNAMIC, STATIC or CONTINUATION", inline=True, inferred=_WORDS),
+    ] = Field(default=None, alias="type")
+    option: Annotated[
+        Name | None,
+        setting("OPTION", "APPEND: results go on in the same file, for a CONTINUATION", inline=True, inferred=_WORDS),
+    ] = None
+
+
+class Database(Block):
+    """When results are stored."""
+
+    rule = "database"
+    sections = ("LOAD CASE",)
+    subject = "analysis"
+    page = "kwd_loadcase_database"
+    summary = "When results are stored: at all times, at selected ones, at the end, or never. Once in a load case."
+    example = "*DATABASE\n TIME=SELECTED\n 60.0, 0.5\n"
+
+    keyword: Literal["DATABASE"] = "DATABASE"
+    time: Annotated[Literal["ALL", "SELECTED", "END", "NONE"], setting("TIME", "the times")]
+    start: Annotated[
+        Real | None, about("of SELECTED: first time", unit="T", default="the start of the run", at_least=0)
+    ] = None
+    interval: Annotated[Real | None, about("of SELECTED: time between two", unit="T", above=0)] = None
+
+    @model_validator(mode="after")
+    def _fits(self) -> Database:
+        """Only selected times have a line of their own."""
+        if self.time == "SELECTED" and self.interval is None:
+            raise ValueError("TIME=SELECTED needs a line `start, interval` below it")
+        if self.time != "SELECTED" and (self.start is not None or self.interval is not None):
+            raise ValueError(f"TIME={self.time} takes no line below it: only SELECTED does")
+        return self

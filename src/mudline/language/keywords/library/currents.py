@@ -1,0 +1,112 @@
+"""Currents: of a load case, and of SHEAR7."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from mudline.language.keywords.common import Direction, require_one
+from mudline.language.keywords.fields import about, setting
+from mudline.language.keywords.model import Block, Record, Row, curve_points
+from mudline.language.keywords.table import Table
+from mudline.language.keywords.values import Name, Names, Real, Whole
+
+
+class UniformCurrent(Row):
+    """One velocity from the seabed to the surface."""
+
+    velocity: Annotated[Real, about("velocity", unit="L/T")]
+    direction: Direction = None
+
+
+class CurrentPoint(Row):
+    """The velocity at an elevation."""
+
+    elevation: Annotated[Real, about("height above X = 0 (ASCEND), or depth below the water line (DESCEND)", unit="L")]
+    velocity: Annotated[Real, about("velocity there", unit="L/T")]
+    direction: Direction = None
+
+
+class CurrentProfile(Record):
+    """A current."""
+
+    rule = "current_profile"
+    type_: Annotated[
+        Literal["UNIFORM", "PIECEWISE LINEAR", "SUBROUTINE"],
+        setting("TYPE", "one velocity, a profile, or a subroutine"),
+    ] = Field(alias="type")
+    option: Annotated[
+        Literal["ASCEND", "DESCEND"] | None,
+        setting("OPTION", "of a profile: up from X = 0, or down from the water line", default="ASCEND", inline=True),
+    ] = None
+    level: Annotated[
+        Literal["MWL", "AMBIENT"] | None,
+        setting("LEVEL", "of a profile: its water line", default="AMBIENT", inline=True),
+    ] = None
+    user: Annotated[Name | None, setting("USER", "of SUBROUTINE: file with it", names=Names.FILE, inline=True)] = None
+    uniform: Annotated[UniformCurrent | None, about("current of UNIFORM")] = None
+    profile: Annotated[
+        Table | None,
+        curve_points(CurrentPoint, "at least two points", "current profile", abscissa="elevation"),
+    ] = None
+
+    @classmethod
+    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+        """What TYPE= says."""
+        return "uniform" if given.get("type") == "UNIFORM" else "profile"
+
+    @model_validator(mode="after")
+    def _fits(self) -> CurrentProfile:
+        """What its type has."""
+        if self.type_ != "SUBROUTINE":
+            require_one(self, "uniform" if self.type_ == "UNIFORM" else "profile")
+        if self.uniform is not None or self.profile is not None:
+            require_one(self, "uniform", "profile")
+        return self
+
+
+class Current(Block):
+    """Currents."""
+
+    rule = "current"
+    sections = ("LOAD CASE",)
+    subject = "loads"
+    page = "kwd_loadcase_current"
+    summary = "Current: one velocity, a profile of velocities by elevation, or a subroutine."
+    example = "*CURRENT\n TYPE=PIECEWISE LINEAR\n 0.0, 0.1, 180.0\n 300.0, 0.9, 180.0\n"
+
+    keyword: Literal["CURRENT"] = "CURRENT"
+    currents: list[CurrentProfile] = []
+
+
+class VelocityPoint(Row):
+    """The velocity at an elevation."""
+
+    elevation: Annotated[Real, about("elevation; of XL the place along the line over its length", unit="L")]
+    velocity: Annotated[Real, about("velocity there", unit="L/T")]
+
+
+class ShearCurrent(Block):
+    """A current profile."""
+
+    rule = "shear7_current"
+    sections = ("SHEAR7",)
+    subject = "loads"
+    page = "kwd_shear7_current"
+    summary = "A current profile for vortex-induced vibration, and how probable it is."
+    tabular = True
+    example = "*CURRENT\n PROBABILITY=0.25, ID=1, OPTION=ASCEND\n 0.0, 0.1\n 300.0, 0.9\n"
+
+    keyword: Literal["CURRENT"] = "CURRENT"
+    probability: Annotated[
+        Real | None, setting("PROBABILITY", "how probable it is", default="1", at_least=0, at_most=1)
+    ] = None
+    number: Annotated[Whole | None, setting("ID", "number of the profile", inline=True)] = None
+    option: Annotated[
+        Literal["ASCEND", "DESCEND", "XL"] | None,
+        setting("OPTION", "up from X = 0, down from the water line, or along the line", default="ASCEND", inline=True),
+    ] = None
+    profile: Annotated[
+        Table, curve_points(VelocityPoint, "profile; at least two points", "current profile", abscissa="elevation")
+    ]

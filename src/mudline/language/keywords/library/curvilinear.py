@@ -1,0 +1,80 @@
+"""Cables, and the nodes placed along them (superseded, still legal)."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from mudline.language.keywords.fields import about, setting
+from mudline.language.keywords.keeping import OpenBlock, OpenRecord
+from mudline.language.keywords.model import Block, ListRow, Record, Row, rows
+from mudline.language.keywords.table import Table
+from mudline.language.keywords.values import Facts, Ident, Names, Real, Whole
+
+_LINE = "one line with these four data in this order, as the page names the data and not the line; others are kept"
+
+
+class CableLine(OpenRecord):
+    """A cable."""
+
+    rule = "cable_line"
+    cable: Annotated[Whole, about("number of the cable", defines=Names.CABLE, inferred=_LINE)]
+    start: Annotated[Ident, about("node where it starts", names=Names.NODE)]
+    end: Annotated[Ident, about("node where it ends", names=Names.NODE)]
+    length: Annotated[Real, about("length", unit="L", above=0)]
+
+
+class Cables(OpenBlock):
+    """Cables."""
+
+    rule = "cable"
+    page = "theory_geomety_cables_data"
+    summary = "Cables between two nodes, along which *NODE,CURVILINEAR places others (older than *LINES)."
+    example = "*CABLE\n 1, 1, 41, 565.6\n"
+
+    keyword: Literal["CABLE"] = "CABLE"
+    cables: list[CableLine] = []
+
+
+class CurvilinearNode(Row):
+    """A node on a cable."""
+
+    node: Annotated[Whole, about("node number")]
+    cable: Annotated[Whole, about("number of the cable", names=Names.CABLE)]
+    distance: Annotated[Real, about("distance along it", unit="L", at_least=0)]
+
+
+class CurvilinearRange(ListRow):
+    """First and last node, and the step of the numbers between them."""
+
+    start: Annotated[Ident, about("node that the others start from", names=Names.NODE)]
+    end: Annotated[Ident, about("node that they end at", names=Names.NODE)]
+    increment: Annotated[Whole | None, about("step between the node numbers", default="1", at_least=1)] = None
+
+
+class CurvilinearRows(Record):
+    """Nodes by distances."""
+
+    rule = "curvilinear_rows"
+    nodes: Annotated[Table, rows(CurvilinearNode, "nodes: number, cable and distance")]
+
+
+class CurvilinearGenerate(Record):
+    """Equally spaced nodes between two on a cable."""
+
+    rule = "curvilinear_generate"
+    generate: Annotated[CurvilinearRange, setting("CURV", "equally spaced nodes between two")]
+    cable: Annotated[Whole, setting("CABLE", "number of the cable", names=Names.CABLE, inline=True)]
+
+
+class CurvilinearNodes(Block):
+    """Nodes on cables."""
+
+    rule = "node_curvilinear"
+    page = "kwd_model_nodecurvilinear"
+    facts = Facts(makes=("NODE",), out_of_sight=True)
+    summary = "Nodes by their distance along a *CABLE; their coordinates are not computed here (older than *LINES)."
+    tabular = True
+    example = "*NODE,CURVILINEAR\n 2, 1, 14.1\n 41, 1, 565.6\n CURV=2, 41, CABLE=1\n"
+
+    keyword: Literal["NODE,CURVILINEAR"] = "NODE,CURVILINEAR"
+    entries: list[CurvilinearRows | CurvilinearGenerate] = []

@@ -1,0 +1,223 @@
+"""Floating bodies of a coupled analysis: added mass, radiation damping, coefficients of wind and current."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from mudline.basics.short_repr import counted
+from mudline.language.keywords.common import require_one
+from mudline.language.keywords.fields import about, setting
+from mudline.language.keywords.model import Block, Record, Row, rows
+from mudline.language.keywords.table import Table
+from mudline.language.keywords.values import Contents, Name, Names, Real
+
+Body = Annotated[Name, setting("FLOATING BODY", "floating body", names=Names.BODY)]
+
+_LINES = "a matrix is six lines of six numbers"
+_SIX = 6
+
+
+class MatrixRow(Row):
+    """A line of a 6x6 matrix."""
+
+    heave: Annotated[Real, about("column of heave")]
+    surge: Annotated[Real, about("column of surge")]
+    sway: Annotated[Real, about("column of sway")]
+    yaw: Annotated[Real, about("column of yaw")]
+    roll: Annotated[Real, about("column of roll")]
+    pitch: Annotated[Real, about("column of pitch")]
+
+
+Matrix = Annotated[Table, rows(MatrixRow, "matrix of 6 lines and 6 columns", inferred=_LINES)]
+
+
+def _require_six(matrix: Table | None) -> None:
+    if matrix is not None and len(matrix) not in (0, _SIX):
+        raise ValueError(f"the matrix has {counted(len(matrix), 'line')}: expected {_SIX}")
+
+
+class FrequencyMatrix(Record):
+    """The matrix at a frequency."""
+
+    rule = "frequency_matrix"
+    frequency: Annotated[Real, setting("FREQ", "frequency", unit="Hz", at_least=0, inferred="its unit, as of waves")]
+    matrix: Matrix
+
+    @model_validator(mode="after")
+    def _whole(self) -> FrequencyMatrix:
+        """Six lines."""
+        _require_six(self.matrix)
+        return self
+
+
+class MatrixType(Record):
+    """A constant matrix, those by frequency, or that beyond the largest frequency."""
+
+    rule = "matrix_type"
+    type_: Annotated[
+        Literal["CONSTANT", "FREQUENCY", "CUTOFF"],
+        setting("TYPE", "constant, by frequency, or (last) beyond the frequencies"),
+    ] = Field(alias="type")
+    matrix: Annotated[Table | None, rows(MatrixRow, "of CONSTANT and CUTOFF: matrix of 6 lines", inferred=_LINES)] = (
+        None
+    )
+    frequencies: list[FrequencyMatrix] = []
+
+    @model_validator(mode="after")
+    def _fits(self) -> MatrixType:
+        """What its type has."""
+        require_one(self, "frequencies" if self.type_ == "FREQUENCY" else "matrix")
+        require_one(self, "frequencies", "matrix")
+        _require_six(self.matrix)
+        return self
+
+
+class BodyMatrices(Record):
+    """The matrices of a body."""
+
+    rule = "body_matrices"
+    body: Body
+    file: Annotated[
+        Name | None,
+        setting("FILE", "file with the matrices, instead of them", names=Names.FILE, holds=Contents.NUMBERS),
+    ] = None
+    types: list[MatrixType] = []
+
+    @model_validator(mode="after")
+    def _fits(self) -> BodyMatrices:
+        """A file, or matrices."""
+        require_one(self, "file", "types")
+        return self
+
+
+class AddedMass(Block):
+    """Matrices of bodies."""
+
+    rule = "added_mass"
+    subject = "vessels"
+    page = "kwd_model_addedmass"
+    summary = "Added mass of floating bodies in a coupled analysis: a file, a constant matrix, or one a frequency."
+    tabular = True
+    example = (
+        "*ADDED MASS\n FLOATING BODY=Buoy\n TYPE=CONSTANT\n"
+        " 9.0E4, 0.0, 0.0, 0.0, 0.0, 0.0\n 0.0, 5.0E4, 0.0, 0.0, 0.0, 0.0\n 0.0, 0.0, 5.0E4, 0.0, 0.0, 0.0\n"
+        " 0.0, 0.0, 0.0, 2.0E4, 0.0, 0.0\n 0.0, 0.0, 0.0, 0.0, 3.0E4, 0.0\n 0.0, 0.0, 0.0, 0.0, 0.0, 3.0E4\n"
+    )
+
+    keyword: Literal["ADDED MASS"] = "ADDED MASS"
+    bodies: list[BodyMatrices] = []
+
+
+class RadiationDamping(Block):
+    """Matrices of bodies."""
+
+    rule = "radiation_damping"
+    subject = "vessels"
+    page = "kwd_model_radiationdamping"
+    summary = (
+        "Radiation damping of floating bodies in a coupled analysis: a file, a constant matrix, or one a frequency."
+    )
+    tabular = True
+    example = (
+        "*RADIATION DAMPING\n FLOATING BODY=Buoy\n TYPE=CONSTANT\n"
+        " 9.0E4, 0.0, 0.0, 0.0, 0.0, 0.0\n 0.0, 5.0E4, 0.0, 0.0, 0.0, 0.0\n 0.0, 0.0, 5.0E4, 0.0, 0.0, 0.0\n"
+        " 0.0, 0.0, 0.0, 2.0E4, 0.0, 0.0\n 0.0, 0.0, 0.0, 0.0, 3.0E4, 0.0\n 0.0, 0.0, 0.0, 0.0, 0.0, 3.0E4\n"
+    )
+
+    keyword: Literal["RADIATION DAMPING"] = "RADIATION DAMPING"
+    bodies: list[BodyMatrices] = []
+
+
+COEFFICIENTS = "coefficients by heading"
+TAG = "a line of this word alone: the block is that of a mooring analysis, which has one vessel"
+
+
+class Coefficients(Row):
+    """Coefficients at a heading."""
+
+    heading: Annotated[Real, about("heading", unit="deg")]
+    surge: Annotated[Real, about("coefficient in surge")]
+    sway: Annotated[Real, about("coefficient in sway")]
+    yaw: Annotated[Real, about("coefficient in yaw")]
+
+
+class BodyCoefficients(Record):
+    """The coefficients of a floating body."""
+
+    rule = "body_coefficients"
+    body: Body
+    file: Annotated[
+        Name | None,
+        setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE, holds=Contents.NUMBERS),
+    ] = None
+    headings: Annotated[Table | None, rows(Coefficients, COEFFICIENTS)] = None
+
+    @model_validator(mode="after")
+    def _fits(self) -> BodyCoefficients:
+        """A file, or rows."""
+        require_one(self, "file", "headings")
+        return self
+
+
+class VesselCoefficients(Record):
+    """The coefficients of the moored vessel."""
+
+    rule = "vessel_coefficients"
+    tag: Annotated[Literal["MOORED VESSEL"], about(TAG)]
+    file: Annotated[
+        Name | None,
+        setting("FILE", "file with the coefficients, instead of rows", names=Names.FILE, holds=Contents.NUMBERS),
+    ] = None
+    headings: Annotated[Table | None, rows(Coefficients, COEFFICIENTS)] = None
+
+    @classmethod
+    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+        """The first line is the tag."""
+        return "tag" if number == 0 else "headings"
+
+    @model_validator(mode="after")
+    def _fits(self) -> VesselCoefficients:
+        """A file, or rows."""
+        require_one(self, "file", "headings")
+        return self
+
+
+class CoefficientBlock(Block):
+    """Coefficients of floating bodies, or of the moored vessel."""
+
+    bodies: list[BodyCoefficients | VesselCoefficients] = []
+
+    @model_validator(mode="after")
+    def _alone(self) -> Self:
+        """A mooring analysis has one vessel, and nothing else."""
+        if len(self.bodies) > 1 and any(isinstance(body, VesselCoefficients) for body in self.bodies):
+            raise ValueError("MOORED VESSEL stands alone: remove the other bodies")
+        return self
+
+
+class CurrentCoefficients(CoefficientBlock):
+    """Coefficients of the current."""
+
+    rule = "current_coeff"
+    sections = ("LOAD CASE",)
+    subject = "loads"
+    page = "kwd_loadcase_currentcoeff"
+    summary = "Coefficients of the current on floating bodies or a moored vessel, by heading, from rows or a file."
+    example = "*CURRENT COEFF\n FLOATING BODY=Buoy\n 0.0, 1200.0, 0.0, 0.0\n 90.0, 0.0, 1500.0, 300.0\n"
+
+    keyword: Literal["CURRENT COEFF"] = "CURRENT COEFF"
+
+
+class WindCoefficients(CoefficientBlock):
+    """Coefficients of the wind."""
+
+    rule = "wind_coeff"
+    sections = ("LOAD CASE",)
+    subject = "loads"
+    page = "kwd_loadcase_windcoeff"
+    summary = "Coefficients of the wind on floating bodies or a moored vessel, by heading, from rows or a file."
+    example = "*WIND COEFF\n FLOATING BODY=Buoy\n 0.0, 1200.0, 0.0, 0.0\n 90.0, 0.0, 1500.0, 300.0\n"
+
+    keyword: Literal["WIND COEFF"] = "WIND COEFF"

@@ -1,0 +1,196 @@
+"""Loads, boundary conditions and internal fluids of a load case."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Literal
+
+from pydantic import BeforeValidator, Field
+
+from mudline.language.keywords.fields import about, setting
+from mudline.language.keywords.keeping import OpenRecord
+from mudline.language.keywords.model import Block, ListRow, Record
+from mudline.language.keywords.table import LARGEST_WHOLE
+from mudline.language.keywords.values import (
+    Count,
+    Equation,
+    Finite,
+    Ident,
+    Kind,
+    Name,
+    Names,
+    Other,
+    Real,
+    Whole,
+    WholeOrLabel,
+)
+
+_DOF = "degree of freedom: 1 vertical, 2 and 3 horizontal, 4 to 6 rotations"
+_VALUE = "displacement that is imposed: a length, of a rotation degrees"
+_OTHERS = "the lines of other types are not public: they are passed through unchanged"
+_FOUR = "of four values the last two may be increment and degree of freedom, or degree of freedom and displacement"
+
+Fixation = Annotated[
+    Literal["RELATIVE"] | None,
+    setting("FIXATION", "relative to the position where the load case begins", inline=True),
+]
+
+
+def _counted(given: object) -> object:
+    """A whole number as one, so that a degree of freedom is written as it was; the sign of -0.0 is kept."""
+    whole = isinstance(given, float) and given.is_integer() and math.copysign(1.0, given) > 0
+    return int(given) if whole and isinstance(given, float) and given <= LARGEST_WHOLE else given
+
+
+Either = Annotated[Count | Finite | Equation, Field(union_mode="left_to_right"), BeforeValidator(_counted), Kind.REAL]
+"""A degree of freedom or a displacement."""
+
+
+class FixedNode(Record):
+    """A node that is held in a degree of freedom."""
+
+    rule = "fixed_node"
+    node: Annotated[Ident, about("node number, or its label", names=Names.NODE)]
+    dof: Annotated[Whole, about(_DOF)]
+    value: Annotated[Real | None, about(_VALUE, default="0")] = None
+    fixation: Fixation = None
+
+
+class FixedValues(ListRow):
+    """First and last node, then the step between them if it is given, the degree of freedom, the displacement."""
+
+    start: Annotated[WholeOrLabel, about("first node, or its label", names=Names.NODE)]
+    end: Annotated[WholeOrLabel, about("last node, or its label", names=Names.NODE)]
+    third: Annotated[
+        Whole | None, about("of three values the degree of freedom, of five the increment", inferred=_FOUR)
+    ] = None
+    fourth: Annotated[Either | None, about("of five values the degree of freedom", inferred=_FOUR)] = None
+    fifth: Annotated[Real | None, about(_VALUE, default="0")] = None
+
+
+class FixedRange(Record):
+    """Nodes that are held in a degree of freedom."""
+
+    rule = "fixed_range"
+    generate: Annotated[FixedValues, setting("GEN", "nodes from one number to another, and how they are held")]
+    fixation: Fixation = None
+
+
+class BoundaryType(OpenRecord):
+    """Conditions of one type."""
+
+    rule = "boundary_type"
+    type_: Annotated[
+        Literal["CONSTANT", "VESSEL"] | Other,
+        setting(
+            "TYPE", "what the conditions are; the lines of constant ones are read", inferred=_OTHERS, opaque=("VESSEL",)
+        ),
+    ] = Field(alias="type")
+    entries: list[FixedNode | FixedRange] = []
+
+
+class Boundary(Block):
+    """Boundary conditions."""
+
+    rule = "boundary"
+    sections = ("LOAD CASE",)
+    subject = "loads"
+    page = "kwd_loadcase_boundary"
+    summary = "Nodes that are held, or moved, in single degrees of freedom."
+    example = "*BOUNDARY\n TYPE=CONSTANT\n 1, 2\n 1, 3, 0.0, FIXATION=RELATIVE\n GEN=11, 20, 1, 6, 0.0\n"
+
+    keyword: Literal["BOUNDARY"] = "BOUNDARY"
+    types: list[BoundaryType] = []
+
+
+_LOAD_LINES = (
+    "the lines below it, as their page was not seen: they give nodes, directions and magnitudes, or first and last "
+    "elements and components, and are passed through unchanged"
+)
+
+
+class LoadType(OpenRecord):
+    """Loads of one type."""
+
+    rule = "load_type"
+    type_: Annotated[
+        Literal["CONSTANT", "DISTRIBUTED"] | Other,
+        setting(
+            "TYPE",
+            "forces on single nodes, or on the elements from one to another",
+            inferred=_LOAD_LINES,
+            opaque=("CONSTANT", "DISTRIBUTED"),
+        ),
+    ] = Field(alias="type")
+
+
+class Loads(Block):
+    """Loads."""
+
+    rule = "load"
+    sections = ("LOAD CASE",)
+    subject = "loads"
+    page = "theory_additional_point"
+    summary = "Forces on nodes, and forces along elements, in the global axes."
+    example = "*LOAD\n TYPE=CONSTANT\n 12, 1, -5000.0\n"
+
+    keyword: Literal["LOAD"] = "LOAD"
+    types: list[LoadType] = []
+
+
+class Moments(Block):
+    """Factors of moments."""
+
+    rule = "moments"
+    sections = ("LOAD CASE",)
+    subject = "loads"
+    page = "kwd_loadcase_moments"
+    summary = "Factors of the yaw moments of a moored vessel; in mooring analyses."
+    example = "*MOMENTS\n 0.5, 1.0, 0.0\n"
+
+    keyword: Literal["MOMENTS"] = "MOMENTS"
+    molin: Annotated[Real | None, about("coefficient of Molin", default="0")] = None
+    yaw: Annotated[Real | None, about("yaw factor of Molin", default="0", at_least=0, at_most=1)] = None
+    munk: Annotated[Real | None, about("factor of Munk", default="0", at_least=0, at_most=1)] = None
+
+
+_ONE_LINE = "the manual prints the line over several: it is one"
+_Switch = Literal["INCLUDE", "EXCLUDE"] | None
+
+
+class FluidSet(Record):
+    """The fluid in a set; it flows from the first element of the set to the last."""
+
+    rule = "fluid_set"
+    set_name: Annotated[Name | None, setting("SET", "element set", default="ALL", names=Names.SET)] = Field(
+        default=None, alias="set"
+    )
+    level: Annotated[Real, about("height of its free surface above the mudline", unit="L")]
+    density: Annotated[Real, about("mass density", unit="M/L3", at_least=0)]
+    pressure: Annotated[Real | None, about("pressure above the hydrostatic one", unit="F/L2", default="0")] = None
+    velocity: Annotated[Real | None, about("velocity; a negative one turns the flow", unit="L/T", default="0")] = None
+    coriolis: Annotated[
+        _Switch, setting("CORIOLIS", "Coriolis forces", default="INCLUDE", inline=True, inferred=_ONE_LINE)
+    ] = None
+    centrifugal: Annotated[_Switch, setting("CENTRIFUGAL", "centrifugal forces", default="INCLUDE", inline=True)] = None
+    axial_inertia: Annotated[_Switch, setting("AXIAL_INERTIA", "inertia along", default="INCLUDE", inline=True)] = None
+    lateral_inertia: Annotated[
+        _Switch, setting("LATERAL_INERTIA", "inertia across", default="INCLUDE", inline=True)
+    ] = None
+    dynamic_pressure: Annotated[
+        _Switch, setting("DYNAMIC_PRESSURE", "pressure of the flow", default="INCLUDE", inline=True)
+    ] = None
+
+
+class InternalFluid(Block):
+    """Fluids."""
+
+    rule = "internal_fluid"
+    sections = ("LOAD CASE",)
+    subject = "loads"
+    page = "kwd_loadcase_internalfluid"
+    summary = "Fluid in pipes by element set: level, density, pressure, velocity, and which of its forces count."
+    example = "*INTERNAL FLUID\n SET=ALL\n 300.0, 850.0, 2.0E6, 3.0, CORIOLIS=EXCLUDE\n"
+
+    keyword: Literal["INTERNAL FLUID"] = "INTERNAL FLUID"
+    sets: list[FluidSet] = []

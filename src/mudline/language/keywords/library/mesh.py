@@ -1,0 +1,161 @@
+"""Nodes, elements, and element sets of the model."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from mudline.language.keywords.fields import about, setting
+from mudline.language.keywords.model import Block, ListRow, Record, Row, rows
+from mudline.language.keywords.table import Table
+from mudline.language.keywords.values import Facts, Ident, Name, Names, Real, Whole
+
+
+class NodeRow(Row):
+    """Columns of the table of nodes."""
+
+    node: Annotated[Whole, about("node number", defines=Names.NODE)]
+    x: Annotated[Real, about("vertical coordinate, positive upwards; the mudline of a flat seabed is at 0", unit="L")]
+    y: Annotated[Real, about("horizontal coordinate", unit="L")]
+    z: Annotated[Real | None, about("horizontal coordinate", unit="L", default="0")] = None
+
+
+class NodeRange(ListRow):
+    """First and last node, and the step of the numbers between them."""
+
+    start: Annotated[Whole, about("existing node that the line of nodes starts from", names=Names.NODE)]
+    end: Annotated[Whole, about("existing node that it ends at", names=Names.NODE)]
+    increment: Annotated[Whole | None, about("step between the node numbers", default="1")] = None
+
+
+class NodeRows(Record):
+    """Nodes by coordinates."""
+
+    rule = "node_rows"
+    nodes: Annotated[Table, rows(NodeRow, "nodes: number, x, y and z")]
+
+
+class NodeGenerate(Record):
+    """Equally spaced nodes on the straight line between two nodes."""
+
+    rule = "node_generate"
+    generate: Annotated[NodeRange, setting("GEN", "equally spaced nodes between two existing ones")]
+
+
+class Nodes(Block):
+    """Nodes."""
+
+    rule = "node"
+    facts = Facts(defines="nodes", beside=("ELEMENT",))
+    page = "kwd_model_node"
+    summary = "Nodes by number and coordinates; X is vertical."
+    tabular = True
+    example = "*NODE\n 1, 0.0, 0.0\n 11, 0.0, 100.0\n GEN=1, 11\n"
+
+    keyword: Literal["NODE"] = "NODE"
+    entries: list[NodeRows | NodeGenerate] = []
+
+
+_AXIS = "component {} of the vector that orients the local {} axis of the undeformed element"
+
+
+class ElementRow(Row):
+    """Columns of the table of elements."""
+
+    element: Annotated[Whole, about("element number", defines=Names.ELEMENT)]
+    node1: Annotated[Ident, about("first node", names=Names.NODE)]
+    node2: Annotated[Ident, about("second node", names=Names.NODE)]
+    v1: Annotated[Real | None, about(_AXIS.format(1, "y"), unit="-")] = None
+    v2: Annotated[Real | None, about(_AXIS.format(2, "y"), unit="-")] = None
+    v3: Annotated[Real | None, about(_AXIS.format(3, "y"), unit="-")] = None
+    w1: Annotated[Real | None, about(_AXIS.format(1, "z"), unit="-")] = None
+    w2: Annotated[Real | None, about(_AXIS.format(2, "z"), unit="-")] = None
+    w3: Annotated[Real | None, about(_AXIS.format(3, "z"), unit="-")] = None
+
+
+class ElementPattern(ListRow):
+    """Master, number of elements with it, and the step of element and node numbers."""
+
+    master: Annotated[Whole, about("existing element whose pattern is repeated", names=Names.ELEMENT)]
+    count: Annotated[Whole, about("number of elements, the master included", at_least=1)]
+    increment: Annotated[Whole | None, about("step of element and node numbers", default="1")] = None
+
+
+class ElementRows(Record):
+    """Elements by their nodes."""
+
+    rule = "element_rows"
+    elements: Annotated[Table, rows(ElementRow, "elements: number and two nodes")]
+
+
+class ElementGenerate(Record):
+    """Elements stepped from a master."""
+
+    rule = "element_generate"
+    generate: Annotated[ElementPattern, setting("GEN", "elements stepped from a master defined before")]
+
+
+class Elements(Block):
+    """Elements."""
+
+    rule = "element"
+    facts = Facts(defines="elements", beside=("NODE",))
+    page = "kwd_model_element"
+    summary = "Elements by number and their two nodes."
+    tabular = True
+    example = "*ELEMENT\n 1, 1, 2\n GEN=1, 10\n"
+
+    keyword: Literal["ELEMENT"] = "ELEMENT"
+    entries: list[ElementRows | ElementGenerate] = []
+
+
+class ElementRange(ListRow):
+    """First and last element, and the step between them."""
+
+    start: Annotated[Whole, about("first element", names=Names.ELEMENT)]
+    end: Annotated[Whole, about("last element", names=Names.ELEMENT)]
+    increment: Annotated[Whole | None, about("step", default="1")] = None
+
+
+class SetList(Record):
+    """Elements by number or label; the language allows 20 on a line."""
+
+    rule = "set_list"
+    elements: Annotated[list[Ident], about("element numbers or {labels}", names=Names.ELEMENT)]
+
+
+class SetGenerate(Record):
+    """A range of element numbers."""
+
+    rule = "set_generate"
+    generate: Annotated[ElementRange, setting("GEN", "range of element numbers")]
+
+
+class SetSubset(Record):
+    """All elements of another set."""
+
+    rule = "set_subset"
+    subset: Annotated[
+        Name, setting("SUBSET", "another set, all of whose elements belong to this one too", names=Names.SUBSET)
+    ]
+
+
+class ElementSet(Record):
+    """A set."""
+
+    rule = "element_set"
+    name: Annotated[
+        Name, setting("SET", "set name: up to 256 characters, case is ignored, spaces are not", defines=Names.SET)
+    ]
+    members: list[SetList | SetGenerate | SetSubset] = []
+
+
+class ElementSets(Block):
+    """Element sets."""
+
+    rule = "element_sets"
+    facts = Facts(defines="sets")
+    summary = "Named groups of elements; ALL is predefined."
+    example = "*ELEMENT SETS\n SET=Riser\n 1, 2, 3\n GEN=10, 20, 2\n SET=Everything\n SUBSET=Riser\n"
+
+    keyword: Literal["ELEMENT SETS"] = "ELEMENT SETS"
+    sets: list[ElementSet] = []

@@ -1,0 +1,194 @@
+"""Postprocessing: element sets, traces, clearance, code checks and fatigue."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from mudline.language.keywords.common import Element
+from mudline.language.keywords.fields import about, setting
+from mudline.language.keywords.keeping import OpenBlock
+from mudline.language.keywords.model import Block, ListRow, Record
+from mudline.language.keywords.values import Ident, Name, Names, Other, Real, Whole
+
+
+class ElementSpan(ListRow):
+    """First and last element, and the step between them."""
+
+    start: Annotated[Ident, about("first element", names=Names.ELEMENT)]
+    end: Annotated[Ident, about("last element", names=Names.ELEMENT)]
+    increment: Annotated[Whole | None, about("step", default="1", at_least=1)] = None
+
+
+class ElementList(Record):
+    """Elements by number or label; the language allows 20 on a line."""
+
+    rule = "element_list"
+    elements: Annotated[list[Ident], about("element numbers or {labels}", names=Names.ELEMENT)]
+
+
+class PostElementGenerate(Record):
+    """A range of elements."""
+
+    rule = "element_span"
+    generate: Annotated[ElementSpan, setting("GEN", "range of elements")]
+
+
+class OtherSet(Record):
+    """All elements of another set."""
+
+    rule = "other_set"
+    subset: Annotated[Name, setting("SUBSET", "another set, all of whose elements belong to this one too")]
+
+
+class PostSet(Record):
+    """A set."""
+
+    rule = "post_set"
+    name: Annotated[Name, setting("SET", "set name: up to 256 characters; ALL is predefined", defines=Names.SET)]
+    members: list[ElementList | PostElementGenerate | OtherSet] = []
+
+
+class PostSets(Block):
+    """Sets of elements for postprocessing."""
+
+    rule = "element_set_post"
+    sections = ("DATABASE POSTPROCESSING", "POSTPROCESSING")
+    subject = "post-processing"
+    page = "kwd_databasepostprocessing_elementsets"
+    summary = "Named groups of elements for postprocessing."
+    example = "*ELEMENT SET\n SET=Hot Spots\n 1, {Hang-off}, 3\n GEN=10, 20, 2\n SUBSET=Riser\n"
+
+    keyword: Literal["ELEMENT SET"] = "ELEMENT SET"
+    sets: list[PostSet] = []
+
+
+_PAGE = "no page of the manual was found: one type is named by a page on theory, all lines are passed through unchanged"
+
+
+class Timetrace(OpenBlock):
+    """Plots in time."""
+
+    rule = "timetrace"
+    sections = ("DATABASE POSTPROCESSING", "POSTPROCESSING")
+    subject = "post-processing"
+    page = "theory_postprocessing_advanced_angles_elements"
+    summary = "What is plotted in time from the database of a run."
+    example = "*TIMETRACE\n TYPE=ELEMENT_ELEMENT_ANGLE\n"
+
+    keyword: Literal["TIMETRACE"] = "TIMETRACE"
+    type_: Annotated[
+        Literal["ELEMENT_ELEMENT_ANGLE"] | Other | None,
+        setting("TYPE", "what is plotted", inferred=_PAGE, opaque=("ELEMENT_ELEMENT_ANGLE",)),
+    ] = Field(default=None, alias="type")
+
+
+_GROUPS = 2
+
+
+class ClearRange(Record):
+    """A group of elements."""
+
+    rule = "clear_range"
+    start: Annotated[Ident, about("first element", names=Names.ELEMENT)]
+    end: Annotated[Ident, about("last element", names=Names.ELEMENT)]
+    diameter: Annotated[Real | None, about("external diameter", unit="L", default="of the model", above=0)] = None
+
+
+class ClearSets(Block):
+    """Two groups of elements."""
+
+    rule = "clear_element_sets"
+    sections = ("CLEAR",)
+    subject = "post-processing"
+    page = "kwd_clear_elementsets"
+    summary = "The two groups of elements between which clearance is looked for: exactly two lines."
+    example = "*ELEMENT SETS\n 1, 40, 0.35\n 41, 90\n"
+
+    keyword: Literal["ELEMENT SETS"] = "ELEMENT SETS"
+    ranges: list[ClearRange] = []
+
+    @model_validator(mode="after")
+    def _fits(self) -> ClearSets:
+        """Two groups."""
+        if len(self.ranges) != _GROUPS:
+            raise ValueError(f"{len(self.ranges)} lines are given: expected exactly {_GROUPS}")
+        return self
+
+
+class CheckedPlace(Record):
+    """A place."""
+
+    rule = "checked_place"
+    element: Element
+    node: Annotated[Whole, about("place on the element; 1 first node, 2 middle, 3 second", at_least=1, at_most=3)]
+    output: Annotated[
+        Literal["ALL", "LFRD", "LRFD", "WSD", "VMS", "METHOD1", "METHOD2", "METHOD3", "METHOD4A", "METHOD4B"],
+        setting("OUTPUT", "the code; LFRD is how the manual spells LRFD", inline=True),
+    ]
+
+
+class CheckedSet(Record):
+    """The places of a set."""
+
+    rule = "checked_set"
+    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
+    places: list[CheckedPlace] = []
+
+
+class CheckingTimetrace(Block):
+    """Traces of code checking."""
+
+    rule = "code_checking_timetrace"
+    sections = ("CODE CHECKING",)
+    subject = "post-processing"
+    page = "kwd_codechecking_timetrace"
+    summary = "Places whose utilisation is traced in time, by set, and the codes."
+    example = "*TIMETRACE\n SET=ALL\n 12, 1, OUTPUT=WSD\n {Hang-off}, 3, OUTPUT=ALL\n"
+
+    keyword: Literal["TIMETRACE"] = "TIMETRACE"
+    sets: list[CheckedSet] = []
+
+
+class SourceType(Block):
+    """The source of stresses."""
+
+    rule = "source_type"
+    sections = ("LIFETIME FATIGUE",)
+    subject = "post-processing"
+    page = "kwd_lifetimefatigue_sourcetype"
+    summary = "What fatigue in the time domain takes its stresses from: time traces, or databases."
+    example = "*SOURCE TYPE\n SOURCE=DATABASE\n"
+
+    keyword: Literal["SOURCE TYPE"] = "SOURCE TYPE"
+    source: Annotated[
+        Literal["TIMETRACE", "DATABASE"] | None,
+        setting(
+            "SOURCE",
+            "time traces, or databases",
+            default="TIMETRACE",
+            inferred="the name of the section, from the name of the page",
+        ),
+    ] = None
+
+
+_SECTION = "the name of the section, from the name of the page"
+
+
+class TimeDomainOptions(Block):
+    """Options of fatigue in the time domain."""
+
+    rule = "td_options"
+    sections = ("LIFETIME FATIGUE",)
+    subject = "post-processing"
+    page = "kwd_lifetimefatigue_tdoptions"
+    summary = "From when on time histories count for fatigue, in how many ensembles, and their factor."
+    example = "*TD OPTIONS\n 100.0, ENSEMBLES=4, SCALE=1.0\n"
+
+    keyword: Literal["TD OPTIONS"] = "TD OPTIONS"
+    start: Annotated[Real, about("time from which the histories count", unit="T", inferred=_SECTION)]
+    ensembles: Annotated[
+        Whole | None, setting("ENSEMBLES", "number of ensembles", default="4", at_least=2, inline=True)
+    ] = None
+    scale: Annotated[Real | None, setting("SCALE", "factor on the stress", default="1", inline=True)] = None

@@ -1,0 +1,152 @@
+"""Curves of non-linear stiffness that `*GEOMETRIC SETS` names."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from mudline.language.keywords.fields import about, setting
+from mudline.language.keywords.model import Block, Record, Row, curve_points
+from mudline.language.keywords.table import Table
+from mudline.language.keywords.values import Name, Names, Real
+
+
+class MomentCurvaturePoint(Row):
+    """A point of a curve: moment first."""
+
+    moment: Annotated[Real, about("bending moment; it comes first", unit="FL")]
+    curvature: Annotated[Real, about("curvature there", unit="1/L")]
+
+
+class MomentCurvatureCurve(Record):
+    """A curve."""
+
+    rule = "moment_curvature_curve"
+    curve: Annotated[
+        Name,
+        setting("CURVE", "name of the curve, for EIYY= and EIZZ= of *GEOMETRIC SETS", defines=Names.MOMENT_CURVATURE),
+    ]
+    points: Annotated[
+        Table,
+        curve_points(
+            MomentCurvaturePoint, "points in any order; at least two", "moment-curvature curve", abscissa="curvature"
+        ),
+    ]
+
+
+class MomentCurvature(Block):
+    """Curves of the flexible format."""
+
+    rule = "moment_curvature"
+    page = "kwd_model_momentcurvature"
+    summary = (
+        "Curves of moment against curvature: non-linear bending stiffness, named by EIYY= and EIZZ= of *GEOMETRIC SETS."
+    )
+    tabular = True
+    example = "*MOMENT-CURVATURE\n CURVE=Pipe\n 0.0, 0.0\n 5.0E4, 0.01\n 7.0E4, 0.03\n"
+
+    keyword: Literal["MOMENT-CURVATURE"] = "MOMENT-CURVATURE"
+    curves: list[MomentCurvatureCurve] = []
+
+
+class TorqueTwistPoint(Row):
+    """A point of a curve: torque first."""
+
+    torque: Annotated[Real, about("torque; it comes first", unit="FL")]
+    twist: Annotated[Real, about("twist per unit length there", unit="1/L")]
+
+
+class TorqueTwistCurve(Record):
+    """A curve."""
+
+    rule = "torque_twist_curve"
+    curve: Annotated[
+        Name, setting("CURVE", "name of the curve, for GJ= of *GEOMETRIC SETS", defines=Names.TORQUE_TWIST)
+    ]
+    points: Annotated[
+        Table,
+        curve_points(TorqueTwistPoint, "two points or more, in any order", "torque-twist curve", abscissa="twist"),
+    ]
+
+
+class TorqueTwist(Block):
+    """Curves of the flexible format."""
+
+    rule = "torque_twist"
+    page = "kwd_model_torquetwist"
+    summary = "Curves of torque against twist: non-linear torsional stiffness, named by GJ= of *GEOMETRIC SETS."
+    tabular = True
+    example = "*TORQUE-TWIST\n CURVE=Pipe\n 0.0, 0.0\n 2.0E4, 0.01\n 3.0E4, 0.04\n"
+
+    keyword: Literal["TORQUE-TWIST"] = "TORQUE-TWIST"
+    curves: list[TorqueTwistCurve] = []
+
+
+class ForceStrainPoint(Row):
+    """A point of a curve: force first."""
+
+    force: Annotated[Real, about("axial force; it comes first", unit="F")]
+    strain: Annotated[Real, about("strain there", unit="-")]
+
+
+class ForceStrainCurve(Record):
+    """A curve."""
+
+    rule = "force_strain_curve"
+    curve: Annotated[
+        Name, setting("CURVE", "name of the curve, for EA= of *GEOMETRIC SETS", defines=Names.FORCE_STRAIN)
+    ]
+    points: Annotated[
+        Table,
+        curve_points(ForceStrainPoint, "two points or more, in any order", "force-strain curve", abscissa="strain"),
+    ]
+
+
+class ForceStrain(Block):
+    """Curves of the flexible format."""
+
+    rule = "force_strain"
+    page = "kwd_model_forcestrain"
+    summary = "Curves of force against strain: non-linear axial stiffness, named by EA= of *GEOMETRIC SETS."
+    tabular = True
+    example = "*FORCE-STRAIN\n CURVE=Pipe\n -2.0E6, -0.004\n 0.0, 0.0\n 2.5E6, 0.004\n"
+
+    keyword: Literal["FORCE-STRAIN"] = "FORCE-STRAIN"
+    curves: list[ForceStrainCurve] = []
+
+
+class StressStrainPoint(Row):
+    """A point of a curve: stress first."""
+
+    stress: Annotated[Real, about("stress; it comes first", unit="F/L2")]
+    strain: Annotated[Real, about("strain there", unit="-")]
+
+
+class StressStrainCurve(Record):
+    """A curve."""
+
+    rule = "stress_strain_direct_curve"
+    curve: Annotated[
+        Name, setting("CURVE", "name of the curve, for E= of *GEOMETRIC SETS", defines=Names.STRESS_STRAIN)
+    ]
+    points: Annotated[
+        Table,
+        curve_points(
+            StressStrainPoint,
+            "points in any order; at least two; without negative strains it is taken to be symmetric",
+            "stress-strain curve",
+            abscissa="strain",
+        ),
+    ]
+
+
+class StressStrain(Block):
+    """Curves of the rigid format."""
+
+    rule = "stress_strain_direct"
+    page = "kwd_model_stressstraindirect"
+    summary = "Curves of stress against strain: non-linear material stiffness, named by E= of *GEOMETRIC SETS."
+    tabular = True
+    example = "*STRESS/STRAIN DIRECT\n CURVE=Pipe\n 0.0, 0.0\n 4.4E8, 0.0021\n 5.1E8, 0.02\n"
+
+    keyword: Literal["STRESS/STRAIN DIRECT"] = "STRESS/STRAIN DIRECT"
+    curves: list[StressStrainCurve] = []

@@ -1,0 +1,108 @@
+"""Soil springs: curves of resistance against displacement, by depth or by node."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from mudline.language.keywords.fields import about, setting
+from mudline.language.keywords.keeping import OpenBlock, OpenRecord
+from mudline.language.keywords.model import Row, curve_points
+from mudline.language.keywords.table import Table
+from mudline.language.keywords.values import Facts, Ident, Name, Names, Other, Real
+
+_SOIL_POINTS = "points of the curve: resistance and displacement"
+
+
+class SoilPoint(Row):
+    """A point of a curve: resistance first."""
+
+    resistance: Annotated[
+        Real, about("soil resistance; it comes first", unit="F/L", inferred="P is per unit length, as T is")
+    ]
+    displacement: Annotated[Real, about("displacement of the pipe against the soil", unit="L")]
+
+
+class DepthCurve(OpenRecord):
+    """The curve of a depth."""
+
+    rule = "depth_curve"
+    depth: Annotated[Real, setting("DEPTH", "depth below the mudline, negative above it", unit="L")]
+    points: Annotated[Table, curve_points(SoilPoint, _SOIL_POINTS, "soil spring curve", abscissa="displacement")]
+
+
+class NodeCurve(OpenRecord):
+    """The curve of a node."""
+
+    rule = "node_curve"
+    node: Annotated[
+        Ident, setting("NODE", "node that the curve belongs to", inferred="in place of DEPTH=", names=Names.NODE)
+    ]
+    points: Annotated[Table, curve_points(SoilPoint, _SOIL_POINTS, "soil spring curve", abscissa="displacement")]
+
+
+SoilCurves = list[DepthCurve | NodeCurve]
+CurvesFile = Annotated[Name | None, setting("FILE", "file with the curves, instead of lines", names=Names.FILE)]
+
+
+_OTHERS = "the types of other soil models are not public: the lines of one are passed through unchanged"
+
+
+class LateralSprings(OpenRecord):
+    """The curves of a set."""
+
+    rule = "lateral_springs"
+    type_: Annotated[
+        Literal["USER"] | Other | None,
+        setting("TYPE", "curves given by points", default="USER", inferred=_OTHERS, opaque=()),
+    ] = Field(default=None, alias="type")
+    set_name: Annotated[Name | None, setting("SET", "element set that the curves hold for", names=Names.SET)] = Field(
+        default=None, alias="set"
+    )
+    file: CurvesFile = None
+    curves: SoilCurves = []
+
+
+class LateralSoil(OpenBlock):
+    """Lateral soil springs."""
+
+    rule = "p_y"
+    subject = "seabed"
+    facts = Facts(soil_springs=True)
+    page = "kwd_model_py"
+    summary = "Lateral soil springs by set and depth: points of resistance P and displacement y, resistance first."
+    tabular = True
+    example = (
+        "*P-Y\n TYPE=USER\n SET=Conductor\n DEPTH=0.0\n 0.0, 0.0\n 4000.0, 0.01\n 9000.0, 0.1\n"
+        " DEPTH=10.0\n 0.0, 0.0\n 40000.0, 0.01\n 90000.0, 0.1\n"
+    )
+
+    keyword: Literal["P-Y"] = "P-Y"
+    sets: list[LateralSprings] = []
+
+
+class AxialSprings(OpenRecord):
+    """The curves of a set."""
+
+    rule = "axial_springs"
+    set_name: Annotated[Name | None, setting("SET", "element set that the curves hold for", names=Names.SET)] = Field(
+        default=None, alias="set"
+    )
+    file: CurvesFile = None
+    curves: SoilCurves = []
+
+
+class AxialSoil(OpenBlock):
+    """Axial soil springs."""
+
+    rule = "t_z"
+    subject = "seabed"
+    facts = Facts(soil_springs=True)
+    page = "kwd_model_tz"
+    summary = "Axial soil springs by set and depth: points of resistance T and displacement z, resistance first."
+    tabular = True
+    example = "*T-Z\n SET=Conductor\n DEPTH=0.0\n 0.0, 0.0\n 1500.0, 0.005\n DEPTH=10.0\n 0.0, 0.0\n 12000.0, 0.005\n"
+
+    keyword: Literal["T-Z"] = "T-Z"
+    sets: list[AxialSprings] = []

@@ -1,0 +1,127 @@
+"""Requests of summary postprocessing (`*PARA ...`), and the part of a run that is summarised."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from mudline.language.keywords.fields import about, setting
+from mudline.language.keywords.model import Block, Row
+from mudline.language.keywords.values import Ident, Name, Names, Real, Title, Whole
+
+LOCATION = "place on the section, of outputs that have one"
+AXIS = "name of an axis system of *AXIS/VECTOR"
+
+
+class SummaryRequest(Block):
+    """A request: its head."""
+
+    sections = ("SUMMARY POSTPROCESSING",)
+    subject = "post-processing"
+
+    title: Annotated[Title | None, setting("TITLE", "title of the output", default="blank")] = None
+    scale: Annotated[Real | None, setting("SCALE", "factor on the values", default="1")] = None
+    units: Annotated[
+        Name | None, setting("UNITS", "unit of the output", default="of its kind", inline=True, behind="SCALE")
+    ] = None
+    plot: Annotated[Literal["YES", "NO"] | None, setting("PLOT", "plot beside the summary", default="NO")] = None
+
+
+LocalNode = Annotated[
+    Whole, setting("DATA2", "place on the element; 1 first node, 2 middle, 3 second node", at_least=1, at_most=3)
+]
+
+
+class ForceVariable(Row):
+    """What is asked for."""
+
+    variable: Annotated[Name, about("output variable, in the words of the manual")]
+    location: Annotated[Name | None, about(LOCATION)] = None
+
+
+class ParaAngleElement(SummaryRequest):
+    """An angle."""
+
+    rule = "para_angle_element"
+    page = "kwd_summarypostprocessing_paraangleelement"
+    summary = "The angle between two elements, in the summary."
+    example = "*PARA ANGLE ELEMENT\n TITLE=Flex joint\n DATA1=12\n DATA2={Vessel End}\n"
+
+    keyword: Literal["PARA ANGLE ELEMENT"] = "PARA ANGLE ELEMENT"
+    first: Annotated[Ident, setting("DATA1", "element number, or its label", names=Names.ELEMENT)]
+    second: Annotated[Ident, setting("DATA2", "element number, or its label", names=Names.ELEMENT)]
+
+
+class ParaForce(SummaryRequest):
+    """A force."""
+
+    rule = "para_force"
+    page = "kwd_summarypostprocessing_paraforce"
+    summary = "A force, moment or the like of an element, in the summary."
+    example = "*PARA FORCE\n TITLE=Tension\n DATA1={Hang-off}\n DATA2=1\n DATA3=EFFECTIVE TENSION\n"
+
+    keyword: Literal["PARA FORCE"] = "PARA FORCE"
+    element: Annotated[Ident, setting("DATA1", "element number, or its label", names=Names.ELEMENT)]
+    node: LocalNode
+    variable: Annotated[ForceVariable, setting("DATA3", "output variable, and its place")]
+
+
+class ParaForceEnvelope(SummaryRequest):
+    """Extremes of a force."""
+
+    rule = "para_force_envelope"
+    page = "kwd_summarypostprocessing_paraforceenvelope"
+    summary = "Statistics of a force over the elements of a set, in the summary."
+    example = "*PARA FORCE ENVELOPE\n TITLE=Tension\n DATA1=ALL\n DATA2=EFFECTIVE TENSION\n"
+
+    keyword: Literal["PARA FORCE ENVELOPE"] = "PARA FORCE ENVELOPE"
+    set_name: Annotated[Name, setting("DATA1", "element set, or ALL", names=Names.SET)]
+    variable: Annotated[ForceVariable, setting("DATA2", "output variable, and its place")]
+
+
+class ParaKinematic(SummaryRequest):
+    """A motion."""
+
+    rule = "para_kinematic"
+    page = "kwd_summarypostprocessing_parakinematic"
+    summary = "A motion, displacement, velocity or acceleration of a node, in the summary."
+    example = "*PARA KINEMATIC\n TITLE=Hang-off\n PLOT=YES\n DATA1={Hang-off}\n DATA2=1\n DATA3=2\n"
+
+    keyword: Literal["PARA KINEMATIC"] = "PARA KINEMATIC"
+    node: Annotated[Ident, setting("DATA1", "node number, or its label", names=Names.NODE)]
+    dof: Annotated[Whole, setting("DATA2", "degree of freedom", at_least=1, at_most=6)]
+    quantity: Annotated[
+        Whole,
+        setting("DATA3", "1 motion, 2 displacement, 3 velocity, 4 acceleration", at_least=1, at_most=4),
+    ]
+    axis: Annotated[Name | None, setting("DATA4", AXIS, default="global")] = None
+
+
+class ParaReaction(SummaryRequest):
+    """A reaction."""
+
+    rule = "para_reaction"
+    page = "kwd_summarypostprocessing_parareaction"
+    summary = "The reaction at a node in a degree of freedom, in the summary."
+    example = "*PARA REACTION\n TITLE=Anchor\n SCALE=0.001, UNITS=kN\n DATA1=1\n DATA2=2\n"
+
+    keyword: Literal["PARA REACTION"] = "PARA REACTION"
+    node: Annotated[Ident, setting("DATA1", "node number, or its label", names=Names.NODE)]
+    dof: Annotated[Whole, setting("DATA2", "degree of freedom", at_least=1, at_most=6)]
+    axis: Annotated[Name | None, setting("DATA3", AXIS, default="global")] = None
+
+
+class SummaryTime(Block):
+    """From when to when."""
+
+    rule = "summary_time"
+    sections = ("SUMMARY POSTPROCESSING",)
+    subject = "post-processing"
+    page = "kwd_summarypostprocessing_time"
+    summary = "The part of a run that is summarised: all of it where nothing is given."
+    example = "*TIME\n START=20.0\n END=120.0\n"
+
+    keyword: Literal["TIME"] = "TIME"
+    start: Annotated[
+        Real | None, setting("START", "time at which it starts; -1 is the last stored step", unit="T", at_least=-1)
+    ] = None
+    end: Annotated[Real | None, setting("END", "time at which it ends", unit="T")] = None

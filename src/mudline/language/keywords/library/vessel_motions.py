@@ -1,0 +1,258 @@
+"""Motions of vessels in a load case: offsets, drifts, velocities, response amplitude operators."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from mudline.language.keywords.common import Freedom, require_one
+from mudline.language.keywords.fields import about, setting
+from mudline.language.keywords.model import Block, Record, Row, rows
+from mudline.language.keywords.table import Table
+from mudline.language.keywords.values import Contents, Facts, Name, Names, Real
+
+Vessel = Annotated[Name, setting("VESSEL", "vessel of *VESSEL or *VESSEL,INTEGRATED", names=Names.VESSEL)]
+
+
+class Motion(Row):
+    """Six displacements of a vessel."""
+
+    x: Annotated[Real, about("along the global X axis", unit="L")]
+    y: Annotated[Real | None, about("along the global Y axis", unit="L", default="0")] = None
+    z: Annotated[Real | None, about("along the global Z axis", unit="L", default="0")] = None
+    yaw: Annotated[Real | None, about("about the vertical axis", unit="deg", default="0")] = None
+    roll: Annotated[Real | None, about("about the surge axis of the vessel", unit="deg", default="0")] = None
+    pitch: Annotated[Real | None, about("about the sway axis of the vessel", unit="deg", default="0")] = None
+
+
+class VesselOffset(Record):
+    """The offset of a vessel."""
+
+    rule = "vessel_offset"
+    vessel: Vessel
+    offset: Annotated[Motion, setting("OFFSET", "displacements from the initial position")]
+
+
+class Offsets(Block):
+    """Offsets."""
+
+    rule = "offset"
+    sections = ("LOAD CASE",)
+    subject = "vessels"
+    page = "kwd_loadcase_offset"
+    summary = "Offsets of vessels from their initial positions."
+    example = "*OFFSET\n VESSEL=FPSO\n OFFSET=0.0, -8.0, 0.0\n"
+
+    keyword: Literal["OFFSET"] = "OFFSET"
+    offsets: list[VesselOffset] = []
+
+
+class Velocity(Record):
+    """The velocity of a vessel."""
+
+    rule = "velocity"
+    vessel: Vessel
+    axis: Annotated[
+        Literal["GLOBAL", "LOCAL"] | None,
+        setting("AXIS", "axis from which the direction counts: global Y or surge", default="GLOBAL", inline=True),
+    ] = None
+    speed: Annotated[Real, about("speed", unit="L/T")]
+    angle: Annotated[Real | None, about("direction, anticlockwise", unit="deg", default="0")] = None
+
+
+class VesselVelocity(Block):
+    """Velocities."""
+
+    rule = "vessel_velocity"
+    sections = ("LOAD CASE",)
+    subject = "vessels"
+    page = "kwd_loadcase_vesselvelocity"
+    summary = "Vessels that move on at one speed, beside their other motions; not with *VESSEL TIMETRACE."
+    example = "*VESSEL VELOCITY\n VESSEL=FPSO, AXIS=LOCAL\n 0.5, 0.0\n"
+
+    keyword: Literal["VESSEL VELOCITY"] = "VESSEL VELOCITY"
+    velocities: list[Velocity] = []
+
+
+class VesselMotion(Record):
+    """The motion of a vessel."""
+
+    rule = "vessel_motion"
+    vessel: Vessel
+    option: Annotated[
+        Literal["GLOBAL", "LOCAL"] | None,
+        setting("OPTION", "axes of the displacements", default="GLOBAL", inline=True),
+    ] = None
+    file: Annotated[
+        Name,
+        setting(
+            "FILE", "text file of seven columns: time, six displacements", names=Names.FILE, holds=Contents.MOTIONS
+        ),
+    ]
+
+
+class VesselTimetrace(Block):
+    """Motions from files."""
+
+    rule = "vessel_timetrace"
+    sections = ("LOAD CASE",)
+    subject = "vessels"
+    facts = Facts(moves_vessels=True)
+    page = "kwd_loadcase_vesseltimetrace"
+    summary = "Motions of vessels, of low and high frequency together, from files; not with *RAO or *DRIFT."
+    example = "*VESSEL TIMETRACE\n VESSEL=FPSO\n FILE=motion.dat\n"
+
+    keyword: Literal["VESSEL TIMETRACE"] = "VESSEL TIMETRACE"
+    motions: list[VesselMotion] = []
+
+
+_SEVERAL = "several sinusoids of a vessel: the pair of lines is repeated"
+
+
+class Sinusoid(Row):
+    """A drift in one degree of freedom."""
+
+    dof: Freedom
+    amplitude: Annotated[Real, about("amplitude: a length, of a rotation degrees")]
+    phase: Annotated[Real, about("phase", unit="deg")]
+    period: Annotated[Real, about("period", unit="T", above=0)]
+
+
+class VesselDrift(Record):
+    """A drift of a vessel: a sinusoid, or a file."""
+
+    rule = "vessel_drift"
+    vessel: Vessel
+    type_: Annotated[
+        Literal["SINUSOIDAL", "FILE"],
+        setting("TYPE", "a sinusoid, or a time history", inline=True, inferred=_SEVERAL),
+    ] = Field(alias="type")
+    option: Annotated[
+        Literal["GLOBAL", "LOCAL"] | None, setting("OPTION", "axes of the drift", default="GLOBAL", inline=True)
+    ] = None
+    sinusoid: Annotated[Sinusoid | None, about("of SINUSOIDAL")] = None
+    file: Annotated[
+        Name | None,
+        setting(
+            "FILE",
+            "of FILE: text file of seven columns, time and six displacements",
+            names=Names.FILE,
+            holds=Contents.MOTIONS,
+        ),
+    ] = None
+
+    @model_validator(mode="after")
+    def _fits(self) -> VesselDrift:
+        """A line of its type."""
+        require_one(self, "sinusoid" if self.type_ == "SINUSOIDAL" else "file")
+        require_one(self, "sinusoid", "file")
+        return self
+
+
+class Drift(Block):
+    """Drifts."""
+
+    rule = "drift"
+    sections = ("LOAD CASE",)
+    subject = "vessels"
+    page = "kwd_loadcase_drift"
+    summary = "Slow motions of vessels: sinusoids, or time histories from files."
+    example = "*DRIFT\n VESSEL=FPSO, TYPE=SINUSOIDAL\n 2, 4.0, 0.0, 120.0\n"
+
+    keyword: Literal["DRIFT"] = "DRIFT"
+    drifts: list[VesselDrift] = []
+
+
+class Six(Row):
+    """Values of six motions, of a wave with an amplitude of 1: lengths, and degrees of rotations; phases in degrees."""
+
+    heave: Annotated[Real, about("of heave")]
+    surge: Annotated[Real, about("of surge")]
+    sway: Annotated[Real, about("of sway")]
+    yaw: Annotated[Real, about("of yaw")]
+    roll: Annotated[Real, about("of roll")]
+    pitch: Annotated[Real, about("of pitch")]
+
+
+class FrequencyRao(Record):
+    """Three lines: a frequency, six amplitudes, six phases."""
+
+    rule = "frequency_rao"
+    frequency: Annotated[Real, about("wave frequency", at_least=0)]
+    amplitudes: Annotated[Six, about("amplitudes for a unit wave")]
+    phases: Annotated[Six, about("phases, positive for a lag")]
+
+    @classmethod
+    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
+        """Line by line."""
+        return ("frequency", "amplitudes", "phases")[min(number, 2)]
+
+
+class HeadingRao(Record):
+    """The operators of a heading."""
+
+    rule = "heading_rao"
+    heading: Annotated[Real, setting("HEADING", "wave heading", unit="deg", at_least=-180, at_most=180)]
+    frequencies: list[FrequencyRao] = []
+
+
+class RaoLine(Row):
+    """A line of LAYOUT=LINE."""
+
+    heading: Annotated[Real, about("wave heading", unit="deg", at_least=-180, at_most=180)]
+    frequency: Annotated[Real, about("wave frequency", at_least=0)]
+    heave: Annotated[Real, about("amplitude of heave")]
+    heave_phase: Annotated[Real, about("its phase", unit="deg")]
+    surge: Annotated[Real, about("amplitude of surge")]
+    surge_phase: Annotated[Real, about("its phase", unit="deg")]
+    sway: Annotated[Real, about("amplitude of sway")]
+    sway_phase: Annotated[Real, about("its phase", unit="deg")]
+    yaw: Annotated[Real, about("amplitude of yaw")]
+    yaw_phase: Annotated[Real, about("its phase", unit="deg")]
+    roll: Annotated[Real, about("amplitude of roll")]
+    roll_phase: Annotated[Real, about("its phase", unit="deg")]
+    pitch: Annotated[Real, about("amplitude of pitch")]
+    pitch_phase: Annotated[Real, about("its phase", unit="deg")]
+
+
+class VesselRao(Record):
+    """The operators of a vessel: a file, or lines."""
+
+    rule = "vessel_rao"
+    vessel: Vessel
+    format: Annotated[Name | None, setting("FORMAT", "MCS, AQWA, WAMIT, MOSES, ORCAFLEX, or one of *RAO FORMAT")] = None
+    layout: Annotated[
+        Literal["MCS", "LINE"] | None,
+        setting("LAYOUT", "by heading, or a line a frequency", default="MCS", inline=True, behind="FORMAT"),
+    ] = None
+    file: Annotated[
+        Name | None,
+        setting("FILE", "file with the operators, instead of lines", names=Names.FILE, holds=Contents.OPERATORS),
+    ] = None
+    headings: list[HeadingRao] = []
+    lines: Annotated[Table | None, rows(RaoLine, "of LINE: operators, in any order")] = None
+
+    @model_validator(mode="after")
+    def _fits(self) -> VesselRao:
+        """A file, or lines of one layout."""
+        if self.file or self.headings or self.lines is not None:
+            require_one(self, "file", "headings", "lines")
+        return self
+
+
+class Raos(Block):
+    """Operators."""
+
+    rule = "rao"
+    sections = ("LOAD CASE",)
+    subject = "vessels"
+    facts = Facts(moves_vessels=True)
+    page = "kwd_loadcase_rao"
+    summary = "Response amplitude operators of vessels, by file or lines (older than *VESSEL,INTEGRATED)."
+    example = (
+        "*RAO\n VESSEL=FPSO\n HEADING=0.0\n 0.1\n 0.9, 0.4, 0.0, 0.0, 0.0, 1.1\n 10.0, 90.0, 0.0, 0.0, 0.0, -80.0\n"
+    )
+
+    keyword: Literal["RAO"] = "RAO"
+    vessels: list[VesselRao] = []

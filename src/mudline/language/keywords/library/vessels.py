@@ -1,0 +1,138 @@
+"""Vessels where they are at first, and bodies that are drawn."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from mudline.language.keywords.fields import about, setting
+from mudline.language.keywords.keeping import OpenBlock, OpenRecord
+from mudline.language.keywords.model import Block, Record, Row
+from mudline.language.keywords.values import Contents, Ident, Name, Names, Real
+
+
+class Position(Row):
+    """Where a vessel is at first."""
+
+    x: Annotated[Real, about("vertical coordinate of its reference point", unit="L")]
+    y: Annotated[Real, about("horizontal coordinate Y", unit="L")]
+    z: Annotated[Real, about("horizontal coordinate Z", unit="L")]
+    yaw: Annotated[Real | None, about("heading, anticlockwise from the global Y axis", unit="deg", default="0")] = None
+
+
+class LocalDistance(Row):
+    """A distance in the axes of a vessel."""
+
+    heave: Annotated[Real, about("along its heave axis", unit="L")]
+    surge: Annotated[Real, about("along its surge axis", unit="L")]
+    sway: Annotated[Real, about("along its sway axis", unit="L")]
+
+
+class Dimensions(Row):
+    """The size of a profile."""
+
+    height: Annotated[Real, about("height", unit="L", above=0)]
+    length: Annotated[Real, about("length", unit="L", above=0)]
+    width: Annotated[Real, about("width", unit="L", above=0)]
+
+
+class VesselPosition(Record):
+    """A vessel."""
+
+    rule = "vessel_position"
+    vessel: Annotated[Name, setting("VESSEL", "name of the vessel", defines=Names.VESSEL)]
+    position: Annotated[Position, setting("INITIAL POSITION", "its reference point and heading")]
+
+
+class Vessels(Block):
+    """Vessels."""
+
+    rule = "vessel"
+    subject = "vessels"
+    page = "kwd_model_vessel"
+    summary = "Vessels: initial positions of their reference points, and headings (older than *VESSEL,INTEGRATED)."
+    example = "*VESSEL\n VESSEL=FPSO\n INITIAL POSITION=1005.0, 0.0, 0.0, 90.0\n"
+
+    keyword: Literal["VESSEL"] = "VESSEL"
+    angles: Annotated[
+        Literal["LARGE", "SMALL"] | None, setting("ANGLES", "how rotations are combined", default="LARGE")
+    ] = None
+    vessels: list[VesselPosition] = []
+
+
+_MORE = "more lines follow, of which the manual page was not seen: they are passed through unchanged"
+
+
+class IntegratedVessel(OpenRecord):
+    """A vessel."""
+
+    rule = "integrated_vessel"
+    vessel: Annotated[Name, setting("VESSEL", "name of the vessel", inferred=_MORE, defines=Names.VESSEL)]
+    angles: Annotated[
+        Literal["LARGE", "SMALL"] | None, setting("ANGLES", "how rotations are combined", default="LARGE")
+    ] = None
+    position: Annotated[Position, setting("INITIAL POSITION", "its reference point and heading")]
+    rao: Annotated[
+        Name | None, setting("RAO", "file of response amplitude operators", names=Names.FILE, holds=Contents.OPERATORS)
+    ] = None
+    format: Annotated[
+        Name | None,
+        setting("FORMAT", "format of that file, as WAMIT, AQWA, MOSES or ORCAFLEX", inline=True, behind="RAO"),
+    ] = None
+    units: Annotated[Name | None, setting("UNITS", "units of that file", inline=True, behind="RAO")] = None
+    reference: Annotated[
+        LocalDistance | None, setting("REF", "point that the operators hold for, from the reference point")
+    ] = None
+    profile: Annotated[Name | None, setting("PROFILE", "shape that is drawn")] = None
+    file: Annotated[Name | None, setting("FILE", "file with a shape of one's own", names=Names.FILE)] = None
+    dimensions: Annotated[Dimensions | None, setting("DIMENSIONS", "size of the shape")] = None
+
+
+class IntegratedVessels(OpenBlock):
+    """Vessels."""
+
+    rule = "vessel_integrated"
+    subject = "vessels"
+    page = "kwd_model_vesselintegrated"
+    known_forms = True
+    summary = "Vessels: initial positions, response amplitude operators, and the shapes that are drawn."
+    example = (
+        "*VESSEL,INTEGRATED\n VESSEL=FPSO\n INITIAL POSITION=1005.0, 0.0, 0.0, 90.0\n"
+        " RAO=fpso.rao\n REF=2.0, 0.0, 0.0\n DIMENSIONS=30.0, 280.0, 55.0\n"
+    )
+
+    keyword: Literal["VESSEL,INTEGRATED"] = "VESSEL,INTEGRATED"
+    vessels: list[IntegratedVessel] = []
+
+
+class Location(Row):
+    """A place."""
+
+    x: Annotated[Real, about("vertical coordinate", unit="L")]
+    y: Annotated[Real, about("horizontal coordinate Y", unit="L")]
+    z: Annotated[Real, about("horizontal coordinate Z", unit="L")]
+
+
+class DrawnBody(Record):
+    """A body."""
+
+    rule = "drawn_body"
+    body: Annotated[Name, setting("BODY", "name of the body")]
+    location: Annotated[Location, setting("LOCATION", "where it is")]
+    node: Annotated[Ident | None, setting("NODE", "node that it moves with", names=Names.NODE)] = None
+    profile: Annotated[
+        Literal["BOP", "CALMBUOY", "PLET", "ROV", "USER"], setting("PROFILE", "its shape; USER: of a file")
+    ]
+    file: Annotated[Name | None, setting("FILE", "of USER: file with the shape; mandatory", names=Names.FILE)] = None
+    dimensions: Annotated[Dimensions | None, setting("DIMENSIONS", "its size")] = None
+
+
+class DrawnBodies(Block):
+    """Bodies."""
+
+    rule = "body_integrated"
+    page = "kwd_model_bodyintegrated"
+    summary = "Bodies that are drawn: where they are, their shapes, and the nodes that they move with."
+    example = "*BODY,INTEGRATED\n BODY=Manifold\n LOCATION=0.0, 10.0, 0.0\n NODE=1\n PROFILE=PLET\n"
+
+    keyword: Literal["BODY,INTEGRATED"] = "BODY,INTEGRATED"
+    bodies: list[DrawnBody] = []

@@ -1,0 +1,358 @@
+"""Help on keywords, fields and values, on the things that they name, and values of equations between the lines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import islice
+
+import numpy as np
+from lsprotocol import types
+
+from mudline.basics.limits import MOST_HINTS
+from mudline.basics.quantities import unit_names
+from mudline.basics.short_repr import counted
+from mudline.language.deck.parameters import folded
+from mudline.language.diagnostics import Span
+from mudline.language.keywords import catalogue
+from mudline.language.keywords.format import TAKES, format_lines, range_text, unit_text
+from mudline.language.keywords.model import FieldSpec
+from mudline.language.keywords.table import LARGEST_WHOLE
+from mudline.language.keywords.text import shown
+from mudline.language.keywords.values import Equation, Names
+from mudline.language.syntax.fields import trimmed
+from mudline.model.results.summary import followers
+from mudline.model.scene.deck_curves import DeckCurve, other_curves
+from mudline.model.scene.deck_values import bare, find_file
+from mudline.model.scene.force_curves import SceneCurve
+from mudline.model.scene.model import Scene
+from mudline.model.scene.names import CURVES
+from mudline.model.scene.restart import find_deck
+from mudline.model.scene.sets import NamedSet
+from mudline.tools.lsp.decks import Analysis, value_text
+from mudline.tools.lsp.names import Occurrence, at, equation_spans
+from mudline.tools.lsp.sites import Site, Spot, site, spot
+
+
+def hover(analysis: Analysis, offset: int) -> types.Hover | None:
+    """Help on an offset, in Markdown; None where there is nothing to say."""
+    origin = analysis.origin
+    if origin is None:
+        return None
+    found = spot(origin.tree, offset)
+    leaf = found.leaf
+    if leaf is not None and leaf.span.start <= offset < leaf.span.end:
+        return _hover(analysis, _head_help(found), trimmed(origin.source.unified, *leaf.span))
+    named = at(analysis.names, offset)
+    if named is not None and named.thing.kind is Names.PARAMETER:
+        return _hover(analysis, parameter_help(analysis, named), named.span)
+    value = site(analysis, offset)
+    return _hover(analysis, "\n\n".join(filter(None, _value_help(analysis, value))), value.span) if value else None
+
+
+def _hover(analysis: Analysis, text: str, span: Span) -> types.Hover | None:
+    content = types.MarkupContent(types.MarkupKind.Markdown, text)
+    return types.Hover(content, analysis.document.range(span)) if text else None
+
+
+# ---------------------------------------------------------------------------------------------- keywords and sections
+
+
+def _head_help(found: Spot) -> str:
+    if found.raw is None:
+        return section_help(found.raw_section.name) if found.raw_section else ""
+    return keyword_help(found.raw.name, found.raw_section.name if found.raw_section else "")
+
+
+def section_help(name: str) -> str:
+    """What belongs in a section."""
+    if name not in catalogue.SECTIONS:
+        return ""
+    own = [f"`*{keyword}`" for keyword in catalogue.keywords() if name in (catalogue.sections_of(keyword) or ())]
+    return f"**${name}**" + (f"\n\nKeywords: {', '.join(own)}" if own else "")
+
+
+def keyword_help(name: str, section: str) -> str:
+    """What a keyword is for and how its lines are written."""
+    declared = catalogue.block_class(section, name)
+    if declared is None:
+        kept = catalogue.opaque_keyword(section, name)
+        if kept is not None:
+            return f"**\\*{name}**\n\n{kept.summary}\n\nIts lines are passed through unchanged."
+        return f"**\\*{name}**\n\nKnown, and passed through unchanged." if name in catalogue.keywords() else ""
+    facts = declared.facts
+    notes = [declared.summary]
+    if facts.superseded_by:
+        notes.append(f"Superseded by {' and '.join(map(str, facts.superseded_by))}.")
+    if facts.extension:
+        notes.append("An extension of mudline.")
+    if facts.later_wins:
+        notes.append("An element follows the last record whose set holds it.")
+    return "\n\n".join([f"**\\*{name}**", *notes, "```text\n" + "\n".join(format_lines(declared)) + "\n```"])
+
+
+# -------------------------------------------------------------------------------------------------- fields and values
+
+
+def field_help(slot: FieldSpec, units: str) -> str:
+    """What a field means, its unit, default and range."""
+    about = slot.about
+    facts = [
+        f"takes {', '.join(slot.choices)}" if slot.choices else f"takes a {TAKES[slot.kind]}" if slot.kind else "",
+        f"unit {unit_text(about.unit, units)}" if about.unit and about.unit != "-" else "",
+        "dimensionless" if about.unit == "-" else "",
+        "mandatory" if slot.required else "",
+        f"default {about.default}" if about.default else "",
+        f"range {range_text(about)}" if range_text(about) else "",
+    ]
+    lines = [f"**{slot.label}** {about.meaning}", "; ".join(filter(None, facts))]
+    if about.inferred:
+        lines.append(f"*Inferred: {about.inferred}.*")
+    return "\n\n".join(filter(None, lines))
+
+
+def _value_help(analysis: Analysis, found: Site) -> Iterator[str]:
+    yield field_help(found.slot, analysis.units)
+    value = found.value
+    if isinstance(value, Equation):
+        yield f"`{value}` = {analysis.evaluated(value)}"
+    elif isinstance(value, str):
+        yield named_help(analysis, found, value)
+    elif isinstance(value, int | float):
+        yield number_help(analysis, found, value)
+    if row := segment_help(analysis, found):
+        yield row
+
+
+_FEW = 10
+
+
+def listed(numbers: list[int]) -> str:
+    """The first of some numbers."""
+    more = f", ... ({len(numbers)} in all)" if len(numbers) > _FEW else ""
+    return ", ".join(map(str, numbers[:_FEW])) + more
+
+
+# --------------------------------------------------------------------------------------------------------- parameters
+
+
+def parameter_help(analysis: Analysis, named: Occurrence) -> str:
+    """The value of a parameter and how it is defined."""
+    parameters = analysis.parameters
+    key = named.thing.key
+    definition = parameters.definitions.get(key) if parameters else None
+    if parameters is None or definition is None:
+        return f"parameter `{named.name}` is not defined"
+    value = value_text(parameters.values[key]) if key in parameters.values else "no value"
+    written = "" if isinstance(definition.value, float) else f"\n\n`{definition.value}`"
+    return f"parameter **{definition.name}** = {value}{written}"
+
+
+# ------------------------------------------------------------------------------------------------------ names in fields
+
+
+def named_help(analysis: Analysis, found: Site, name: str) -> str:
+    """What a name in a field stands for."""
+    scene = analysis.scene
+    kind = found.slot.about.names or found.slot.about.defines
+    if scene is None or analysis.deck is None:
+        return ""
+    if kind in (Names.SET, Names.SUBSET):
+        return set_help(scene, name)
+    if kind is Names.CURVE:
+        entry = next((each for each in scene.laws.curves if not each.embedment and _same(each.name, name)), None)
+        return curve_help(scene, entry) if entry else ""
+    if kind in CURVES:
+        return "\n\n".join(other_curve_help(one) for one in other_curves(scene.deck) if _same(one.name, name))
+    if kind in (Names.FILE, Names.DECK):
+        path = find_deck(analysis.deck, name) if kind is Names.DECK else find_file(analysis.deck.folder, name)
+        return path.as_posix() if path else "this file was not found"
+    return ""
+
+
+def _same(one: str, other: str) -> bool:
+    return folded(bare(one)) == folded(bare(other))
+
+
+def set_help(scene: Scene, name: str) -> str:
+    """What a set holds."""
+    found = scene.set_table.find(name)
+    if found is None:
+        return ""
+    words = [f"set **{found.name}**: {counted(len(found.elements), 'element')}"]
+    if len(found.elements):
+        words.append(listed(scene.element_ids[found.elements].tolist()))
+        lengths = scene.length[found.elements]
+        words.append(_with_unit("total length", float(np.nansum(lengths)), unit_names(scene.units).length))
+    if diameters := diameters_of(scene, found):
+        words.append(diameters)
+    if found.open:
+        words.append("it may have more elements, which this deck does not show")
+    return "\n\n".join(words)
+
+
+def diameters_of(scene: Scene, found: NamedSet) -> str:
+    """The external diameters of a set's elements, or ""."""
+    return _diameters(scene, scene.diameter[found.elements])
+
+
+def _diameters(scene: Scene, given: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> str:
+    sizes = np.unique(given[~np.isnan(given)])
+    if not len(sizes):
+        return ""
+    unit = unit_names(scene.units).length
+    if len(sizes) == 1:
+        return _with_unit("D =", float(sizes[0]), unit)
+    return f"D = {sizes[0]:g} to {_with_unit('', float(sizes[-1]), unit).strip()}"
+
+
+def _with_unit(what: str, value: float, unit: str) -> str:
+    return f"{what} {value:g} {unit}".rstrip()
+
+
+# -------------------------------------------------------------------------------------------------------------- curves
+
+
+def curve_at(analysis: Analysis, found: Site) -> tuple[int, SceneCurve, int] | None:
+    """The curve that a value is a point of: its index, the curve, the row."""
+    path = found.where.path
+    scene = analysis.scene
+    if scene is None or len(path) < 4 or path[0] != "curves" or path[2] != "points":
+        return None
+    for index, entry in enumerate(scene.laws.curves):
+        if entry.where == found.where._replace(path=path[:2]):
+            return index, entry, int(path[3])
+    return None
+
+
+def segment_help(analysis: Analysis, found: Site) -> str:
+    """Slope and stiffness of a curve on both sides of the point that a value belongs to."""
+    point = curve_at(analysis, found)
+    if point is None or analysis.scene is None:
+        return ""
+    index, entry, row = point
+    at = np.flatnonzero(entry.rows == row)
+    if entry.curve is None or not at.size:
+        return ""
+    scene = analysis.scene
+    ratio = float(entry.points[int(at[0]), 0])
+    ratios, forces = entry.curve.ratios, entry.curve.forces
+    number = int(np.searchsorted(ratios, ratio))
+    lines = [f"point {number + 1} of {len(ratios)} of {_title(entry)}, by ratio"]
+    sizes = scene.diameter[followers(scene, index)]
+    for first, words in ((number - 1, "up to here"), (number, "from here")):
+        if 0 <= first < len(ratios) - 1:
+            slope = float((forces[first + 1] - forces[first]) / (ratios[first + 1] - ratios[first]))
+            lines.append(f"{words}: {_slope_text(scene, slope, sizes)}")
+    return "\n\n".join(lines)
+
+
+def _slope_text(scene: Scene, slope: float, sizes: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> str:
+    """A slope and the stiffness that it is for the diameters of the elements which follow the curve."""
+    names = unit_names(scene.units)
+    known = np.unique(sizes[~np.isnan(sizes)])
+    text = _with_unit("slope", slope, names.line_force)
+    if not len(known):
+        return text
+    low, high = slope / float(known[-1]), slope / float(known[0])
+    stiffness = f"{low:g}" if low == high else f"{low:g} to {high:g}"
+    return f"{text}, stiffness {stiffness} {names.stiffness}".rstrip() + f" ({_diameters(scene, sizes)})"
+
+
+def _title(entry: SceneCurve) -> str:
+    return f"the curve of set {entry.name}" if entry.embedment else f"curve {entry.name}"
+
+
+def other_curve_help(entry: DeckCurve) -> str:
+    """Points and range of a curve that is none of a seabed."""
+    curve = entry.made()
+    head = f"{entry.kind} **{entry.name}** of `*{entry.keyword}`"
+    if curve is None:
+        return f"{head}: no curve, see its findings"
+    (first, last), (over, value) = (curve.ratios[[0, -1]].tolist(), entry.axes)
+    reach = f"{over} from {first:g} to {last:g}, {value} from {curve.forces[0]:g} to {curve.forces[-1]:g}"
+    return f"{head}: {len(curve.ratios)} points, {reach}; its end sections go on beyond them"
+
+
+def curve_help(scene: Scene, entry: SceneCurve) -> str:
+    """Points, range and followers of a curve."""
+    index = next(number for number, each in enumerate(scene.laws.curves) if each is entry)
+    if entry.curve is None:
+        return f"{_title(entry)} cannot be evaluated"
+    ratios, forces = entry.curve.ratios, entry.curve.forces
+    unit = unit_names(scene.units).line_force
+    words = [
+        f"{_title(entry)}: {counted(len(ratios), 'point')}, ratio {ratios[0]:g} to {ratios[-1]:g}, "
+        + _with_unit(f"force {forces[0]:g} to", float(forces[-1]), unit),
+        f"followed by {counted(int(followers(scene, index).sum()), 'element')}",
+    ]
+    return "\n\n".join(words)
+
+
+# --------------------------------------------------------------------------------------------------- nodes and elements
+
+
+def number_help(analysis: Analysis, found: Site, value: float) -> str:
+    """The node or element that a number in a field stands for."""
+    kind = found.slot.about.names or found.slot.about.defines
+    scene = analysis.scene
+    if scene is None or kind not in (Names.NODE, Names.ELEMENT) or not is_label(value):
+        return ""
+    return "\n\n".join(_node(scene, int(value)) if kind is Names.NODE else _element(scene, int(value)))
+
+
+def is_label(value: object) -> bool:
+    """Whether a value may be the number of a node or an element."""
+    return isinstance(value, int | float) and float(value).is_integer() and abs(value) <= LARGEST_WHOLE
+
+
+def _node(scene: Scene, number: int) -> Iterator[str]:
+    index = int(scene.nodes.indices(np.array([number], dtype=np.int64))[0])
+    if index < 0:
+        yield f"node {number} is not defined here"
+        return
+    x, y, z = scene.coordinates[index].tolist()
+    yield _with_unit(f"node **{number}**: X {x:g}, Y {y:g}, Z {z:g}", 0, "").removesuffix(" 0")
+    ends = scene.element_ids[(scene.element_nodes == index).any(axis=1)].tolist()
+    if ends:
+        yield f"of {'element' if len(ends) == 1 else 'elements'} {listed(ends)}"
+
+
+def _element(scene: Scene, number: int) -> Iterator[str]:
+    index = int(scene.table.numbered.indices(np.array([number], dtype=np.int64))[0])
+    if index < 0:
+        yield f"element {number} is not defined here"
+        return
+    nodes = [str(scene.node_ids[node]) if node >= 0 else "?" for node in scene.element_nodes[index].tolist()]
+    unit = unit_names(scene.units).length
+    facts = [f"nodes {' and '.join(nodes)}"]
+    if not np.isnan(scene.length[index]):
+        facts.append(_with_unit("length", float(scene.length[index]), unit))
+    if not np.isnan(scene.diameter[index]):
+        facts.append(_with_unit("D =", float(scene.diameter[index]), unit))
+    yield f"element **{number}**: {', '.join(facts)}"
+    sets = [shown(each.name) for each in scene.set_table.named.values() if _contains(each, index)]
+    yield f"in {', '.join(sets[:_FEW])}" + (" and more" if len(sets) > _FEW else "")
+
+
+def _contains(found: NamedSet, index: int) -> bool:
+    at = int(np.searchsorted(found.elements, index))
+    return at < len(found.elements) and int(found.elements[at]) == index
+
+
+# ---------------------------------------------------------------------------------------------------- between the lines
+
+
+def hints(analysis: Analysis, range_: types.Range) -> list[types.InlayHint]:
+    """The values of the equations in a range."""
+    document = analysis.document
+    if analysis.origin is None or analysis.deck is None:
+        return []
+    within = Span(document.offset(range_.start), document.offset(range_.end))
+    found = (span for span in equation_spans(analysis.origin) if within.start <= span.start and span.end <= within.end)
+    return [_hint(analysis, span) for span in islice(found, MOST_HINTS)]
+
+
+def _hint(analysis: Analysis, equation: Span) -> types.InlayHint:
+    document = analysis.document
+    value = analysis.evaluated(Equation(document.text[slice(*equation)]))
+    return types.InlayHint(document.position(equation.end), f"= {value}", padding_left=True)
