@@ -135,8 +135,7 @@ class ForceCurve:
         at = passed(self.ratios[1:], ratio[where])
         half = self._tails[at] * (0.5 * ratio[where] - 0.5 * self.ratios[at])
         force[where] = self.forces[at] + half + half
-        found: IndexArray = where[~np.isfinite(force[where])]
-        return found
+        return where[~np.isfinite(force[where])]
 
     def segment(self, ratios: ArrayLike) -> IndexArray:
         """Return which segment applies at `ratios`, from 0: the first also below, the last also beyond the points.

@@ -205,8 +205,7 @@ def _reasons(scene: ResolvedDeck, laws: Sequence[str]) -> Iterator[tuple[str, st
     """Stage and reason of each thing that is left out."""
 
     def where_given(name: str) -> Mask:
-        found: Mask = scene.resistance.column(name) > 0.0
-        return found
+        return scene.resistance.column(name) > 0.0
 
     rigid = scene.law == LawKind.RIGID
     if "SEABED CONTACT" in scene.extensions:

@@ -238,8 +238,7 @@ class SeabedResistance(NamedTuple):
     def column(self, name: str) -> Floats:
         """One of the fields of `ResistanceValues` for all elements: (m,), or (m, 2) for those of two directions."""
         table = np.array([getattr(entry, name) for entry in (*self.values, _NO_VALUES)], dtype=np.float64)
-        found: Floats = table[self.of_element]
-        return found
+        return table[self.of_element]
 
 
 def read_resistance(context: Context, laws: LawTable) -> SeabedResistance:
@@ -265,8 +264,7 @@ def present(covered: Indices) -> list[int]:
         return [index] * (index >= 0)
     if len(covered) <= FEW:
         return sorted({*covered.tolist()} - {-1})
-    found: list[int] = np.bincount(covered[covered >= 0]).nonzero()[0].tolist()
-    return found
+    return np.bincount(covered[covered >= 0]).nonzero()[0].tolist()
 
 
 def _two(part: Part | None, name: str) -> tuple[float, float]:
@@ -334,8 +332,7 @@ class Extension(NamedTuple):
             value = getattr(entry, name, None)
             number_asks = value >= 0.0 if isinstance(value, float | int) else value is not None
             flags.append(number_asks or type(entry).model_fields[name].is_required())
-        found: Mask = np.array([*flags, False])[self.of_element]
-        return found
+        return np.array([*flags, False])[self.of_element]
 
 
 def read_extensions(context: Context, sets: Sets, count: int) -> dict[str, Extension]:

@@ -227,8 +227,7 @@ class Numbered:
 
     def batches_of(self, rows: Indices | int) -> Indices:
         """The batches that definitions belong to."""
-        found: Indices = self.starts.searchsorted(rows, side="right") - 1
-        return found
+        return self.starts.searchsorted(rows, side="right") - 1
 
     def ids_of(self, rows: Indices) -> Ids:
         """The numbers that definitions define."""
@@ -290,14 +289,12 @@ def _all_different(ids: Ids) -> bool:
 
 def picked(values: Iterable[float], index: Indices) -> Floats:
     """The value of each index; NaN for -1."""
-    found: Floats = np.array([*values, np.nan], dtype=np.float64)[index]
-    return found
+    return np.array([*values, np.nan], dtype=np.float64)[index]
 
 
 def marked(flags: Iterable[bool], index: Indices) -> Mask:
     """The flag of each index; False for -1."""
-    found: Mask = np.array([*flags, False], dtype=np.bool_)[index]
-    return found
+    return np.array([*flags, False], dtype=np.bool_)[index]
 
 
 def at_nodes(of_element: Indices, element_nodes: Indices, nodes: int) -> Indices:
