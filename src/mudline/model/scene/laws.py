@@ -19,7 +19,7 @@ from mudline.model.contact.input import LawKind
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.force_curves import SceneCurve, set_name
-from mudline.model.scene.numbering import FEW, Floats, Indices, Mask, looked_up, one_index, picked
+from mudline.model.scene.numbering import Floats, Indices, Mask, looked_up, picked
 from mudline.model.scene.sets import NamedSet, Sets, later_wins
 
 if TYPE_CHECKING:
@@ -259,12 +259,9 @@ def read_resistance(context: Context, laws: LawTable) -> SeabedResistance:
 
 def present(covered: Indices) -> list[int]:
     """The indices that there are, without -1, in ascending order."""
-    index = one_index(covered)
-    if index is not None:
-        return [index] * (index >= 0)
-    if len(covered) <= FEW:
-        return sorted({*covered.tolist()} - {-1})
-    return np.bincount(covered[covered >= 0]).nonzero()[0].tolist()
+    one_for_all = len(covered) and covered.strides == (0,)
+    found = covered[:1] if one_for_all else covered
+    return np.bincount(found[found >= 0]).nonzero()[0].tolist()
 
 
 def _two(part: Part | None, name: str) -> tuple[float, float]:
