@@ -9,9 +9,8 @@ import pytest
 from hypothesis import given, reject
 from hypothesis import strategies as st
 
-from mudline.model.curves import CurveError, ForceCurve
+from mudline.model.curves import BLOCK, CurveError, ForceCurve
 from mudline.model.curves.points import FloatArray
-from mudline.model.curves.search import BLOCK
 from tests.model.curves.plain import POINTS, near, plain_values, steps
 
 FORCES: list[Callable[[FloatArray], FloatArray]] = [

@@ -7,12 +7,8 @@ import pickle
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
-from hypothesis import strategies as st
-from numpy.typing import ArrayLike
 
-from mudline.model.curves import CurveError, ForceCurve
-from mudline.model.curves import points as curve_points
+from mudline.model.curves import ForceCurve
 
 POINTS = [(0.3, 4500.0), (0.0, 0.0), (0.1, 2000.0)]
 
@@ -30,41 +26,6 @@ def test_points_may_be_an_array_of_any_real_kind() -> None:
     whole = np.array([[0, 0], [2, 8]])
     for kind in (np.int32, np.float32, np.float64, np.longdouble):
         assert ForceCurve(whole.astype(kind)) == ForceCurve([(0, 0), (2, 8)])
-
-
-_VALUES = st.sampled_from([0.0, -0.0, 5e-324, 1e-308, 1e308, -1e308, np.inf, np.nan]) | st.floats(-5.0, 5.0)
-
-
-@given(st.lists(st.tuples(_VALUES, _VALUES), max_size=5), st.booleans())
-@example([(-0.0, -0.0), (1.0, 2.0)], True)
-@settings(max_examples=200)
-def test_a_short_curve_has_the_bits_of_any_other(points: list[tuple[float, float]], ascending: bool) -> None:
-    array = np.array(sorted(points) if ascending else points).reshape(-1, 2)
-
-    def made(given: ArrayLike) -> object:
-        try:
-            curve = ForceCurve(given, "clay")
-        except CurveError as error:
-            return str(error), error.code, error.index
-        return [values.tobytes() for values in (curve.ratios, curve.forces, curve.slopes)]
-
-    assert made(array) == made(array.tolist() or np.empty((0, 2)))
-
-
-def test_which_curves_are_short() -> None:
-    """Those in order, of up to 64 points; any other is made by numpy, with the same result."""
-    points = np.column_stack((np.arange(65.0), np.arange(65.0) ** 2))
-    for count in (2, 64):
-        short = curve_points._short(points[:count])
-        assert short is not None
-        assert short.slopes.tolist() == (2.0 * np.arange(count - 1) + 1.0).tolist()
-        assert ForceCurve(points[:count]).slopes.tolist() == short.slopes.tolist()
-    others = [points[:1], points, points[::-1], points[:5].astype(np.float32), points[:4].reshape(2, 4), points[:, 0]]
-    others += [
-        np.array(rows) for rows in ([(0.0, 0.0), (0.0, 1.0)], [(0.0, 1.0), (1.0, 1.0)], [(0.0, 0.0), (1.0, np.inf)])
-    ]
-    others += [np.array([(-1.7e308, 0.0), (1.7e308, 1.0)])]
-    assert [curve_points._short(other) for other in others] == [None] * len(others)
 
 
 def test_a_curve_does_not_change() -> None:

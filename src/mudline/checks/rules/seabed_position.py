@@ -14,7 +14,7 @@ from mudline.language.keywords.table import LARGEST_WHOLE
 from mudline.language.rules import rule
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.model import Scene
-from mudline.model.scene.numbering import FEW, Floats, Indices, Mask, blocks_of
+from mudline.model.scene.numbering import Floats, Indices, Mask, blocks_of
 from mudline.model.scene.seabed import SeabedKind, SeabedShape
 from mudline.model.scene.vertical_axis import FLAT
 
@@ -25,6 +25,7 @@ SBD021 = Code("SBD021", "one-constrained-dof", Severity.WARNING)
 SBD022 = Code("SBD022", "deep-node", Severity.WARNING)
 
 _VERTICAL = 90.0
+_FEW = 64
 
 DEEPEST = 5.0
 """Diameters below the seabed."""
@@ -127,7 +128,7 @@ class Bounds(NamedTuple):
 def bounds_of(context: LintContext) -> Bounds:
     """What is computed once for the rules that most decks pass by such bounds alone; they ask `context.once`."""
     scene = context.scene
-    axes = [*zip(*scene.coordinates.tolist(), strict=True)] if len(scene.coordinates) <= FEW else []
+    axes = [*zip(*scene.coordinates.tolist(), strict=True)] if len(scene.coordinates) <= _FEW else []
     if axes and isfinite(sum(map(sum, axes))):  # of few without numpy, which takes three times as long
         (lowest, left, first), (top, right, last) = map(min, axes), map(max, axes)
     else:

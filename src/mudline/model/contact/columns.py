@@ -5,8 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from types import MappingProxyType
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,8 +73,13 @@ Others = Callable[[Part], Sequence[tuple[str, FloatArray]]]
 class Table(ABC):
     """Makes the columns of the elements or nodes with these indices for some steps."""
 
+    quantities: ClassVar[Mapping[str, Quantity]]
+    _fixed: dict[str, Values]
+    """Values that no step changes, by the name of their column."""
+
     def __init__(self, given: ContactInput, chosen: IndexArray) -> None:
         self._chosen = chosen
+        self._names: dict[str, Names] = {}
         self.units = given.units
 
     @property
@@ -87,39 +91,27 @@ class Table(ABC):
     def columns(self, part: Part) -> list[Column]:
         """Return the columns of the contract, then others."""
 
-    @abstractmethod
     def facts(self) -> list[Column]:
-        """Return the columns that no step changes."""
-
-    def _facts(
-        self, quantities: Mapping[str, Quantity], values: Mapping[str, Values], names: Mapping[str, Names]
-    ) -> list[Column]:
+        """Return the columns that no step changes, and the law, also of elements whose curve is cut at some steps."""
         return [
-            Column(
-                name, values[name], names.get(name, ()), over_steps=False, unit=quantities[name].unit_name(self.units)
-            )
-            for name in quantities
-            if name in values
+            Column(name, values, self._names.get(name, ()), over_steps=False, unit=quantity.unit_name(self.units))
+            for name, quantity in self.quantities.items()
+            if (values := self._fixed.get(name)) is not None
         ]
 
-    def _columns(
-        self,
-        quantities: Mapping[str, Quantity],
-        values: Mapping[str, Values],
-        result: ContactResult,
-        names: Mapping[str, Names] = MappingProxyType({}),
-    ) -> list[Column]:
-        """A column of each quantity; values that are not given are those of the result with its name."""
+    def _columns(self, given: dict[str, Values], result: ContactResult) -> list[Column]:
+        """A column of each quantity: fixed, given, or what the result has of its name."""
+        values = self._fixed | given
         return [
             Column(
                 name,
                 values[name] if name in values else kept(getattr(result, name), self._chosen),
-                names.get(name, quantity.names),
+                self._names.get(name, quantity.names),
                 quantity.vector,
                 quantity.over_steps,
                 unit=quantity.unit_name(self.units),
             )
-            for name, quantity in quantities.items()
+            for name, quantity in self.quantities.items()
         ]
 
 
@@ -129,20 +121,22 @@ class ElementTable(Table):
     `others` are columns besides those of the contract, by name: values (m,) of all elements for each step asked for.
     """
 
+    quantities = ELEMENTS
+
     def __init__(self, given: ContactInput, chosen: IndexArray, others: Others | None = None) -> None:
         super().__init__(given, chosen)
         self._others = others
         set_codes, sets = coded(given.law_sets)
         laws, names = coded(given.law_names)
-        self._laws = laws[chosen]
         self._may_cut = given.tension == "cut"
         laws_named = names[:-1] if CUT in names else (*names[:-1], CUT)
         self._cut_code = np.int32(laws_named.index(CUT))
-        self._names: dict[str, Names] = {"set": sets, "law": (*laws_named, None)}
+        self._names = {"set": sets, "law": (*laws_named, None)}
         self._ends = given.element_nodes[chosen]
-        self._fixed: dict[str, Values] = {
+        self._fixed = {
             "element": given.element_ids[chosen],
             "set": set_codes[chosen],
+            "law": laws[chosen],
             "arc_length": given.lines.element_arc[chosen],
             "diameter": given.diameter[chosen],
             "length": given.length[chosen],
@@ -155,31 +149,25 @@ class ElementTable(Table):
         """Return the columns of the contract, then the others."""
         result = part.result
         ends = [_places(result, column) for column in self._ends.T]
-        values: dict[str, Values] = self._fixed | {
+        values: dict[str, Values] = {
             **{axis: 0.5 * (ends[0][..., i] + ends[1][..., i]) for i, axis in enumerate("xyz")},
-            "law": self._law(result),
             "state": codes_of(result.state, self._chosen),
         }
-        found = self._columns(ELEMENTS, values, result, self._names)
+        if self._may_cut:
+            values["law"] = np.where(kept(result.cut, self._chosen), self._cut_code, self._fixed["law"])
+        found = self._columns(values, result)
         others = () if self._others is None else self._others(part)
         return found + [Column(name, kept(values, self._chosen)) for name, values in others]
-
-    def facts(self) -> list[Column]:
-        """Return the columns that no step changes, and the law, also of elements whose curve is cut at some steps."""
-        return self._facts(ELEMENTS, {**self._fixed, "law": self._laws}, self._names)
-
-    def _law(self, result: ContactResult) -> Values:
-        if not self._may_cut:
-            return self._laws
-        return np.where(kept(result.cut, self._chosen), self._cut_code, self._laws)
 
 
 class NodeTable(Table):
     """The nodes that have a position. Without friction its forces are 0 and its states none."""
 
+    quantities = NODES
+
     def __init__(self, given: ContactInput, chosen: IndexArray) -> None:
         super().__init__(given, chosen)
-        self._fixed: dict[str, Values] = {
+        self._fixed = {
             "node": given.node_ids[chosen],
             "arc_length": given.lines.node_arc[chosen],
             "line": given.lines.of_node[chosen] + 1,
@@ -191,7 +179,7 @@ class NodeTable(Table):
         axial, lateral = _by_direction(result.friction)
         axial_state, lateral_state = _by_direction(result.friction_state)
         places = _places(result, chosen)
-        values: dict[str, Values] = self._fixed | {
+        values: dict[str, Values] = {
             **{axis: places[..., i] for i, axis in enumerate("xyz")},
             "normal": self._normal(result.normal),
             "axial_force": self._force(axial),
@@ -199,11 +187,7 @@ class NodeTable(Table):
             "axial_state": codes_of(axial_state, chosen),
             "lateral_state": codes_of(lateral_state, chosen),
         }
-        return self._columns(NODES, values, result)
-
-    def facts(self) -> list[Column]:
-        """Return the columns that no step changes."""
-        return self._facts(NODES, self._fixed, {})
+        return self._columns(values, result)
 
     def _normal(self, normal: Values) -> Values:
         """One row of nodes where all points of the seabed share a normal."""

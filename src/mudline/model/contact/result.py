@@ -123,8 +123,7 @@ class ContactResult:
             ImportError: pandas is not installed; the extra `frames` brings it.
             ValueError: there is no such table, or the result does not know what was evaluated.
         """
-        found: pd.DataFrame = _module("mudline.model.contact.frames").dataframe(self, table)
-        return found
+        return _module("mudline.model.contact.frames").dataframe(self, table)
 
     def to_arrow(self, table: TableName = "elements") -> pa.Table:
         """Return the elements, nodes or lines ("summary") as a pyarrow table with the columns of `to_dataframe`.
@@ -132,8 +131,7 @@ class ContactResult:
         Each field has its `unit` as metadata, the table `mudline.format` and `mudline.units`; no value is null. Raises
         what `to_dataframe` does, ImportError for want of pyarrow.
         """
-        found: pa.Table = _module("mudline.model.contact.frames").arrow_table(self, table)
-        return found
+        return _module("mudline.model.contact.frames").arrow_table(self, table)
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
         """The elements for whatever takes Arrow streams: `polars.DataFrame(result)`, DuckDB, `pyarrow.table(result)`.

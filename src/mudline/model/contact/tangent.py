@@ -364,8 +364,7 @@ def _marked(rows: IndexArray, count: int) -> BoolArray:
 
 
 def _outer(one: FloatArray, other: FloatArray) -> FloatArray:
-    product: FloatArray = one[:, :, None] * other[:, None, :]
-    return product
+    return one[:, :, None] * other[:, None, :]
 
 
 def _size(vectors: FloatArray) -> FloatArray:

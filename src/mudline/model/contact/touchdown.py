@@ -191,12 +191,14 @@ class Touchdown:
 class LineTable(Table):
     """The lines with an evaluated element."""
 
+    quantities = LINES
+
     def __init__(self, given: ContactInput, elements: IndexArray) -> None:
         lines = np.unique(given.lines.of_element[elements])
         super().__init__(given, lines)
         self.finder = Touchdown(given)
         ids, along = given.element_ids, [given.lines.elements[line] for line in lines.tolist()]
-        self._fixed: dict[str, Values] = {
+        self._fixed = {
             "line": lines + 1,
             "first_element": np.array([ids[each[0]] for each in along], np.int64),
             "last_element": np.array([ids[each[-1]] for each in along], np.int64),
@@ -222,10 +224,6 @@ class LineTable(Table):
             )
             for name, quantity in LINES.items()
         ]
-
-    def facts(self) -> list[Column]:
-        """Return the columns that no step changes."""
-        return self._facts(LINES, self._fixed, {})
 
     def _values(self, one: LineSeries, result: ContactResult) -> dict[str, Values]:
         given, lines = self.finder.given, self.finder.lines

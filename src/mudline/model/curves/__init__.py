@@ -16,7 +16,7 @@ The force is exact at every point and nothing is clamped.
 from __future__ import annotations
 
 from types import NoneType
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -33,9 +33,15 @@ from mudline.model.curves.points import (
     read_only,
     real_numbers,
 )
-from mudline.model.curves.search import BLOCK, blocks, passed
 
 __all__ = ["CurveError", "ForceCurve"]
+
+BLOCK = 32768
+"""Numbers at a time, so that work arrays stay in the second-level cache."""
+_COUNTED_POINTS = 60
+"""Up to this many points, comparing with each is faster than a binary search."""
+_RATIOS_PER_POINT = 50
+"""Below this, the calls for each point cost more than a binary search."""
 
 
 class ForceCurve:
@@ -93,7 +99,7 @@ class ForceCurve:
         # Where results overwrite the ratios, these are still needed to report what is wrong.
         replaced = out is not None and any(np.may_share_memory(query, array) for array in out)
         done = 0
-        with np.errstate(all="ignore"), blocks(query, force, slope) as pieces:
+        with np.errstate(all="ignore"), _blocks(query, force, slope) as pieces:
             for block, block_force, block_slope in pieces:
                 ratio = block.copy() if replaced else block
                 if not self._fill(ratio, block_force, block_slope):
@@ -117,7 +123,7 @@ class ForceCurve:
     def _fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
         """Write force and slope at each ratio of a block; return whether every force is finite."""
         # below the first point the first segment goes on: what is passed is the point from which the force is computed
-        point = passed(self.ratios[1:], ratio)
+        point = _passed(self.ratios[1:], ratio)
         offset = self.ratios.take(point)
         np.subtract(ratio, offset, out=offset)
         np.take(self._tails, point, out=slope, mode="clip")
@@ -132,11 +138,10 @@ class ForceCurve:
         Only an intermediate value may have overflowed: added in two halves the force may well be finite.
         """
         where = np.flatnonzero(~np.isfinite(force))
-        at = passed(self.ratios[1:], ratio[where])
+        at = _passed(self.ratios[1:], ratio[where])
         half = self._tails[at] * (0.5 * ratio[where] - 0.5 * self.ratios[at])
         force[where] = self.forces[at] + half + half
-        found: IndexArray = where[~np.isfinite(force[where])]
-        return found
+        return where[~np.isfinite(force[where])]
 
     def segment(self, ratios: ArrayLike) -> IndexArray:
         """Return which segment applies at `ratios`, from 0: the first also below, the last also beyond the points.
@@ -147,10 +152,10 @@ class ForceCurve:
         query = real_numbers(ratios, "ratios")
         found = np.empty(query.shape, np.intp)
         done = 0
-        with np.errstate(all="ignore"), blocks(query, found) as pieces:
+        with np.errstate(all="ignore"), _blocks(query, found) as pieces:
             for ratio, block_found in pieces:
                 _refuse_infinite(ratio, done)
-                np.minimum(passed(self.ratios[1:], ratio), len(self.slopes) - 1, out=block_found)
+                np.minimum(_passed(self.ratios[1:], ratio), len(self.slopes) - 1, out=block_found)
                 done += len(ratio)
         return found
 
@@ -163,7 +168,7 @@ class ForceCurve:
         query = real_numbers(ratios, "ratios")
         found = np.empty(query.shape, np.int8)
         done = 0
-        with np.errstate(all="ignore"), blocks(query, found) as pieces:
+        with np.errstate(all="ignore"), _blocks(query, found) as pieces:
             for ratio, block_found in pieces:
                 _refuse_infinite(ratio, done)
                 np.subtract(ratio > self.ratios[-1], ratio < self.ratios[0], out=block_found, dtype=np.int8)
@@ -276,3 +281,37 @@ def _refuse(ratio: FloatArray, index: int, start: int) -> NoReturn:
     value = float(ratio[index])
     why = "the force there overflows" if np.isfinite(value) else "it is not finite"
     raise ValueError(f"no force at ratio {value!r} (index {start + index}): {why}")
+
+
+def _blocks(source: NDArray[np.generic], *targets: NDArray[np.generic]) -> np.nditer:
+    """Iterate over `source` (read as float64) and `targets` in flat order, BLOCK at a time, whatever their layout.
+
+    The blocks are contiguous.
+
+    A target may be the memory of `source`, number for number: its blocks are then those of the source. A target that
+    overlaps it in any other way is written to a copy first.
+    """
+    # Of any type: numpy's stubs do not know "contig".
+    access: list[list[Any]] = [["readonly", "contig", "overlap_assume_elementwise"]]
+    access += [["writeonly", "contig", "overlap_assume_elementwise"] for _ in targets]
+    return np.nditer(
+        [source, *targets],
+        flags=["external_loop", "buffered", "zerosize_ok", "copy_if_overlap"],
+        op_flags=access,
+        op_dtypes=[np.dtype(np.float64), *[target.dtype for target in targets]],
+        order="C",
+        casting="same_kind",
+        buffersize=BLOCK,
+    )
+
+
+def _passed(points: FloatArray, ratio: FloatArray) -> IndexArray:
+    """Return how many of the ascending points (n,) lie at or below each ratio (k,); any number up to n for NaN."""
+    if len(points) > _COUNTED_POINTS or len(ratio) < _RATIOS_PER_POINT * len(points):
+        return np.searchsorted(points, ratio, side="right")
+    count: NDArray[np.uint8] = (ratio >= points[0]).view(np.uint8)
+    more = np.empty(len(ratio), np.bool_)
+    for point in points[1:]:
+        np.greater_equal(ratio, point, out=more)
+        np.add(count, more.view(np.uint8), out=count)
+    return count.astype(np.intp)

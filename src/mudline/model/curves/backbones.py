@@ -73,16 +73,14 @@ class Model:
 def contact_width(ratio: FloatArray) -> FloatArray:
     """B/D: the chord of the circle at the mudline, 1 from r = 1/2 on."""
     low = np.minimum(ratio, 0.5)
-    width: FloatArray = 2.0 * np.sqrt(low * (1.0 - low))
-    return width
+    return 2.0 * np.sqrt(low * (1.0 - low))
 
 
 def displaced_area(ratio: FloatArray) -> FloatArray:
     """A_bm/D^2: the segment below the mudline; from r = 1/2 on with the slot of width D above the half circle."""
     width = contact_width(ratio)
     segment = np.arcsin(width) / 4.0 - width / 4.0 * np.sqrt(1.0 - width * width)
-    area: FloatArray = np.where(ratio < 0.5, segment, math.pi / 8.0 + (ratio - 0.5))
-    return area
+    return np.where(ratio < 0.5, segment, math.pi / 8.0 + (ratio - 0.5))
 
 
 def _heave(soil: Soil, ratio: FloatArray) -> FloatArray:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
-from math import inf
-from typing import Any, NamedTuple, TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -54,8 +52,6 @@ class CurveError(ValueError):
 
 
 _NORMAL = float(np.finfo(np.float64).tiny)
-_SHORT = 64
-"""Points of a short curve."""
 
 
 class CurvePoints(NamedTuple):
@@ -76,9 +72,6 @@ def checked_points(points: ArrayLike) -> CurvePoints:
         CurveError: the points do not make a curve.
         ValueError: they are not pairs of real numbers.
     """
-    short = _short(points) if type(points) is np.ndarray else None
-    if short is not None:
-        return short
     given = _pairs(points)
     order = np.arange(len(given))
     if np.count_nonzero(given[1:, 0] > given[:-1, 0]) < len(given) - 1:
@@ -88,25 +81,6 @@ def checked_points(points: ArrayLike) -> CurvePoints:
         raise CurveError("CRV001", -1, f"a curve needs two distinct points or more, not {len(order)}")
     ratios, forces = given[:, 0].take(order), given[:, 1].take(order)
     return CurvePoints(ratios, forces, _slopes(ratios, forces, order))
-
-
-def _short(points: NDArray[Any]) -> CurvePoints | None:
-    """A short curve in order, as most are, number by number: calls of numpy take three times as long.
-
-    None for any other, and for points that make no curve.
-    """
-    if points.dtype != np.float64 or points.ndim != 2 or not 2 <= len(points) <= _SHORT or points.shape[1] != 2:
-        return None
-    pairs: list[tuple[float, float]] = points.tolist()
-    slopes: list[float] = []
-    for (before, lower), (ratio, upper) in pairwise(pairs):
-        width = ratio - before
-        slope = (upper - lower) / width if 0.0 < width < inf else 0.0
-        if not _NORMAL <= abs(slope) < inf:
-            return None
-        slopes.append(slope)
-    ratios, forces = ([pair[column] + 0.0 for pair in pairs] for column in (0, 1))
-    return CurvePoints(np.array(ratios), np.array(forces), np.array(slopes))
 
 
 def _pairs(points: ArrayLike) -> FloatArray:

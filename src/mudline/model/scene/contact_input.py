@@ -18,8 +18,7 @@ from mudline.model.contact import ElementError
 from mudline.model.contact.input import ContactInput, LawAssignment, LawKind
 from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.resolved import LawArrays, ResolvedDeck
-from mudline.model.scene.seabed import SeabedKind
-from mudline.model.scene.shore import made_seabed
+from mudline.model.scene.seabed import SeabedKind, made_seabed
 
 if TYPE_CHECKING:
     from mudline.model.contact.seabed import Seabed
@@ -31,32 +30,32 @@ def contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> Conta
     """The arrays that the evaluator is made from; raises DeckError (RUN001) for what no check covers."""
     if problems := list(_refusals(scene)):
         raise DeckError(scene.deck.diagnose(problems))
+    arrays = scene.law_arrays()
+    laws = tuple(law for law in (*_normal_laws(scene, arrays), *_laws_beside(scene)) if len(law.rows))
+    tables: list[Floats] = []
+    if "SEABED TRENCH" in scene.extensions:
+        from mudline.model.scene.assignments import resistance_tables  # noqa: PLC0415 - only now is it needed
+
+        tables = resistance_tables(scene)
     try:
-        return _contact_input(scene, tension)
+        return ContactInput(
+            node_ids=scene.node_ids,
+            coordinates=scene.coordinates,
+            element_ids=scene.element_ids,
+            element_nodes=scene.element_nodes,
+            length=np.where(np.isfinite(scene.length), scene.length, 0.0),  # what is not finite has no spring
+            diameter=scene.diameter,
+            laws=laws,
+            curves=arrays.curves,
+            tables=tuple(tables),
+            tension=tension,
+            seabed=_seabed(scene),
+            weight=scene.submerged_weight,
+            left_out=_left_out(scene, [law.law for law in laws]),
+            names=scene,
+        )
     except ElementError as error:
         raise scene.refusal(f"{error}{_REFUSED}", element=error.element) from error
-
-
-def _contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> ContactInput:
-    arrays = scene.law_arrays()
-    assigned = (*_normal_laws(scene, arrays), *_suction_laws(scene), *_lateral_laws(scene))
-    laws = tuple(law for law in assigned if len(law.rows))
-    return ContactInput(
-        node_ids=scene.node_ids,
-        coordinates=scene.coordinates,
-        element_ids=scene.element_ids,
-        element_nodes=scene.element_nodes,
-        length=np.where(np.isfinite(scene.length), scene.length, 0.0),  # what is not finite has no spring
-        diameter=scene.diameter,
-        laws=laws,
-        curves=arrays.curves,
-        tables=tuple(_tables(scene)),
-        tension=tension,
-        seabed=_seabed(scene),
-        weight=scene.submerged_weight,
-        left_out=_left_out(scene, [law.law for law in laws]),
-        names=scene,
-    )
 
 
 def _refusals(scene: ResolvedDeck) -> Iterator[Problem]:
@@ -75,51 +74,32 @@ def _refusal(scene: ResolvedDeck, found: Mask, one: str, many: str) -> Iterator[
         yield Problem(RUN001, message, where=scene.table.numbered.where(int(at[0])))
 
 
-def _tables(scene: ResolvedDeck) -> list[Floats]:
-    """The tables that trenches point to."""
-    if "SEABED TRENCH" not in scene.extensions:
-        return []
-    from mudline.model.scene.assignments import resistance_tables  # noqa: PLC0415 - only now is it needed
-
-    return resistance_tables(scene)
-
-
 def _normal_laws(scene: ResolvedDeck, arrays: LawArrays) -> list[LawAssignment]:
-    """Curves, linear laws, nodal laws, unloading."""
+    """Curves, linear laws, and those of extension keywords: nodal laws, damping, soils, unloading."""
     (on_curve,), (linear,) = (np.nonzero(scene.law == kind) for kind in (LawKind.CURVE, LawKind.LINEAR))
     laws = [
         LawAssignment("rigid", np.flatnonzero(scene.law == LawKind.RIGID)),
         LawAssignment("curve", on_curve, {"curve": arrays.curve_index[on_curve]}),
     ]
-    smoothed = np.zeros(len(scene.element_ids), dtype=np.bool_)
-    if "SEABED CONTACT" in scene.extensions:
-        from mudline.model.scene.assignments import element_smoothing  # noqa: PLC0415 - only now is it needed
+    extended: list[LawAssignment] = []
+    if scene.extensions:
+        from mudline.model.scene import assignments  # noqa: PLC0415 - only now is it needed
 
-        smoothing = element_smoothing(scene)
-        smoothed[smoothing.rows] = True
-        laws.append(smoothing)
-    plain = linear[~smoothed[linear]]
-    laws.append(LawAssignment("linear", plain, {"stiffness": arrays.linear_stiffness[plain]}))
-    if (scene.law == LawKind.NODAL).any():
-        from mudline.model.scene.assignments import nodal_springs  # noqa: PLC0415 - only now is it needed
-
-        laws.append(nodal_springs(scene))
-    if "SEABED CONTACT" in scene.extensions:
-        from mudline.model.scene.assignments import damping  # noqa: PLC0415 - only now is it needed
-
-        laws += damping(scene)
-    if "SEABED SOIL" in scene.extensions:
-        from mudline.model.scene.assignments import soils  # noqa: PLC0415 - only now is it needed
-
-        laws.append(soils(scene))
-    if "SEABED UNLOADING" in scene.extensions:
-        from mudline.model.scene.assignments import unloading_lines  # noqa: PLC0415 - only now is it needed
-
-        laws.append(unloading_lines(scene))
-    return laws
+        if "SEABED CONTACT" in scene.extensions:
+            laws.append(smoothing := assignments.element_smoothing(scene))
+            linear = np.setdiff1d(linear, smoothing.rows, assume_unique=True)
+            if scene.nodal.any():
+                extended.append(assignments.nodal_springs(scene))
+            extended += assignments.damping(scene)
+        if "SEABED SOIL" in scene.extensions:
+            extended.append(assignments.soils(scene))
+        if "SEABED UNLOADING" in scene.extensions:
+            extended.append(assignments.unloading_lines(scene))
+    return [*laws, LawAssignment("linear", linear, {"stiffness": arrays.linear_stiffness[linear]}), *extended]
 
 
-def _suction_laws(scene: ResolvedDeck) -> list[LawAssignment]:
+def _laws_beside(scene: ResolvedDeck) -> list[LawAssignment]:
+    """Suction, lateral springs, friction, trenches."""
     laws = []
     if _given(scene, "suction"):
         stiffness, extent = scene.resistance.column("suction"), scene.resistance.column("extent")
@@ -130,21 +110,13 @@ def _suction_laws(scene: ResolvedDeck) -> list[LawAssignment]:
         from mudline.model.scene.assignments import element_suction  # noqa: PLC0415 - only now is it needed
 
         laws.append(element_suction(scene))
-    return laws
-
-
-def _lateral_laws(scene: ResolvedDeck) -> list[LawAssignment]:
-    """Lateral springs, friction, trenches."""
-    laws = []
-    if _given(scene, "lateral"):
-        lateral = _lateral(scene)
-        laws.append(LawAssignment("lateral", lateral, {"stiffness": scene.resistance.column("lateral")[lateral]}))
+    lateral = _lateral(scene)
+    laws.append(LawAssignment("lateral", lateral, {"stiffness": scene.resistance.column("lateral")[lateral]}))
     friction = friction_of(scene)
     if friction is not None:
-        laws.append(friction)
         from mudline.model.scene.assignments import node_breakouts  # noqa: PLC0415 - only now is it needed
 
-        laws += node_breakouts(scene, friction)
+        laws += [friction, *node_breakouts(scene, friction)]
     if "SEABED TRENCH" in scene.extensions:
         from mudline.model.scene.assignments import trenches  # noqa: PLC0415 - only now is it needed
 
@@ -163,8 +135,6 @@ def friction_of(scene: ResolvedDeck) -> LawAssignment | None:
 
 def _lateral(scene: ResolvedDeck) -> Indices:
     """Elements with a lateral spring."""
-    if not _given(scene, "lateral"):
-        return np.zeros(0, dtype=np.intp)
     return np.flatnonzero((scene.resistance.column("lateral") > 0.0) & (scene.law != LawKind.RIGID))
 
 
@@ -195,18 +165,17 @@ def _seabed(scene: ResolvedDeck) -> Seabed | None:
 
 def _left_out(scene: ResolvedDeck, laws: Sequence[str]) -> dict[str, str]:
     """By stage of the plan, what is asked for and not evaluated, or not as it is written; nothing for other stages."""
-    reasons: dict[str, list[str]] = {}
+    reasons: dict[str, str] = {}
     for stage, why in _reasons(scene, laws):
-        reasons.setdefault(stage, []).append(why)
-    return {stage: "; ".join(each) for stage, each in reasons.items()}
+        reasons[stage] = f"{reasons[stage]}; {why}" if stage in reasons else why
+    return reasons
 
 
 def _reasons(scene: ResolvedDeck, laws: Sequence[str]) -> Iterator[tuple[str, str]]:
     """Stage and reason of each thing that is left out."""
 
     def where_given(name: str) -> Mask:
-        found: Mask = scene.resistance.column(name) > 0.0
-        return found
+        return scene.resistance.column(name) > 0.0
 
     rigid = scene.law == LawKind.RIGID
     if "SEABED CONTACT" in scene.extensions:

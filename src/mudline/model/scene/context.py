@@ -19,7 +19,7 @@ from mudline.language.keywords import catalogue
 from mudline.language.keywords.catalogue import meant_in, suggest_keyword
 from mudline.language.keywords.model import ListRow
 from mudline.language.keywords.table import LARGEST_WHOLE
-from mudline.language.keywords.text import hint
+from mudline.language.keywords.text import hint, shown
 from mudline.language.syntax.tree import canonical_name, mark_of
 from mudline.model.scene.deck_values import (
     definition_by,
@@ -145,6 +145,13 @@ class Context:
             use.blocks = blocks or use.blocks
         elif self._reported.get(code.code, 0) <= MOST_REPORTED:
             self.note(replace(self.missing(code, message, where, keyword, lacks), blocks=blocks))
+
+    def report_label(self, code: Code, label: str, where: Where, keyword: str, blocks: Blocks | None = None) -> None:
+        """Note a label of a node or an element, unless lines that are not read may make it."""
+        if not self.external_definers:
+            thing = _NUMBERED[keyword]
+            what = f"{thing} {shown(label)} is a label, and nothing in this deck makes labelled {thing}s"
+            self.report_missing(code, f"{what}: give a number", where, keyword, blocks=blocks)
 
     def misread(self, keyword: str, where: Where) -> None:
         """Note the place of a number of a node or an element that could not be read."""

@@ -15,7 +15,7 @@ from mudline.language.keywords.table import Table
 from mudline.language.keywords.text import shown
 from mudline.language.keywords.unknown import known_name
 from mudline.model.scene.context import Context
-from mudline.model.scene.numbering import Floats, Indices, Mask, identity, side_by_side
+from mudline.model.scene.numbering import Floats, Indices, Mask
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_curves import Embedment, SeabedStiffness
@@ -88,7 +88,9 @@ def _curve(context: Context, name: str | None, table: Table, where: Where, *, em
     clashing, _ = clashes_and_repeats(points)
     whole = len(rows) == len(table) and not clashing.size
     keep = (
-        np.setdiff1d(np.arange(len(points)), clashing, assume_unique=True) if clashing.size else identity(len(points))
+        np.setdiff1d(np.arange(len(points)), clashing, assume_unique=True)
+        if clashing.size
+        else np.arange(len(points), dtype=np.intp)
     )
     curve, error = _made(points[keep] if clashing.size else points, name or "")
     found = SceneCurve(name or "", points, rows, where, curve, whole, embedment, name is not None)
@@ -110,8 +112,8 @@ def _points(table: Table) -> tuple[Floats, Indices]:
     values = table.values
     full = values.shape[1] == 2 and (table.full or np.minimum.reduce(table.lengths, initial=2) == 2)
     if full and not isnan(np.minimum.reduce(values, axis=None, initial=0.0)):
-        return values.copy(), identity(len(values))
-    points = side_by_side(table.column(0), table.column(1))
+        return values.copy(), np.arange(len(values), dtype=np.intp)
+    points = np.column_stack((table.column(0), table.column(1)))
     rows = ((table.lengths == 2) & ~(np.isnan(points[:, 0]) | np.isnan(points[:, 1]))).nonzero()[0]
     return points[rows], rows
 

@@ -19,7 +19,7 @@ from mudline.model.contact.input import LawKind
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_values import number
 from mudline.model.scene.force_curves import SceneCurve, set_name
-from mudline.model.scene.numbering import FEW, Floats, Indices, Mask, looked_up, one_index, picked
+from mudline.model.scene.numbering import Floats, Indices, Mask, looked_up, picked
 from mudline.model.scene.sets import NamedSet, Sets, later_wins
 
 if TYPE_CHECKING:
@@ -237,8 +237,7 @@ class SeabedResistance(NamedTuple):
     def column(self, name: str) -> Floats:
         """One of the fields of `ResistanceValues` for all elements: (m,), or (m, 2) for those of two directions."""
         table = np.array([getattr(entry, name) for entry in (*self.values, _NO_VALUES)], dtype=np.float64)
-        found: Floats = table[self.of_element]
-        return found
+        return table[self.of_element]
 
 
 def read_resistance(context: Context, laws: LawTable) -> SeabedResistance:
@@ -259,13 +258,9 @@ def read_resistance(context: Context, laws: LawTable) -> SeabedResistance:
 
 def present(covered: Indices) -> list[int]:
     """The indices that there are, without -1, in ascending order."""
-    index = one_index(covered)
-    if index is not None:
-        return [index] * (index >= 0)
-    if len(covered) <= FEW:
-        return sorted({*covered.tolist()} - {-1})
-    found: list[int] = np.bincount(covered[covered >= 0]).nonzero()[0].tolist()
-    return found
+    one_for_all = len(covered) and covered.strides == (0,)
+    found = covered[:1] if one_for_all else covered
+    return np.bincount(found[found >= 0]).nonzero()[0].tolist()
 
 
 def _two(part: Part | None, name: str) -> tuple[float, float]:
@@ -333,8 +328,7 @@ class Extension(NamedTuple):
             value = getattr(entry, name, None)
             number_asks = value >= 0.0 if isinstance(value, float | int) else value is not None
             flags.append(number_asks or type(entry).model_fields[name].is_required())
-        found: Mask = np.array([*flags, False])[self.of_element]
-        return found
+        return np.array([*flags, False])[self.of_element]
 
 
 def read_extensions(context: Context, sets: Sets, count: int) -> dict[str, Extension]:

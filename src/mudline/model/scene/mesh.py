@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
@@ -12,10 +11,8 @@ from mudline.basics.short_repr import short_repr
 from mudline.language.codes.references import REF005, REF006, REF007, REF010
 from mudline.language.diagnostics import Blocks, Problem, Severity, Where
 from mudline.language.keywords.table import LARGEST_WHOLE, Table
-from mudline.language.keywords.text import shown
 from mudline.model.scene.context import Context
 from mudline.model.scene.numbering import (
-    FEW,
     Batch,
     Definitions,
     Floats,
@@ -23,9 +20,7 @@ from mudline.model.scene.numbering import (
     Indices,
     Mask,
     Numbered,
-    are_whole,
     blocks_of,
-    side_by_side,
     whole_numbers,
 )
 
@@ -89,7 +84,7 @@ def _add_nodes(context: Context, gathered: Definitions, entry: NodeRows, where: 
 def _coordinates(table: Table) -> Floats:
     """The coordinates (n, 3) in a table of nodes; z is 0 where it is not given."""
     if not (table.full and table.values.shape[1] == 3):
-        return side_by_side(table.column(1), table.column(2), table.column(3, default=0.0))
+        return np.column_stack((table.column(1), table.column(2), table.column(3, default=0.0)))
     found = np.zeros((len(table), 3))
     found[:, :2] = table.values[:, 1:]
     return found
@@ -97,9 +92,6 @@ def _coordinates(table: Table) -> Floats:
 
 def _add_rows(gathered: Definitions, numbers: Floats, values: Floats, where: Where, table: str) -> list[int]:
     """Add the rows of a table that have a number; returns the others."""
-    if are_whole(numbers):
-        gathered.add(Batch(numbers.astype(np.int64), values, where, table))
-        return []
     ids, known = whole_numbers(numbers)
     if np.count_nonzero(known) == len(known):
         gathered.add(Batch(ids, values, where, table))
@@ -185,9 +177,8 @@ def read_elements(context: Context, nodes: Numbered, external: ExternalElements 
     elements = gathered.resolve(2)
     if elements.repeats.size:
         report_repeats(context, elements, elements.repeats[elements.repeats < own], "element")
-    indices, length = _few(elements, nodes) or (_join(context, elements, nodes), None)
-    if length is None:
-        length = _lengths(indices, nodes.values)
+    indices = _join(context, elements, nodes)
+    length = _lengths(indices, nodes.values)
     if external is not None:
         at = elements.indices(external.ids)
         length[at] = np.where(np.isnan(external.length), length[at], external.length)
@@ -197,7 +188,7 @@ def read_elements(context: Context, nodes: Numbered, external: ExternalElements 
 def _add_elements(context: Context, gathered: Definitions, entry: ElementRows, where: Where) -> None:
     table = entry.elements
     _check_labels(context, table, where)
-    ends = side_by_side(table.column(1), table.column(2))
+    ends = np.column_stack((table.column(1), table.column(2)))
     for row in _add_rows(gathered, table.column(0), ends, where, "elements"):
         context.misread("ELEMENT", where.inside("elements", row, 0))
 
@@ -212,8 +203,7 @@ def _check_labels(context: Context, table: Table, where: Where) -> None:
         if context.is_guessed_label(place):
             context.cannot_place(place)
         else:
-            message = f"node {shown(word)} is a label, and nothing in this deck makes labelled nodes: give a number"
-            context.report_missing(REF006, message, place, "NODE", blocks=Blocks.ALWAYS)
+            context.report_label(REF006, word, place, "NODE", blocks=Blocks.ALWAYS)
 
 
 def _add_pattern(context: Context, gathered: Definitions, given: ElementPattern, where: Where) -> None:
@@ -248,30 +238,6 @@ def _pattern_fault(gathered: Definitions, master: int, count: int, step: int) ->
             f"GEN={master}, {count}, {step}: no element may have the number {master + (count - 1) * step}: correct it"
         )
     return ""
-
-
-def _few(elements: Numbered, nodes: Numbered) -> tuple[Indices, Floats] | None:
-    """Node indices and lengths of a few elements, number by number: calls of numpy take five times as long.
-
-    None for many, and where a node is not known or a length is not computed as simply as that.
-    """
-    if not 0 < len(elements) <= FEW or len(nodes) > FEW:
-        return None
-    places = nodes.values.tolist()
-    known = nodes.by_number()
-    ends: list[tuple[int, int]] = []
-    lengths: list[float] = []
-    for first, second in elements.values.tolist():
-        one, other = known.get(first), known.get(second)
-        if one is None or other is None:
-            return None
-        (x, y, z), (u, v, w) = places[one], places[other]
-        square = (u - x) * (u - x) + (v - y) * (v - y) + (w - z) * (w - z)
-        if not _SMALLEST_SQUARE <= square <= _LARGEST_SQUARE:
-            return None
-        ends.append((one, other))
-        lengths.append(math.sqrt(square))
-    return np.array(ends, dtype=np.intp), np.array(lengths)
 
 
 def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:

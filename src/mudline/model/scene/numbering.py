@@ -21,54 +21,20 @@ Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 
-FEW = 64
-"""Things that are looked at one by one: calls of numpy take longer."""
 _FEW = 4096
 _FEW_RUNS = 8
 _AT_ONCE = 1 << 17
 
+_Kind = TypeVar("_Kind", bound=np.generic)
 _Run = tuple[Indices, Ids]
 """Indices, and their numbers in ascending order."""
 
-_Kind = TypeVar("_Kind", bound=np.generic)
-
-
-def identity(count: int) -> Indices:
-    """0, 1, 2, ... up to `count` of them, not to be written to."""
-    found = np.arange(count, dtype=np.intp)
-    found.flags.writeable = False
-    return found
-
-
-def constant(value: int, count: int) -> Indices:
-    """One index `count` times, not to be written to: it takes the memory of one."""
-    return _repeated(np.array([value], dtype=np.intp), count)
-
-
-def _repeated(one: NDArray[_Kind], count: int) -> NDArray[_Kind]:
-    """The only item of an array `count` times, in its memory: `np.broadcast_to` in a sixth of the time."""
-    found: NDArray[_Kind] = np.ndarray((count,), one.dtype, one, 0, (0,))
-    found.flags.writeable = False
-    return found
-
-
-def one_index(indices: Indices) -> int | None:
-    """The index that `constant` indices all are, None for other indices."""
-    return int(indices[0]) if len(indices) and indices.strides == (0,) else None
-
 
 def looked_up(table: NDArray[_Kind], indices: Indices) -> NDArray[_Kind]:
-    """`table[indices]`, not to be written to; for constant indices it takes the memory of one."""
-    index = one_index(indices)
-    return table[indices] if index is None else _repeated(table[[index]], len(indices))
-
-
-def side_by_side(*columns: Floats) -> Floats:
-    """Columns (n,) as an array (n, k)."""
-    found = np.empty((len(columns[0]), len(columns)))
-    for index, column in enumerate(columns):
-        found[:, index] = column
-    return found
+    """`table[indices]`, not to be written to; of one index for all, as `later_wins` gives it, in the memory of one."""
+    if len(indices) and indices.strides == (0,):
+        return np.broadcast_to(table[indices[0]], indices.shape)
+    return table[indices]
 
 
 def blocks_of(count: int) -> Iterator[slice]:
@@ -81,13 +47,6 @@ def whole_numbers(column: Floats) -> tuple[Ids, Mask]:
     known = np.abs(column) <= LARGEST_WHOLE
     known &= column == np.floor(column)
     return np.where(known, column, 0.0).astype(np.int64), known
-
-
-def are_whole(column: Floats) -> bool:
-    """Whether all of a few numbers are whole ones that a table may hold; False for many."""
-    return len(column) <= FEW and all(
-        number.is_integer() and -LARGEST_WHOLE <= number <= LARGEST_WHOLE for number in column.tolist()
-    )
 
 
 class Batch(NamedTuple):
@@ -175,7 +134,7 @@ class Definitions:
         starts = np.array(self._starts, dtype=np.intp)
         ascending = _is_ascending(ids)
         if ascending or _all_different(ids):
-            rows = identity(len(ids))
+            rows = np.arange(len(ids), dtype=np.intp)
             if len(self.batches) > 1:  # they keep no memory of their own
                 bounds = zip(self.batches, self._starts, self._starts[1:], strict=False)
                 self.batches = [batch._replace(ids=ids[a:b], values=values[a:b]) for batch, a, b in bounds]
@@ -208,8 +167,6 @@ class Numbered:
     starts: Indices
     batches: list[Batch]
     _runs: list[_Run] | None = None
-    _few: dict[int, int] | None = None
-    """Of a few numbers the indices, once somebody asks."""
 
     __repr__ = short_repr
 
@@ -227,8 +184,7 @@ class Numbered:
 
     def batches_of(self, rows: Indices | int) -> Indices:
         """The batches that definitions belong to."""
-        found: Indices = self.starts.searchsorted(rows, side="right") - 1
-        return found
+        return self.starts.searchsorted(rows, side="right") - 1
 
     def ids_of(self, rows: Indices) -> Ids:
         """The numbers that definitions define."""
@@ -244,33 +200,21 @@ class Numbered:
             np.copyto(found, order[at], where=ordered[at] == ids)
         return found
 
-    def by_number(self) -> dict[int, int]:
-        """The indices of a few numbers: of no more than FEW."""
-        if self._few is None:
-            self._few = dict(zip(self.ids.tolist(), range(len(self.ids)), strict=True))
-        return self._few
-
     def between(self, start: int, end: int, step: int) -> Indices:
         """Indices of the numbers start, start + step, ... up to end, in ascending order."""
-        if len(self.ids) <= FEW and step > 0:
-            wanted = range(start, end + 1, step)
-            return np.array([index for number, index in self.by_number().items() if number in wanted], dtype=np.intp)
-        parts = [self._part(run, start, end, step) for run in self._ascending()]
+        parts = []
+        for order, ordered in self._ascending():
+            within = slice(ordered.searchsorted(start), ordered.searchsorted(end, side="right"))
+            parts.append(order[within] if step == 1 else order[within][(ordered[within] - start) % step == 0])
         found = parts[0] if len(parts) == 1 else np.concatenate([np.zeros(0, dtype=np.intp), *parts])
         return found if _is_ascending(found) else np.sort(found)
-
-    def _part(self, run: _Run, start: int, end: int, step: int) -> Indices:
-        order, ordered = run
-        first, last = ordered.searchsorted(start), ordered.searchsorted(end, side="right")
-        found = order[first:last]
-        return found if step == 1 else found[(ordered[first:last] - start) % step == 0]
 
     def _ascending(self) -> list[_Run]:
         """The numbers in ascending order: as they stand if they make few runs, which takes no memory, else sorted."""
         if self._runs is None:
             begins = np.flatnonzero(self.ids[1:] <= self.ids[:-1]) + 1
             if len(begins) < _FEW_RUNS:
-                rows = identity(len(self.ids))
+                rows = np.arange(len(self.ids), dtype=np.intp)
                 bounds = pairwise([0, *begins.tolist(), len(self.ids)])
                 self._runs = [(rows[a:b], self.ids[a:b]) for a, b in bounds if b > a]
             else:
@@ -290,14 +234,12 @@ def _all_different(ids: Ids) -> bool:
 
 def picked(values: Iterable[float], index: Indices) -> Floats:
     """The value of each index; NaN for -1."""
-    found: Floats = np.array([*values, np.nan], dtype=np.float64)[index]
-    return found
+    return np.array([*values, np.nan], dtype=np.float64)[index]
 
 
 def marked(flags: Iterable[bool], index: Indices) -> Mask:
     """The flag of each index; False for -1."""
-    found: Mask = np.array([*flags, False], dtype=np.bool_)[index]
-    return found
+    return np.array([*flags, False], dtype=np.bool_)[index]
 
 
 def at_nodes(of_element: Indices, element_nodes: Indices, nodes: int) -> Indices:

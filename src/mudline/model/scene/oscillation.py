@@ -137,8 +137,7 @@ class _Carried:
         parts = np.column_stack([share * values for share in self._shares])
         largest = np.zeros(self.nodes)
         np.maximum.at(largest, self.ends, parts)
-        led: Mask = parts >= largest[self.ends]
-        return led
+        return parts >= largest[self.ends]
 
 
 def _of_elements(

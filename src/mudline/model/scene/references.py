@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from functools import cache
-from itertools import chain
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -34,7 +33,7 @@ from mudline.model.scene.sets import Sets
 if TYPE_CHECKING:
     from mudline.language.keywords.library.lines import LinePathSections, LineSectionGroups
     from mudline.language.keywords.library.loads import Boundary, FixedRange, FixedValues
-    from mudline.language.keywords.library.mesh import ElementRows, Elements, ElementSets
+    from mudline.language.keywords.library.mesh import ElementRows, Elements
     from mudline.language.keywords.library.soil_springs import LateralSoil
 
 _FREEDOMS = 6
@@ -137,9 +136,8 @@ def _check_nodes(context: Context, nodes: Numbered, named: Sequence[tuple[object
     for node, where in named:
         if isinstance(node, Label):
             check_label(context, REF006, node, where)
-            if shown_nodes and not context.external_definers and not context.is_guessed_label(where):
-                message = f"node {shown(node)} is a label, and nothing in this deck makes labelled nodes: give a number"
-                context.report_missing(REF006, message, where, "NODE")
+            if shown_nodes and not context.is_guessed_label(where):
+                context.report_label(REF006, node, where, "NODE")
         elif isinstance(node, int):
             numbers.append(node)
             places.append(where)
@@ -243,8 +241,18 @@ def check_lines(context: Context) -> None:
                 if section.repeat:
                     what = ("REPEAT=", "group", "*LINE SECTION GROUPS")
                     _check_name(context, what, section.repeat, place.inside("sections", number, "repeat"), groups)
-    for code, label, where in chain(_of_elements(context), _of_sets(context)) if context.external_definers else ():
-        check_label(context, code, label, where)
+    if not context.external_definers:
+        return
+    for where, block in context.blocks("ELEMENT"):
+        for index, entry in enumerate(cast("Elements", block).entries):
+            if hasattr(entry, "elements"):
+                for (row, column), word in cast("ElementRows", entry).elements.words.items():
+                    if isinstance(word, Label):
+                        check_label(context, REF006, word, where.inside("entries", index, "elements", row, column))
+    for where, block in context.blocks("ELEMENT SETS"):
+        for inner, ident in idents_given(block, Names.ELEMENT):
+            if isinstance(ident, Label):
+                check_label(context, REF005, ident, where.inside(*inner))
 
 
 def check_label(context: Context, code: Code, label: str, where: Where) -> None:
@@ -270,24 +278,3 @@ def _check_name(context: Context, what: tuple[str, str, str], name: str, where: 
     message = f"{key} names no {thing}: {shown(name)} is not defined{context.hint(name, known)}; define it in {keyword}"
     source = context.possible_definition(keyword[1:])
     context.report(REF001, f"{message}; {source}" if source else message, where, Severity.WARNING)
-
-
-def _of_elements(context: Context) -> Iterator[tuple[Code, str, Where]]:
-    """Labels of nodes."""
-    for where, block in context.blocks("ELEMENT"):
-        for index, entry in enumerate(cast("Elements", block).entries):
-            if hasattr(entry, "elements"):
-                for (row, column), word in cast("ElementRows", entry).elements.words.items():
-                    if isinstance(word, Label):
-                        yield REF006, word, where.inside("entries", index, "elements", row, column)
-
-
-def _of_sets(context: Context) -> Iterator[tuple[Code, str, Where]]:
-    """Labels of elements."""
-    for where, block in context.blocks("ELEMENT SETS"):
-        for index, entry in enumerate(cast("ElementSets", block).sets):
-            for number, member in enumerate(entry.members):
-                for at, element in enumerate(getattr(member, "elements", None) or ()):
-                    if isinstance(element, Label):
-                        path = ("sets", index, "members", number, "elements", at)
-                        yield REF005, element, where._replace(path=path)

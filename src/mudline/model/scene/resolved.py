@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
-from typing import TYPE_CHECKING, NamedTuple, TypeVar, overload
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,7 +28,7 @@ from mudline.model.scene.laws import Extension, LawTable, SeabedResistance, SetL
 from mudline.model.scene.mesh import ElementTable
 from mudline.model.scene.names import CURVES, THINGS, undefined
 from mudline.model.scene.numbering import Floats, Ids, Indices, Mask, Numbered
-from mudline.model.scene.seabed import SeabedKind, SeabedShape
+from mudline.model.scene.seabed import SeabedKind, SeabedShape, on_land
 from mudline.model.scene.sections import SectionTable, mass_per_length, submerged_weight, surroundings
 from mudline.model.scene.sets import Sets, set_key
 
@@ -36,7 +36,6 @@ if TYPE_CHECKING:
     from mudline.model.curves import ForceCurve
 
 Value = TypeVar("Value")
-Default = TypeVar("Default")
 
 
 class ByName(Mapping[str, Value]):
@@ -57,15 +56,6 @@ class ByName(Mapping[str, Value]):
         if found is None:
             raise self._missing(name)
         return found[1]
-
-    @overload
-    def get(self, key: str, /) -> Value | None: ...
-    @overload
-    def get(self, key: str, /, default: Value | Default) -> Value | Default: ...
-    def get(self, key: str, /, default: object = None) -> object:
-        """Return the value of a name, or `default`."""
-        found = self._find(key)
-        return default if found is None else found[1]
 
     def __contains__(self, name: object) -> bool:
         return self._find(name) is not None
@@ -216,8 +206,6 @@ class ResolvedDeck:
         """
         around, land = surroundings(self.deck), None
         if self.seabed.kind is not SeabedKind.FLAT:
-            from mudline.model.scene.shore import on_land  # noqa: PLC0415 - only now is it needed
-
             land = on_land(self.seabed, around.depth, self.coordinates, self.element_nodes)
         return submerged_weight(self.section_table, around, land)
 

@@ -1,4 +1,7 @@
-"""The shape of the seabed that a deck describes: flat, a slope, a profile, a surface or planes; files of points."""
+"""The shape of the seabed that a deck describes: flat, a slope, a profile, a surface or planes; files of points.
+
+Here is also the evaluator's shape of it, and how much of each element lies where it rises above the water.
+"""
 
 from __future__ import annotations
 
@@ -6,8 +9,9 @@ import math
 import re
 from dataclasses import dataclass, field, replace
 from enum import Enum
+from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, Literal, NamedTuple, cast
 
 import numpy as np
 
@@ -20,11 +24,13 @@ from mudline.language.syntax.rows import read_number
 from mudline.language.syntax.source import Source
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_values import file_name, find_file, number
-from mudline.model.scene.numbering import Floats, side_by_side
+from mudline.model.scene.numbering import Floats, Indices
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_properties import Surface
     from mudline.language.keywords.library.seabed_surface import Plane, SeabedPlanes, SeabedProfile
+    from mudline.model.contact.seabed import Seabed
+    from mudline.model.contact.seabed.profile import Interpolation
 
 
 _NO_POINTS = np.zeros((0, 2))
@@ -103,7 +109,7 @@ def read_seabed(context: Context) -> SeabedShape:
 
 def _surface(surface: Surface, where: Where, before: SeabedShape) -> SeabedShape:
     if surface.profile is not None:
-        points = side_by_side(surface.profile.column(0), surface.profile.column(1))
+        points = np.column_stack((surface.profile.column(0), surface.profile.column(1)))
         return SeabedShape(SeabedKind.PROFILE, points=points, where=where.inside("profile"))
     if surface.slope is not None:
         return SeabedShape(SeabedKind.SLOPING, number(surface, "slope"), where=where.inside("slope"))
@@ -192,3 +198,50 @@ def _number(word: str, line: int) -> float:
     if value is None:
         raise ValueError(f"line {line}: {shown(word)} is not a number")
     return value
+
+
+def made_seabed(seabed: SeabedShape) -> Seabed:
+    """The evaluator's shape of a seabed that is not flat; raises ValueError for numbers that make none."""
+    from mudline.model.contact.seabed import PlanesSeabed, SlopingSeabed  # noqa: PLC0415 - only now is it needed
+
+    if seabed.kind is SeabedKind.SLOPING:
+        return SlopingSeabed(seabed.slope, seabed.direction)
+    if seabed.kind is SeabedKind.PROFILE:
+        from mudline.model.contact.seabed.profile import ProfileSeabed  # noqa: PLC0415 - only now is it needed
+
+        how = cast("Interpolation", seabed.interpolation)
+        return ProfileSeabed(seabed.points[:, 0], seabed.points[:, 1], how, seabed.direction)
+    if seabed.kind is SeabedKind.PLANES:
+        columns = (
+            [getattr(plane, name) for plane in seabed.planes] for name in ("point", "slope", "direction", "bounds")
+        )
+        return PlanesSeabed(*map(np.array, columns))
+    from mudline.model.contact.seabed.scattered import ScatteredSeabed  # noqa: PLC0415 - only now is it needed
+
+    return ScatteredSeabed(seabed.points, cast("Literal['LINEAR', 'CUBIC']", seabed.interpolation))
+
+
+def on_land(seabed: SeabedShape, level: float, places: Floats, ends: Indices) -> Floats | None:
+    """Share (m,) of each element that lies where the seabed is above the `level` of the water; None where it never is.
+
+    Between the nodes of an element, `ends` (m, 2) of `places` (n, 3), the seabed is taken as straight.
+    """
+    if not _may_rise_above(seabed, level):
+        return None
+    try:
+        heights = made_seabed(seabed).elevation(places[:, 1], places[:, 2]) - level
+    except ValueError:  # numbers that make no seabed are refused where it is evaluated
+        return None
+    at_ends = np.append(heights, np.nan)[ends]
+    low, high = at_ends.min(axis=1), at_ends.max(axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share: Floats = np.nan_to_num(np.clip(high / (high - low), 0.0, 1.0))
+    return share
+
+
+def _may_rise_above(seabed: SeabedShape, level: float) -> bool:
+    """Whether some of the seabed may be dry; not where its points are not known."""
+    if seabed.missing or not level < np.inf or (seabed.kind is SeabedKind.SURFACE and find_spec("scipy") is None):
+        return False
+    column = {SeabedKind.PROFILE: 1, SeabedKind.SURFACE: 0}.get(seabed.kind)
+    return column is None or bool((seabed.points[:, column] > level).any())

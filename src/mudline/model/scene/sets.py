@@ -17,7 +17,7 @@ from mudline.language.keywords.text import advice_on, shown
 from mudline.language.keywords.unknown import is_partly_unknown, known_name
 from mudline.model.scene.context import Context
 from mudline.model.scene.deck_values import bare
-from mudline.model.scene.numbering import FEW, Ids, Indices, Numbered, constant, identity
+from mudline.model.scene.numbering import Ids, Indices, Numbered
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.mesh import (
@@ -108,7 +108,7 @@ class _Reader:
     def read(self) -> Sets:
         named = self.sets.named
         context = self.context
-        everything = identity(len(self.elements))
+        everything = np.arange(len(self.elements), dtype=np.intp)
         named[ALL] = NamedSet("ALL", everything, None, open=bool(context.external_definers or context.restart))
         for where, block in context.blocks("ELEMENT SETS"):
             self._collect(cast("ElementSets", block).sets, where)
@@ -235,11 +235,6 @@ class _Reader:
 
     def _listed(self, member: SetList, where: Where) -> tuple[Indices, bool]:
         """Indices of the elements of a list in ascending order, and whether these are all."""
-        if len(self.elements) <= FEW and not is_partly_unknown(member.elements):
-            few = self.elements.by_number()
-            found = {few[one] for one in member.elements if isinstance(one, int) and one in few}
-            if len(found) == len({*member.elements}):
-                return np.array(sorted(found), dtype=np.intp), True
         numbers = np.array([element for element in member.elements if isinstance(element, int)], dtype=np.int64)
         indices = self.elements.indices(numbers)
         known = indices >= 0
@@ -249,8 +244,9 @@ class _Reader:
         missing = np.flatnonzero(~known).tolist()
         self._missing(numbers[missing], [where.inside("elements", positions[at]) for at in missing])
         for position, element in enumerate(member.elements):
-            if isinstance(element, str):
-                self._label(element, where.inside("elements", position))
+            place = where.inside("elements", position)
+            if isinstance(element, str) and not self.context.is_guessed_label(place):
+                self.context.report_label(REF005, element, place, "ELEMENT")
         return _ascending(indices[known]), False
 
     def _missing(self, numbers: Ids, places: list[Where]) -> None:
@@ -262,13 +258,6 @@ class _Reader:
         for number, place in zip(numbers.tolist(), places, strict=True):
             message = f"element {number} is not defined: define it in *ELEMENT"
             self.context.report_missing(REF005, message, place, "ELEMENT", number)
-
-    def _label(self, label: str, where: Where) -> None:
-        if not self.context.external_definers and not self.context.is_guessed_label(where):
-            message = (
-                f"element {shown(label)} is a label, and nothing in this deck makes labelled elements: give a number"
-            )
-            self.context.report_missing(REF005, message, where, "ELEMENT")
 
     def _range(self, given: ElementRange, where: Where) -> tuple[Indices, bool]:
         """Elements of a range, without building it: it may be as long as a typing error makes it."""
@@ -336,7 +325,7 @@ def later_wins(holders: Sequence[NamedSet | None], count: int) -> Indices:
     order = sorted(last.values())
     whole = [index for index in order if len(cast("NamedSet", holders[index]).elements) == count]
     if not order or order[-1:] == whole[-1:]:
-        return constant(order[-1] if order else -1, count)
+        return np.broadcast_to(np.intp(order[-1] if order else -1), (count,))
     winner = np.full(count, -1, dtype=np.intp)
     for index in order:
         winner[cast("NamedSet", holders[index]).elements] = index

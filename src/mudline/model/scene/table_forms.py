@@ -22,6 +22,11 @@ class Column:
     spec: FieldSpec
     headings: frozenset[str]
 
+    @classmethod
+    def of(cls, spec: FieldSpec, *headings: str) -> Column:
+        """Return the column of a field that is known by some headings."""
+        return cls(spec, frozenset(map(plain, headings)) - {""})
+
     @property
     def label(self) -> str:
         """What the column is called in a message."""
@@ -72,7 +77,8 @@ def table_forms() -> tuple[TableForm, ...]:
 
 def _of_record(declared: type[Block], record: type[Record]) -> Iterator[TableForm]:
     schema = record_schema(record)
-    named = (spec for spec in schema.keys.values() if spec.kind is Kind.NAME and not _is_inline(spec) and not spec.many)
+    named = (spec for spec in schema.keys.values() if spec.kind is Kind.NAME and not spec.many)
+    named = (spec for spec in named if not (isinstance(spec.about, Setting) and spec.about.inline))
     name = next((spec for spec in named if spec.about.names is Names.SET or spec.about.defines), None)
     if any(spec.required and spec is not name for spec in schema.keys.values()):
         return
@@ -84,23 +90,11 @@ def _of_record(declared: type[Block], record: type[Record]) -> Iterator[TableFor
         opening = f"{record.sticky.upper()}={spec.json.upper()}" if record.sticky and len(rows) > 1 else ""
         yield TableForm(
             declared,
-            None if name is None else Column(name, _name_headings(name)),
-            tuple(Column(value, _value_headings(value)) for value in values),
+            None if name is None else Column.of(name, name.key, f"{name.key} name", name.about.heading),
+            tuple(Column.of(value, value.json, value.label, value.about.heading) for value in values),
             opening,
             curve=spec.about if isinstance(spec.about, Rows) and spec.about.curve else None,
         )
-
-
-def _is_inline(spec: FieldSpec) -> bool:
-    return isinstance(spec.about, Setting) and spec.about.inline
-
-
-def _name_headings(spec: FieldSpec) -> frozenset[str]:
-    return frozenset(map(plain, (spec.key, f"{spec.key} name", spec.about.heading)))
-
-
-def _value_headings(spec: FieldSpec) -> frozenset[str]:
-    return frozenset(map(plain, (spec.json, spec.label, spec.about.heading))) - {""}
 
 
 def plain(text: str) -> str:

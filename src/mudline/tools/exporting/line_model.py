@@ -22,9 +22,8 @@ from mudline.model.contact.lines import lines_of
 from mudline.model.scene.deck_values import FOOT, POUND, number, unread_makers
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
-from mudline.model.scene.seabed import SeabedKind
+from mudline.model.scene.seabed import SeabedKind, made_seabed
 from mudline.model.scene.sections import Section, format_of, surroundings
-from mudline.model.scene.shore import made_seabed
 from mudline.tools.exporting.held import TRANSLATIONS, End, read_held, report_inside
 from mudline.tools.exporting.report import Report, Status
 from mudline.tools.exporting.soil import Soil, Units, soils_of

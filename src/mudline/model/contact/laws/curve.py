@@ -37,8 +37,7 @@ def steepest_slope(curve: ForceCurve, ratio: FloatArray) -> FloatArray:
 
     At a point of the curve the segment to its right does not count yet; an infinite ratio asks for the whole curve.
     """
-    found: FloatArray = steepest_slopes(curve)[np.searchsorted(curve.ratios[1:-1], ratio)]
-    return found
+    return steepest_slopes(curve)[np.searchsorted(curve.ratios[1:-1], ratio)]
 
 
 CURVE = NormalLaw(

@@ -119,8 +119,7 @@ class FrictionLaw:
     @property
     def fixed(self) -> FloatArray:
         """Stiffness (n, 2) of the springs that are constant, else 0."""
-        found: FloatArray = np.where(self.constant, self.stiffness, 0.0)
-        return found
+        return np.where(self.constant, self.stiffness, 0.0)
 
     @property
     def rising(self) -> FloatArray:
@@ -131,8 +130,7 @@ class FrictionLaw:
 
     def springs(self, normal_force: FloatArray) -> FloatArray:
         """Return the stiffness (n, 2) of the springs under normal forces (n,) >= 0."""
-        found: FloatArray = self.fixed + self.rising * normal_force[:, None]
-        return found
+        return self.fixed + self.rising * normal_force[:, None]
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)

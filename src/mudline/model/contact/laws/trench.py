@@ -117,8 +117,7 @@ def table_row(table: TableRows, distance: FloatArray) -> IndexArray:
     """Return the row (...,) that holds at each distance; see `in_table`."""
     offset = table[0]
     inside = np.searchsorted(offset[1:-1], distance, side="right")
-    found: IndexArray = np.where(distance > offset[-1], len(offset) - 1, inside)
-    return found
+    return np.where(distance > offset[-1], len(offset) - 1, inside)
 
 
 def share_of_piece(away: tuple[Value, Value, Value], span: tuple[Value, Value, Value], inverse: Value) -> Value:

@@ -14,7 +14,7 @@ from mudline.language.keywords.text import shown
 from mudline.language.rules import rule
 from mudline.language.syntax.source import BINARY
 from mudline.model.scene.deck_values import file_name, missing_files, number
-from mudline.model.scene.seabed import COMPILED, SeabedKind, SeabedShape
+from mudline.model.scene.seabed import COMPILED, SeabedKind, SeabedShape, made_seabed
 
 if TYPE_CHECKING:
     from mudline.language.keywords.library.seabed_surface import PlaneBounds, SeabedPlanes, SeabedProfile
@@ -255,8 +255,6 @@ def _repeated(scene: ResolvedDeck) -> Iterator[Problem]:
 
 def _fault(scene: ResolvedDeck) -> str:
     """Why the seabed cannot be made from its numbers, or ""."""
-    from mudline.model.scene.shore import made_seabed  # noqa: PLC0415 - as above
-
     try:
         made_seabed(scene.seabed)
     except ValueError as error:
