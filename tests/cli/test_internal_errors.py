@@ -13,7 +13,7 @@ from tests.cli.runner import run
 from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
 
 LOOPS: dict[str, tuple[str, str, Callable[..., str], list[str]]] = {
-    "lint": ("linting.fixing", "_lint_one", lambda name, *_: name, ["--output-format", "json"]),
+    "lint": ("checks.fixing", "_lint_one", lambda name, *_: name, ["--output-format", "json"]),
     "validate": ("cli.validate_command", "judge", lambda context: context.deck.file, ["--output-format", "json"]),
     "report": ("cli.report_command", "report_on", lambda given, *_: given.name, ["--output-format", "json"]),
     "batch": (

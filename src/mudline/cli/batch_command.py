@@ -33,10 +33,10 @@ from mudline.cli.batch_cases import (
 )
 from mudline.cli.batch_text import print_cases
 from mudline.cli.evaluate_inputs import EvaluateInputs, takes_inputs
-from mudline.cli.inputs import STDIN, Input, Inputs, collect
+from mudline.cli.inputs import STDIN, GivenDecks, Input, Inputs, takes_decks
 from mudline.cli.many_files import many_files
 from mudline.cli.result_files import has_library, is_installed
-from mudline.cli.streams import counted, emit, emit_json, encoded, notify, reason
+from mudline.cli.streams import counted, emit, emit_json, encoded, make_folder, notify, reason
 from mudline.cli.view import Progress, View
 from mudline.model.results.cases import CaseSummary, worst_first, write_parquet
 from mudline.tools.running.executors import check_address
@@ -82,15 +82,11 @@ _MEMORY = ".mudline-batch"
     is_flag=True,
     help="Evaluate every deck again, whatever DIR holds from before.",
 )
-@options.every_file
-@options.decks
-@options.units
-@options.common
+@takes_decks("DECKS...", stdin=False)
 def command(
     *,
     inputs: EvaluateInputs,
-    decks: tuple[str, ...],
-    units: str | None,
+    decks: GivenDecks,
     summary_only: bool,
     output: str,
     form: str | None,
@@ -99,7 +95,6 @@ def command(
     jobs: int,
     scheduler: str | None,
     no_cache: bool,
-    every_file: bool,
     view: View,
 ) -> int:
     """Evaluate many decks or load cases: a row for each, those that failed first, then the largest force.
@@ -107,8 +102,11 @@ def command(
     DECKS are files or directories (searched for *.keyx, *.keyxm, *.keyxi, *.das). What is in DIR already and has not
     changed is not evaluated again.
     """
-    _check_scheduler(scheduler)
-    if STDIN in decks:
+    if scheduler is not None:
+        if click.get_current_context().get_parameter_source("jobs") is not ParameterSource.DEFAULT:
+            raise click.UsageError("--jobs is for processes without --scheduler: leave one of them out")
+        check_address(scheduler)
+    if STDIN in decks.paths:
         raise click.UsageError("- is one deck, from standard input: mudline evaluate takes it")
     if summary_only and inputs.positions is None:
         raise click.UsageError("--summary-only is for time steps: give series with --positions")
@@ -116,16 +114,17 @@ def command(
     if not has_library(form):
         return FOUND
     check_positions(inputs.positions)
-    found = collect(decks, gitignore=not every_file)
+    found = decks.collect()
     if not found.files:
         return found.code
     found.files = _once(found.files)
     common, cases = named_cases(found.files, form)
-    folder = _made(Path(output))
+    folder = Path(output)
+    make_folder(folder)
     for path in (_summary_path(folder), *(path for case in cases for path in results_of(case, folder))):
         claim(path)
-    memory = Memory(folder / _MEMORY, repr((inputs, units, form, summary_only)))
-    order = Order(cases[0], b"", inputs, folder, units, summary_only)
+    memory = Memory(folder / _MEMORY, repr((inputs, decks.units, form, summary_only)))
+    order = Order(cases[0], b"", inputs, folder, decks.units, summary_only)
     done, taken = _evaluated(found, cases, order, memory, view, fresh=no_cache, jobs=jobs, scheduler=scheduler)
     ranked = worst_first(one.row for one in done)
     summary = _write_summary(ranked, folder)
@@ -144,29 +143,12 @@ def command(
     return max(found.code, FOUND if failing else DONE)
 
 
-def _check_scheduler(address: str | None) -> None:
-    """Raise click.UsageError where processes are asked for too, RunError for an address that cannot be used."""
-    if address is not None:
-        if click.get_current_context().get_parameter_source("jobs") is not ParameterSource.DEFAULT:
-            raise click.UsageError("--jobs is for processes without --scheduler: leave one of them out")
-        check_address(address)
-
-
 def _once(files: Iterable[Input]) -> list[Input]:
     """Each file once, by whatever names it was given."""
     found: dict[str, Input] = {}
     for file in files:
         found.setdefault(os.path.abspath(file.path or file.name), file)  # noqa: PTH100 - links stay what they are called
     return list(found.values())
-
-
-def _made(folder: Path) -> Path:
-    """The folder of results; ends the command for one that cannot be made."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise click.ClickException(f"{folder.as_posix()}: cannot be created: {reason(error)}") from error
-    return folder
 
 
 # --------------------------------------------------------------------------------------------------------- evaluating
@@ -222,7 +204,9 @@ def _evaluated(
             if made is not None:
                 done[task.file] = made
                 if not made.row.failed:
-                    _remember(memory, task, made, first.output)
+                    written = {name: state(str(first.output / name)) for name in made.written}
+                    held = {"row": made.row.row(), "warnings": made.warnings, "written": written}
+                    memory.put(task.key, held, [*made.read, *task.files])
             elif task.known is not None:
                 done[task.file] = task.known
                 taken += not task.known.row.failed
@@ -251,11 +235,8 @@ def _known(memory: Memory, key: str, file: Input, output: Path) -> Done | None:
         row, warnings, written = TypeAdapter(_Held).validate_python(memory.get(key))
     except ValueError:  # nothing, or what this program does not write
         return None
-    if row.deck != file.name or row.failed:
-        return None
-    if any(state(str(output / name)) != mark for name, mark in written.items()):
-        return None
-    return Done(row, warnings)
+    unchanged = all(state(str(output / name)) == mark for name, mark in written.items())
+    return Done(row, warnings) if unchanged and row.deck == file.name and not row.failed else None
 
 
 class _Held(NamedTuple):
@@ -264,12 +245,6 @@ class _Held(NamedTuple):
     row: CaseSummary
     warnings: list[tuple[str, str]]
     written: dict[str, str]
-
-
-def _remember(memory: Memory, task: _Task, done: Done, output: Path) -> None:
-    written = {name: state(str(output / name)) for name in done.written}
-    held = {"row": done.row.row(), "warnings": done.warnings, "written": written}
-    memory.put(task.key, held, [*done.read, *task.files])
 
 
 # ------------------------------------------------------------------------------------------------------------ output

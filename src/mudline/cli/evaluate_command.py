@@ -92,7 +92,11 @@ def command(
     if len(decks) > 1 or os.path.isdir(decks[0]):  # noqa: PTH112 - Path raises for a name that is too long
         raise click.UsageError("evaluate takes one deck: several decks and folders are for mudline batch")
     if summary_only:
-        _check_summary_only(inputs, {"--against": against, "--plot": plot.path, "--plan": plan_only})
+        for option, given in {"--against": against, "--plot": plot.path, "--plan": plan_only}.items():
+            if given:
+                raise click.UsageError(f"{option} is not for --summary-only: leave one of them out")
+        if inputs.positions is None:
+            raise click.UsageError("--summary-only is for time steps: give a series with --positions")
     if plot_elements and plot.path is None:
         raise click.UsageError("--plot-elements is for a plot: give --plot")
     form = options.form_of_file(output, FORMS) if output else ""
@@ -121,15 +125,6 @@ def command(
     return FOUND if warnings and fail_on == "warning" else DONE
 
 
-def _check_summary_only(inputs: EvaluateInputs, others: Mapping[str, object]) -> None:
-    """Raise click.UsageError for other options that are given, and without time steps."""
-    for option, given in others.items():
-        if given:
-            raise click.UsageError(f"{option} is not for --summary-only: leave one of them out")
-    if inputs.positions is None:
-        raise click.UsageError("--summary-only is for time steps: give a series with --positions")
-
-
 def _show_plan(prepared: Prepared, form: str, view: View) -> None:
     """Print what a deck needs, and what is left out."""
     rows = plan_rows(prepared.model.plan)
@@ -155,7 +150,10 @@ def _evaluate_one(
     """Evaluate a deck, print or write the results; returns what is doubtful. Raises DeckError, click.ClickException."""
     reference = read_file(against, lambda file: read_reference(file, evaluation)) if against else None
     comparison = None if reference is None else Comparison(evaluation, reference)
-    drawing = _plot_data(evaluation, plot_elements) if plot.path is not None else None
+    try:
+        drawing = None if plot.path is None else PlotData.of_evaluation(evaluation, plot_elements)
+    except ValueError as error:
+        raise click.UsageError(f"--plot-elements: {error}") from error
     if not view.quiet:
         _notify_before(evaluation, comparison)
     shown = "" if output else output_format
@@ -172,25 +170,12 @@ def _evaluate_one(
         doubt = caption(warnings)
         plot.write(lambda plots: plots.evaluation_figure(drawing, doubt), view)
     if not view.quiet:
-        _notify_warnings(warnings)
-        if note := watch.note():
-            notify(note)
-        _notify_slow(slow)
-    if output and not view.quiet:
-        _notify_written(evaluation, Path(output), beside(Path(output)))
+        _notify_after(watch, slow, output, beside(Path(output)) if output else {})
     if screen is not None:
         print_evaluation(screen, view)
     if comparison is not None and output_format == "text":
         print_comparison(comparison, view)
     return warnings
-
-
-def _plot_data(evaluation: Evaluation, elements: tuple[int, ...]) -> PlotData:
-    """Return what collects the data of a plot; raises click.UsageError for elements that are not there."""
-    try:
-        return PlotData.of_evaluation(evaluation, elements)
-    except ValueError as error:
-        raise click.UsageError(f"--plot-elements: {error}") from error
 
 
 def _evaluate_series(
@@ -203,15 +188,13 @@ def _evaluate_series(
     _run(evaluation, [summary, watch], view, bar=True)
     warnings = watch.warnings()
     tables = series_tables(summary, warnings)
+    written: Mapping[str, Path] = {}
     if output:
         written = write_tables(tables, Path(output))
     elif output_format != "text":
         write_text(tables, output_format, emit, table)
     if not view.quiet:
-        _notify_warnings(warnings)
-        _notify_slow(summary)
-    if output and not view.quiet:
-        _notify_written(evaluation, Path(output), written)
+        _notify_after(watch, summary, output, written)
     if not output and output_format == "text":
         print_series(summary, view)
     return warnings
@@ -244,47 +227,40 @@ def _notify_before(evaluation: Evaluation, comparison: Comparison | None) -> Non
     """Report what is left out, and what is guessed."""
     missing = len(evaluation.present) - len(evaluation.nodes)
     if missing:
-        notify(f"no positions for {counted(missing, 'node')}: {counted(evaluation.skipped, 'element')} left out")
+        skipped = len(evaluation.scene.element_ids) - len(evaluation.elements)
+        notify(f"no positions for {counted(missing, 'node')}: {counted(skipped, 'element')} left out")
     if evaluation.lengths_from_positions:
         notify(f"the length of {counted(evaluation.lengths_from_positions, 'element')} comes from the first positions")
     for stage, why in evaluation.model.input.left_out.items():
         notify(f"{stage}: {why}")
-    if comparison is not None:
-        _notify_unmatched(comparison)
+    if comparison is None:
+        return
+    reference = comparison.reference
+    for numbers, thing, where in (
+        (reference.unknown.tolist(), "element", f"of {reference.file} not in the deck"),
+        (comparison.missing.tolist(), "evaluated element", f"not in {reference.file}"),
+        (reference.lost_times.tolist(), "time", f"of {reference.file} not evaluated"),
+        (reference.missing_times.tolist(), "evaluated time", f"not in {reference.file}"),
+    ):
+        if numbers:
+            notify(f"{counted(len(numbers), thing)} {where}: {listed_numbers(numbers)}")
 
 
-def _notify_warnings(warnings: Sequence[ContactWarning]) -> None:
-    """Report what is doubtful in the results."""
+def _notify_after(watch: ContactWatch, series: SeriesSummary, output: str | None, others: Mapping[str, Path]) -> None:
+    """Report what is doubtful in the results, where suction is less than its power law gives, and the files."""
+    warnings, evaluation = watch.warnings(), series.evaluation
     for one in warnings[:SHOWN_ROWS]:
         notify(f"warning: {one}")
     if len(warnings) > SHOWN_ROWS:
         notify(f"{len(warnings) - SHOWN_ROWS} more warnings: JSON has all")
-
-
-def _notify_written(evaluation: Evaluation, path: Path, others: Mapping[str, Path]) -> None:
-    """Report the files of results."""
-    for table, file in others.items():
-        notify(f"{table} -> {file.as_posix()}")
-    notify(f"{evaluation.scene.deck.file} -> {path.as_posix()}")
-
-
-def _notify_slow(series: SeriesSummary) -> None:
-    """Report where suction is less than its power law gives."""
+    if note := watch.note():
+        notify(note)
     number = series.number(series.of("suction", "slow").largest.peak())
     if number is not None:
         (steps,) = series.counts["suction", "slow_steps"].tolist()
-        when = f"at {steps} of {counted(series.evaluation.steps, 'step')}, element {number} first"
+        when = f"at {steps} of {counted(evaluation.steps, 'step')}, element {number} first"
         notify(f"the pull-out velocity is below REGULARISATION= {when}: the suction force there is less than alpha v^n")
-
-
-def _notify_unmatched(comparison: Comparison) -> None:
-    """Report what is in one of the results only."""
-    file = comparison.reference.file
-    for numbers, thing, where in (
-        (comparison.reference.unknown.tolist(), "element", f"of {file} not in the deck"),
-        (comparison.missing.tolist(), "evaluated element", f"not in {file}"),
-        (comparison.reference.lost_times.tolist(), "time", f"of {file} not evaluated"),
-        (comparison.reference.missing_times.tolist(), "evaluated time", f"not in {file}"),
-    ):
-        if numbers:
-            notify(f"{counted(len(numbers), thing)} {where}: {listed_numbers(numbers)}")
+    for table, file in others.items():
+        notify(f"{table} -> {file.as_posix()}")
+    if output:
+        notify(f"{evaluation.scene.deck.file} -> {Path(output).as_posix()}")

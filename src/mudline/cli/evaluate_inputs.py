@@ -38,11 +38,6 @@ class EvaluateInputs:
     time_step: float | None = None
     headings: Mapping[str, str] = field(default_factory=dict)
 
-    @property
-    def files(self) -> tuple[tuple[str, str | None], ...]:
-        """What is read beside the deck, and its path."""
-        return ("the file of --positions", self.positions), ("the file of --elements", self.elements)
-
     def scene(self, deck: Deck) -> Scene:
         """The scene of a deck; raises DeckError with the causes of what keeps it from being evaluated."""
         external = read_file(self.elements, read_external) if self.elements else None

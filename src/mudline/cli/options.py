@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from mudline.basics.files import suffix_of
+from mudline.basics import files
 from mudline.basics.overwriting import claim
 from mudline.cli.view import View
 
@@ -98,9 +98,10 @@ complete_files = click.Path().shell_complete
 
 deck = click.argument("deck", metavar="DECK", shell_complete=complete_files)
 
-decks = click.argument("decks", nargs=-1, required=True, metavar="DECKS...", shell_complete=complete_files)
 
-paths = click.argument("paths", nargs=-1, required=True, metavar="PATHS...", shell_complete=complete_files)
+def decks(metavar: str) -> Callable[[Command], Command]:
+    """The argument of several files and directories, which reaches the command as `paths`."""
+    return click.argument("paths", nargs=-1, required=True, metavar=metavar, shell_complete=complete_files)
 
 
 def complete_rules(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:
@@ -167,11 +168,10 @@ diff = option("--diff", is_flag=True, help="Write nothing; print what would chan
 
 def form_of_file(path: str, forms: Collection[str]) -> str:
     """The form of a file to write, by its suffix; raises click.UsageError for one that is not among the forms."""
-    form = suffix_of(path)
-    if form not in forms:
-        *others, last = (f".{name}" for name in forms)
-        raise click.UsageError(f"{path}: unknown file format: give a name ending in {', '.join(others)} or {last}")
-    return form
+    try:
+        return files.form_of_file(path, forms)
+    except ValueError as error:
+        raise click.UsageError(str(error)) from error
 
 
 class _OutputFile(click.types.StringParamType):
