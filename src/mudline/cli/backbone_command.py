@@ -77,8 +77,8 @@ class Wanted(NamedTuple):
     help="Largest error of the interpolation, as a share of the largest force.",
 )
 @options.option("--name", metavar="NAME", help="Name of the curve, or of the set with --legacy (default: MODEL).")
-@options.option("--legacy", is_flag=True, help="Write *EMBEDMENT in place of *SEABED STIFFNESS.")
-@options.option("--extend", is_flag=True, help="Go on beyond the ratios for which the model is published.")
+@options.flag("--legacy", help="Write *EMBEDMENT in place of *SEABED STIFFNESS.")
+@options.flag("--extend", help="Go on beyond the ratios for which the model is published.")
 @plot_option("model and curve")
 @options.common
 def command(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -53,35 +53,27 @@ _MEMORY = ".mudline-batch"
     "or a pattern such as {folder}/{name}.csv."
 )
 @evaluate_inputs.summary_only
-@options.option(
+@options.output_option(
     "-o",
     "--output",
-    group=options.OUTPUT,
     required=True,
     metavar="DIR",
     help="Write a result file for each deck and the rows as summary.parquet into this folder.",
 )
-@options.option(
+@options.output_option(
     "--form",
-    group=options.OUTPUT,
     type=click.Choice(_FORMS),
     help="Write result files in this form; without it Parquet, or NPZ where pyarrow is not installed.",
 )
 @options.output_format("text", "json", "csv")
 @evaluate_inputs.fail_on
 @options.jobs
-@options.option(
+@options.run_option(
     "--scheduler",
-    group=options.RUN,
     metavar="ADDRESS",
     help="Use the workers of a Dask scheduler: tcp://HOST:PORT or tls://HOST:PORT (needs mudline[cluster]).",
 )
-@options.option(
-    "--no-cache",
-    group=options.RUN,
-    is_flag=True,
-    help="Evaluate every deck again, whatever DIR holds from before.",
-)
+@options.run_option("--no-cache", is_flag=True, help="Evaluate every deck again, whatever DIR holds from before.")
 @takes_decks("DECKS...", stdin=False)
 def command(
     *,
@@ -117,7 +109,10 @@ def command(
     found = decks.collect()
     if not found.files:
         return found.code
-    found.files = _once(found.files)
+    once: dict[str, Input] = {}
+    for file in found.files:  # each once, by whatever names it was given
+        once.setdefault(os.path.abspath(file.path or file.name), file)  # noqa: PTH100 - links stay what they are called
+    found.files = list(once.values())
     common, cases = named_cases(found.files, form)
     folder = Path(output)
     make_folder(folder)
@@ -141,14 +136,6 @@ def command(
         print_cases(ranked, common, {case.file.name: case.inside for case in cases}, view)
     failing = any(row.failed or (row.warnings and fail_on == "warning") for row in ranked)
     return max(found.code, FOUND if failing else DONE)
-
-
-def _once(files: Iterable[Input]) -> list[Input]:
-    """Each file once, by whatever names it was given."""
-    found: dict[str, Input] = {}
-    for file in files:
-        found.setdefault(os.path.abspath(file.path or file.name), file)  # noqa: PTH100 - links stay what they are called
-    return list(found.values())
 
 
 # --------------------------------------------------------------------------------------------------------- evaluating

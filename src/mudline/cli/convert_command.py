@@ -37,14 +37,9 @@ _OTHER_SHEETS = {".xls", ".xlsb", ".ods"}
     metavar="OUT",
     help="Write to this file; without it, or with -, to standard output.",
 )
-@options.option(
-    "--from",
-    "source",
-    type=_SOURCES,
-    help="Read DECK in this format, not in that of its suffix.",
-)
+@options.option("--from", "source", type=_SOURCES, help="Read DECK in this format, not in that of its suffix.")
 @options.option("--to", "target", type=_FORMS, help="Write in this format, not in that of the suffix of OUT.")
-@options.option("--sorted", "in_order", is_flag=True, help="Write curves with their points sorted by ratio.")
+@options.flag("--sorted", "in_order", help="Write curves with their points sorted by ratio.")
 @options.option("--within", type=float, metavar="METRES", help="Thin a seabed (.tif, .asc) as far as this error.")
 @options.option("--origin", metavar="E,N", help="Easting and northing of Y = Z = 0 of a seabed (default 0,0).")
 @options.option("--datum", type=float, metavar="ELEVATION", help="Elevation of X = 0 of a seabed (default 0).")

@@ -81,7 +81,7 @@ Line = str | tuple[str, str]
     metavar="REL",
     help="Ignore differences of numbers up to this one, relative to the larger number.",
 )
-@options.option("--strict", is_flag=True, help="List differences of spelling in superseded keywords too: exit code 1.")
+@options.flag("--strict", help="List differences of spelling in superseded keywords too: exit code 1.")
 @options.output_format("text", "json", "markdown")
 @options.every_file
 @options.stdin_name

@@ -33,26 +33,23 @@ from mudline.model.results.warnings import ContactWarning, ContactWatch, caption
 @options.command("evaluate")
 @takes_inputs("Read the positions of the nodes: CSV, NPZ or NPY, one state or time steps.")
 @click.option("--against", metavar="FILE", help="Compare with another program's element results, a CSV.")
-@options.option(
+@options.output_option(
     "-o",
     "--output",
-    group=options.OUTPUT,
     type=options.OUTPUT_FILE,
     metavar=f"OUT.{'|'.join(FORMS)}",
     help="Write the results; CSV and Parquet write OUT-nodes and OUT-summary beside it.",
 )
-@options.option(
+@options.output_option(
     "--plot-elements",
-    group=options.OUTPUT,
     metavar="N,M",
     callback=numbers_of_elements,
     help="Draw the force over penetration of these elements of a series, by number.",
 )
 @plot_option("the results", group=options.OUTPUT)
 @click.option("--plan", "plan_only", is_flag=True, help="Print what the deck needs and what is left out, and why.")
-@options.option(
+@options.output_option(
     "--table",
-    group=options.OUTPUT,
     type=click.Choice(["elements", "nodes", "summary"]),
     default="elements",
     show_default=True,

@@ -28,8 +28,8 @@ _NOT_COPIED = "{}: the deck names it and it is not copied: put it beside the new
 @options.option(
     "-o", "--output", metavar="DIR", help="Write the new decks into this folder; it is created if it does not exist."
 )
-@options.option("--dry-run", is_flag=True, help="Print what would be written, and write nothing.")
-@options.option("--force", is_flag=True, help="Overwrite existing files.")
+@options.flag("--dry-run", help="Print what would be written, and write nothing.")
+@options.flag("--force", help="Overwrite existing files.")
 @options.output_format("text", "json")
 @takes_deck
 def command(*, deck: GivenDeck, output: str | None, dry_run: bool, force: bool, output_format: str, view: View) -> int:

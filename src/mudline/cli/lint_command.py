@@ -39,36 +39,25 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
 @_rules("--select", "chosen", help="Run these rules only: codes, prefixes or slugs.")
 @_rules("--extend-select", "also", help="Run these rules too.")
 @_rules("--ignore", "ignored", help="Do not run these rules.")
-@options.option(
+@options.output_option(
     "--fail-on",
-    group=options.OUTPUT,
     type=click.Choice([severity.value for severity in (Severity.ERROR, Severity.WARNING, Severity.INFO)]),
     help="Exit with 1 for findings of this severity or worse (default: warning).",
 )
-@options.option(
+@options.output_option(
     "--output-format",
     "forms",
-    group=options.OUTPUT,
     multiple=True,
     metavar="FORM[=FILE]",
     shell_complete=complete,
     help=f"Print findings in this format: {', '.join([f'{TEXT} (default)', *form_names()])}; "
     "=FILE writes a file too. Repeatable.",
 )
-@options.option("--fix", group=_FIXES, is_flag=True, help="Apply the safe fixes, in place; the deck of - is printed.")
-@options.option(
-    "--unsafe-fixes", "unsafe", group=_FIXES, is_flag=True, help="With --fix or --diff: also apply fixes that guess."
-)
-@options.option(
-    "--diff",
-    group=_FIXES,
-    is_flag=True,
-    help="Print what --fix would change, and write nothing; exit with 1 if anything.",
-)
+@options.flag("--fix", group=_FIXES, help="Apply the safe fixes, in place; the deck of - is printed.")
+@options.flag("--unsafe-fixes", "unsafe", group=_FIXES, help="With --fix or --diff: also apply fixes that guess.")
+@options.flag("--diff", group=_FIXES, help="Print what --fix would change, and write nothing; exit with 1 if anything.")
 @options.option("--baseline", group=_KNOWN, metavar="FILE", help="Hide the findings that are recorded in this file.")
-@options.option(
-    "--write-baseline", "recording", group=_KNOWN, is_flag=True, help="Record all findings in the file of --baseline."
-)
+@options.flag("--write-baseline", "recording", group=_KNOWN, help="Record all findings in the file of --baseline.")
 @options.option(
     "--dialect",
     group=_RULES,
@@ -78,19 +67,12 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
 @options.no_outside
 @options.config
 @options.isolated
-@options.option(
-    "--statistics", group=options.OUTPUT, is_flag=True, help="Count the findings of each rule instead of listing them."
-)
-@options.option("--exit-zero", group=options.OUTPUT, is_flag=True, help="Exit with 0 whatever is found.")
+@options.output_option("--statistics", is_flag=True, help="Count the findings of each rule instead of listing them.")
+@options.output_option("--exit-zero", is_flag=True, help="Exit with 0 whatever is found.")
 @options.jobs
-@options.option(
-    "--no-cache", "uncached", group=options.RUN, is_flag=True, help="Lint every deck again, without the cache."
-)
-@options.option(
-    "--watch",
-    group=options.RUN,
-    is_flag=True,
-    help="Lint again whenever a deck or a configuration changes, until Ctrl-C.",
+@options.run_option("--no-cache", "uncached", is_flag=True, help="Lint every deck again, without the cache.")
+@options.run_option(
+    "--watch", is_flag=True, help="Lint again whenever a deck or a configuration changes, until Ctrl-C."
 )
 @takes_decks()
 def command(

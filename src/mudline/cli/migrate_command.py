@@ -29,11 +29,10 @@ from mudline.language.diagnostics import DeckError
     metavar="OUT",
     help="Write to this file instead of the deck itself; for one deck only.",
 )
-@options.option("--diff", is_flag=True, help="Print what would change, and write nothing.")
-@options.option(
+@options.flag("--diff", help="Print what would change, and write nothing.")
+@options.flag(
     "--verify",
     "proved",
-    is_flag=True,
     help="Evaluate the old and the new deck first, and write only when all their laws agree bitwise.",
 )
 @takes_decks()

@@ -28,10 +28,9 @@ _LEGAL = "legal"
 
 
 @options.command("report")
-@options.option(
+@options.output_option(
     "-o",
     "--output",
-    group=options.OUTPUT,
     type=options.OUTPUT_FILE,
     metavar="OUT.html",
     help="Write the page into this file; of several decks or a folder the index, with the pages in a folder beside it.",

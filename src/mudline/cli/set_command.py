@@ -63,8 +63,11 @@ def command(
     run.plan(check=check, diff=diff)
     if not (check or diff):
         run.write()
-    if not view.quiet:
-        run.notify_counts("would be " if check or diff else "")
+    changed = "would be changed" if check or diff else "changed"
+    words = {_CHANGED: changed} | {one: one for one in (_UNWRITTEN, _SAME, _WITHOUT, _UNMET, _REFUSED)}
+    texts = [f"{run.counts[one]} {word}" for one, word in words.items() if run.counts[one]]
+    if texts and not view.quiet:
+        click.echo(f"{counted(run.counts.total(), 'deck')}: {', '.join(texts)}", err=True)
     nowhere = run.counts[_WITHOUT] and not any(run.counts[one] for one in (_CHANGED, _UNWRITTEN, _SAME, _REFUSED))
     if nowhere:
         notify(f"no deck has {change.path}")
@@ -147,12 +150,6 @@ class _Run:
                 self.inputs.fail(f"{file.name}: {CHANGED}")
             elif data is not None:
                 self.inputs.replaced(file, data, _edited(file, data, edits))
-
-    def notify_counts(self, would: str) -> None:
-        """Print how many decks were changed, and how many were not, by the reason."""
-        words = {_CHANGED: f"{would}changed"} | {one: one for one in (_UNWRITTEN, _SAME, _WITHOUT, _UNMET, _REFUSED)}
-        if texts := [f"{self.counts[one]} {word}" for one, word in words.items() if self.counts[one]]:
-            click.echo(f"{counted(self.counts.total(), 'deck')}: {', '.join(texts)}", err=True)
 
 
 def _edited(file: Input, data: bytes, edits: Sequence[TextEdit]) -> bytes:

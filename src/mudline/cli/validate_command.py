@@ -44,9 +44,8 @@ _FAIL_ON = ("error", "warning", "unread")
 
 @options.command("validate")
 @options.output_format("text", "json", "csv")
-@options.option(
+@options.output_option(
     "--fail-on",
-    group=options.OUTPUT,
     type=click.Choice(_FAIL_ON),
     default="error",
     help="Exit with 1 for an illegal deck (default), for one with warnings too, or also for one that is not read as a "

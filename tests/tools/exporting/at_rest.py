@@ -85,7 +85,12 @@ def run(model: LineModel, folder: Path, statics: float) -> Json:
     """What MoorDyn has at rest: places and forces of the nodes of each line."""
     for name, text in moordyn.write(model, "model.txt").items():
         (folder / name).write_text(text.replace("100.0 TmaxIC", f"{statics} TmaxIC"), encoding="ascii")
-    child = [sys.executable, str(ROOT / "tests" / "tools" / "exporting" / "resting.py"), str(folder / "model.txt"), str(SECONDS)]
+    child = [
+        sys.executable,
+        str(ROOT / "tests" / "tools" / "exporting" / "resting.py"),
+        str(folder / "model.txt"),
+        str(SECONDS),
+    ]
     output = subprocess.run(child, check=True, capture_output=True, text=True, timeout=280).stdout
     return json.loads(output.strip().splitlines()[-1])
 
