@@ -6,6 +6,7 @@ import os
 from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
+from typing import NamedTuple
 
 import click
 
@@ -28,6 +29,15 @@ from mudline.model.results.forms.text import text_writer, write_text
 from mudline.model.results.plot_data import PlotData
 from mudline.model.results.series import SeriesSummary, series_summary, series_tables
 from mudline.model.results.warnings import ContactWarning, ContactWatch, caption
+
+
+class Wanted(NamedTuple):
+    """Where results go: into the file `output`, else to standard output, in `form` and of `table`."""
+
+    output: str | None
+    form: str
+    table: str
+    view: View
 
 
 @options.command("evaluate")
@@ -103,22 +113,13 @@ def command(
     if plan_only:
         _show_plan(inputs.prepared(deck), output_format, view)
         return DONE
-    evaluation = inputs.evaluation(deck)
+    evaluation, wanted = inputs.evaluation(deck), Wanted(output, output_format, table, view)
     if summary_only:
         if evaluation.time is None:
             raise click.UsageError(f"--summary-only is for time steps: {inputs.positions} is one state")
-        warnings = _evaluate_series(evaluation, output, table, output_format, view)
+        warnings = _evaluate_series(evaluation, wanted)
     else:
-        warnings = _evaluate_one(
-            evaluation,
-            view,
-            output=output,
-            plot=plot,
-            plot_elements=plot_elements,
-            against=against,
-            table=table,
-            output_format=output_format,
-        )
+        warnings = _evaluate_one(evaluation, wanted, plot, plot_elements, against)
     return FOUND if warnings and fail_on == "warning" else DONE
 
 
@@ -134,17 +135,10 @@ def _show_plan(prepared: Prepared, form: str, view: View) -> None:
 
 
 def _evaluate_one(
-    evaluation: Evaluation,
-    view: View,
-    *,
-    output: str | None,
-    plot: Plot,
-    plot_elements: tuple[int, ...],
-    against: str | None,
-    table: str,
-    output_format: str,
+    evaluation: Evaluation, wanted: Wanted, plot: Plot, plot_elements: tuple[int, ...], against: str | None
 ) -> list[ContactWarning]:
     """Evaluate a deck, print or write the results; returns what is doubtful. Raises DeckError, click.ClickException."""
+    output, view = wanted.output, wanted.view
     reference = read_file(against, lambda file: read_reference(file, evaluation)) if against else None
     comparison = None if reference is None else Comparison(evaluation, reference)
     try:
@@ -153,13 +147,13 @@ def _evaluate_one(
         raise click.UsageError(f"--plot-elements: {error}") from error
     if not view.quiet:
         _notify_before(evaluation, comparison)
-    shown = "" if output else output_format
-    screen = Screen(evaluation, table, view) if shown == "text" else None
+    shown = "" if output else wanted.form
+    screen = Screen(evaluation, wanted.table, view) if shown == "text" else None
     lines = all_lines(evaluation, shown or suffix_of(output or ""))
     slow, watch = SeriesSummary(evaluation, "suction"), ContactWatch.of(evaluation)
     consumers: list[ResultConsumer | None] = [comparison, drawing, lines, slow, watch]
     consumers += [] if screen is None else screen.consumers
-    with _sink(evaluation, comparison, output, shown, table, view) as sink:
+    with _sink(evaluation, comparison, wanted) as sink:
         _run(evaluation, [*consumers, sink], view, bar=shown in {"", "text"})
         warnings = watch.warnings()
         sink.finish(behind(evaluation, warnings, comparison, lines.rows))
@@ -170,15 +164,14 @@ def _evaluate_one(
         _notify_after(watch, slow, output, beside(Path(output)) if output else {})
     if screen is not None:
         print_evaluation(screen, view)
-    if comparison is not None and output_format == "text":
+    if comparison is not None and wanted.form == "text":
         print_comparison(comparison, view)
     return warnings
 
 
-def _evaluate_series(
-    evaluation: Evaluation, output: str | None, table: str, output_format: str, view: View
-) -> list[ContactWarning]:
+def _evaluate_series(evaluation: Evaluation, wanted: Wanted) -> list[ContactWarning]:
     """Summarise a series, print or write the summary; returns what is doubtful. Raises what `_evaluate_one` does."""
+    output, form, table, view = wanted
     if not view.quiet:
         _notify_before(evaluation, None)
     summary, watch = series_summary(evaluation, "suction"), ContactWatch.of(evaluation)
@@ -188,26 +181,24 @@ def _evaluate_series(
     written: Mapping[str, Path] = {}
     if output:
         written = write_tables(tables, Path(output))
-    elif output_format != "text":
-        write_text(tables, output_format, emit, table)
+    elif form != "text":
+        write_text(tables, form, emit, table)
     if not view.quiet:
         _notify_after(watch, summary, output, written)
-    if not output and output_format == "text":
+    if not output and form == "text":
         print_series(summary, view)
     return warnings
 
 
-def _sink(
-    evaluation: Evaluation, comparison: Comparison | None, output: str | None, shown: str, table: str, view: View
-) -> AbstractContextManager[Sink]:
+def _sink(evaluation: Evaluation, comparison: Comparison | None, wanted: Wanted) -> AbstractContextManager[Sink]:
     """Where the rows go: files, standard output, or nowhere."""
     elements = evaluation.element_table(None if comparison is None else comparison.others)
-    if output:
-        return result_files(evaluation, elements, Path(output), view)
-    if shown == "text":
+    if wanted.output:
+        return result_files(evaluation, elements, Path(wanted.output), wanted.view)
+    if wanted.form == "text":
         return nullcontext(Sink(evaluation, {}, None))
-    tables = tables_of(evaluation, shown, elements, table)
-    writer = text_writer(shown, contents_of(evaluation, tables), emit, table)
+    tables = tables_of(evaluation, wanted.form, elements, wanted.table)
+    writer = text_writer(wanted.form, contents_of(evaluation, tables), emit, wanted.table)
     return nullcontext(Sink(evaluation, tables, writer))
 
 
