@@ -13,7 +13,6 @@ from typing import Any
 
 import pytest
 
-from mudline.basics import cache_folder
 from mudline.checks.configuration import Given
 from mudline.checks.engine import LintSettings
 from mudline.checks.fixing import FileReport, lint_one
@@ -40,7 +39,7 @@ def linted(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Linted:
         names.append(name)
         return lint_one(name, data, settings, place)
 
-    monkeypatch.setenv(cache_folder.PLACE, str(folder / "cache"))
+    monkeypatch.setenv(remembered.PLACE, str(folder / "cache"))
     monkeypatch.setattr(remembered, "_COARSE", 0.0)  # files of a test are as young as its runs
     monkeypatch.setattr(lint_run, "lint_one", lint)
     return names
@@ -140,7 +139,7 @@ def test_decks_without_findings_are_answered_without_what_reads_decks(folder: Pa
     place("[tool.mudline]\nignore = ['STB']\n", "pyproject.toml")
     place(name="static.keyxm")
     words = [sys.executable, "-c", LIBRARIES, place(), place(RESTART, "wave.keyxm")]
-    environment = {**os.environ, cache_folder.PLACE: str(folder / "cache")}
+    environment = {**os.environ, remembered.PLACE: str(folder / "cache")}
     done = [subprocess.run(words, env=environment, capture_output=True, text=True, check=True) for _ in range(2)]
     assert done[0].stdout == "No findings in 2 files.\nAll 9 keywords read.\n0 ['lark', 'numpy', 'pydantic']\n"
     assert done[1].stdout == "No findings in 2 files.\nAll 9 keywords read.\n0 []\n"
@@ -177,9 +176,9 @@ def test_findings_come_back_whole(linted: Linted) -> None:
     key = known.key(Input("a", "a"), b"")
     coverage = Coverage(3, 1, {"NODE": 1}, {"A\x1b": 1})
     known.put(key, found, coverage, [])
-    assert known.get(key, Input("a", "a")) == (found, coverage)
+    assert known.get(key) == (found, coverage)
     known.memory.put(key, [["of", "another", "shape"]])
-    assert known.get(key, Input("a", "a")) is None
+    assert known.get(key) is None
     assert not linted
 
 

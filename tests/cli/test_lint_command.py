@@ -8,11 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from mudline.basics import cache_folder
 from mudline.checks.engine import lint_bytes
 from mudline.checks.registry import rules
 from mudline.language.diagnostics import Diagnostic
-from mudline.tools.running import executors
+from mudline.tools.running import executors, remembered
 from tests.checks.test_recovery import changed
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Outcome, assert_fits, run
@@ -257,7 +256,7 @@ STARLESS = changed(("*ELEMENT\n", "ELEMENT\n"))
 
 def test_jobs_cache_and_baseline_agree(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(executors, "PAYS", dict.fromkeys(executors.PAYS, 0.0))
-    monkeypatch.setenv(cache_folder.PLACE, str(folder / "cache"))
+    monkeypatch.setenv(remembered.PLACE, str(folder / "cache"))
     for name, text in (("a", ROWS), ("b", STARLESS)):
         (folder / f"{name}.keyxm").write_text(text, encoding="utf-8")
     asked = ("lint", "a.keyxm", "b.keyxm", "-v")

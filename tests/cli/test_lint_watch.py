@@ -11,7 +11,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from mudline.cli import lint_watch
+from mudline.cli import lint_command
 from tests.cli.conftest import Place
 from tests.cli.runner import Outcome, run
 from tests.helpers.builders.decks import BAD_NUMBER, CLEAN
@@ -32,15 +32,15 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> None:
         time.sleep(min(seconds, 0.01))
 
     clock = SimpleNamespace(perf_counter=time.perf_counter, strftime=time.strftime, sleep=sleep)
-    monkeypatch.setattr(lint_watch, "time", clock)
+    monkeypatch.setattr(lint_command, "time", clock)
 
 
 def watch(folder: Path, steps: Steps, *words: str, terminal: bool = False) -> Outcome:
     """Run with one change of a file at each wait (None: it is removed), and Ctrl-C at the end."""
     left: Iterator[tuple[str, str | None]] = iter(steps)
 
-    def wait(paths: Sequence[str], before: lint_watch.State) -> None:
-        assert lint_watch.state(paths) == before
+    def wait(paths: Sequence[str], before: lint_command.State) -> None:
+        assert lint_command.state(paths) == before
         name, text = next(left, ("", ""))
         if not name:
             raise KeyboardInterrupt
@@ -51,9 +51,9 @@ def watch(folder: Path, steps: Steps, *words: str, terminal: bool = False) -> Ou
             path.write_text(text, encoding="utf-8")
         real(paths, before)
 
-    real = lint_watch.wait_for_change
+    real = lint_command.wait_for_change
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(lint_watch, "wait_for_change", wait)
+        patch.setattr(lint_command, "wait_for_change", wait)
         return run("lint", *words, "--watch", terminal=terminal)
 
 
@@ -98,10 +98,10 @@ def test_terminal_is_cleared(folder: Path, place: Place) -> None:
 
 def test_change_is_seen_while_waiting(folder: Path, place: Place) -> None:
     files = (place(), "nowhere/deck.keyxm", "\0")
-    before = lint_watch.state(files)
+    before = lint_command.state(files)
     threading.Timer(0.1, lambda: place(BAD_NUMBER)).start()
-    lint_watch.wait_for_change(files, before)
-    assert lint_watch.state(files) != before
+    lint_command.wait_for_change(files, before)
+    assert lint_command.state(files) != before
     assert (folder / "deck.keyxm").exists()
 
 

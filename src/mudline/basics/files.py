@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from pathlib import Path, PurePath
@@ -25,6 +26,8 @@ _MARK = ".mudline"
 """The end of the names of temporary files: those that a killed run left are known by it."""
 _RANDOM = 8
 """Random bytes in the name of a temporary file."""
+_TEMPORARY = re.compile(rf"\.(.*\.)?[0-9a-f]{{{2 * _RANDOM}}}{re.escape(_MARK)}", re.DOTALL)
+"""Names that `_new_beside` gives."""
 
 _tidied: set[str] = set()
 """Folders in which this run has looked for what killed runs left."""
@@ -83,6 +86,15 @@ def suffix_of(path: str | os.PathLike[str]) -> str:
     return PurePath(path).suffix.lower().removeprefix(".")
 
 
+def form_of_file(path: str | os.PathLike[str], forms: Collection[str]) -> str:
+    """The form of a file to write, by its suffix; raises ValueError for one that is not among the forms."""
+    form = suffix_of(path)
+    if form not in forms:
+        *others, last = (f".{name}" for name in forms)
+        raise ValueError(f"{path}: unknown file format: give a name ending in {', '.join(others)} or {last}")
+    return form
+
+
 def write_atomically(path: Path, data: bytes | Iterable[bytes | memoryview], *, synced: bool = True) -> None:
     """Write a file, whole or in pieces as they come, as `replacement` does it.
 
@@ -113,7 +125,10 @@ def replacement(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
     if target.exists() and not os.access(target, os.W_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
     old = target.stat() if target.exists() else None
-    _tidy(str(target.parent))
+    folder = str(target.parent)
+    if folder not in _tidied:
+        _tidied.add(folder)
+        remove_left(folder)
     handle, temporary = _new_beside(target, _NEW if old is None else _PRIVATE)
     try:
         with os.fdopen(handle, "wb") as stream:
@@ -248,27 +263,14 @@ def _locked(handle: int) -> bool | None:
     return True
 
 
-def _tidy(folder: str) -> None:
-    """Remove the temporary files that killed runs left in a folder, once in a run: those that nobody has locked."""
-    if folder not in _tidied:
-        _tidied.add(folder)
-        remove_left(folder)
-
-
 def remove_left(folder: str) -> None:
     """Remove the temporary files of a folder that no run has in use."""
     with suppress(OSError), os.scandir(folder) as entries:
-        for path in [one.path for one in entries if _is_temporary(one.name) and one.is_file(follow_symlinks=False)]:
+        for path in [
+            one.path for one in entries if _TEMPORARY.fullmatch(one.name) and one.is_file(follow_symlinks=False)
+        ]:
             with suppress(OSError):  # it is another user's, or in use
                 _remove_left(path)
-
-
-def _is_temporary(name: str) -> bool:
-    """Whether a name is one that `_new_beside` gives."""
-    if not (name.startswith(".") and name.endswith(_MARK)):
-        return False
-    _, _, drawn = name.removesuffix(_MARK).rpartition(".")
-    return len(drawn) == 2 * _RANDOM and all(letter in "0123456789abcdef" for letter in drawn)
 
 
 def _remove_left(path: str) -> None:

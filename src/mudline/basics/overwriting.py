@@ -68,28 +68,18 @@ def continue_run(known: Outputs) -> None:
     _RUN.set(Run(known))
 
 
-def reading(path: StrPath) -> None:
-    """Note a file that the run reads; raises OverwriteError for one that is an output."""
+def reading(path: StrPath | None) -> None:
+    """Note a file that the run reads, None for standard input; raises OverwriteError for one that is an output."""
     run = _RUN.get()
     identity = None if run is None else _identity(path)
     if run is None or identity is None:
         return
-    run.read[identity] = os.path.abspath(path)  # noqa: PTH100 - links stay what they are called
+    run.read[identity] = _STDIN if path is None else os.path.abspath(path)  # noqa: PTH100 - links stay what they are called
     output = run.outputs.get(identity)
-    if output is not None and _is_same(output.path, path):
-        raise _refusal(output, os.fspath(path))
-
-
-def reading_stdin() -> None:
-    """Note that the run reads standard input, which may be a file."""
-    run = _RUN.get()
-    identity = None if run is None else _identity_of_stdin()
-    if run is None or identity is None:
+    if output is None:
         return
-    run.read[identity] = _STDIN
-    output = run.outputs.get(identity)
-    if output is not None and _identity(output.path) == identity:
-        raise _refusal(output, _STDIN)
+    if _identity(output.path) == identity if path is None else _is_same(output.path, path):
+        raise _refusal(output, _STDIN if path is None else os.fspath(path))
 
 
 def claim(path: StrPath, option: str = "") -> None:
@@ -124,7 +114,7 @@ def _read_as(run: Run, path: StrPath) -> str | None:
     identity = _identity(path)
     read = None if identity is None else run.read.get(identity)
     if read == _STDIN:
-        return read if _identity_of_stdin() == identity else None
+        return read if _identity(None) == identity else None
     return read if read is not None and _is_same(read, path) else None
 
 
@@ -134,19 +124,11 @@ def _refusal(output: Output, read: str) -> OverwriteError:
     return OverwriteError(f"{output} would replace {shown}, which this run reads: give another name")
 
 
-def _identity(path: StrPath) -> _Identity | None:
-    """Return the device and the number of a regular file; None for anything else."""
+def _identity(path: StrPath | None) -> _Identity | None:
+    """Return the device and the number of a regular file, None for standard input; None for anything else."""
     try:
-        found = os.stat(path)  # noqa: PTH116 - Path raises for long names
-    except (OSError, ValueError):
-        return None
-    return (found.st_dev, found.st_ino) if S_ISREG(found.st_mode) else None
-
-
-def _identity_of_stdin() -> _Identity | None:
-    try:
-        found = os.fstat(sys.stdin.fileno())
-    except (OSError, ValueError, AttributeError):  # closed, or no stream of the system
+        found = os.fstat(sys.stdin.fileno()) if path is None else os.stat(path)  # noqa: PTH116 - Path raises for long names
+    except (OSError, ValueError, AttributeError):  # standard input is closed, or no stream of the system
         return None
     return (found.st_dev, found.st_ino) if S_ISREG(found.st_mode) else None
 

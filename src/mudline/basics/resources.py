@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
-from pkgutil import iter_modules
+from pkgutil import walk_packages
 from types import ModuleType
 
 
@@ -26,12 +25,4 @@ def _own_file(path: str) -> Path:
 
 def modules_of(package: str) -> list[ModuleType]:
     """Import every module of a package, and of the packages in it; what they declare is there then."""
-    return list(_modules_of(import_module(package)))
-
-
-def _modules_of(package: ModuleType) -> Iterator[ModuleType]:
-    for found in iter_modules(package.__path__, f"{package.__name__}."):
-        module = import_module(found.name)
-        yield module
-        if found.ispkg:
-            yield from _modules_of(module)
+    return [import_module(one.name) for one in walk_packages(import_module(package).__path__, f"{package}.")]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence, Sized
+from collections.abc import Collection, Iterable, Sequence, Sized
 from dataclasses import fields, is_dataclass
 from enum import Enum
 
@@ -30,7 +30,8 @@ class UnknownNameError(KeyError):
 
 def short_repr(thing: object) -> str:
     """Return class and fields of a dataclass or named tuple, arrays as shapes; classes use it as `__repr__`."""
-    return with_fields(thing, _fields_of(thing))
+    shown = [one.name for one in fields(thing) if one.repr] if is_dataclass(thing) else getattr(thing, "_fields", ())
+    return with_fields(thing, ((name, getattr(thing, name)) for name in shown))
 
 
 def with_fields(thing: object, given: Iterable[tuple[str, object]]) -> str:
@@ -87,12 +88,3 @@ def listed(names: Collection[str]) -> str:
     first = [repr(cut(name, SHOWN_LETTERS)) for name, _ in zip(names, range(LISTED), strict=False)]
     rest = len(names) - len(first)
     return ", ".join([*first, f"and {rest} more"] if rest else first)
-
-
-def _fields_of(thing: object) -> Iterator[tuple[str, object]]:
-    if is_dataclass(thing):
-        shown = [field.name for field in fields(thing) if field.repr]
-    else:
-        shown = list(getattr(thing, "_fields", ()))
-    for name in shown:
-        yield name, getattr(thing, name)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import click
 import numpy as np
@@ -13,11 +13,11 @@ from mudline.cli import DONE, FOUND, options
 from mudline.cli.plots import Plot, plot_option
 from mudline.cli.streams import emit, notify
 from mudline.language.deck.loading import load_bytes
-from mudline.language.keywords.library.seabed_curves import Embedment, SeabedStiffness, StiffnessCurve
+from mudline.language.keywords.library.seabed_curves import Embedment, SeabedStiffness
 from mudline.language.keywords.model import Block, Comment
 from mudline.language.keywords.writer import block_lines
 from mudline.model.curves import CurveError, ForceCurve
-from mudline.model.curves.backbones import MODELS, Backbone, Model, Soil
+from mudline.model.curves.backbones import MODELS, Backbone, Soil
 from mudline.model.scene.deck_curves import OF_SEABED
 
 if TYPE_CHECKING:
@@ -76,8 +76,8 @@ class Wanted(NamedTuple):
     help="Largest error of the interpolation, as a share of the largest force.",
 )
 @options.option("--name", metavar="NAME", help="Name of the curve, or of the set with --legacy (default: MODEL).")
-@options.option("--legacy", is_flag=True, help="Write *EMBEDMENT in place of *SEABED STIFFNESS.")
-@options.option("--extend", is_flag=True, help="Go on beyond the ratios for which the model is published.")
+@options.flag("--legacy", help="Write *EMBEDMENT in place of *SEABED STIFFNESS.")
+@options.flag("--extend", help="Go on beyond the ratios for which the model is published.")
 @plot_option("model and curve")
 @options.common
 def command(
@@ -99,7 +99,12 @@ def command(
     system of units, as N and m; the points are as few as the tolerance needs.
     """
     chosen = MODELS[model]
-    soil = _soil(chosen, diameter, strength, weight)
+    if not 0.0 < diameter < math.inf:
+        raise click.UsageError(f"--diameter {diameter:g}: expected a number above 0")
+    if not 0.0 <= weight < math.inf:
+        raise click.UsageError(f"--weight {weight:g}: expected a submerged weight per volume, 0 or more")
+    if weight and not chosen.weighs:
+        raise click.UsageError("--weight: this model has no term of the soil's weight: leave it out")
     wanted = Wanted(
         name if name is not None else model,
         chosen.published if depth is None else depth,
@@ -112,7 +117,7 @@ def command(
         end = f"{model} ends at z/D = {shown(chosen.published)}: {chosen.range_note}"
         notify(f"{end}. Give --extend to go on to {wanted.depth:g}")
         return FOUND
-    backbone = Backbone(chosen, soil)
+    backbone = Backbone(chosen, Soil(diameter, *strength, weight))
     with np.errstate(all="ignore"):
         if not 0.0 < backbone.largest(wanted.depth) < math.inf:
             raise click.UsageError("the force is too large or too small for a float64: check the units of the numbers")
@@ -121,19 +126,12 @@ def command(
         except OverflowError as error:
             raise click.UsageError(f"{error}: check the units of the numbers, --depth and --tolerance") from error
     text = _text(backbone, wanted, points)
-    plot.write(lambda plots: plots.curves_figure(_rows(backbone, wanted, points), "user"))
+    smooth = np.linspace(0.0, 1.0, _DRAWN) ** 2 * wanted.depth
+    drawn = {"model": np.column_stack((smooth, backbone.force(smooth))), wanted.name: points} if plot.path else {}
+    rows = [{"name": name, "kind": OF_SEABED, "points": given} for name, given in drawn.items()]
+    plot.write(lambda plots: plots.curves_figure(rows, "user"))
     emit([text])
     return DONE
-
-
-def _soil(model: Model, diameter: float, strength: tuple[float, float], weight: float) -> Soil:
-    if not 0.0 < diameter < math.inf:
-        raise click.UsageError(f"--diameter {diameter:g}: expected a number above 0")
-    if not 0.0 <= weight < math.inf:
-        raise click.UsageError(f"--weight {weight:g}: expected a submerged weight per volume, 0 or more")
-    if weight and not model.weighs:
-        raise click.UsageError("--weight: this model has no term of the soil's weight: leave it out")
-    return Soil(diameter, *strength, weight)
 
 
 # ------------------------------------------------------------------------------------------------------------ block
@@ -146,7 +144,10 @@ def _text(backbone: Backbone, wanted: Wanted, points: FloatArray) -> str:
     except CurveError as error:
         raise click.UsageError(f"--tolerance {wanted.tolerance:g} is too fine for this model: {error}") from error
     comments = [Comment(text=f" {line}", before=0) for line in _head(backbone, wanted, points)]
-    text = "".join(f"{line}\n" for line in block_lines(_block(wanted, points.tolist(), comments)))
+    curve, rows = "set" if wanted.legacy else "name", points.tolist()
+    given = {"curves": [{curve: wanted.name, "points": rows}], "comments": comments}
+    block: Block = (Embedment if wanted.legacy else SeabedStiffness).model_validate(given)
+    text = "".join(f"{line}\n" for line in block_lines(block))
     # What a name may be is known to the reader alone.
     deck = load_bytes(f"$MODEL\n{text}".encode(), "backbone.keyxm")
     found = [curve for section in deck.sections for block in section.blocks for curve in getattr(block, "curves", ())]
@@ -154,14 +155,6 @@ def _text(backbone: Backbone, wanted: Wanted, points: FloatArray) -> str:
     if deck.problems or names != [wanted.name]:
         raise click.UsageError(f"--name {wanted.name!r}: a deck does not read this as a name: give letters and digits")
     return text
-
-
-def _block(wanted: Wanted, rows: list[list[float]], comments: list[Comment]) -> Block:
-    if wanted.legacy:
-        return Embedment.model_validate({"curves": [{"set": wanted.name, "points": rows}], "comments": comments})
-    return SeabedStiffness(
-        curves=[StiffnessCurve.model_validate({"name": wanted.name, "points": rows})], comments=comments
-    )
 
 
 def _head(backbone: Backbone, wanted: Wanted, points: FloatArray) -> list[str]:
@@ -180,13 +173,3 @@ def _head(backbone: Backbone, wanted: Wanted, points: FloatArray) -> list[str]:
         f"Published for z/D from 0 to {shown(model.published)}: {model.range_note}{beyond}",
         "Ratios are z/D: penetration of the invert",
     ]
-
-
-# ---------------------------------------------------------------------------------------------------------- picture
-
-
-def _rows(backbone: Backbone, wanted: Wanted, points: FloatArray) -> list[dict[str, Any]]:
-    """The model and its curve, as they are drawn."""
-    smooth = np.linspace(0.0, 1.0, _DRAWN) ** 2 * wanted.depth
-    drawn = (("model", np.column_stack((smooth, backbone.force(smooth)))), (wanted.name, points))
-    return [{"name": name, "kind": OF_SEABED, "points": given} for name, given in drawn]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import os
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -33,10 +33,10 @@ from mudline.cli.batch_cases import (
 )
 from mudline.cli.batch_text import print_cases
 from mudline.cli.evaluate_inputs import EvaluateInputs, takes_inputs
-from mudline.cli.inputs import STDIN, Input, Inputs, collect
+from mudline.cli.inputs import STDIN, GivenDecks, Input, Inputs, takes_decks
 from mudline.cli.many_files import many_files
 from mudline.cli.result_files import has_library, is_installed
-from mudline.cli.streams import counted, emit, emit_json, encoded, notify, reason
+from mudline.cli.streams import counted, emit, emit_json, encoded, make_folder, notify, reason
 from mudline.cli.view import Progress, View
 from mudline.model.results.cases import CaseSummary, worst_first, write_parquet
 from mudline.tools.running.executors import check_address
@@ -53,44 +53,32 @@ _MEMORY = ".mudline-batch"
     "or a pattern such as {folder}/{name}.csv."
 )
 @evaluate_inputs.summary_only
-@options.option(
+@options.output_option(
     "-o",
     "--output",
-    group=options.OUTPUT,
     required=True,
     metavar="DIR",
     help="Write a result file for each deck and the rows as summary.parquet into this folder.",
 )
-@options.option(
+@options.output_option(
     "--form",
-    group=options.OUTPUT,
     type=click.Choice(_FORMS),
     help="Write result files in this form; without it Parquet, or NPZ where pyarrow is not installed.",
 )
 @options.output_format("text", "json", "csv")
 @evaluate_inputs.fail_on
 @options.jobs
-@options.option(
+@options.run_option(
     "--scheduler",
-    group=options.RUN,
     metavar="ADDRESS",
     help="Use the workers of a Dask scheduler: tcp://HOST:PORT or tls://HOST:PORT (needs mudline[cluster]).",
 )
-@options.option(
-    "--no-cache",
-    group=options.RUN,
-    is_flag=True,
-    help="Evaluate every deck again, whatever DIR holds from before.",
-)
-@options.every_file
-@options.decks
-@options.units
-@options.common
+@options.run_option("--no-cache", is_flag=True, help="Evaluate every deck again, whatever DIR holds from before.")
+@takes_decks("DECKS...", stdin=False)
 def command(
     *,
     inputs: EvaluateInputs,
-    decks: tuple[str, ...],
-    units: str | None,
+    decks: GivenDecks,
     summary_only: bool,
     output: str,
     form: str | None,
@@ -99,7 +87,6 @@ def command(
     jobs: int,
     scheduler: str | None,
     no_cache: bool,
-    every_file: bool,
     view: View,
 ) -> int:
     """Evaluate many decks or load cases: a row for each, those that failed first, then the largest force.
@@ -107,8 +94,11 @@ def command(
     DECKS are files or directories (searched for *.keyx, *.keyxm, *.keyxi, *.das). What is in DIR already and has not
     changed is not evaluated again.
     """
-    _check_scheduler(scheduler)
-    if STDIN in decks:
+    if scheduler is not None:
+        if click.get_current_context().get_parameter_source("jobs") is not ParameterSource.DEFAULT:
+            raise click.UsageError("--jobs is for processes without --scheduler: leave one of them out")
+        check_address(scheduler)
+    if STDIN in decks.paths:
         raise click.UsageError("- is one deck, from standard input: mudline evaluate takes it")
     if summary_only and inputs.positions is None:
         raise click.UsageError("--summary-only is for time steps: give series with --positions")
@@ -116,16 +106,20 @@ def command(
     if not has_library(form):
         return FOUND
     check_positions(inputs.positions)
-    found = collect(decks, gitignore=not every_file)
+    found = decks.collect()
     if not found.files:
         return found.code
-    found.files = _once(found.files)
+    once: dict[str, Input] = {}
+    for file in found.files:  # each once, by whatever names it was given
+        once.setdefault(os.path.abspath(file.path or file.name), file)  # noqa: PTH100 - links stay what they are called
+    found.files = list(once.values())
     common, cases = named_cases(found.files, form)
-    folder = _made(Path(output))
+    folder = Path(output)
+    make_folder(folder)
     for path in (_summary_path(folder), *(path for case in cases for path in results_of(case, folder))):
         claim(path)
-    memory = Memory(folder / _MEMORY, repr((inputs, units, form, summary_only)))
-    order = Order(cases[0], b"", inputs, folder, units, summary_only)
+    memory = Memory(folder / _MEMORY, repr((inputs, decks.units, form, summary_only)))
+    order = Order(cases[0], b"", inputs, folder, decks.units, summary_only)
     done, taken = _evaluated(found, cases, order, memory, view, fresh=no_cache, jobs=jobs, scheduler=scheduler)
     ranked = worst_first(one.row for one in done)
     summary = _write_summary(ranked, folder)
@@ -142,31 +136,6 @@ def command(
         print_cases(ranked, common, {case.file.name: case.inside for case in cases}, view)
     failing = any(row.failed or (row.warnings and fail_on == "warning") for row in ranked)
     return max(found.code, FOUND if failing else DONE)
-
-
-def _check_scheduler(address: str | None) -> None:
-    """Raise click.UsageError where processes are asked for too, RunError for an address that cannot be used."""
-    if address is not None:
-        if click.get_current_context().get_parameter_source("jobs") is not ParameterSource.DEFAULT:
-            raise click.UsageError("--jobs is for processes without --scheduler: leave one of them out")
-        check_address(address)
-
-
-def _once(files: Iterable[Input]) -> list[Input]:
-    """Each file once, by whatever names it was given."""
-    found: dict[str, Input] = {}
-    for file in files:
-        found.setdefault(os.path.abspath(file.path or file.name), file)  # noqa: PTH100 - links stay what they are called
-    return list(found.values())
-
-
-def _made(folder: Path) -> Path:
-    """The folder of results; ends the command for one that cannot be made."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise click.ClickException(f"{folder.as_posix()}: cannot be created: {reason(error)}") from error
-    return folder
 
 
 # --------------------------------------------------------------------------------------------------------- evaluating
@@ -222,7 +191,9 @@ def _evaluated(
             if made is not None:
                 done[task.file] = made
                 if not made.row.failed:
-                    _remember(memory, task, made, first.output)
+                    written = {name: state(str(first.output / name)) for name in made.written}
+                    held = {"row": made.row.row(), "warnings": made.warnings, "written": written}
+                    memory.put(task.key, held, [*made.read, *task.files])
             elif task.known is not None:
                 done[task.file] = task.known
                 taken += not task.known.row.failed
@@ -251,11 +222,8 @@ def _known(memory: Memory, key: str, file: Input, output: Path) -> Done | None:
         row, warnings, written = TypeAdapter(_Held).validate_python(memory.get(key))
     except ValueError:  # nothing, or what this program does not write
         return None
-    if row.deck != file.name or row.failed:
-        return None
-    if any(state(str(output / name)) != mark for name, mark in written.items()):
-        return None
-    return Done(row, warnings)
+    unchanged = all(state(str(output / name)) == mark for name, mark in written.items())
+    return Done(row, warnings) if unchanged and row.deck == file.name and not row.failed else None
 
 
 class _Held(NamedTuple):
@@ -264,12 +232,6 @@ class _Held(NamedTuple):
     row: CaseSummary
     warnings: list[tuple[str, str]]
     written: dict[str, str]
-
-
-def _remember(memory: Memory, task: _Task, done: Done, output: Path) -> None:
-    written = {name: state(str(output / name)) for name in done.written}
-    held = {"row": done.row.row(), "warnings": done.warnings, "written": written}
-    memory.put(task.key, held, [*done.read, *task.files])
 
 
 # ------------------------------------------------------------------------------------------------------------ output

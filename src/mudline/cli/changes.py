@@ -22,13 +22,10 @@ def print_changes(old: bytes, new: bytes, name: str, view: View, *, created: boo
     before, after = (Source.from_bytes(data, name).text for data in (old, new))
     lines = unified_diff(before, after, visible(name), created=created)
     if view.color == "always" or (view.color == "auto" and sys.stdout.isatty()):
-        view.printer().lines((visible_lines(line.rstrip("\r\n")), _style(line)) for line in lines)
+        styles = ((line, next((_STYLES[mark] for mark in _STYLES if line.startswith(mark)), "")) for line in lines)
+        view.printer().lines((visible_lines(line.rstrip("\r\n")), style) for line, style in styles)
     else:
         emit(lines)
-
-
-def _style(line: str) -> str:
-    return next((style for mark, style in _STYLES.items() if line.startswith(mark)), "")
 
 
 def unified_diff(old: str, new: str, name: str, *, created: bool = False) -> Iterator[str]:

@@ -17,7 +17,7 @@ from mudline.language.deck.forms import SUFFIXES, form_names, form_of
 from mudline.language.deck.loading import dump
 from mudline.language.deck.model import Deck
 from mudline.language.diagnostics import DeckError, Severity
-from mudline.language.keywords.model import Block, Comment
+from mudline.language.keywords.model import Block
 from mudline.language.keywords.ranges import is_refused
 from mudline.language.keywords.table import Table
 
@@ -37,14 +37,9 @@ _OTHER_SHEETS = {".xls", ".xlsb", ".ods"}
     metavar="OUT",
     help="Write to this file; without it, or with -, to standard output.",
 )
-@options.option(
-    "--from",
-    "source",
-    type=_SOURCES,
-    help="Read DECK in this format, not in that of its suffix.",
-)
+@options.option("--from", "source", type=_SOURCES, help="Read DECK in this format, not in that of its suffix.")
 @options.option("--to", "target", type=_FORMS, help="Write in this format, not in that of the suffix of OUT.")
-@options.option("--sorted", "in_order", is_flag=True, help="Write curves with their points sorted by ratio.")
+@options.flag("--sorted", "in_order", help="Write curves with their points sorted by ratio.")
 @options.option("--within", type=float, metavar="METRES", help="Thin a seabed (.tif, .asc) as far as this error.")
 @options.option("--origin", metavar="E,N", help="Easting and northing of Y = Z = 0 of a seabed (default 0,0).")
 @options.option("--datum", type=float, metavar="ELEVATION", help="Elevation of X = 0 of a seabed (default 0).")
@@ -198,19 +193,12 @@ def sort_curves(deck: Deck) -> list[str]:
             if any(column == 0 for _, column in curve.points.words):
                 left.append(getattr(curve, "name", None) or curve.set_name or "ALL")
                 continue
-            order = np.argsort(curve.points.values[:, 0], kind="stable")
-            curve.comments = _moved(curve.comments, order.tolist())
-            curve.points = _sorted(curve.points, order)
+            table, order = curve.points, np.argsort(curve.points.values[:, 0], kind="stable")
+            new_row = {old: new for new, old in enumerate(order.tolist())}
+            moved = [
+                each.model_copy(update={"before": new_row.get(each.before, len(order))}) for each in curve.comments
+            ]
+            curve.comments = sorted(moved, key=lambda comment: comment.before)
+            words = {(new_row[row], column): word for (row, column), word in table.words.items()}
+            curve.points = Table(table.values[order], table.lengths[order], words)
     return left
-
-
-def _sorted(table: Table, order: np.ndarray[tuple[int], np.dtype[np.intp]]) -> Table:
-    new_row = {old: new for new, old in enumerate(order.tolist())}
-    words = {(new_row[row], column): word for (row, column), word in table.words.items()}
-    return Table(table.values[order], table.lengths[order], words)
-
-
-def _moved(comments: list[Comment], order: list[int]) -> list[Comment]:
-    new_row = {old: new for new, old in enumerate(order)}
-    moved = [comment.model_copy(update={"before": new_row.get(comment.before, len(order))}) for comment in comments]
-    return sorted(moved, key=lambda comment: comment.before)

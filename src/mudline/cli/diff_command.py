@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from enum import StrEnum
-from itertools import groupby
+from itertools import accumulate, groupby
 from typing import NamedTuple
 
 import click
@@ -81,7 +81,7 @@ Line = str | tuple[str, str]
     metavar="REL",
     help="Ignore differences of numbers up to this one, relative to the larger number.",
 )
-@options.option("--strict", is_flag=True, help="List differences of spelling in superseded keywords too: exit code 1.")
+@options.flag("--strict", help="List differences of spelling in superseded keywords too: exit code 1.")
 @options.output_format("text", "json", "markdown")
 @options.every_file
 @options.stdin_name
@@ -122,7 +122,15 @@ def command(
     comparison = _comparison(first, second, tolerance, strict=strict)
     summary = summary_of(comparison)
     if output_format == "json":
-        emit(_json(first.file, second.file, tolerance, comparison))
+        head = {
+            "format": FORMAT,
+            "before": first.file,
+            "after": second.file,
+            "tolerance": tolerance,
+            "equivalent": not comparison.differences,
+            "spelling_differences": len(comparison.spelling),
+        }
+        emit([*_json_lines(head, "differences", map(asdict, comparison.differences)), "\n}\n"])
     elif output_format == "markdown":
         lines = difference_lines("", "", comparison, view)
         emit(markdown(first.file, second.file, summary, lines, view))
@@ -217,49 +225,32 @@ def _compare_folders(folders: _Folders, output_format: str, view: View, every_fi
 # ------------------------------------------------------------------------------------------------------------ JSON
 
 
-def _json(before: str, after: str, tolerance: float, comparison: Comparison) -> list[str]:
-    """A difference on a line."""
-    head = {
-        "format": FORMAT,
-        "before": before,
-        "after": after,
-        "tolerance": tolerance,
-        "equivalent": not comparison.differences,
-        "spelling_differences": len(comparison.spelling),
-    }
-    start = json.dumps(head, indent=1, ensure_ascii=False).removesuffix("\n}")
-    return [start, ',\n "differences": ', *_listed(comparison.differences), "\n}\n"]
-
-
-def _listed(differences: Sequence[Difference]) -> Iterator[str]:
-    for i, one in enumerate(differences):
-        yield f"{',' if i else '['}\n  {json.dumps(asdict(one), ensure_ascii=False, allow_nan=False)}"
-    yield "\n ]" if differences else "[]"
+def _json_lines(head: Mapping[str, object], name: str, rows: Iterable[Mapping[str, object]]) -> Iterator[str]:
+    """Yield an object in JSON up to the end of its last value, a list called `name` with a row on each line."""
+    yield json.dumps(head, indent=1, ensure_ascii=False).removesuffix("\n}") + f',\n "{name}": ['
+    comma = ""
+    for row in rows:
+        yield f"{comma}\n  {json.dumps(row, ensure_ascii=False, allow_nan=False)}"
+        comma = ","
+    yield "\n ]" if comma else "]"
 
 
 def _folders_json(folders: _Folders, compared: Iterator[ComparedDeck]) -> Iterator[str]:
-    """A deck on a line."""
-    head = {
-        "format": FOLDER_FORMAT,
-        "before": folders.before,
-        "after": folders.after,
-        "tolerance": folders.tolerance,
-    }
-    yield json.dumps(head, indent=1, ensure_ascii=False).removesuffix("\n}") + ',\n "decks": ['
-    comma = ""
-    for one in compared:
-        row = {
+    head = {"format": FOLDER_FORMAT, "before": folders.before, "after": folders.after, "tolerance": folders.tolerance}
+    rows = (
+        {
             "deck": one.name,
             "status": one.status.value,
             "why": one.why or None,
             "spelling_differences": len(one.comparison.spelling),
             "differences": [asdict(each) for each in one.comparison.differences],
         }
-        yield f"{comma}\n  {json.dumps(row, ensure_ascii=False, allow_nan=False)}"
-        comma = ","
+        for one in compared
+    )
+    yield from _json_lines(head, "decks", rows)
     counts = {status.value: folders.counts[status] for status in Status}
     end = {"equivalent": folders.counts.total() == folders.counts[Status.EQUAL], "summary": counts}
-    yield ("\n ]" if comma else "]") + "," + json.dumps(end, indent=1, ensure_ascii=False).removeprefix("{") + "\n"
+    yield "," + json.dumps(end, indent=1, ensure_ascii=False).removeprefix("{") + "\n"
 
 
 # ------------------------------------------------------------------------------------------------------ for people
@@ -366,13 +357,8 @@ def markdown(before: str, after: str, summary: str, lines: Iterable[Line], view:
     """
     head = f"### Differences of decks\n\n{code(before)} → {code(after)}: **{summary}**\n"
     texts = [(line if isinstance(line, str) else line[0]).removeprefix("  ") for line in lines]
-    left = COMMENT_LETTERS - len(head)
-    kept = 0
-    for text in texts:
-        left -= len(text) + 1
-        if left < 0 and not view.verbose:
-            break
-        kept += 1
+    sizes = accumulate(len(text) + 1 for text in texts)
+    kept = len(texts) if view.verbose else sum(len(head) + size <= COMMENT_LETTERS for size in sizes)
     more = "" if kept == len(texts) else "\n*The rest does not fit here: `mudline diff -v` prints all.*\n"
     return [head, f"\n{fenced(texts[:kept])}" if texts else "", more]
 

@@ -6,6 +6,7 @@ import os
 from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
+from typing import NamedTuple
 
 import click
 
@@ -30,29 +31,35 @@ from mudline.model.results.series import SeriesSummary, series_summary, series_t
 from mudline.model.results.warnings import ContactWarning, ContactWatch, caption
 
 
+class Wanted(NamedTuple):
+    """Where results go: into the file `output`, else to standard output, in `form` and of `table`."""
+
+    output: str | None
+    form: str
+    table: str
+    view: View
+
+
 @options.command("evaluate")
 @takes_inputs("Read the positions of the nodes: CSV, NPZ or NPY, one state or time steps.")
 @click.option("--against", metavar="FILE", help="Compare with another program's element results, a CSV.")
-@options.option(
+@options.output_option(
     "-o",
     "--output",
-    group=options.OUTPUT,
     type=options.OUTPUT_FILE,
     metavar=f"OUT.{'|'.join(FORMS)}",
     help="Write the results; CSV and Parquet write OUT-nodes and OUT-summary beside it.",
 )
-@options.option(
+@options.output_option(
     "--plot-elements",
-    group=options.OUTPUT,
     metavar="N,M",
     callback=numbers_of_elements,
     help="Draw the force over penetration of these elements of a series, by number.",
 )
 @plot_option("the results", group=options.OUTPUT)
 @click.option("--plan", "plan_only", is_flag=True, help="Print what the deck needs and what is left out, and why.")
-@options.option(
+@options.output_option(
     "--table",
-    group=options.OUTPUT,
     type=click.Choice(["elements", "nodes", "summary"]),
     default="elements",
     show_default=True,
@@ -92,7 +99,11 @@ def command(
     if len(decks) > 1 or os.path.isdir(decks[0]):  # noqa: PTH112 - Path raises for a name that is too long
         raise click.UsageError("evaluate takes one deck: several decks and folders are for mudline batch")
     if summary_only:
-        _check_summary_only(inputs, {"--against": against, "--plot": plot.path, "--plan": plan_only})
+        for option, given in {"--against": against, "--plot": plot.path, "--plan": plan_only}.items():
+            if given:
+                raise click.UsageError(f"{option} is not for --summary-only: leave one of them out")
+        if inputs.positions is None:
+            raise click.UsageError("--summary-only is for time steps: give a series with --positions")
     if plot_elements and plot.path is None:
         raise click.UsageError("--plot-elements is for a plot: give --plot")
     form = options.form_of_file(output, FORMS) if output else ""
@@ -102,32 +113,14 @@ def command(
     if plan_only:
         _show_plan(inputs.prepared(deck), output_format, view)
         return DONE
-    evaluation = inputs.evaluation(deck)
+    evaluation, wanted = inputs.evaluation(deck), Wanted(output, output_format, table, view)
     if summary_only:
         if evaluation.time is None:
             raise click.UsageError(f"--summary-only is for time steps: {inputs.positions} is one state")
-        warnings = _evaluate_series(evaluation, output, table, output_format, view)
+        warnings = _evaluate_series(evaluation, wanted)
     else:
-        warnings = _evaluate_one(
-            evaluation,
-            view,
-            output=output,
-            plot=plot,
-            plot_elements=plot_elements,
-            against=against,
-            table=table,
-            output_format=output_format,
-        )
+        warnings = _evaluate_one(evaluation, wanted, plot, plot_elements, against)
     return FOUND if warnings and fail_on == "warning" else DONE
-
-
-def _check_summary_only(inputs: EvaluateInputs, others: Mapping[str, object]) -> None:
-    """Raise click.UsageError for other options that are given, and without time steps."""
-    for option, given in others.items():
-        if given:
-            raise click.UsageError(f"{option} is not for --summary-only: leave one of them out")
-    if inputs.positions is None:
-        raise click.UsageError("--summary-only is for time steps: give a series with --positions")
 
 
 def _show_plan(prepared: Prepared, form: str, view: View) -> None:
@@ -142,29 +135,25 @@ def _show_plan(prepared: Prepared, form: str, view: View) -> None:
 
 
 def _evaluate_one(
-    evaluation: Evaluation,
-    view: View,
-    *,
-    output: str | None,
-    plot: Plot,
-    plot_elements: tuple[int, ...],
-    against: str | None,
-    table: str,
-    output_format: str,
+    evaluation: Evaluation, wanted: Wanted, plot: Plot, plot_elements: tuple[int, ...], against: str | None
 ) -> list[ContactWarning]:
     """Evaluate a deck, print or write the results; returns what is doubtful. Raises DeckError, click.ClickException."""
+    output, view = wanted.output, wanted.view
     reference = read_file(against, lambda file: read_reference(file, evaluation)) if against else None
     comparison = None if reference is None else Comparison(evaluation, reference)
-    drawing = _plot_data(evaluation, plot_elements) if plot.path is not None else None
+    try:
+        drawing = None if plot.path is None else PlotData.of_evaluation(evaluation, plot_elements)
+    except ValueError as error:
+        raise click.UsageError(f"--plot-elements: {error}") from error
     if not view.quiet:
         _notify_before(evaluation, comparison)
-    shown = "" if output else output_format
-    screen = Screen(evaluation, table, view) if shown == "text" else None
+    shown = "" if output else wanted.form
+    screen = Screen(evaluation, wanted.table, view) if shown == "text" else None
     lines = all_lines(evaluation, shown or suffix_of(output or ""))
     slow, watch = SeriesSummary(evaluation, "suction"), ContactWatch.of(evaluation)
     consumers: list[ResultConsumer | None] = [comparison, drawing, lines, slow, watch]
     consumers += [] if screen is None else screen.consumers
-    with _sink(evaluation, comparison, output, shown, table, view) as sink:
+    with _sink(evaluation, comparison, wanted) as sink:
         _run(evaluation, [*consumers, sink], view, bar=shown in {"", "text"})
         warnings = watch.warnings()
         sink.finish(behind(evaluation, warnings, comparison, lines.rows))
@@ -172,62 +161,44 @@ def _evaluate_one(
         doubt = caption(warnings)
         plot.write(lambda plots: plots.evaluation_figure(drawing, doubt), view)
     if not view.quiet:
-        _notify_warnings(warnings)
-        if note := watch.note():
-            notify(note)
-        _notify_slow(slow)
-    if output and not view.quiet:
-        _notify_written(evaluation, Path(output), beside(Path(output)))
+        _notify_after(watch, slow, output, beside(Path(output)) if output else {})
     if screen is not None:
         print_evaluation(screen, view)
-    if comparison is not None and output_format == "text":
+    if comparison is not None and wanted.form == "text":
         print_comparison(comparison, view)
     return warnings
 
 
-def _plot_data(evaluation: Evaluation, elements: tuple[int, ...]) -> PlotData:
-    """Return what collects the data of a plot; raises click.UsageError for elements that are not there."""
-    try:
-        return PlotData.of_evaluation(evaluation, elements)
-    except ValueError as error:
-        raise click.UsageError(f"--plot-elements: {error}") from error
-
-
-def _evaluate_series(
-    evaluation: Evaluation, output: str | None, table: str, output_format: str, view: View
-) -> list[ContactWarning]:
+def _evaluate_series(evaluation: Evaluation, wanted: Wanted) -> list[ContactWarning]:
     """Summarise a series, print or write the summary; returns what is doubtful. Raises what `_evaluate_one` does."""
+    output, form, table, view = wanted
     if not view.quiet:
         _notify_before(evaluation, None)
     summary, watch = series_summary(evaluation, "suction"), ContactWatch.of(evaluation)
     _run(evaluation, [summary, watch], view, bar=True)
     warnings = watch.warnings()
     tables = series_tables(summary, warnings)
+    written: Mapping[str, Path] = {}
     if output:
         written = write_tables(tables, Path(output))
-    elif output_format != "text":
-        write_text(tables, output_format, emit, table)
+    elif form != "text":
+        write_text(tables, form, emit, table)
     if not view.quiet:
-        _notify_warnings(warnings)
-        _notify_slow(summary)
-    if output and not view.quiet:
-        _notify_written(evaluation, Path(output), written)
-    if not output and output_format == "text":
+        _notify_after(watch, summary, output, written)
+    if not output and form == "text":
         print_series(summary, view)
     return warnings
 
 
-def _sink(
-    evaluation: Evaluation, comparison: Comparison | None, output: str | None, shown: str, table: str, view: View
-) -> AbstractContextManager[Sink]:
+def _sink(evaluation: Evaluation, comparison: Comparison | None, wanted: Wanted) -> AbstractContextManager[Sink]:
     """Where the rows go: files, standard output, or nowhere."""
     elements = evaluation.element_table(None if comparison is None else comparison.others)
-    if output:
-        return result_files(evaluation, elements, Path(output), view)
-    if shown == "text":
+    if wanted.output:
+        return result_files(evaluation, elements, Path(wanted.output), wanted.view)
+    if wanted.form == "text":
         return nullcontext(Sink(evaluation, {}, None))
-    tables = tables_of(evaluation, shown, elements, table)
-    writer = text_writer(shown, contents_of(evaluation, tables), emit, table)
+    tables = tables_of(evaluation, wanted.form, elements, wanted.table)
+    writer = text_writer(wanted.form, contents_of(evaluation, tables), emit, wanted.table)
     return nullcontext(Sink(evaluation, tables, writer))
 
 
@@ -244,47 +215,40 @@ def _notify_before(evaluation: Evaluation, comparison: Comparison | None) -> Non
     """Report what is left out, and what is guessed."""
     missing = len(evaluation.present) - len(evaluation.nodes)
     if missing:
-        notify(f"no positions for {counted(missing, 'node')}: {counted(evaluation.skipped, 'element')} left out")
+        skipped = len(evaluation.scene.element_ids) - len(evaluation.elements)
+        notify(f"no positions for {counted(missing, 'node')}: {counted(skipped, 'element')} left out")
     if evaluation.lengths_from_positions:
         notify(f"the length of {counted(evaluation.lengths_from_positions, 'element')} comes from the first positions")
     for stage, why in evaluation.model.input.left_out.items():
         notify(f"{stage}: {why}")
-    if comparison is not None:
-        _notify_unmatched(comparison)
+    if comparison is None:
+        return
+    reference = comparison.reference
+    for numbers, thing, where in (
+        (reference.unknown.tolist(), "element", f"of {reference.file} not in the deck"),
+        (comparison.missing.tolist(), "evaluated element", f"not in {reference.file}"),
+        (reference.lost_times.tolist(), "time", f"of {reference.file} not evaluated"),
+        (reference.missing_times.tolist(), "evaluated time", f"not in {reference.file}"),
+    ):
+        if numbers:
+            notify(f"{counted(len(numbers), thing)} {where}: {listed_numbers(numbers)}")
 
 
-def _notify_warnings(warnings: Sequence[ContactWarning]) -> None:
-    """Report what is doubtful in the results."""
+def _notify_after(watch: ContactWatch, series: SeriesSummary, output: str | None, others: Mapping[str, Path]) -> None:
+    """Report what is doubtful in the results, where suction is less than its power law gives, and the files."""
+    warnings, evaluation = watch.warnings(), series.evaluation
     for one in warnings[:SHOWN_ROWS]:
         notify(f"warning: {one}")
     if len(warnings) > SHOWN_ROWS:
         notify(f"{len(warnings) - SHOWN_ROWS} more warnings: JSON has all")
-
-
-def _notify_written(evaluation: Evaluation, path: Path, others: Mapping[str, Path]) -> None:
-    """Report the files of results."""
-    for table, file in others.items():
-        notify(f"{table} -> {file.as_posix()}")
-    notify(f"{evaluation.scene.deck.file} -> {path.as_posix()}")
-
-
-def _notify_slow(series: SeriesSummary) -> None:
-    """Report where suction is less than its power law gives."""
+    if note := watch.note():
+        notify(note)
     number = series.number(series.of("suction", "slow").largest.peak())
     if number is not None:
         (steps,) = series.counts["suction", "slow_steps"].tolist()
-        when = f"at {steps} of {counted(series.evaluation.steps, 'step')}, element {number} first"
+        when = f"at {steps} of {counted(evaluation.steps, 'step')}, element {number} first"
         notify(f"the pull-out velocity is below REGULARISATION= {when}: the suction force there is less than alpha v^n")
-
-
-def _notify_unmatched(comparison: Comparison) -> None:
-    """Report what is in one of the results only."""
-    file = comparison.reference.file
-    for numbers, thing, where in (
-        (comparison.reference.unknown.tolist(), "element", f"of {file} not in the deck"),
-        (comparison.missing.tolist(), "evaluated element", f"not in {file}"),
-        (comparison.reference.lost_times.tolist(), "time", f"of {file} not evaluated"),
-        (comparison.reference.missing_times.tolist(), "evaluated time", f"not in {file}"),
-    ):
-        if numbers:
-            notify(f"{counted(len(numbers), thing)} {where}: {listed_numbers(numbers)}")
+    for table, file in others.items():
+        notify(f"{table} -> {file.as_posix()}")
+    if output:
+        notify(f"{evaluation.scene.deck.file} -> {Path(output).as_posix()}")

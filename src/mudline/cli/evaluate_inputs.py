@@ -14,7 +14,7 @@ import click
 
 from mudline.basics.overwriting import reading
 from mudline.checks.engine import naming_causes
-from mudline.cli.options import INPUT, Command, option
+from mudline.cli.options import Command, input_option, option
 from mudline.cli.streams import reason
 from mudline.language.deck.model import Deck
 from mudline.model.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
@@ -37,11 +37,6 @@ class EvaluateInputs:
     elements: str | None = None
     time_step: float | None = None
     headings: Mapping[str, str] = field(default_factory=dict)
-
-    @property
-    def files(self) -> tuple[tuple[str, str | None], ...]:
-        """What is read beside the deck, and its path."""
-        return ("the file of --positions", self.positions), ("the file of --elements", self.elements)
 
     def scene(self, deck: Deck) -> Scene:
         """The scene of a deck; raises DeckError with the causes of what keeps it from being evaluated."""
@@ -108,31 +103,23 @@ def takes_inputs(positions_help: str) -> Callable[[Command], Command]:
 
         for add in reversed(_INPUTS):
             given = add(given)
-        return option("--positions", group=INPUT, metavar="FILE", help=positions_help)(given)
+        return input_option("--positions", metavar="FILE", help=positions_help)(given)
 
     return added
 
 
 _INPUTS = (
-    option(
+    input_option(
         "--columns",
-        group=INPUT,
         multiple=True,
         metavar="NAME=HEADING,...",
         help='Name the columns of positions in a CSV of another program: time="Time [s]",node=Node,x=X. Repeatable.',
     ),
-    option(
-        "--time-step",
-        group=INPUT,
-        type=float,
-        metavar="DT",
-        help="Set the time between the steps of positions that have no times.",
+    input_option(
+        "--time-step", type=float, metavar="DT", help="Set the time between the steps of positions that have no times."
     ),
-    option(
-        "--elements",
-        group=INPUT,
-        metavar="FILE",
-        help="Read the elements from a CSV, for decks whose elements come from *LINES.",
+    input_option(
+        "--elements", metavar="FILE", help="Read the elements from a CSV, for decks whose elements come from *LINES."
     ),
     option(
         "--tension",

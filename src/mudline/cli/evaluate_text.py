@@ -70,7 +70,10 @@ def print_evaluation(screen: Screen, view: View) -> None:
     Where no element has a law, a line says so in their place; `view.verbose` shows them too.
     """
     printer, evaluation = view.printer(), screen.evaluation
-    if _no_law(evaluation):
+    scene = evaluation.scene
+    lawless = scene.law[evaluation.elements] == LawKind.NONE
+    springs = bool(scene.nodal.any()) or "SEABED SUCTION" in scene.extensions
+    if lawless.size and lawless.all() and not springs:
         elements = counted(len(evaluation.elements), "element")
         printer.line(f"{_title(evaluation)}: none of {elements} has a seabed law, so there are no forces")
         if not view.verbose:
@@ -92,14 +95,6 @@ def print_series(series: SeriesSummary, view: View) -> None:
     printer.line(f"{_title(series.evaluation)}, {series.evaluation.steps} steps")
     _print_peaks(printer, series)
     _print_extents(printer, series, None if view.verbose else SHOWN_ROWS)
-
-
-def _no_law(evaluation: Evaluation) -> bool:
-    """Whether nothing acts on any of the elements: none has a law, a nodal spring or suction."""
-    scene = evaluation.scene
-    springs = bool(scene.nodal.any()) or "SEABED SUCTION" in scene.extensions
-    lawless = scene.law[evaluation.elements] == LawKind.NONE
-    return bool(lawless.size) and bool(lawless.all()) and not springs
 
 
 def _title(evaluation: Evaluation) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 
 import click
@@ -12,9 +11,9 @@ from mudline.basics.limits import SHOWN_ROWS
 from mudline.basics.short_repr import counted
 from mudline.cli import DONE, options
 from mudline.cli.inputs import GivenDeck, takes_deck
-from mudline.cli.streams import emit, notify, reason, write_bytes, write_text
+from mudline.cli.streams import emit, make_folder, notify, write_bytes, write_text
 from mudline.cli.view import View
-from mudline.editing.variations.files import MANIFEST, ExpansionPlan, PlannedDeck, conflicts, lacking, manifest_text
+from mudline.editing.variations.files import MANIFEST, ExpansionPlan, conflicts, lacking, manifest_text
 from mudline.editing.variations.planning import plan
 
 _COLUMNS = (
@@ -29,8 +28,8 @@ _NOT_COPIED = "{}: the deck names it and it is not copied: put it beside the new
 @options.option(
     "-o", "--output", metavar="DIR", help="Write the new decks into this folder; it is created if it does not exist."
 )
-@options.option("--dry-run", is_flag=True, help="Print what would be written, and write nothing.")
-@options.option("--force", is_flag=True, help="Overwrite existing files.")
+@options.flag("--dry-run", help="Print what would be written, and write nothing.")
+@options.flag("--force", help="Overwrite existing files.")
 @options.output_format("text", "json")
 @takes_deck
 def command(*, deck: GivenDeck, output: str | None, dry_run: bool, force: bool, output_format: str, view: View) -> int:
@@ -54,7 +53,9 @@ def command(*, deck: GivenDeck, output: str | None, dry_run: bool, force: bool, 
     if output_format == "json":
         emit([manifest_text(planned.source, planned.decks)])
     elif dry_run:
-        _print_decks(planned.decks, view)
+        printer = view.printer()
+        printer.table(DisplayTable("Decks", _COLUMNS, planned.decks))
+        printer.line(counted(len(planned.decks), "deck"))
     return DONE
 
 
@@ -68,25 +69,11 @@ def _notify_some(messages: list[str]) -> None:
 def _write(planned: ExpansionPlan, folder: Path, view: View) -> None:
     for deck in planned.decks:
         path = folder / deck.path
-        _make_folder(path.parent)
+        make_folder(path.parent)
         write_bytes(path, planned.content(deck))
         if view.verbose:
             notify(path.as_posix())
-    _make_folder(folder)
+    make_folder(folder)
     write_text(folder / MANIFEST, [manifest_text(planned.source, planned.decks)])
     if not view.quiet:
         notify(f"{planned.source}: {counted(len(planned.decks), 'deck')} -> {folder.as_posix()}")
-
-
-def _make_folder(path: Path) -> None:
-    try:
-        path.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise click.ClickException(f"{path.as_posix()}: cannot be created: {reason(error)}") from error
-
-
-def _print_decks(decks: Sequence[PlannedDeck], view: View) -> None:
-    """Print a row for each deck: its file, its case, the values of its parameters; then how many there are."""
-    printer = view.printer()
-    printer.table(DisplayTable("Decks", _COLUMNS, decks))
-    printer.line(counted(len(decks), "deck"))

@@ -34,7 +34,7 @@ _TARGETS = ("moordyn", "orcaflex")
     metavar="OUT",
     help="Write to this file, and others beside it.",
 )
-@options.option("--strict", is_flag=True, help="Exit with 1 if anything was approximated or left out.")
+@options.flag("--strict", help="Exit with 1 if anything was approximated or left out.")
 @options.output_format("text", "json")
 @takes_deck
 def command(*, deck: GivenDeck, target: str, output: str, strict: bool, output_format: str, view: View) -> int:

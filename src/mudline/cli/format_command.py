@@ -9,7 +9,7 @@ import click
 from mudline.basics.short_repr import counted
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_changes
-from mudline.cli.inputs import Input, Inputs, collect
+from mudline.cli.inputs import GivenDecks, Input, Inputs, takes_decks
 from mudline.cli.streams import emit, emit_deck, notify, notify_diagnostics
 from mudline.cli.view import View
 from mudline.editing.formatting.document import FormatError, formatted
@@ -19,30 +19,35 @@ _CHANGED, _SAME, _FAILED = "reformatted", "left unchanged", "not formatted"
 
 
 @options.command("format")
-@options.paths
 @options.check
 @options.diff
-@options.every_file
-@options.stdin_name
-@options.common
-def command(*, paths: tuple[str, ...], check: bool, diff: bool, every_file: bool, stdin_name: str, view: View) -> int:
+@takes_decks(units=False)
+def command(*, decks: GivenDecks, check: bool, diff: bool, view: View) -> int:
     """Rewrite decks in canonical layout, in place: the same deck, line by line, comments included.
 
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi and *.das) or - for standard input, whose deck
     is printed. A deck with an error is reported and left unchanged.
     """
-    inputs = collect(paths, stdin_name, gitignore=not every_file)
+    inputs = decks.collect()
     outcomes = Counter(_outcome(inputs, *each, view, check=check, diff=diff) for each in inputs.contents())
-    if not view.quiet:
-        _notify_counts(outcomes, "would be " if check or diff else "")
+    would = "would be " if check or diff else ""
+    words = {_CHANGED: f"{would}{_CHANGED}", _SAME: f"{would}{_SAME}", _FAILED: _FAILED}
+    texts = [f"{counted(outcomes[one], 'file')} {word}" for one, word in words.items() if outcomes[one]]
+    if texts and not view.quiet:
+        click.echo(", ".join(texts), err=True)
     found = outcomes[_FAILED] or (outcomes[_CHANGED] and (check or diff))
     return max(inputs.code, FOUND if found else DONE)
 
 
 def _outcome(inputs: Inputs, file: Input, data: bytes, view: View, *, check: bool, diff: bool) -> str:
     """Write, print or name the formatted deck; "" for one that is printed."""
-    new = _formatted(file, data)
-    if new is None:
+    try:
+        new = formatted(data, file.name)
+    except DeckError as error:
+        notify_diagnostics(error.diagnostics)
+        return _FAILED
+    except FormatError as error:
+        notify(f"{file.name}: {error}")
         return _FAILED
     if file.path is None and not (check or diff):
         emit_deck(new)
@@ -59,20 +64,3 @@ def _outcome(inputs: Inputs, file: Input, data: bytes, view: View, *, check: boo
         if view.verbose:
             notify(f"{file.name}: reformatted")
     return _CHANGED
-
-
-def _formatted(file: Input, data: bytes) -> bytes | None:
-    """The formatted deck; None for one that cannot be formatted, which is reported."""
-    try:
-        return formatted(data, file.name)
-    except DeckError as error:
-        notify_diagnostics(error.diagnostics)
-    except FormatError as error:
-        notify(f"{file.name}: {error}")
-    return None
-
-
-def _notify_counts(outcomes: Counter[str], would: str) -> None:
-    words = {_CHANGED: f"{would}{_CHANGED}", _SAME: f"{would}{_SAME}", _FAILED: _FAILED}
-    if texts := [f"{counted(outcomes[one], 'file')} {word}" for one, word in words.items() if outcomes[one]]:
-        click.echo(", ".join(texts), err=True)

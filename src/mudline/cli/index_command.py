@@ -17,7 +17,7 @@ from mudline.checks.configuration import Given
 from mudline.checks.engine import LintSettings
 from mudline.checks.registry import plugin_files
 from mudline.cli import DONE, WRONG_USAGE, options
-from mudline.cli.inputs import Input, Inputs, collect, is_in_any_form
+from mudline.cli.inputs import GivenDecks, Input, Inputs, is_in_any_form, takes_decks
 from mudline.cli.lint_run import Settings, checked_settings
 from mudline.cli.many_files import many_files
 from mudline.cli.streams import counted, notify, notify_missing, reason
@@ -29,25 +29,20 @@ if TYPE_CHECKING:
 
 
 @options.command("index")
-@options.paths
 @click.option("-o", "--output", required=True, metavar="ARCHIVE", help="The folder of the archive; made if missing.")
 @click.option("--prune", is_flag=True, help="Also drop decks outside PATHS whose files are no longer there.")
 @options.config
 @options.isolated
 @options.jobs
-@options.every_file
-@options.units
-@options.common
+@takes_decks(stdin=False)
 def command(
     *,
-    paths: tuple[str, ...],
+    decks: GivenDecks,
     output: str,
     prune: bool,
     config: str | None,
     isolated: bool,
     jobs: int,
-    every_file: bool,
-    units: str | None,
     view: View,
 ) -> int:
     """Bring decks into an archive: Parquet tables, and a DuckDB file that shows them.
@@ -59,20 +54,20 @@ def command(
     if missing := [name for name in ("duckdb", "pyarrow") if find_spec(name) is None]:
         notify_missing("mudline index", " and ".join(missing), "archive")
         return WRONG_USAGE
-    if "-" in paths:
+    if "-" in decks.paths:
         raise click.UsageError("standard input cannot be archived: give files or directories")
-    settings = checked_settings(config, Given(units=units), "none", isolated=isolated, fail_on=None)
-    inputs = collect(paths, "", is_in_any_form, gitignore=not every_file)
+    settings = checked_settings(config, Given(units=decks.units), "none", isolated=isolated, fail_on=None)
+    inputs = decks.collect(is_in_any_form)
     from mudline.tools.archive.updating import LOCK, Archive, ArchiveError, check_folder  # noqa: PLC0415 - an extra
 
     try:
         folder = Path(output)
-        if any(_is_inside(path, folder) for path in paths):
+        if any(_is_inside(path, folder) for path in decks.paths):
             raise click.UsageError(f"-o {output}: an archive is a folder outside of the decks")
         check_folder(folder)
         folder.mkdir(parents=True, exist_ok=True)
         inputs.files = [file for file in inputs.files if not _is_inside(file.path or file.name, folder)]
-        searched = [os.path.abspath(path) for path in paths if not inputs.code]  # noqa: PTH100 - as in places
+        searched = [os.path.abspath(path) for path in decks.paths if not inputs.code]  # noqa: PTH100 - as in places
         waiting = partial(notify, f"{folder.as_posix()}: waiting for another run")
         with alone_at(folder / LOCK, waiting, made=True), closing(Archive(folder)) as archive:
             seen = _index(inputs, settings, archive, view, jobs)

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import click
 
 from mudline.basics.files import alone_at, write_atomically
-from mudline.basics.overwriting import outputs, reading, reading_stdin
+from mudline.basics.overwriting import outputs, reading
 from mudline.basics.patterns import Pattern, read_pattern
 from mudline.cli import FOUND, WRONG_USAGE, options
 from mudline.cli.streams import notify, notify_diagnostics, reason
@@ -49,11 +49,6 @@ class Input(NamedTuple):
             return None
         return _folder(os.path.dirname(self.path))  # noqa: PTH120 - asked for many files
 
-    def size_and_date(self) -> tuple[int, int]:
-        """Bytes, and the time of the last change in ns since 1970; raises OSError."""
-        found = os.stat(self.path or self.name)  # noqa: PTH116 - asked for many files
-        return found.st_size, found.st_mtime_ns
-
     def read(self) -> bytes:
         """The content; raises OSError."""
         if self.path is not None:
@@ -62,7 +57,7 @@ class Input(NamedTuple):
                 return stream.readall()
         if sys.stdin is None:
             raise OSError(errno.EBADF, "standard input is closed")
-        reading_stdin()
+        reading(None)
         return sys.stdin.buffer.read()
 
 
@@ -326,29 +321,23 @@ class GivenDeck(NamedTuple):
 
     def content(self) -> tuple[bytes, str]:
         """The content of the file and its name in messages; ends the command when the path cannot be read."""
-        file = self._file()
-        return self._bytes(file), file.name
+        if os.path.isdir(self.path):  # noqa: PTH112 - as above
+            raise click.ClickException(f"{self.path} is a directory: this command takes one deck")
+        file = _single(self.path, self.stdin_name)
+        try:
+            return file.read(), file.name
+        except OSError as error:
+            raise click.ClickException(f"{self.path}: {reason(error)}") from error
 
     def load(self, form: str | None = None) -> Deck:
         """Read the deck; ends the command when the path cannot be read. Raises DeckError."""
-        file = self._file()
-        data = self._bytes(file)
+        data, name = self.content()
         from mudline.language.deck.loading import load_bytes  # noqa: PLC0415 - what only looks for files reads no deck
 
-        deck = load_bytes(data, file.name, form=form, units=self.units, folder=file.folder)
+        folder = _single(self.path, self.stdin_name).folder
+        deck = load_bytes(data, name, form=form, units=self.units, folder=folder)
         reading_named_files(deck)
         return deck
-
-    def _file(self) -> Input:
-        if os.path.isdir(self.path):  # noqa: PTH112 - as above
-            raise click.ClickException(f"{self.path} is a directory: this command takes one deck")
-        return _single(self.path, self.stdin_name)
-
-    def _bytes(self, file: Input) -> bytes:
-        try:
-            return file.read()
-        except OSError as error:
-            raise click.ClickException(f"{self.path}: {reason(error)}") from error
 
 
 def reading_named_files(deck: Deck) -> None:
@@ -359,6 +348,44 @@ def reading_named_files(deck: Deck) -> None:
 
         deque(missing_files(deck), 0)  # what is looked for is noted
         decks_before(deck)
+
+
+class GivenDecks(NamedTuple):
+    """The decks of a command: paths, the name of standard input, and the units that its options give."""
+
+    paths: tuple[str, ...]
+    every_file: bool
+    stdin_name: str
+    units: str | None
+
+    def collect(self, wanted: Wanted = is_deck, skipped: list[str] | None = None) -> Inputs:
+        """Find the files, as `collect` does."""
+        return collect(self.paths, self.stdin_name, wanted, gitignore=not self.every_file, skipped=skipped)
+
+
+def takes_decks(
+    metavar: str = "PATHS...", *, stdin: bool = True, units: bool = True
+) -> Callable[[options.Command], options.Command]:
+    """Add the decks, the options about them and those of all commands; they arrive as `decks`, a GivenDecks."""
+
+    def added(command: options.Command) -> options.Command:
+        @wraps(command)
+        def given(
+            *,
+            paths: tuple[str, ...],
+            every_file: bool,
+            stdin_name: str = "",
+            units: str | None = None,
+            **others: object,
+        ) -> int:
+            return command(decks=GivenDecks(paths, every_file, stdin_name, units), **others)
+
+        found = options.common(given)
+        for option, wanted in ((options.units, units), (options.stdin_name, stdin), (options.every_file, True)):
+            found = option(found) if wanted else found
+        return options.decks(metavar)(found)
+
+    return added
 
 
 def takes_deck(command: options.Command) -> options.Command:

@@ -1,8 +1,14 @@
-"""`mudline lint`: its options, and the answer for decks that have not changed since they were linted."""
+"""`mudline lint`: its options, the answer for decks that have not changed since they were linted, and `--watch`."""
 
 from __future__ import annotations
 
+import os
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
+from pathlib import Path
+from stat import S_ISREG
+from typing import NoReturn
 
 import click
 
@@ -11,7 +17,7 @@ from mudline.checks.configuration import Given
 from mudline.checks.output import TEXT, form_names
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.config_command import Configured
-from mudline.cli.inputs import collect
+from mudline.cli.inputs import STDIN, GivenDecks, is_deck, takes_decks
 from mudline.cli.known_findings import known_findings
 from mudline.cli.lint_report import Report, complete, outputs
 from mudline.cli.streams import notify
@@ -30,40 +36,28 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
 
 
 @options.command("lint")
-@options.paths
 @_rules("--select", "chosen", help="Run these rules only: codes, prefixes or slugs.")
 @_rules("--extend-select", "also", help="Run these rules too.")
 @_rules("--ignore", "ignored", help="Do not run these rules.")
-@options.option(
+@options.output_option(
     "--fail-on",
-    group=options.OUTPUT,
     type=click.Choice([severity.value for severity in (Severity.ERROR, Severity.WARNING, Severity.INFO)]),
     help="Exit with 1 for findings of this severity or worse (default: warning).",
 )
-@options.option(
+@options.output_option(
     "--output-format",
     "forms",
-    group=options.OUTPUT,
     multiple=True,
     metavar="FORM[=FILE]",
     shell_complete=complete,
     help=f"Print findings in this format: {', '.join([f'{TEXT} (default)', *form_names()])}; "
     "=FILE writes a file too. Repeatable.",
 )
-@options.option("--fix", group=_FIXES, is_flag=True, help="Apply the safe fixes, in place; the deck of - is printed.")
-@options.option(
-    "--unsafe-fixes", "unsafe", group=_FIXES, is_flag=True, help="With --fix or --diff: also apply fixes that guess."
-)
-@options.option(
-    "--diff",
-    group=_FIXES,
-    is_flag=True,
-    help="Print what --fix would change, and write nothing; exit with 1 if anything.",
-)
+@options.flag("--fix", group=_FIXES, help="Apply the safe fixes, in place; the deck of - is printed.")
+@options.flag("--unsafe-fixes", "unsafe", group=_FIXES, help="With --fix or --diff: also apply fixes that guess.")
+@options.flag("--diff", group=_FIXES, help="Print what --fix would change, and write nothing; exit with 1 if anything.")
 @options.option("--baseline", group=_KNOWN, metavar="FILE", help="Hide the findings that are recorded in this file.")
-@options.option(
-    "--write-baseline", "recording", group=_KNOWN, is_flag=True, help="Record all findings in the file of --baseline."
-)
+@options.flag("--write-baseline", "recording", group=_KNOWN, help="Record all findings in the file of --baseline.")
 @options.option(
     "--dialect",
     group=_RULES,
@@ -73,27 +67,17 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
 @options.no_outside
 @options.config
 @options.isolated
-@options.option(
-    "--statistics", group=options.OUTPUT, is_flag=True, help="Count the findings of each rule instead of listing them."
-)
-@options.option("--exit-zero", group=options.OUTPUT, is_flag=True, help="Exit with 0 whatever is found.")
+@options.output_option("--statistics", is_flag=True, help="Count the findings of each rule instead of listing them.")
+@options.output_option("--exit-zero", is_flag=True, help="Exit with 0 whatever is found.")
 @options.jobs
-@options.option(
-    "--no-cache", "uncached", group=options.RUN, is_flag=True, help="Lint every deck again, without the cache."
+@options.run_option("--no-cache", "uncached", is_flag=True, help="Lint every deck again, without the cache.")
+@options.run_option(
+    "--watch", is_flag=True, help="Lint again whenever a deck or a configuration changes, until Ctrl-C."
 )
-@options.option(
-    "--watch",
-    group=options.RUN,
-    is_flag=True,
-    help="Lint again whenever a deck or a configuration changes, until Ctrl-C.",
-)
-@options.every_file
-@options.stdin_name
-@options.units
-@options.common
+@takes_decks()
 def command(
     *,
-    paths: tuple[str, ...],
+    decks: GivenDecks,
     chosen: tuple[str, ...],
     also: tuple[str, ...],
     ignored: tuple[str, ...],
@@ -113,9 +97,6 @@ def command(
     jobs: int,
     uncached: bool,
     watch: bool,
-    every_file: bool,
-    stdin_name: str,
-    units: str | None,
     view: View,
 ) -> int:
     """Find faults in decks: all findings of every file in one run.
@@ -123,7 +104,7 @@ def command(
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that begin
     as decks do), or - for standard input. With -v the files of directories that are skipped are named.
     """
-    given = Given(_words(chosen), _words(ignored), _words(also), dialect, units, no_outside)
+    given = Given(_words(chosen), _words(ignored), _words(also), dialect, decks.units, no_outside)
     fixing = "none" if not (fix or diff) else "unsafe" if unsafe else "safe"
     wanted = outputs(forms)
     if baseline and recording:
@@ -133,7 +114,7 @@ def command(
     def once() -> int:
         configured = Configured(config, isolated)
         skipped: list[str] | None = [] if view.verbose else None
-        inputs = collect(paths, stdin_name, configured.wanted, gitignore=not every_file, skipped=skipped)
+        inputs = decks.collect(configured.wanted, skipped)
         for line in sorted(skipped or ()):
             notify(line)
         aside = diff or (fix and any(file.path is None for file in inputs.files))
@@ -154,9 +135,83 @@ def command(
 
     if watch:
         from mudline.cli import lint_run  # noqa: PLC0415 - as above
-        from mudline.cli.lint_watch import refuse, watched  # noqa: PLC0415 - most runs end
 
         lint_run.checked_settings(config, given, fixing, isolated=isolated, fail_on=fail_on)
-        refuse({"--fix": fix, "--diff": diff, "--write-baseline": recording}, paths, wanted.form)
-        watched(once, [*paths, *(path for path in (config, baseline) if path)], view)
+        refuse({"--fix": fix, "--diff": diff, "--write-baseline": recording}, decks.paths, wanted.form)
+        watched(once, [*decks.paths, *(path for path in (config, baseline) if path)], view)
     return once()
+
+
+# ------------------------------------------------------------------------------------------------------------- --watch
+
+WAIT = 0.3
+"""Seconds between two looks."""
+
+_CONFIGURATIONS = ("mudline.toml", "pyproject.toml")
+_PRINTED = (TEXT, "concise")
+
+State = dict[str, tuple[int, int]]
+"""When each file was changed, in nanoseconds, and its size."""
+
+
+def refuse(writing: Mapping[str, bool], paths: Sequence[str], form: str) -> None:
+    """Raise click.UsageError for what cannot be repeated."""
+    for option, given in writing.items():
+        if given:
+            raise click.UsageError(f"--watch and {option} exclude each other: give one of them")
+    if STDIN in paths:
+        raise click.UsageError("--watch needs files: standard input can be read once only")
+    if form not in _PRINTED:
+        raise click.UsageError(
+            f"--watch prints {' or '.join(_PRINTED)}, not {form}; "
+            f"--output-format {form}=FILE writes a file after each change"
+        )
+
+
+def watched(once: Callable[[], int], paths: Sequence[str], view: View) -> NoReturn:
+    """Lint, and again after each change; ends by KeyboardInterrupt only. An error that ends a run is reported."""
+    while True:
+        before = state(paths)
+        click.clear()
+        try:
+            once()
+        except click.ClickException as error:
+            notify(error.format_message())
+        if not view.quiet:
+            notify(f"{time.strftime('%H:%M:%S')}: waiting for changes; Ctrl-C ends")
+        wait_for_change(paths, before)
+
+
+def wait_for_change(paths: Sequence[str], before: State) -> None:
+    """Return as soon as the files differ from `before`, and no longer change: editors write in several steps."""
+    last, now = before, state(paths)
+    while now == before or now != last:
+        time.sleep(WAIT)
+        last, now = now, state(paths)
+
+
+def state(paths: Sequence[str]) -> State:
+    """The state of the files given, of the decks below folders and beside files, and of the configurations for them.
+
+    Those that are missing or unreadable are left out.
+    """
+    found: State = {}
+    for file in (*paths, *(file for path in paths for file in _near(path))):
+        try:
+            now = os.stat(file)  # noqa: PTH116 - asked for many files
+        except (OSError, ValueError):
+            continue
+        if S_ISREG(now.st_mode):
+            found[file] = (now.st_mtime_ns, now.st_size)
+    return found
+
+
+def _near(given: str) -> Iterator[str]:
+    """The decks and configurations in a folder and below, or beside a file; and the configurations above."""
+    folder = given if os.path.isdir(given) else os.path.dirname(given) or "."  # noqa: PTH112, PTH120 - Path raises for a long name
+    for place, folders, names in os.walk(folder):
+        yield from (os.path.join(place, name) for name in names if is_deck(name) or name in _CONFIGURATIONS)  # noqa: PTH118 - many files
+        if folder != given:
+            folders.clear()
+    for parent in Path(os.path.abspath(folder)).parents:  # noqa: PTH100 - links stay what they are called
+        yield from (str(parent / name) for name in _CONFIGURATIONS)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import KW_ONLY, dataclass, field
 from pathlib import Path
@@ -73,24 +74,17 @@ class Report:
     def add(self, name: str, data: bytes, found: list[Diagnostic], fixed: int, limit: Severity) -> None:
         """Add the findings that are left in one file, whose content is `data`, and the number of those fixed."""
         self.files += 1
-        if self._formed:
+        # Text does not name the files, and there may be very many.
+        if self.aside or self.view.quiet or self.outputs.form != TEXT or self.outputs.files:
             self.names.append(name)
         self.found += found
         self.fixed += fixed
         self.failing = self.failing or any(one.severity.rank >= limit.rank for one in found)
-        if self._as_they_come and found:
+        as_they_come = self.outputs.form == TEXT and not (self.view.quiet or self.statistics or self.aside)
+        if as_they_come and found:
             self.view.printer().findings(found, Source.from_bytes(data, name), following=self.view.verbose)
         if self.view.verbose:
             notify(f"{name}: {counted(len(found), 'finding')}")
-
-    @property
-    def _formed(self) -> bool:
-        """Whether a form is written, which may name the files: text does not, and there may be very many."""
-        return self.aside or self.view.quiet or self.outputs.form != TEXT or bool(self.outputs.files)
-
-    @property
-    def _as_they_come(self) -> bool:
-        return self.outputs.form == TEXT and not (self.view.quiet or self.statistics or self.aside)
 
     def finish(self) -> None:
         """Write and print what needs all findings."""
@@ -148,8 +142,6 @@ def fixable(found: list[Diagnostic]) -> str:
 
 def statistics_lines(diagnostics: list[Diagnostic]) -> Iterator[str]:
     """Findings counted by rule, the most frequent first."""
-    counts: dict[tuple[str, str], int] = {}
-    for found in diagnostics:
-        counts[found.code, found.slug] = counts.get((found.code, found.slug), 0) + 1
+    counts = Counter((found.code, found.slug) for found in diagnostics)
     for (code, slug), count in sorted(counts.items(), key=lambda item: (-item[1], item[0])):
         yield f"{count:6}  {code}  {slug}\n"

@@ -82,16 +82,6 @@ def _baseline(given: str | None, *, recording: bool) -> Baseline | None:
         raise click.ClickException(message) from error
 
 
-def _report_baseline(known: Baseline, path: Path, view: View, *, recording: bool) -> None:
-    """Write what was recorded, or report how much of it is no longer found."""
-    if recording:
-        write_text(path, [known.text()])
-        if not view.quiet:
-            notify(f"{path.as_posix()}: {counted(known.known.total(), 'finding')} recorded")
-    elif view.verbose and (gone := known.gone()):
-        notify(f"{path.as_posix()}: {counted(gone, 'recorded finding')} no longer there: write it again")
-
-
 def checked_settings(config: str | None, given: Given, fixing: str, *, isolated: bool, fail_on: str | None) -> Settings:
     """The settings of a command line; ends the command for a word that names no rule, whatever the files are."""
     settings = Settings(Configured(config, isolated, code_fault), given, fail_on, Fixing(fixing))
@@ -142,8 +132,15 @@ def lint_files(
     if documents:
         notify(f"{counted(documents, 'deck')} in JSON or YAML not fixed: only keyword text is")
     report.finish()
-    if recorded is not None and baseline is not None:
-        _report_baseline(recorded, Path(baseline), report.view, recording=recording)
+    if recorded is None or baseline is None:
+        return report.failing or differs
+    name = Path(baseline).as_posix()
+    if recording:
+        write_text(Path(baseline), [recorded.text()])
+        if not report.view.quiet:
+            notify(f"{name}: {counted(recorded.known.total(), 'finding')} recorded")
+    elif report.view.verbose and (gone := recorded.gone()):
+        notify(f"{name}: {counted(gone, 'recorded finding')} no longer there: write it again")
     return report.failing or differs
 
 
@@ -189,7 +186,7 @@ def _lint_all(
             return _Read(file, b"", known=FileReport(file.name, (), coverage=known.clean[file])), None
         data = file.read()
         key = "" if known is None or file.path is None else known.key(file, data)
-        if known is not None and key and (found := known.get(key, file)) is not None:
+        if known is not None and key and (found := known.get(key)) is not None:
             return _Read(file, data, key, FileReport(file.name, found[0], coverage=found[1])), None
         return _Read(file, data, key), (file.name, data, own, file.folder)
 

@@ -11,7 +11,7 @@ from mudline.basics.short_repr import counted
 from mudline.checks.engine import naming_causes
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
 from mudline.cli.changes import print_changes
-from mudline.cli.inputs import Input, Inputs, collect, reading_named_files
+from mudline.cli.inputs import GivenDecks, Input, Inputs, reading_named_files, takes_decks
 from mudline.cli.streams import emit_deck, notify, notify_diagnostics, write_bytes
 from mudline.cli.view import View
 from mudline.editing.migration.migrating import Migration, Verdict, legacy_blocks, migrate, verify
@@ -22,7 +22,6 @@ from mudline.language.diagnostics import DeckError
 
 
 @options.command("migrate")
-@options.paths
 @options.option(
     "-o",
     "--output",
@@ -30,26 +29,19 @@ from mudline.language.diagnostics import DeckError
     metavar="OUT",
     help="Write to this file instead of the deck itself; for one deck only.",
 )
-@options.option("--diff", is_flag=True, help="Print what would change, and write nothing.")
-@options.option(
+@options.flag("--diff", help="Print what would change, and write nothing.")
+@options.flag(
     "--verify",
     "proved",
-    is_flag=True,
     help="Evaluate the old and the new deck first, and write only when all their laws agree bitwise.",
 )
-@options.every_file
-@options.stdin_name
-@options.units
-@options.common
+@takes_decks()
 def command(
     *,
-    paths: tuple[str, ...],
+    decks: GivenDecks,
     output: str | None,
     diff: bool,
     proved: bool,
-    every_file: bool,
-    stdin_name: str,
-    units: str | None,
     view: View,
 ) -> int:
     """Rewrite *EMBEDMENT, *ELASTIC SURFACE and *RIGID SURFACE as the new family of seabed keywords.
@@ -57,7 +49,7 @@ def command(
     PATHS are decks, directories, or - for standard input, whose new text is printed. Comments stay, as does every byte
     outside the legacy blocks. A deck that the new family cannot express is left unchanged, with the reason.
     """
-    inputs = collect(paths, stdin_name, gitignore=not every_file)
+    inputs = decks.collect()
     if output is not None and len(inputs.files) > 1:
         raise click.UsageError("-o takes one deck; without it decks are rewritten in place")
     code = DONE
@@ -65,7 +57,7 @@ def command(
     for file, data in inputs.contents():
         try:
             run = _Run(inputs, file, data, output, view)
-            code = max(code, run.migrate(units, continuations, diff=diff, proved=proved))
+            code = max(code, run.migrate(decks.units, continuations, diff=diff, proved=proved))
         except DeckError as error:
             notify_diagnostics(error.diagnostics)
             code = FOUND
@@ -99,9 +91,12 @@ class _Run:
             return FOUND
         content = self._content(migration)
         if diff:
-            self._print_changes(content, migration)
+            print_changes(self.data, content, self.file.name, self.view)
+            for name, data in migration.files.items():
+                print_changes(b"", data, Path(self.file.name).with_name(name).as_posix(), self.view, created=True)
             return DONE
-        return self._write(content, migration.files, _replaced(migration))
+        replaced = ", ".join(f"{count} *{keyword}" for keyword, count in migration.replaced.items())
+        return self._write(content, migration.files, replaced)
 
     @property
     def _in_place(self) -> bool:
@@ -130,12 +125,6 @@ class _Run:
             )
         return not verdict.differences
 
-    def _print_changes(self, content: bytes, migration: Migration) -> None:
-        print_changes(self.data, content, self.file.name, self.view)
-        for beside, data in migration.files.items():
-            path = Path(self.file.name).with_name(beside).as_posix()
-            print_changes(b"", data, path, self.view, created=True)
-
     def _write(self, content: bytes, files: dict[str, bytes], replaced: str = "") -> int:
         if self.target is None:
             if files:
@@ -160,7 +149,3 @@ class _Run:
     def _note(self, text: str) -> None:
         if not self.view.quiet:
             notify(f"{self.file.name}: {text}")
-
-
-def _replaced(migration: Migration) -> str:
-    return ", ".join(f"{count} *{keyword}" for keyword, count in migration.replaced.items())

@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from mudline.basics.files import suffix_of
+from mudline.basics import files
 from mudline.basics.overwriting import claim
 from mudline.cli.view import View
 
@@ -48,6 +48,9 @@ class GroupedCommand(click.Command):
 
 command = partial(click.command, cls=GroupedCommand)
 option = partial(click.option, cls=Option)
+flag = partial(option, is_flag=True)
+input_option, output_option, run_option = (partial(option, group=group) for group in (INPUT, OUTPUT, RUN))
+"""Options under the headings that several commands have."""
 
 # -------------------------------------------------------------------------------------------------------------- options
 
@@ -62,8 +65,8 @@ def common(command: Command) -> Command:
         return command(**given, **view)
 
     for add in (
-        option("-v", "--verbose", group=COMMON, is_flag=True, help="Print more."),
-        option("-q", "--quiet", group=COMMON, is_flag=True, help="Print the result only."),
+        flag("-v", "--verbose", group=COMMON, help="Print more."),
+        flag("-q", "--quiet", group=COMMON, help="Print the result only."),
         option(
             "--color",
             group=COMMON,
@@ -77,18 +80,16 @@ def common(command: Command) -> Command:
     return viewed
 
 
-jobs = option(
+jobs = run_option(
     "--jobs",
-    group=RUN,
     type=click.IntRange(min=0),
     default=0,
     metavar="N",
     help="Use at most N processes, when that pays; 0 (default): one for each processor.",
 )
 
-units = option(
+units = input_option(
     "--units",
-    group=INPUT,
     type=click.Choice(["metric", "imperial", "user"]),
     help="Read the deck in this unit system, not in that of its suffix, *UNITS or gravity.",
 )
@@ -98,9 +99,10 @@ complete_files = click.Path().shell_complete
 
 deck = click.argument("deck", metavar="DECK", shell_complete=complete_files)
 
-decks = click.argument("decks", nargs=-1, required=True, metavar="DECKS...", shell_complete=complete_files)
 
-paths = click.argument("paths", nargs=-1, required=True, metavar="PATHS...", shell_complete=complete_files)
+def decks(metavar: str) -> Callable[[Command], Command]:
+    """The argument of several files and directories, which reaches the command as `paths`."""
+    return click.argument("paths", nargs=-1, required=True, metavar=metavar, shell_complete=complete_files)
 
 
 def complete_rules(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:
@@ -116,43 +118,36 @@ def complete_rules(_context: click.Context, _parameter: click.Parameter, incompl
     return [f"{before}{comma}{name}" for name in names if name.startswith((word.upper(), word.lower()))]
 
 
-every_file = option(
-    "--no-gitignore",
-    "every_file",
-    group=INPUT,
-    is_flag=True,
-    help="Include files of directories that a .gitignore hides.",
+every_file = input_option(
+    "--no-gitignore", "every_file", is_flag=True, help="Include files of directories that a .gitignore hides."
 )
 
-stdin_name = option(
+stdin_name = input_option(
     "--stdin-filename",
     "stdin_name",
-    group=INPUT,
     default="<stdin>",
     metavar="NAME",
     help="Call standard input (-) by this name in messages; its suffix gives the format and the units.",
 )
 
-no_outside = option(
+no_outside = input_option(
     "--no-outside",
-    group=INPUT,
     is_flag=True,
     help="Refuse decks that name files outside of their project, the nearest folder with a configuration or .git.",
 )
 
-config = option(
-    "--config", group=INPUT, metavar="FILE", help="Use this configuration for all decks, not the nearest one of each."
+config = input_option(
+    "--config", metavar="FILE", help="Use this configuration for all decks, not the nearest one of each."
 )
 
-isolated = option("--isolated", group=INPUT, is_flag=True, help="Use no configuration file.")
+isolated = input_option("--isolated", is_flag=True, help="Use no configuration file.")
 
 
 def output_format(*formats: str) -> Callable[[Command], Command]:
     """`--output-format` with the formats that a command has."""
-    return option(
+    return output_option(
         "--output-format",
         "output_format",
-        group=OUTPUT,
         type=click.Choice(formats),
         default=formats[0],
         show_default=True,
@@ -160,18 +155,17 @@ def output_format(*formats: str) -> Callable[[Command], Command]:
     )
 
 
-check = option("--check", is_flag=True, help="Write nothing; name the files that would change, and exit with 1 if any.")
+check = flag("--check", help="Write nothing; name the files that would change, and exit with 1 if any.")
 
-diff = option("--diff", is_flag=True, help="Write nothing; print what would change, and exit with 1 if anything.")
+diff = flag("--diff", help="Write nothing; print what would change, and exit with 1 if anything.")
 
 
 def form_of_file(path: str, forms: Collection[str]) -> str:
     """The form of a file to write, by its suffix; raises click.UsageError for one that is not among the forms."""
-    form = suffix_of(path)
-    if form not in forms:
-        *others, last = (f".{name}" for name in forms)
-        raise click.UsageError(f"{path}: unknown file format: give a name ending in {', '.join(others)} or {last}")
-    return form
+    try:
+        return files.form_of_file(path, forms)
+    except ValueError as error:
+        raise click.UsageError(str(error)) from error
 
 
 class _OutputFile(click.types.StringParamType):

@@ -15,6 +15,7 @@ from rich.text import Text
 
 from mudline.basics.display import Cell, DisplayTable
 from mudline.basics.quantities import shown
+from mudline.basics.short_repr import counted
 from mudline.checks.output import visible
 from mudline.language.diagnostics import Diagnostic, Severity, Span
 from mudline.language.syntax.source import Source
@@ -87,12 +88,24 @@ class Printer:
 
     def findings(self, found: list[Diagnostic], source: Source, *, following: bool = False) -> None:
         """Print the findings of one file, each with its source line, and with those that follow from it if wanted."""
+        self.lines(self._findings(found, source, following))
+
+    def _findings(self, found: list[Diagnostic], source: Source, following: bool) -> Iterator[Text]:
         width = min(self._console.width, EXCERPT_WIDTH)
-        self.lines(findings(found, source, width, self.encoding, following=following))
+        for one in found:
+            yield _headline(one, self.encoding)
+            yield from excerpt(one, source, width, self.encoding)
+            for each in one.following if following else ():
+                yield Text(_FOLLOWS).append_text(_headline(each, self.encoding))
 
     def summary(self, found: list[Diagnostic], files: int) -> None:
-        """Print how many findings there are in so many files."""
-        self._console.print(summary(found, files))
+        """Print how many findings of each severity there are in so many files."""
+        parts: list[Part] = []
+        for severity, style in _STYLES.items():
+            if count := sum(one.severity is severity for one in found):
+                word = f"{count} {severity.value}" if severity is Severity.INFO else counted(count, severity.value)
+                parts += [", ", (word, style)]
+        self._console.print(Text.assemble("Found ", *parts[1:], f" in {counted(files, 'file')}."))
 
     def table(self, table: DisplayTable) -> None:
         """Print cells under their headings, with a blank line behind.
@@ -111,7 +124,9 @@ class Printer:
         widths = [max(map(cell_len, column)) for column in zip(*heads, *texts, strict=True)]
         to_left = [one.left for one in columns]
         foldable = [one.left and not one.whole for one in columns]
-        layout = _layout(widths, foldable, to_left, self.width)
+        # Columns are closer together where they would not fit otherwise.
+        layouts = [_Layout(_fitted(widths, foldable, self.width, gap), to_left, gap) for gap in _GAPS]
+        layout = next((one for one in layouts if one.width <= self.width), layouts[0])
         if table.title:
             self.line((self.visible(table.title), "bold"))
         lines: list[Iterable[_Styled]] = [layout.line([(text, "") for text in head]) for head in heads]
@@ -119,7 +134,9 @@ class Printer:
         lines += (layout.line(part) for row in cells for part in layout.folded(row, self._console))
         if self.colored:
             for line in lines:
-                self._console.print(_stripped(Text.assemble(*line)), soft_wrap=True)
+                text = Text.assemble(*line)
+                text.rstrip()
+                self._console.print(text, soft_wrap=True)
         else:
             self._console.file.writelines("".join(text for text, _ in line).rstrip() + "\n" for line in lines)
         if table.note:
@@ -167,17 +184,6 @@ class _Layout(NamedTuple):
             yield text, style
             yield blanks if left else "", ""
             gap = " " * self.gap
-
-
-def _stripped(text: Text) -> Text:
-    text.rstrip()
-    return text
-
-
-def _layout(widths: list[int], foldable: list[bool], to_left: list[bool], available: int) -> _Layout:
-    """Columns that fit, closer together where they would not fit otherwise."""
-    made = [_Layout(_fitted(widths, foldable, available, gap), to_left, gap) for gap in _GAPS]
-    return next((one for one in made if one.width <= available), made[0])
 
 
 def _fitted(widths: list[int], foldable: list[bool], available: int, gap: int) -> list[int]:
@@ -233,20 +239,6 @@ class Bar:
 _CUT = "..."
 _NARROWEST_LINE = 20
 _FOLLOWS = "    follows: "
-
-
-def findings(
-    diagnostics: Iterable[Diagnostic], source: Source, width: int, encoding: str = "utf-8", *, following: bool = False
-) -> Iterator[Text]:
-    """Every finding in one file, as styled plain text in so many columns; deck text is never read as markup.
-
-    With `following` those that follow from a finding are shown too, indented below it.
-    """
-    for found in diagnostics:
-        yield _headline(found, encoding)
-        yield from excerpt(found, source, width, encoding)
-        for one in found.following if following else ():
-            yield Text(_FOLLOWS).append_text(_headline(one, encoding))
 
 
 def _headline(found: Diagnostic, encoding: str) -> Text:
@@ -305,14 +297,3 @@ def _window(text: str, line: Span, start: int, width: int, encoding: str) -> Spa
     while last < line.end and (left := left - cell_len(visible(text[last], encoding))) >= 0:
         last += 1
     return Span(first, max(last, min(start + 1, line.end)))
-
-
-def summary(diagnostics: list[Diagnostic], files: int) -> Text:
-    """How many findings of each severity there are."""
-    text = Text("Found ")
-    for severity, style in _STYLES.items():
-        if count := sum(found.severity is severity for found in diagnostics):
-            plural = "s" if count != 1 and severity is not Severity.INFO else ""
-            text.append(", " if len(text) > len("Found ") else "")
-            text.append(f"{count} {severity.value}{plural}", style)
-    return text.append(f" in {files} file{'s' * (files != 1)}.")

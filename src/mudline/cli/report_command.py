@@ -17,22 +17,20 @@ from mudline.basics.short_repr import counted
 from mudline.checks.configuration import Given as GivenRules
 from mudline.checks.engine import LintSettings
 from mudline.cli import DONE, FOUND, WRONG_USAGE, options
-from mudline.cli.inputs import Input, collect, is_in_any_form
+from mudline.cli.inputs import GivenDecks, Input, is_in_any_form, takes_decks
 from mudline.cli.lint_run import checked_settings
 from mudline.cli.many_files import many_files
 from mudline.cli.streams import emit_json, notify, notify_missing, write_text
 from mudline.cli.view import Progress, View
-from mudline.tools.reporting.content import SECTIONS, Given, Look, Stamp, report_on
+from mudline.tools.reporting.content import SECTIONS, Given, Look, report_on
 
 _LEGAL = "legal"
 
 
 @options.command("report")
-@options.decks
-@options.option(
+@options.output_option(
     "-o",
     "--output",
-    group=options.OUTPUT,
     type=options.OUTPUT_FILE,
     metavar="OUT.html",
     help="Write the page into this file; of several decks or a folder the index, with the pages in a folder beside it.",
@@ -51,13 +49,10 @@ _LEGAL = "legal"
 @options.config
 @options.isolated
 @options.jobs
-@options.every_file
-@options.stdin_name
-@options.units
-@options.common
+@takes_decks("DECKS...")
 def command(
     *,
-    decks: tuple[str, ...],
+    decks: GivenDecks,
     output: str | None,
     output_format: str,
     sections: str,
@@ -67,9 +62,6 @@ def command(
     config: str | None,
     isolated: bool,
     jobs: int,
-    every_file: bool,
-    stdin_name: str,
-    units: str | None,
     view: View,
 ) -> int:
     """Write a page about a deck for a checker to sign: verdict, findings, model, curves, contact, study, plan.
@@ -85,15 +77,18 @@ def command(
     if html and (missing := next((one for one in ("jinja2", "matplotlib") if find_spec(one) is None), None)):
         notify_missing("report", missing, "report")
         return WRONG_USAGE
-    settings = checked_settings(config, GivenRules((), (), (), None, units), "none", isolated=isolated, fail_on=None)
-    inputs = collect(decks, stdin_name, is_in_any_form, gitignore=not every_file)
-    wanted = Wanted(names, date, _look(template, logo) if html else None)
-    several = len(inputs.files) > 1 or any(os.path.isdir(each) for each in decks)  # noqa: PTH112 - Path raises for a long name
+    settings = checked_settings(config, GivenRules(units=decks.units), "none", isolated=isolated, fail_on=None)
+    inputs = decks.collect(is_in_any_form)
+    for path in filter(None, (template, logo)) if html else ():
+        reading(path)
+    look = Look(*(None if one is None else Path(one) for one in (template, logo))) if html else None
+    wanted = Wanted(names, date, look)
+    several = len(inputs.files) > 1 or any(os.path.isdir(each) for each in decks.paths)  # noqa: PTH112 - Path raises for a long name
     target = None if output is None or not html else Target(Path(output), several)
     rows, contents = [], []
 
     def prepared(file: Input) -> tuple[Input, tuple[Given, LintSettings, Wanted]]:
-        data, changed = file.read(), None if file.path is None else file.size_and_date()[1]
+        data, changed = file.read(), None if file.path is None else os.stat(file.path).st_mtime_ns  # noqa: PTH116 - Path raises for a long name
         return file, (Given(data, file.name, file.folder, changed), settings.of(file), wanted)
 
     with closing(many_files(inputs, prepared, make_report, Progress(len(inputs.files), view), jobs=jobs)) as results:
@@ -111,12 +106,6 @@ def command(
     elif target is not None and rows:
         _finish(target, rows, wanted.look, view)
     return max(inputs.code, FOUND if _illegal(rows) else DONE)
-
-
-def _look(template: str | None, logo: str | None) -> Look:
-    for path in filter(None, (template, logo)):
-        reading(path)
-    return Look(*(None if one is None else Path(one) for one in (template, logo)))
 
 
 def _sections(text: str) -> tuple[str, ...]:
@@ -144,7 +133,7 @@ class Made(NamedTuple):
 
 def make_report(given: Given, settings: LintSettings, wanted: Wanted) -> Made:
     """Make the page about a deck, in any process."""
-    report = report_on(given, settings, wanted.sections, Stamp(__version__, wanted.date))
+    report = report_on(given, settings, wanted.sections, wanted.date)
     if wanted.look is None:
         return Made(report.json, None)
     from mudline.tools.reporting.page import LookError, page  # noqa: PLC0415 - needs jinja2

@@ -63,7 +63,7 @@ def _print_rules(rules: Sequence[Rule], view: View) -> None:
         text_column("code", lambda rule: rule.code.code),
         text_column("severity", lambda rule: _severity(rule, printer)),
         text_column("name", lambda rule: rule.code.slug),
-        text_column("finds", _finds),
+        text_column("finds", lambda rule: rule.page.title + _package(rule, " [{}]")),
     )
     printer.table(DisplayTable(f"{len(rules)} rules", columns, rules))
 
@@ -74,10 +74,10 @@ def _severity(rule: Rule, printer: Printer) -> tuple[str, str]:
     return severity, printer.severity_styles[severity]
 
 
-def _finds(rule: Rule) -> str:
-    """What a rule finds, and the package that it comes from if that is another than mudline."""
+def _package(rule: Rule, words: str) -> str:
+    """The package that a rule comes from, in words; "" for mudline."""
     package = origin(rule.code.code)
-    return rule.page.title if package == "mudline" else f"{rule.page.title} [{package}]"
+    return "" if package == "mudline" else words.format(package)
 
 
 def _print_rule(rule: Rule, view: View) -> None:
@@ -86,11 +86,10 @@ def _print_rule(rule: Rule, view: View) -> None:
     width = min(printer.width, _PAGE)
     printer.line((rule.code.code, "bold"), f" {rule.code.slug} (", _severity(rule, printer), ")", fold=False)
     line, column = rule.page.place
-    package = origin(rule.code.code)
     bad, good = (visible_lines(indent(deck, "    ").rstrip("\n")) for deck in (rule.page.bad, rule.page.good))
     for paragraph in (
         *(fill(text, width) for text in (rule.page.title, *rule.page.why.split("\n\n")) if text),
-        *([] if package == "mudline" else [f"A rule of {package}."]),
+        *filter(None, [_package(rule, "A rule of {}.")]),
         f"Bad (found at line {line}, column {column}):",
         bad,
         "Good:",

@@ -12,7 +12,7 @@ import click
 from mudline.basics.short_repr import counted
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_changes
-from mudline.cli.inputs import CHANGED, Input, Inputs, collect
+from mudline.cli.inputs import CHANGED, GivenDecks, Input, Inputs, takes_decks
 from mudline.cli.streams import emit, emit_deck, notify, notify_diagnostics
 from mudline.cli.view import View
 from mudline.editing.assignment.assigning import Assigned, AssignmentError, assigned
@@ -29,7 +29,6 @@ _UNWRITTEN = "not written"
 
 @options.command("set")
 @click.argument("assignment", metavar="KEYWORD.FIELD=VALUE")
-@options.paths
 @options.option(
     "--where",
     "condition",
@@ -38,20 +37,14 @@ _UNWRITTEN = "not written"
 )
 @options.check
 @options.diff
-@options.every_file
-@options.stdin_name
-@options.units
-@options.common
+@takes_decks()
 def command(
     *,
     assignment: str,
-    paths: tuple[str, ...],
+    decks: GivenDecks,
     condition: str | None,
     check: bool,
     diff: bool,
-    every_file: bool,
-    stdin_name: str,
-    units: str | None,
     view: View,
 ) -> int:
     """Change one value in many decks, in place; comments, columns and all other values stay as they are written.
@@ -66,12 +59,15 @@ def command(
         where = None if condition is None else DeckCondition.of(parse_condition(condition))
     except PathError as error:
         raise click.UsageError(str(error)) from error
-    run = _Run(change, target, where, units, view, collect(paths, stdin_name, gitignore=not every_file))
+    run = _Run(change, target, where, decks.units, view, decks.collect())
     run.plan(check=check, diff=diff)
     if not (check or diff):
         run.write()
-    if not view.quiet:
-        run.notify_counts("would be " if check or diff else "")
+    changed = "would be changed" if check or diff else "changed"
+    words = {_CHANGED: changed} | {one: one for one in (_UNWRITTEN, _SAME, _WITHOUT, _UNMET, _REFUSED)}
+    texts = [f"{run.counts[one]} {word}" for one, word in words.items() if run.counts[one]]
+    if texts and not view.quiet:
+        click.echo(f"{counted(run.counts.total(), 'deck')}: {', '.join(texts)}", err=True)
     nowhere = run.counts[_WITHOUT] and not any(run.counts[one] for one in (_CHANGED, _UNWRITTEN, _SAME, _REFUSED))
     if nowhere:
         notify(f"no deck has {change.path}")
@@ -154,12 +150,6 @@ class _Run:
                 self.inputs.fail(f"{file.name}: {CHANGED}")
             elif data is not None:
                 self.inputs.replaced(file, data, _edited(file, data, edits))
-
-    def notify_counts(self, would: str) -> None:
-        """Print how many decks were changed, and how many were not, by the reason."""
-        words = {_CHANGED: f"{would}changed"} | {one: one for one in (_UNWRITTEN, _SAME, _WITHOUT, _UNMET, _REFUSED)}
-        if texts := [f"{self.counts[one]} {word}" for one, word in words.items() if self.counts[one]]:
-            click.echo(f"{counted(self.counts.total(), 'deck')}: {', '.join(texts)}", err=True)
 
 
 def _edited(file: Input, data: bytes, edits: Sequence[TextEdit]) -> bytes:

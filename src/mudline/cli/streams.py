@@ -130,6 +130,14 @@ def writing(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
         raise UnwrittenError(f"{path}: cannot be written: {reason(error)}") from error
 
 
+def make_folder(path: Path) -> None:
+    """Make a folder and those above it; ends the command for one that cannot be made."""
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise click.ClickException(f"{path.as_posix()}: cannot be created: {reason(error)}") from error
+
+
 def write_bytes(path: Path, data: bytes) -> None:
     """Write a file's content."""
     with writing(path) as stream:

@@ -21,7 +21,7 @@ from mudline.checks.context import LintContext
 from mudline.checks.output.json import as_object
 from mudline.checks.verdict import Verdict, judge, refused
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.inputs import Input, Inputs, collect, is_in_any_form
+from mudline.cli.inputs import GivenDecks, Input, Inputs, is_in_any_form, takes_decks
 from mudline.cli.many_files import many_files
 from mudline.cli.streams import emit
 from mudline.cli.view import Progress, View
@@ -43,11 +43,9 @@ _FAIL_ON = ("error", "warning", "unread")
 
 
 @options.command("validate")
-@options.paths
 @options.output_format("text", "json", "csv")
-@options.option(
+@options.output_option(
     "--fail-on",
-    group=options.OUTPUT,
     type=click.Choice(_FAIL_ON),
     default="error",
     help="Exit with 1 for an illegal deck (default), for one with warnings too, or also for one that is not read as a "
@@ -55,20 +53,14 @@ _FAIL_ON = ("error", "warning", "unread")
 )
 @options.no_outside
 @options.jobs
-@options.every_file
-@options.stdin_name
-@options.units
-@options.common
+@takes_decks()
 def command(
     *,
-    paths: tuple[str, ...],
+    decks: GivenDecks,
     output_format: str,
     fail_on: str,
     no_outside: bool,
     jobs: int,
-    every_file: bool,
-    stdin_name: str,
-    units: str | None,
     view: View,
 ) -> int:
     """Validate decks: print the errors of each, then a table with a row per deck.
@@ -80,8 +72,8 @@ def command(
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that begin
     as decks do), or - for standard input. Of many decks -q shows the table without the errors.
     """
-    inputs = collect(paths, stdin_name, is_in_any_form, gitignore=not every_file)
-    total, wanted = Total(), Wanted(units, no_outside, view.verbose or output_format == "json")
+    inputs = decks.collect(is_in_any_form)
+    total, wanted = Total(), Wanted(decks.units, no_outside, view.verbose or output_format == "json")
     progress = Progress(len(inputs.files), view, shown=output_format == "text" or not sys.stdout.isatty())
     with closing(_judged(inputs, wanted, total, progress, jobs)) as judged:
         if output_format == "json":

@@ -54,11 +54,9 @@ class Progress:
         self._total = total
         self._done = 0
         self._bar: Bar | None = None
-        self._due = monotonic() + DELAY if shown and total > 1 and self._may_draw() else float("inf")
-
-    def _may_draw(self) -> bool:
         dumb = os.environ.get("TERM", "").lower() in {"dumb", "unknown"}
-        return sys.stderr.isatty() and not (self.view.quiet or dumb or os.environ.get("CI"))
+        may_draw = sys.stderr.isatty() and not (view.quiet or dumb or os.environ.get("CI"))
+        self._due = monotonic() + DELAY if shown and total > 1 and may_draw else float("inf")
 
     def __enter__(self) -> Self:
         return self

@@ -18,6 +18,7 @@ from matplotlib.lines import Line2D
 import mudline
 from mudline.model.contact import ContactInput, ContactModel, ContactResult, LawAssignment
 from mudline.model.contact.touchdown import line_summaries
+from mudline.model.curves import ForceCurve
 from mudline.model.results.plot_data import PlotData
 from mudline.model.results.plots.along_line import Stretch
 from mudline.model.results.plots.figure import evaluation_figure, panels_of, reaction
@@ -273,3 +274,29 @@ def test_a_total_that_hardly_changes_is_flat() -> None:
     axes = Figure().add_subplot()
     reaction(axes, PlotData.of_result(result("slope-friction.keyxm", "slope-friction.csv")))
     assert axes.get_ylim() == pytest.approx((57_948.0, 58_531.0), rel=2e-3)
+
+
+def test_evaluated_points_with_a_suction_spring_lie_on_the_drawn_lines() -> None:
+    scene, curve = lines(1).known, ForceCurve(np.array([[0.0, 0.0], [0.05, 200.0], [0.5, 900.0]]))
+    laws = (
+        LawAssignment("curve", np.arange(4), {"curve": 0}),
+        LawAssignment("suction spring", np.arange(4), {"stiffness": 2e3, "extent": 0.05}),
+    )
+    given = ContactInput(
+        scene.node_ids,
+        scene.coordinates,
+        scene.element_ids,
+        scene.element_nodes,
+        scene.length,
+        scene.diameter,
+        laws,
+        (curve,),
+    )
+    found = ContactModel(given).evaluate()
+    assert found.force.min() < 0.0 < found.force.max()
+    axes = panel(PlotData.of_result(found), "curves")
+    knots = np.unique(np.concatenate([np.asarray(line.get_xydata()) for line in axes.get_lines()]), axis=0)
+    marks = np.asarray(axes.collections[0].get_offsets())
+    assert len(np.unique(marks, axis=0)) == np.count_nonzero(found.force) == 3
+    np.testing.assert_allclose(np.interp(marks[:, 0], *knots.T), marks[:, 1], rtol=1e-9)
+    assert knots[0] == pytest.approx([-0.05, -50.0])

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from mudline import ContactWarning
+from mudline.model.contact.result import Part
 from mudline.model.results.evaluation import evaluate_scene
 from mudline.model.results.warnings import ContactWatch, caption, contact_warnings, seabed_warnings
 from mudline.model.scene.numbering import Floats
@@ -370,7 +371,7 @@ def test_pieces_give_what_the_whole_series_gives() -> None:
     result = scene.contact().evaluate(places)
     watch = ContactWatch(scene, result.evaluated, places[0], own=False)
     for start in range(4):
-        watch.look(start, result.steps(start, start + 1))
+        watch.take(Part(start, result.steps(start, start + 1)))
     assert watch.warnings() == contact_warnings(scene, result, places)
     assert [one.elements for one in watch.warnings()] == [10]
 

@@ -56,7 +56,11 @@ def read_reference(path: Path, evaluation: Evaluation) -> Reference:
     element = evaluation.scene.table.numbered.indices(ids)
     used = np.flatnonzero((step >= 0) & (element >= 0))
     used = used[np.lexsort((element[used], step[used]))]
-    _once(table, ids, step[used], element[used], used)
+    again = np.flatnonzero((np.diff(step[used]) == 0) & (np.diff(element[used]) == 0))
+    if again.size:
+        row = int(max(used[again[0]], used[again[0] + 1]))
+        at = f" at time {table.columns['time'][row]}" if "time" in table.columns else ""
+        raise table.fault(row, "element", f"element {ids[row]} is given twice{at}")
     clock = evaluation.time if evaluation.time is not None else np.zeros(0)
     return Reference(
         table.file,
@@ -75,12 +79,9 @@ def _steps(table: CsvTable, times: Floats | None, evaluation: Evaluation) -> Ind
     if times is None:
         if evaluation.steps > 1:
             raise data_error(table.file, f"no column time, to compare with {evaluation.steps} time steps")
-        return np.zeros(len(table.lines), dtype=np.intp)
-    if clock is None:
-        if len(np.unique(times)) > 1:
-            raise data_error(
-                table.file, "several times, to compare with one state: give --positions with the same times"
-            )
+    elif clock is None and len(np.unique(times)) > 1:
+        raise data_error(table.file, "several times, to compare with one state: give --positions with the same times")
+    if times is None or clock is None:
         return np.zeros(len(table.lines), dtype=np.intp)
     order = np.argsort(clock, kind="stable")
     after = np.searchsorted(clock[order], times).clip(0, len(clock) - 1)
@@ -94,19 +95,6 @@ def _steps(table: CsvTable, times: Floats | None, evaluation: Evaluation) -> Ind
         first, last = float(clock.min()), float(clock.max())
         raise data_error(table.file, f"none of its times is evaluated: these are from {first!r} to {last!r}")
     return found
-
-
-def _once(table: CsvTable, ids: Ids, step: Indices, element: Indices, used: Indices) -> None:
-    """An element has one row a step."""
-    again = np.flatnonzero((np.diff(step) == 0) & (np.diff(element) == 0))
-    if again.size:
-        row = int(max(used[again[0]], used[again[0] + 1]))
-        raise table.fault(
-            row,
-            "element",
-            f"element {ids[row]} is given twice"
-            + (f" at time {table.columns['time'][row]}" if "time" in table.columns else ""),
-        )
 
 
 @dataclass(slots=True)

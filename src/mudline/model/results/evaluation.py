@@ -81,7 +81,12 @@ class Evaluation:
     @cached_property
     def elements(self) -> Indices:
         """Indices of the elements that are evaluated: those with a position of both nodes."""
-        return np.flatnonzero(self.present[self.scene.element_nodes].all(axis=1))
+        return np.flatnonzero(self.evaluated)
+
+    @property
+    def evaluated(self) -> Mask:
+        """The elements (m,) that are evaluated."""
+        return np.asarray(self.present[self.scene.element_nodes].all(axis=1))
 
     @cached_property
     def nodes(self) -> Indices:
@@ -92,11 +97,6 @@ class Evaluation:
     def lines(self) -> Indices:
         """Indices of the lines with an evaluated element."""
         return np.unique(self.model.input.lines.of_element[self.elements])
-
-    @property
-    def skipped(self) -> int:
-        """Elements without a position of both nodes."""
-        return len(self.scene.element_ids) - len(self.elements)
 
     @cached_property
     def touchdown(self) -> Touchdown:
@@ -131,19 +131,13 @@ class Evaluation:
 
         Raises DeckError: a position that is not finite, a value that overflows.
         """
+        clock = self.time if self.model.input.needs_velocities else None
         with as_deck_errors(self.scene):
             for part in self.model.stream(
-                self.positions, present=self.present, velocities=self.velocities, times=self._clock
+                self.positions, present=self.present, velocities=self.velocities, times=clock
             ):
-                yield self._timed(part)
-
-    @property
-    def _clock(self) -> Floats | None:
-        """The times of the steps, where a law asks for velocities."""
-        return self.time if self.model.input.needs_velocities else None
-
-    def _timed(self, part: Part) -> Part:
-        return part if self.time is None else Part(part.start, replace(part.result, times=self.time[part.steps]))
+                times = None if self.time is None else self.time[part.steps]
+                yield part if times is None else Part(part.start, replace(part.result, times=times))
 
 
 def evaluate_scene(scene: Scene, positions: Positions | None = None, tension: Tension = "keep") -> Evaluation:
@@ -152,7 +146,11 @@ def evaluate_scene(scene: Scene, positions: Positions | None = None, tension: Te
     Raises DeckError: errors in the deck, elements without known nodes or coordinates, times that a law cannot use.
     """
     if positions is None:
-        _require_coordinates(scene.require_evaluable(tension))
+        missing = np.isnan(scene.require_evaluable(tension).coordinates).any(axis=1)
+        if missing.any():
+            example = int(scene.node_ids[np.argmax(missing)])
+            message = f"{int(missing.sum())} nodes have no coordinates, node {example} is one"
+            raise scene.refusal(f"{message}: give them with --positions")
     ready = prepare(scene, positions, tension)
     given = positions or Positions(scene.coordinates[np.newaxis], np.ones(len(scene.nodes), dtype=bool), None)
     if ready.model.plan.history:
@@ -195,7 +193,10 @@ def require_elements(scene: Scene) -> None:
     """Raise DeckError for a scene without elements, or with some that end at nodes that are not known."""
     definers = scene.set_table.context.external_definers
     if not len(scene.element_ids):
-        hint = _maker_hint(definers, "ELEMENT") or _unknown_hint(scene)
+        hint = _maker_hint(definers, "ELEMENT")
+        unknown = sum(one.code == SYN009 for one in scene.deck.problems)
+        if unknown and not hint:  # those of the elements may be among them
+            hint = f": {counted(unknown, 'keyword')} of it not known, `mudline lint` names them"
         raise scene.refusal(f"the deck has no elements to evaluate{hint}")
     dangling = np.flatnonzero((scene.element_nodes < 0).any(axis=1))
     if dangling.size:
@@ -211,12 +212,6 @@ def _maker_hint(definers: Sequence[str], keyword: str) -> str:
     return f": {names} {why}; give them to `mudline evaluate --elements`" if names else ""
 
 
-def _unknown_hint(scene: Scene) -> str:
-    """Where keywords are not known, those of the elements may be among them."""
-    unknown = sum(one.code == SYN009 for one in scene.deck.problems)
-    return f": {counted(unknown, 'keyword')} of it not known, `mudline lint` names them" if unknown else ""
-
-
 def _with_lengths(scene: Scene, positions: Positions | None) -> tuple[Scene, int]:
     """Lengths that the deck's coordinates do not give come from the first step of the positions; else they are 0."""
     unknown = np.isnan(scene.length)
@@ -228,14 +223,6 @@ def _with_lengths(scene: Scene, positions: Positions | None) -> tuple[Scene, int
     length = scene.length.copy()
     length[unknown] = np.where(np.isnan(between), 0.0, between)
     return replace(scene, table=scene.table._replace(length=length)), int((~np.isnan(between)).sum())
-
-
-def _require_coordinates(scene: Scene) -> None:
-    missing = np.isnan(scene.coordinates).any(axis=1)
-    if missing.any():
-        example = int(scene.node_ids[np.argmax(missing)])
-        message = f"{int(missing.sum())} nodes have no coordinates, node {example} is one: give them with --positions"
-        raise scene.refusal(message)
 
 
 def _require_clock(ready: Prepared, positions: Positions) -> None:

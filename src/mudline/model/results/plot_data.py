@@ -17,7 +17,7 @@ from mudline.model.contact.lines import TouchdownPoint
 from mudline.model.contact.result import Part
 from mudline.model.contact.touchdown import Touchdown
 from mudline.model.results.evaluation import Evaluation
-from mudline.model.results.totals import traces
+from mudline.model.results.totals import step_figures
 from mudline.model.scene.numbering import Floats, Indices, Mask
 
 _BINS = 2000
@@ -149,8 +149,7 @@ class PlotData:
     @classmethod
     def of_evaluation(cls, evaluation: Evaluation, elements: Sequence[int] = ()) -> PlotData:
         """Prepare for the parts of an evaluation; raises as the class does."""
-        evaluated: Mask = np.all(evaluation.present[evaluation.scene.element_nodes], axis=1)
-        return cls(evaluation.model.input, evaluated, evaluation.steps, evaluation.time, elements=elements)
+        return cls(evaluation.model.input, evaluation.evaluated, evaluation.steps, evaluation.time, elements=elements)
 
     @classmethod
     def of_result(cls, result: ContactResult, elements: Sequence[int] = ()) -> PlotData:
@@ -179,11 +178,12 @@ class PlotData:
 
     def take(self, part: Part) -> None:
         """Look at some steps."""
-        result, of_part = part.result, traces(part)
+        result = part.result
+        of_part = {name: np.asarray(found.values[:, 0], np.float64) for name, found in step_figures(part).items()}
         bins = np.arange(part.start, part.start + part.count) * self._bins // self.steps
-        self.reaction.take_bins(bins, of_part["reaction"].values)
-        self._choose("reaction", part, of_part["reaction"].values)
-        self._choose("pull", part, of_part["pull"].values)
+        self.reaction.take_bins(bins, of_part["reaction"])
+        self._choose("reaction", part, of_part["reaction"])
+        self._choose("pull", part, of_part["pull"])
         if result.friction is not None:
             self._choose("friction", part, np.nan_to_num(np.abs(result.friction)).max(axis=(1, 2), initial=0.0))
         self.touched |= result.contact.any(axis=0) & result.evaluated

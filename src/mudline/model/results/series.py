@@ -12,28 +12,18 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.basics.quantities import ELEMENTS, LINES, NODES, SLIDING, STEPS, Quantity, time_unit
+from mudline.basics.quantities import ELEMENTS, LINES, NODES, SLIDING, STEPS, time_unit
 from mudline.model.contact.columns import NO_ELEMENT, Column, ElementTable, NodeTable, Values, kept
 from mudline.model.contact.input import LawKind
 from mudline.model.contact.result import Part
 from mudline.model.contact.touchdown import LineSeries, LineTable
 from mudline.model.results.evaluation import Evaluation
 from mudline.model.results.forms import Tables, plan_rows
-from mudline.model.results.totals import HELD, traces
+from mudline.model.results.totals import HELD, Followed, step_figures
 from mudline.model.results.warnings import ContactWarning
 from mudline.model.scene.numbering import Floats, Mask
 
 _NO_STEP = -1
-
-
-class Followed(NamedTuple):
-    """Values (steps, k) of some steps: numbers, NaN for none, or a condition, whose steps are counted.
-
-    `at` (steps, k) goes with the numbers, as the index of the element that a number is of.
-    """
-
-    values: NDArray[np.floating] | NDArray[np.bool_]
-    at: Values | None = None
 
 
 Figures = Mapping[str, Followed]
@@ -90,14 +80,6 @@ def _side_by_side(lines: Sequence[LineSeries], name: str, part: Part) -> Values:
     return np.stack([getattr(line, name) for line in lines], axis=1) if lines else np.zeros((part.count, 0))
 
 
-def _of_all(_: Evaluation, part: Part) -> Figures:
-    """The figures of `STEPS`."""
-    return {
-        name: Followed(values[:, np.newaxis], None if at is None else at[:, np.newaxis])
-        for name, (values, at) in traces(part).items()
-    }
-
-
 def _of_case(evaluation: Evaluation, part: Part) -> Figures:
     """The figures of `CASES`: over all lines that may lie on the seabed, or all lines if none may."""
     law = evaluation.model.input.law
@@ -139,7 +121,7 @@ FIGURES: Mapping[str, Callable[[Evaluation, Part], Figures]] = {
     "elements": _of_elements,
     "nodes": _of_nodes,
     "summary": _of_lines,
-    "totals": _of_all,
+    "totals": lambda _, part: step_figures(part),
     "case": _of_case,
     "suction": _of_suction,
 }
@@ -285,7 +267,10 @@ def series_tables(summary: SeriesSummary, warnings: Sequence[ContactWarning]) ->
         "nodes": NodeTable(given, evaluation.nodes).facts(),
         "summary": LineTable(given, evaluation.elements).facts(),
     }
-    tables = {table: [*facts[table], *_extremes(summary, table, times), *_counts(summary, table)] for table in facts}
+    tables = {table: [*facts[table], *_extremes(summary, table, times)] for table in facts}
+    for (table, name), counts in summary.counts.items():
+        if table in facts:
+            tables[table].append(_column(name, counts))
     tables["totals"] = _totals(summary, times)
     more = {
         "steps": evaluation.steps,
@@ -296,33 +281,17 @@ def series_tables(summary: SeriesSummary, warnings: Sequence[ContactWarning]) ->
     return Tables(tables, SERIES_FORMAT, given.units, more)
 
 
-def _quantity(table: str, figure: str) -> Quantity:
-    if table == "summary":
-        return LINES[_OF_LINES.get(figure, figure)]
-    return (ELEMENTS if table == "elements" else NODES)[figure]
-
-
 def _extremes(summary: SeriesSummary, table: str, times: Floats | None) -> Iterator[Column]:
     """Of each figure the least and the largest value, its step and its time."""
-    units = summary.evaluation.scene.units
+    units, of_table = summary.evaluation.scene.units, {"elements": ELEMENTS, "nodes": NODES, "summary": LINES}[table]
     for figure, found in [(name, each) for (of, name), each in summary.extremes.items() if of == table]:
-        quantity = _quantity(table, figure)
+        quantity = of_table[_OF_LINES.get(figure, figure) if table == "summary" else figure]
         for side, best in (("least", found.least), ("largest", found.largest)):
-            values = np.where(best.steps >= 0, best.values, np.nan)
-            yield from _timed(f"{quantity.name}_{side}", values, best.steps, times, quantity, units)
-
-
-def _timed(
-    name: str, values: Floats, steps: NDArray[np.int64], times: Floats | None, quantity: Quantity, units: str
-) -> Iterator[Column]:
-    yield _column(name, values, unit=quantity.unit_name(units))
-    yield _column(f"{name}_step", steps, blank=_NO_STEP)
-    if times is not None:
-        yield _column(f"{name}_time", np.where(steps >= 0, times[steps], np.nan), unit=time_unit(units))
-
-
-def _counts(summary: SeriesSummary, table: str) -> Iterator[Column]:
-    return (_column(name, counts) for (of, name), counts in summary.counts.items() if of == table)
+            name, steps, known = f"{quantity.name}_{side}", best.steps, best.steps >= 0
+            yield _column(name, np.where(known, best.values, np.nan), unit=quantity.unit_name(units))
+            yield _column(f"{name}_step", steps, blank=_NO_STEP)
+            if times is not None:
+                yield _column(f"{name}_time", np.where(known, times[steps], np.nan), unit=time_unit(units))
 
 
 def _totals(summary: SeriesSummary, times: Floats | None) -> list[Column]:

@@ -28,7 +28,7 @@ CURVE_SIDES = {-1: "below", 0: None, 1: "above"}
 
 def summarise(scene: Scene) -> dict[str, Any]:
     """Sections, keywords, counts, sets, curves, diameters and laws of a deck."""
-    deck = scene.deck
+    deck, known = scene.deck, scene.length[~np.isnan(scene.length)]
     return {
         "file": deck.file,
         "units": deck.units,
@@ -43,7 +43,7 @@ def summarise(scene: Scene) -> dict[str, Any]:
         "keywords": asdict(coverage_of(deck)),
         "nodes": len(scene.node_ids),
         "elements": len(scene.element_ids),
-        "length": _total_length(scene),
+        "length": _sum(known) if known.size else None,
         "sets": _sets(scene),
         "curves": _curves(scene),
         "diameters": _diameters(scene),
@@ -60,11 +60,6 @@ def _keyword(block: Block | Opaque) -> dict[str, Any]:
     """A keyword: whether its lines are read, and whether some of them were passed over."""
     found = extent(block)
     return {"keyword": block.keyword, "read": found != "unread", "partly": found == "partly"}
-
-
-def _total_length(scene: Scene) -> float | None:
-    known = scene.length[~np.isnan(scene.length)]
-    return _sum(known) if known.size else None
 
 
 def _sum(lengths: NDArray[np.float64]) -> float | None:
@@ -208,7 +203,8 @@ def static_embedment(scene: Scene) -> list[dict[str, Any]]:
     """
     weight = scene.submerged_weight
     known = np.flatnonzero((weight > 0.0) & np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR)))
-    arrays, zones = scene.law_arrays(), _Zones.of_elements(scene)
+    smoothing = element_smoothing(scene) if "SEABED CONTACT" in scene.extensions else None
+    arrays, zones = scene.law_arrays(), _Zones.of(smoothing, len(scene.element_ids))
     rows = [_of_element(scene, arrays, zones, case) for case in _cases(scene, weight, zones, known)]
     return [*rows, *_of_nodes(scene, weight)][:_TABLE_ROWS]
 
@@ -227,12 +223,6 @@ class _Zones(NamedTuple):
             half_width[law.rows] = law.parameters["half_width"]
             one_sided[law.rows] = law.parameters["one_sided"]
         return cls(half_width, one_sided)
-
-    @classmethod
-    def of_elements(cls, scene: Scene) -> _Zones:
-        """Return the zones of linear laws."""
-        smoothing = element_smoothing(scene) if "SEABED CONTACT" in scene.extensions else None
-        return cls.of(smoothing, len(scene.element_ids))
 
 
 def _cases(scene: Scene, weight: Floats, zones: _Zones, elements: Indices) -> list[_Case]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
-from typing import Generic, NamedTuple, TypeVar
+from typing import Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,21 +82,15 @@ def totals(evaluation: Evaluation, part: Part) -> list[Total]:
     """By law and set, in the order of the elements, at the first step of a part."""
     scene, result = evaluation.scene, part.result.step(0)
     groups: dict[tuple[str, str], list[int]] = {}
-    with np.errstate(over="ignore"):
-        line_forces = result.force * evaluation.length
     for index in evaluation.elements.tolist():
         groups.setdefault((scene.law_names[index], scene.law_sets[index] or ""), []).append(index)
-    return [
-        Total(
-            law,
-            name,
-            len(members),
-            int(result.contact[members].sum()),
-            _deepest(result.depth[members]),
-            None if law in _AT_NODES else _sum(line_forces[members]),
-        )
-        for (law, name), members in groups.items()
-    ]
+    rows = []
+    with np.errstate(over="ignore", invalid="ignore"):
+        for (law, name), members in groups.items():
+            touching, deepest = int(result.contact[members].sum()), _deepest(result.depth[members])
+            force = float((result.force[members] * evaluation.length[members]).sum())
+            rows.append(Total(law, name, len(members), touching, deepest, None if law in _AT_NODES else force))
+    return rows
 
 
 def reaction(evaluation: Evaluation, result: ContactResult) -> float:
@@ -180,44 +174,38 @@ def _deepest(depth: Floats) -> float | None:
     return finite(float(known.max())) if known.size else None
 
 
-def _sum(forces: Floats) -> float:
-    with np.errstate(over="ignore", invalid="ignore"):
-        return float(forces.sum())
+class Followed(NamedTuple):
+    """Values (steps, k) of some steps: numbers, NaN for none, or a condition, whose steps are counted.
 
-
-class Trace(NamedTuple):
-    """A figure of some steps (steps,), NaN where there is none, and the indices of its elements; -1 for none.
-
-    A figure of all elements together has no indices.
+    `at` (steps, k) goes with the numbers, as the index of the element that a number is of, -1 for none.
     """
 
-    values: Floats
-    elements: Indices | None = None
+    values: NDArray[np.floating] | NDArray[np.bool_]
+    at: NDArray[Any] | None = None
 
 
-def traces(part: Part) -> dict[str, Trace]:
-    """The figures of the steps of a part by the names of `STEPS`."""
+def step_figures(part: Part) -> dict[str, Followed]:
+    """Return the figures of `STEPS` of the steps of a part, each as one column."""
     result, chosen = part.result, np.flatnonzero(part.result.evaluated)
     with np.errstate(over="ignore", invalid="ignore"):
         reaction = total_normal_force(result, result.present)
     force = result.force[:, chosen]
     return {
-        "reaction": Trace(reaction),
+        "reaction": Followed(reaction[:, np.newaxis]),
         "force": _largest(force, chosen, by_size=True),
         "pull": _largest(np.maximum(0.0 - force, 0.0), chosen, by_size=False),
-        "touching": Trace(np.count_nonzero(result.contact[:, chosen], axis=1).astype(np.float64)),
+        "touching": Followed(result.contact[:, chosen].sum(axis=1, keepdims=True, dtype=np.float64)),
         "deepest": _largest(result.depth[:, chosen], chosen, by_size=False),
     }
 
 
-def _largest(values: Floats, chosen: Indices, *, by_size: bool) -> Trace:
-    steps = np.arange(len(values))
+def _largest(values: Floats, chosen: Indices, *, by_size: bool) -> Followed:
     if not values.shape[1]:
-        return Trace(np.full(len(values), np.nan), np.full(len(values), -1))
+        return Followed(np.full((len(values), 1), np.nan), np.full((len(values), 1), -1))
     ranked = np.where(np.isnan(values), -np.inf, np.abs(values) if by_size else values)
-    column = ranked.argmax(axis=1)
-    found = values[steps, column]
-    return Trace(found, np.where(np.isnan(found), -1, chosen[column]))
+    column = ranked.argmax(axis=1)[:, np.newaxis]
+    found = np.take_along_axis(values, column, axis=1)
+    return Followed(found, np.where(np.isnan(found), -1, chosen[column]))
 
 
 class First(Generic[Row]):

@@ -83,7 +83,7 @@ def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | No
     if not len(places):
         raise ValueError("positions must have one step or more")
     watch = ContactWatch(scene, result.evaluated, places.reshape(-1, *places.shape[-2:])[0], own=positions is None)
-    watch.look(0, result)
+    watch.take(Part(0, result.as_series()))
     return watch.warnings()
 
 
@@ -163,35 +163,25 @@ class ContactWatch:
     @classmethod
     def of(cls, evaluation: Evaluation) -> ContactWatch:
         """What watches an evaluation."""
-        evaluated = np.zeros(len(evaluation.scene.element_ids), dtype=np.bool_)
-        evaluated[evaluation.elements] = True
         places = np.asarray(evaluation.positions[0], dtype=np.float64)
         own = evaluation.own_positions
-        return cls(evaluation.scene, evaluated, places, own=own, times=evaluation.time)
+        return cls(evaluation.scene, evaluation.evaluated, places, own=own, times=evaluation.time)
 
     def take(self, part: Part) -> None:
         """Look at some steps."""
-        self.look(part.start, part.result)
-
-    def look(self, start: int, result: ContactResult) -> None:
-        """Look at the steps `start` and on, or at a single state."""
-        contact = np.atleast_2d(result.contact)
+        result = part.result
         if self._judged or not self._acts:
-            self._touched |= contact.any(axis=0)
+            self._touched |= result.contact.any(axis=0)
         if result.restrained is not None:
-            self._restrained |= np.atleast_2d(result.restrained).any(axis=0)
+            self._restrained |= result.restrained.any(axis=0)
         if not self._acts:
-            self._acts = bool(self._touched.any()) or self._is_held(result)
+            self._acts = bool(self._touched.any() or self._restrained.any())
+            # A spring acts on a node without an element in contact.
+            self._acts |= self._sprung and bool(result.normal_force[:, self._columns].any())
             if not self._acts:
-                self._measure(start, np.atleast_2d(result.gap)[:, self._columns])
-        if self._own and start == 0:
-            self.balance = self._weigh(contact[0], np.atleast_2d(result.normal_force)[0])
-
-    def _is_held(self, result: ContactResult) -> bool:
-        """Whether the seabed acts on a node without an element in contact, as a rigid one or a spring of it does."""
-        if self._sprung and np.atleast_2d(result.normal_force)[:, self._columns].any():
-            return True
-        return result.restrained is not None and bool(result.restrained.any())
+                self._measure(part.start, result.gap[:, self._columns])
+        if self._own and part.start == 0:
+            self.balance = self._weigh(result.contact[0], result.normal_force[0])
 
     def _measure(self, start: int, gap: Floats) -> None:
         """Keep the smallest distance of the nodes above the seabed; NaN is where there is none."""
@@ -328,15 +318,13 @@ class ContactWatch:
         if not light.size or self._weighs_more:
             return
         behind = unit_names(scene.units).behind("line_force") or " per length"
+        least = float(scene.submerged_weight[light].min())
         message = (
-            f"{scene.describe(light, 'floats', 'float')}: submerged weight {shown(self._least(light))}{behind} without "
+            f"{scene.describe(light, 'floats', 'float')}: submerged weight {shown(least)}{behind} without "
             "contents; check diameters and densities"
         )
         where = scene.section_table.sections[int(scene.section_table.of_element[light[0]])].where
         yield self._warning(RUN004, message, where, light, f"{counted(len(light), 'element')} floating")
-
-    def _least(self, elements: Indices) -> float:
-        return float(self._scene.submerged_weight[elements].min())
 
     def _curves(self) -> Iterator[ContactWarning]:
         """Curves that no element follows; not those that an unknown keyword may use, which is the cause then."""

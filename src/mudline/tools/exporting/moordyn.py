@@ -101,21 +101,23 @@ def _line_type(section: PipeSection, name: str) -> str:
 def _joined(model: LineModel, types: list[str]) -> tuple[list[str], list[str]]:
     """The rows of points: the ends, then the joints; and those of lines."""
     on_bed = model.levels(*model.places[:, :2].T)
-    rows = []
-    for number, end in enumerate(model.ends, 1):
-        x, y, z = model.places[end.node].tolist()
-        kind = "Coupled" if end.vessel else "Free" if end.joins else "Fixed"
+    rows: list[str] = []
+
+    def add_point(node: int, kind: str) -> None:
+        x, y, z = model.places[node].tolist()
         # MoorDyn lowers the whole seabed to a point that is below it.
-        rows.append(f"{number} {kind} {x!r} {y!r} {max(z, float(on_bed[end.node]))!r} 0 0 0 0")
+        rows.append(f"{len(rows) + 1} {kind} {x!r} {y!r} {max(z, float(on_bed[node]))!r} 0 0 0 0")
+
+    for end in model.ends:
+        add_point(end.node, "Coupled" if end.vessel else "Free" if end.joins else "Fixed")
     lines: list[str] = []
     for line, parts in zip(model.lines, pieces(model), strict=True):
         at = line.begin + 1
         for part in parts:
-            last = part is parts[-1]
-            to = line.end + 1 if last else len(rows) + 1
-            if not last:
-                x, y, z = model.places[part.nodes[-1]].tolist()
-                rows.append(f"{to} Free {x!r} {y!r} {max(z, float(on_bed[part.nodes[-1]]))!r} 0 0 0 0")
+            to = line.end + 1
+            if part is not parts[-1]:
+                add_point(int(part.nodes[-1]), "Free")
+                to = len(rows)
             length = float(part.lengths.sum())
             lines.append(f"{len(lines) + 1} {types[part.section]} {at} {to} {length!r} {segments(part)} p")
             at = to

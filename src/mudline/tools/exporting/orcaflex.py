@@ -60,9 +60,9 @@ def write(model: LineModel, name: str) -> dict[str, str]:
             message = "lines join at this node, which takes a buoy in OrcaFlex: hold it, or export one line only"
             raise model.scene.refusal(message, model.scene.nodes.where(end.node))
     soil = governing(model.soils, model.soil_lengths)
-    types = _types(model)
+    keys = dict.fromkeys(_key(model, piece) for parts in pieces(model) for piece in parts)
     taken = Names(model.report, "A-Za-z0-9_. ()", 50, [line.name for line in model.lines])
-    names = {key: taken.take(each, model.sections[key[0]].where) for key, each in types.items()}
+    names = {key: taken.take(model.sections[key[0]].name, model.sections[key[0]].where) for key in keys}
     environment = _environment(model, soil)
     lines = [_line(model, at, names) for at in range(len(model.lines))]
     _report(model, names, soil)
@@ -110,12 +110,6 @@ Key = tuple[int, float, float]
 def _key(model: LineModel, piece: Stretch) -> Key:
     soil = model.soils[piece.soil]
     return piece.section, soil.axial, soil.lateral
-
-
-def _types(model: LineModel) -> dict[Key, str]:
-    """The line types by section and friction, and the name of the section of each."""
-    keys = (_key(model, piece) for parts in pieces(model) for piece in parts)
-    return {key: model.sections[key[0]].name for key in keys}
 
 
 def _line_type(model: LineModel, key: Key, name: str) -> Items:

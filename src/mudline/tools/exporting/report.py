@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from mudline.language.codes import RUN001
-from mudline.language.deck.model import Opaque
 from mudline.language.diagnostics import Problem, Where
 from mudline.language.keywords import catalogue
 from mudline.language.keywords.model import Block
@@ -101,7 +100,11 @@ class Report:
         for i, section in enumerate(self.scene.deck.sections):
             for j, block in enumerate(section.blocks):
                 if (i, j) not in self._claimed:
-                    effect = _EFFECTS.get(block.keyword) or _BY_SUBJECT.get(_subject(block, section.name), _UNKNOWN)
+                    known = next((entry.subject for entry in catalogue.entries(block.keyword)), "")
+                    subject = block.subject if isinstance(block, Block) else known
+                    if section.name.endswith("POSTPROCESSING"):
+                        subject = "post-processing"
+                    effect = _EFFECTS.get(block.keyword) or _BY_SUBJECT.get(subject, _UNKNOWN)
                     self.add(Where(i, j), Status.LEFT_OUT, "none", effect)
         self.entries.sort(key=lambda entry: (entry.file != self.scene.deck.file, entry.file, entry.line))
 
@@ -149,15 +152,6 @@ def _some(words: Iterable[str]) -> str:
     each = list(dict.fromkeys(words))
     more = len(each) - _MOST_NAMED
     return ", ".join(each[:_MOST_NAMED]) + (f" and {more} more" if more > 0 else "")
-
-
-def _subject(block: Block | Opaque, section: str) -> str:
-    """What a block is about; "" for one that is not known."""
-    if section.endswith("POSTPROCESSING"):
-        return "post-processing"
-    if isinstance(block, Block):
-        return block.subject
-    return next((entry.subject for entry in catalogue.entries(block.keyword)), "")
 
 
 def one_line(text: str) -> str:

@@ -137,7 +137,13 @@ def _friction(scene: ResolvedDeck) -> Floats:
 def _soil(scene: ResolvedDeck, units: Units, arrays: LawArrays, at: int, friction: list[float]) -> Soil:
     kind = LawKind(int(scene.law[at]))
     weight, diameter = float(np.nan_to_num(scene.submerged_weight[at])), float(np.nan_to_num(scene.diameter[at]))
-    stiffness, tangent, parameters = _stiffness(scene, arrays, at, kind, weight)
+    parameters = {}
+    if kind is LawKind.SOIL:
+        named = soil_parameters(scene.extensions["SEABED SOIL"], np.array([at]))
+        parameters = {name: float(values[0]) for name, values in named.items()}
+        stiffness, tangent = _of_soil(parameters, weight, diameter)
+    else:
+        stiffness, tangent = _stiffness(scene, arrays, at, kind, weight)
     where = None if (law := scene.set_law(at)) is None else law.where
     for keyword in ("SEABED SOIL",) if kind is LawKind.SOIL else ("SEABED CONTACT",) if kind is LawKind.NODAL else ():
         where = scene.extensions[keyword].places[int(scene.extensions[keyword].of_element[at])]
@@ -160,43 +166,35 @@ def _soil(scene: ResolvedDeck, units: Units, arrays: LawArrays, at: int, frictio
         friction[2] * units.stiffness,
         friction[3] * units.stiffness,
         friction_at,
-        parameters,
+        tuple(parameters.items()),
     )
 
 
-def _stiffness(
-    scene: ResolvedDeck, arrays: LawArrays, at: int, kind: LawKind, weight: float
-) -> tuple[float, float, tuple[tuple[str, float], ...]]:
-    """Secant and tangent at the static penetration, in the deck's units, and the parameters of a soil."""
-    diameter = float(np.nan_to_num(scene.diameter[at]))
+def _stiffness(scene: ResolvedDeck, arrays: LawArrays, at: int, kind: LawKind, weight: float) -> tuple[float, float]:
+    """Secant and tangent at the static penetration, in the deck's units."""
+    diameter, stiffness = float(np.nan_to_num(scene.diameter[at])), 0.0
     if kind is LawKind.LINEAR:
-        return (float(arrays.linear_stiffness[at]),) * 2 + ((),)
-    if kind is LawKind.RIGID:
-        return (max(weight, 1.0) / (_RIGID_SHARE * diameter),) * 2 + ((),) if diameter else (0.0, 0.0, ())
-    if kind is LawKind.NODAL:
+        stiffness = float(arrays.linear_stiffness[at])
+    elif kind is LawKind.RIGID and diameter:
+        stiffness = max(weight, 1.0) / (_RIGID_SHARE * diameter)
+    elif kind is LawKind.NODAL:
         springs = nodal_stiffness(scene, scene.extensions["SEABED CONTACT"])
-        return (float(np.nanmean(springs[scene.element_nodes[at]])) / float(scene.length[at]),) * 2 + ((),)
-    if kind is LawKind.CURVE:
+        stiffness = float(np.nanmean(springs[scene.element_nodes[at]])) / float(scene.length[at])
+    elif kind is LawKind.CURVE:
         curve = arrays.curves[int(arrays.curve_index[at])]
         ratio = next((each for each in curve.ratios_at_force(weight) if each > 0.0), 0.0) if weight > 0.0 else 0.0
         loaded = (curve.ratios > 0.0) & (curve.forces > 0.0)
         ratio = ratio or float(np.min(curve.ratios, initial=np.inf, where=loaded))
         force, slope = (float(value) for value in curve.evaluate(ratio if np.isfinite(ratio) else 1.0))
-        return max(force, 0.0) / (ratio * diameter), slope / diameter, ()
-    if kind is LawKind.SOIL:
-        return _of_soil(scene, at, weight, diameter)
-    return 0.0, 0.0, ()
+        return max(force, 0.0) / (ratio * diameter), slope / diameter
+    return stiffness, stiffness
 
 
-def _of_soil(
-    scene: ResolvedDeck, at: int, weight: float, diameter: float
-) -> tuple[float, float, tuple[tuple[str, float], ...]]:
-    named = soil_parameters(scene.extensions["SEABED SOIL"], np.array([at]))
-    numbers = tuple(float(values[0]) for values in named.values())
-    parameters = tuple(zip(named, numbers, strict=True))
+def _of_soil(parameters: dict[str, float], weight: float, diameter: float) -> tuple[float, float]:
+    """Secant and tangent of a soil at the static penetration."""
 
     def reaction(z: float) -> tuple[float, float]:
-        pairs = (initial(z, diameter, numbers), lift(z, diameter, named["buoyancy"][0]))
+        pairs = (initial(z, diameter, tuple(parameters.values())), lift(z, diameter, parameters["buoyancy"]))
         return sum(float(force) for force, _ in pairs), sum(float(slope) for _, slope in pairs)
 
     low, high = 0.0, 10.0 * diameter
@@ -204,7 +202,7 @@ def _of_soil(
         middle = 0.5 * (low + high)
         low, high = (middle, high) if reaction(middle)[0] < max(weight, 1e-6) else (low, middle)
     force, slope = reaction(high)
-    return force / high, slope, parameters
+    return force / high, slope
 
 
 def governing(soils: list[Soil], length: Floats) -> Soil:
@@ -230,12 +228,7 @@ def report_stiffness(report: Report, soils: list[Soil], name: str, used: list[fl
         for entry in report.scene.laws.curves if curve else ():
             if entry.name == curve:
                 report.add(entry.where, status, target, effect)
-    _report_unfollowed(report, {soil.where for soil in soils})
-
-
-def _report_unfollowed(report: Report, reported: set[Where | None]) -> None:
-    """Add the laws and curves that no element follows."""
-    laws = report.scene.laws
+    reported, laws = {soil.where for soil in soils}, report.scene.laws
     for law in laws.set_laws:
         if law.where not in reported:
             report.add(law.where, Status.LEFT_OUT, "none", "no element follows this law")

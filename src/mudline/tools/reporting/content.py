@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from mudline import __version__
 from mudline.basics.quantities import finite
 from mudline.checks.context import LintContext
 from mudline.checks.engine import LintSettings, joined_problems, named_causes
@@ -59,13 +60,6 @@ class Given(NamedTuple):
     modified: int | None
 
 
-class Stamp(NamedTuple):
-    """What is written on a page of who made it: the version of the program, and a date if one is given."""
-
-    version: str
-    date: str | None = None
-
-
 class Look(NamedTuple):
     """What a company gives a page: a template instead of ours, and a logo."""
 
@@ -93,10 +87,13 @@ class Report:
     """The titles of the rules behind the findings, by code."""
 
 
-def report_on(given: Given, settings: LintSettings, wanted: Collection[str], stamp: Stamp) -> Report:
-    """Read, judge and evaluate a deck as far as the wanted sections need it. Never raises for content."""
+def report_on(given: Given, settings: LintSettings, wanted: Collection[str], date: str | None = None) -> Report:
+    """Read, judge and evaluate a deck as far as the wanted sections need it; `date` is written on the page.
+
+    Never raises for content.
+    """
     verdict, deck, context = _judged(given, settings)
-    head = _head(given, deck, verdict, stamp)
+    head = _head(given, deck, verdict, date)
     head["shown"] = [name for name in SECTIONS if name in wanted]
     made = Report(head, Source.from_bytes(given.data, given.name))
     found = head["sections"]
@@ -113,7 +110,10 @@ def report_on(given: Given, settings: LintSettings, wanted: Collection[str], sta
             found[name], why = None, _reason(error)
         if why:
             head["missing"][name] = why
-    head["inferred"] = [*([] if deck is None else inferences(deck)), *_of_plan(found.get("plan"))]
+    head["inferred"] = [] if deck is None else inferences(deck)
+    for one in (found.get("plan") or {}).get("stages", ()):
+        if one["active"] and "(inferred)" in one["why"]:
+            head["inferred"].append({"keyword": "", "fields": [one["stage"]], "inferred": one["why"], "blocks": 1})
     return made
 
 
@@ -144,7 +144,7 @@ def _judged(given: Given, settings: LintSettings) -> tuple[Verdict, Deck | None,
     return judge(context).verdict, deck, context
 
 
-def _head(given: Given, deck: Deck | None, verdict: Verdict, stamp: Stamp) -> dict[str, Any]:
+def _head(given: Given, deck: Deck | None, verdict: Verdict, date: str | None) -> dict[str, Any]:
     """Which deck, in which state, by which program."""
     when = None if given.modified is None else datetime.fromtimestamp(given.modified // 10**9, UTC)
     return {
@@ -153,8 +153,8 @@ def _head(given: Given, deck: Deck | None, verdict: Verdict, stamp: Stamp) -> di
         "sha256": sha256(given.data).hexdigest(),
         "bytes": len(given.data),
         "modified": None if when is None else when.strftime("%Y-%m-%d %H:%M:%S UTC"),
-        "version": stamp.version,
-        "date": stamp.date,
+        "version": __version__,
+        "date": date,
         "units": None if deck is None else deck.units,
         "continues": [] if deck is None else [base.deck.file for base in deck.bases],
         "verdict": asdict(verdict) | {"sentence": verdict.keywords.sentence()},
@@ -308,12 +308,6 @@ def _contact(scene: Scene, made: Report) -> dict[str, Any]:
 def _plan(scene: Scene) -> dict[str, Any]:
     plan = prepare(scene, None, _tension(scene)).model.plan
     return {"stages": plan_rows(plan), "steps": plan.steps}
-
-
-def _of_plan(plan: dict[str, Any] | None) -> list[dict[str, Any]]:
-    """The stages whose law is inferred."""
-    stages = [one for one in (plan or {}).get("stages", ()) if one["active"] and "(inferred)" in one["why"]]
-    return [{"keyword": "", "fields": [one["stage"]], "inferred": one["why"], "blocks": 1} for one in stages]
 
 
 def _tension(scene: Scene) -> Tension:

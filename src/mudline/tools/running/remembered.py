@@ -19,13 +19,14 @@ from hashlib import blake2b
 from pathlib import Path
 from typing import Any
 
-from mudline.basics.cache_folder import cache_folder
 from mudline.basics.files import write_atomically
 from mudline.basics.installed import metadata_folders
 from mudline.basics.limits import LARGEST_MEMORY, LARGEST_NEIGHBOUR, LONGEST_REMEMBERED, MOST_MEMORIES, MOST_REMEMBERED
 from mudline.basics.overwriting import reading
 from mudline.basics.resources import grammar_file
 
+PLACE = "MUDLINE_CACHE_DIR"
+"""The variable that says where the user's folder for caches is."""
 _KEY = 40
 _MAGIC = b"mudline-remembered/1 "
 _COARSE = 0.02
@@ -79,7 +80,7 @@ class Memory:
 
         It is not kept where one of them has changed since the run began: what was read of it is not certain.
         """
-        self.drop(key)
+        self._changed |= self._entries.pop(key, None) is not None
         states = {}
         for path in files:
             if changed_since(self._began, path):
@@ -89,10 +90,6 @@ class Memory:
         if len(held) <= LONGEST_REMEMBERED:
             self._entries[key] = held
             self._changed = True
-
-    def drop(self, key: str) -> None:
-        """Forget a result."""
-        self._changed |= self._entries.pop(key, None) is not None
 
     def save(self) -> None:
         """Write what has changed, if anything has; does nothing where that is not possible."""
@@ -111,6 +108,23 @@ class Memory:
             write_atomically(self._path, [_head(body), b"\n", body], synced=False)
             if self._shared:
                 _drop_old(self._path)
+
+
+def cache_folder() -> Path | None:
+    """Return the folder: as the variable says, or the user's folder for caches on this system; None without one."""
+    if given := os.environ.get(PLACE):
+        return Path(given)
+    given = os.environ.get("XDG_CACHE_HOME", "")
+    if os.path.isabs(given):  # noqa: PTH117 - a text that may be empty
+        return Path(given, "mudline")
+    if sys.platform == "win32":
+        local = os.environ.get("LOCALAPPDATA")
+        return Path(local, "mudline", "Cache") if local else None
+    try:
+        home = Path.home()
+    except RuntimeError:
+        return None
+    return home / ("Library/Caches" if sys.platform == "darwin" else ".cache") / "mudline"
 
 
 def of_working_folder(name: str, settings: str) -> Memory | None:

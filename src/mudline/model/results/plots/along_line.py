@@ -308,5 +308,5 @@ def _soil(axes: Axes, chosen: Chosen, one: DrawnLine) -> None:
     bottom = min(lowest, least - 0.12 * (highest - least))
     if is_number(bottom, highest):
         axes.fill_between(one.node_arcs[drawn], level, bottom, color=LIGHT, linewidth=0.0, zorder=0)
-        room = 0.1 if len(axes.texts) > 1 else 0.04  # of the labels of touchdown points at the top
-        axes.set_ylim(bottom, highest + room * (highest - bottom))
+        margin = 0.1 if len(axes.texts) > 1 else 0.04  # for the labels of touchdown points at the top
+        axes.set_ylim(bottom, highest + margin * (highest - bottom))

@@ -27,7 +27,7 @@ from mudline.model.results.plots.style import (
     zero_line,
 )
 from mudline.model.scene.deck_curves import OF_SEABED
-from mudline.model.scene.numbering import Floats, Indices, Mask
+from mudline.model.scene.numbering import Indices, Mask
 
 _MARGIN = 0.15
 """Part of its largest ratio by which a curve is drawn beyond its last point."""
@@ -56,7 +56,10 @@ def curves_figure(
         axes = figure.add_subplot(grid[place])
         for number, row in enumerate(own):
             _curve(axes, row, style_of(number))
-        _explain(axes, own)
+        axes.plot([], [], color="0.3", linestyle="--", linewidth=1.0, label="beyond the points")
+        for label, (key, shape, size) in _MARKS.items():
+            if any(row.get(key) for row in own):
+                axes.plot([], [], shape, **_mark("0.3", size), label=label)
         zero_line(axes)
         axes.axvline(0.0, color="0.4", linewidth=0.8, zorder=1)
         if kind == OF_SEABED:
@@ -101,14 +104,6 @@ def _mark(color: str, size: float) -> dict[str, Any]:
     return {"color": color, "markersize": size, "markeredgewidth": 1.5, "markerfacecolor": "none"}
 
 
-def _explain(axes: Axes, rows: list[dict[str, Any]]) -> None:
-    """Add what dashes and marks mean to the legend."""
-    axes.plot([], [], color="0.3", linestyle="--", linewidth=1.0, label="beyond the points")
-    for label, (key, shape, size) in _MARKS.items():
-        if any(row.get(key) for row in rows):
-            axes.plot([], [], shape, **_mark("0.3", size), label=label)
-
-
 # ------------------------------------------------------------------------------------------- with evaluated points
 
 _NAMED = 6
@@ -126,15 +121,18 @@ def on_curves(axes: Axes, data: PlotData) -> None:
         mine = np.flatnonzero(every.curve == index)
         mine = mine[np.argsort(every.step[mine], kind="stable")]
         ratio, force = every.ratio[mine], every.force[mine]
-        far = max(float(ratio.max(initial=0.0)), float(curve.ratios[-1]))
-        knots = curve.ratios[(curve.ratios > 0.0) & (curve.ratios < far)]
-        knots = np.unique(np.concatenate([knots, [0.0, far]]))
+        far = float(ratio.max(initial=curve.ratios[-1]))
+        knots = np.unique([0.0, *curve.ratios[(curve.ratios > 0.0) & (curve.ratios < far)], far])
         axes.plot(knots, curve.evaluate(knots)[0], **style.line, linewidth=1.2, zorder=2)
+        for above, pull in _springs(data, index, float(ratio.min(initial=0.0))):
+            axes.plot([above, 0.0], [pull, 0.0], **style.line, linewidth=1.2, zorder=2)
+        part = every.step[mine] / (data.steps - 1) if data.steps > 1 else np.ones(len(mine))
+        pale = _PALEST * (1.0 - part[:, np.newaxis])
         axes.scatter(
             ratio,
             force,
             s=16,
-            c=_shades(style.color, every.step[mine], data.steps),
+            c=pale + (1.0 - pale) * np.array(to_rgb(style.color)),
             marker=style.marker,
             edgecolors=style.color,
             linewidths=0.3,
@@ -150,12 +148,20 @@ def on_curves(axes: Axes, data: PlotData) -> None:
     legend(axes, note="pale: first steps, dark: last" if data.steps > 1 else "", columns=2)
 
 
-def _shades(color: str, steps: Indices, count: int) -> Floats:
-    """The colour (k, 3) of each point: pale at the first step, full at the last."""
-    part = steps / max(1, count - 1) if count > 1 else np.ones(len(steps))
-    pale = _PALEST * (1.0 - part[:, np.newaxis])
-    shades: Floats = pale + (1.0 - pale) * np.array(to_rgb(color))
-    return shades
+def _springs(data: PlotData, curve: int, least: float) -> list[list[float]]:
+    """Return the ends of the lines below ratio 0: the suction springs of the elements that follow a curve.
+
+    Each end is a ratio, not less than the `least` one of the evaluated points, and the force there. Springs that are
+    many are not all drawn.
+    """
+    spring = data.given.assigned.get("suction spring")
+    if spring is None or least >= 0.0:
+        return []
+    size, mine = data.given.diameter[spring.rows], data.given.curve_index[spring.rows] == curve
+    above = np.maximum(-spring["extent"] / size, least)
+    ends = np.column_stack([above, spring["stiffness"] * size * above])[mine]
+    found: list[list[float]] = np.unique(ends, axis=0)[:_NAMED].tolist()
+    return found
 
 
 # ----------------------------------------------------------------------------------------------- force over penetration

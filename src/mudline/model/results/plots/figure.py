@@ -13,7 +13,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from mudline.basics.files import PLOT_FORMS, replacement, suffix_of
+from mudline.basics.files import PLOT_FORMS, form_of_file, replacement
 from mudline.basics.limits import LONGEST_MESSAGE
 from mudline.basics.quantities import STEPS, labelled, time_unit, unit_names
 from mudline.model.contact import ContactResult
@@ -56,6 +56,7 @@ def panels_of(data: PlotData) -> list[Panel]:
     Of more than that, those are left out that an engineer would miss least: the last ones below.
     """
     stretch, touched, lined = Stretch(data), bool(data.touched.any()), data.elements.size > 0
+    touches_down = any(np.isfinite(first.most).any() for first, _ in data.touchdown.values())
 
     def along(name: str, draw: Callable[[Axes, PlotData, Stretch], None]) -> Panel:
         return Panel(name, "arc length", lambda axes: draw(axes, data, stretch))
@@ -64,7 +65,7 @@ def panels_of(data: PlotData) -> list[Panel]:
     others = (
         (lined, along("line", along_line.line)),
         (touched, along("force", along_line.force)),
-        (touches_down(data), Panel("touchdown", "time", partial(touchdown, data=data, stretch=stretch))),
+        (touches_down, Panel("touchdown", "time", partial(touchdown, data=data, stretch=stretch))),
         (data.steps > 1 and data.known, Panel("reaction", "time", partial(reaction, data=data))),
         (lined and "pull" in data.largest, along("suction", along_line.suction)),
         (lined and "friction" in data.largest, along("friction", along_line.friction)),
@@ -125,10 +126,7 @@ def plot_result(
     result: ContactResult, path: str | os.PathLike[str] | None = None, *, elements: Sequence[int] = ()
 ) -> Figure:
     """Return the figure of a result, and write it to a file if a path is given; see `ContactResult.plot`."""
-    form = "" if path is None else suffix_of(path)
-    if path is not None and form not in PLOT_FORMS:
-        forms = f".{', .'.join(PLOT_FORMS[:-1])} or .{PLOT_FORMS[-1]}"
-        raise ValueError(f"{path}: unknown file format: give a name ending in {forms}")
+    form = "" if path is None else form_of_file(path, PLOT_FORMS)
     figure = evaluation_figure(PlotData.of_result(result, elements))
     if path is not None:
         with replacement(Path(path)) as stream:
@@ -137,11 +135,6 @@ def plot_result(
 
 
 # ----------------------------------------------------------------------------------------------------- panels over time
-
-
-def touches_down(data: PlotData) -> bool:
-    """Return True if a line has a touchdown point at some step of a series."""
-    return any(np.isfinite(first.most).any() for first, _ in data.touchdown.values())
 
 
 def touchdown(axes: Axes, data: PlotData, stretch: Stretch) -> None:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -32,14 +30,6 @@ _WIDTHS = (3.2, 2.2, 1.2)
 _AXES = "XYZ"
 
 
-class _Side(NamedTuple):
-    """A view: the axes along the paper and up, and its title."""
-
-    along: int
-    up: int
-    title: str
-
-
 def can_draw(scene: Scene) -> bool:
     """Whether some element has two nodes with coordinates."""
     return bool(_drawn(scene).size)
@@ -53,19 +43,19 @@ def model_figure(scene: Scene, data: PlotData | None) -> Figure:
     span = np.ptp(scene.coordinates[_nodes(scene)], axis=0)
     along, across = (1, 2) if span[1] >= span[2] else (2, 1)
     groups = _by_set(scene)
-    for axes, side in ((upper, _Side(along, 0, "Elevation")), (lower, _Side(along, across, "Plan"))):
+    for axes, up, title in ((upper, 0, "Elevation"), (lower, across, "Plan")):
         for number, (name, elements) in enumerate(groups):
             kept = elements[:: max(1, -(-len(elements) // MOST_POINTS))]
             ends = scene.coordinates[scene.element_nodes[kept]]
-            x, y = (gapped(*ends[:, :, axis].T) for axis in (side.along, side.up))
+            x, y = (gapped(*ends[:, :, axis].T) for axis in (along, up))
             color, width = style_of(number).color, _WIDTHS[number % len(_WIDTHS)]
             axes.plot(x, y, color=color, linewidth=width, label=legend_name(name), solid_capstyle="butt", zorder=3)
         if data is not None:
-            _draw_ground(axes, data, side)
+            _draw_ground(axes, data, along, up)
         unit = unit_names(scene.units).length
-        axes.set_title(side.title, loc="right", fontsize="medium")
-        axes.set_xlabel(labelled(_AXES[side.along], unit))
-        axes.set_ylabel(labelled(_AXES[side.up], unit))
+        axes.set_title(title, loc="right", fontsize="medium")
+        axes.set_xlabel(labelled(_AXES[along], unit))
+        axes.set_ylabel(labelled(_AXES[up], unit))
         finish(axes)
     if not span[across]:
         lower.set_ylim(
@@ -96,19 +86,19 @@ def _by_set(scene: Scene) -> list[tuple[str, Indices]]:
     return [*groups, (f"{len(order) - _MOST_SETS} more sets", others)] if others.size else groups
 
 
-def _draw_ground(axes: Axes, data: PlotData, side: _Side) -> None:
+def _draw_ground(axes: Axes, data: PlotData, along: int, up: int) -> None:
     """The seabed below the line, in elevation, and the touchdown points."""
     positions = data.drawn.result.positions
     if positions is None:
         return
-    if side.up == 0:
+    if up == 0:
         for number in data.lines:
             nodes = data.given.lines.nodes[number]
             level = data.drawn.seabed[nodes]
             kept = thinned(np.nan_to_num(level))
-            place = np.asarray(positions)[nodes[kept], side.along]
+            place = np.asarray(positions)[nodes[kept], along]
             axes.plot(place, level[kept], color=SEABED, linewidth=1.2, linestyle="--", zorder=1)
         axes.plot([], [], color=SEABED, linestyle="--", label="seabed")
     points = data.touchdown_points(data.lines)
-    x, y = ([(one.x, one.y, one.z)[axis] for one in points] for axis in (side.along, side.up))
+    x, y = ([(one.x, one.y, one.z)[axis] for one in points] for axis in (along, up))
     mark_touchdown(axes, x, y)
