@@ -206,6 +206,19 @@ class Scene:
             require_elements(self._resolved.require_evaluable(tension))
         return self._resolved.contact(tension, backend=backend)
 
+    def rest_shape(self) -> Positions:
+        """Return the resting shape: positions of all nodes under weight and contents alone, no load case solved.
+
+        A line hangs as a catenary between its held ends, the upper one moved by the `*OFFSET` of its vessel, lies at
+        static embedment, and bends about its touchdown. Nodes of lines without such a shape are NaN, and False in
+        `.present`.
+
+        Raises DeckError: no line has one (the reason of the first is in the message), or the deck cannot be evaluated.
+        """
+        from mudline.touchdown_study.rest_shape import rest_shape  # noqa: PLC0415 - decks alone do without it
+
+        return rest_shape(self._resolved).positions
+
 
 def _members(number: int, *, is_open: bool) -> int | str:
     """How many elements a set has; a text where it may have more, which are not read."""

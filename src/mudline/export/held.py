@@ -56,7 +56,7 @@ def read_held(scene: Scene, report: Report) -> Held:
             if each.type_ not in ("CONSTANT", "VESSEL"):
                 effect = "its nodes are held and not moved"
                 report.add(where, Status.LEFT_OUT, "none", effect, f"TYPE={each.type_}")
-            for nodes, freedoms, value in _conditions(scene, each):
+            for nodes, freedoms, value in conditions(scene, each):
                 for node in nodes.tolist():
                     held.freedoms[node] = held.of(node) | freedoms
                 held.moved.update(nodes.tolist() if each.type_ == "VESSEL" else ())
@@ -66,7 +66,7 @@ def read_held(scene: Scene, report: Report) -> Held:
     return held
 
 
-def _conditions(scene: Scene, given: BoundaryType) -> Iterator[tuple[Indices, frozenset[int], float]]:
+def conditions(scene: Scene, given: BoundaryType) -> Iterator[tuple[Indices, frozenset[int], float]]:
     """Nodes, degrees of freedom and displacement of each line; a line of a vessel without a freedom holds all."""
     for start, end, step, freedom, value in _ranges(given):
         nodes = scene.nodes.between(start, end, step)

@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable
 from dataclasses import astuple, dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -204,19 +204,35 @@ def _sections(scene: Scene, units: Units) -> tuple[list[PipeSection], Indices]:
     return [_pipe(scene, units, table.sections[index], at) for index, at in pairs], of_element.ravel()
 
 
+class Stiffnesses(NamedTuple):
+    """Axial, bending and torsional stiffness of a section in the deck's units; NaN where the deck gives none."""
+
+    axial: float
+    bending: float
+    torsion: float
+
+
+def stiffnesses(scene: Scene, section: Section) -> Stiffnesses:
+    """Return the stiffness of a section; of curves the slope at 0."""
+    row = section.entry.section
+    if format_of(section.entry) != "rigid":
+        return Stiffnesses(
+            _modulus(scene, section, number(row, "ea"), "ea_curve"),
+            _modulus(scene, section, number(row, "eiyy"), "eiyy_curve", "ei_curve"),
+            _modulus(scene, section, number(row, "gj"), "gj_curve"),
+        )
+    outer, inner = number(row, "do"), number(row, "di", 0.0)
+    area = number(row, "area", math.pi / 4 * (outer**2 - inner**2))
+    second = number(row, "second_moment", math.pi / 64 * (outer**4 - inner**4))
+    young = _modulus(scene, section, number(row, "e"), "e_curve")
+    return Stiffnesses(young * area, young * second, number(row, "g") * number(row, "polar_moment", 2.0 * second))
+
+
 def _pipe(scene: Scene, units: Units, section: Section, element: int) -> PipeSection:
-    row, kind, length, force = section.entry.section, format_of(section.entry), units.length, units.force
+    row, length, force = section.entry.section, units.length, units.force
     outer = float(scene.diameter[element])
     inner = number(row, "di", 0.0)
-    if kind == "rigid":
-        area = number(row, "area", math.pi / 4 * (outer**2 - inner**2))
-        second = number(row, "second_moment", math.pi / 64 * (outer**4 - inner**4))
-        young = _modulus(scene, section, number(row, "e"), "e_curve")
-        stiffness = young * area, young * second, number(row, "g") * number(row, "polar_moment", 2.0 * second)
-    else:
-        bending = _modulus(scene, section, number(row, "eiyy"), "eiyy_curve", "ei_curve")
-        axial = _modulus(scene, section, number(row, "ea"), "ea_curve")
-        stiffness = axial, bending, _modulus(scene, section, number(row, "gj"), "gj_curve")
+    stiffness = stiffnesses(scene, section)
     mass = float(scene.mass_per_length[element])
     if not stiffness[0] > 0.0 or not mass > 0.0 or not outer > 0.0:
         what = "axial stiffness" if not stiffness[0] > 0.0 else "mass" if not mass > 0.0 else "diameter"

@@ -1,0 +1,298 @@
+"""Seabed under a stretch of a line, cut out of a deck: its laws across the mudline, with their tangents."""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple, Protocol
+
+import numpy as np
+
+from mudline.contact import ContactInput, ContactModel
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.contact.input import LawAssignment
+from mudline.contact.laws import PathLaw
+from mudline.contact.tables import NormalRows, Tables
+from mudline.contact.tangent import Triples
+
+ElementMatrix = Literal["mean", "consistent"]
+"""Law at the mean depth of an element, half of the force to each node; or law integrated along the element."""
+
+_STEPPED = ("unloading", "suction", "suction spring", "damping", "nodal damping")
+"""Laws across the mudline that remember, or that ask for velocities or for heights above it."""
+_ACROSS = (*_STEPPED, "nodal", "rigid")
+_GAUSS = np.polynomial.legendre.leggauss(3)
+_DEPTHS = np.geomspace(1e-7, 20.0, 120)
+"""Diameters at which the depth that carries a weight is looked for."""
+_HALVINGS = 60
+
+
+class Reaction(NamedTuple):
+    """Seabed reaction: on the nodes (n,), its derivatives to w of a node (n,) and of its right neighbour (n - 1,).
+
+    damping: (n,) minus the derivative to the velocity of a node. per_length: (m,) of the elements, for nodal springs
+    that of half of both nodes.
+    """
+
+    nodal: FloatArray
+    diagonal: FloatArray
+    beside: FloatArray
+    per_length: FloatArray
+    damping: FloatArray | None = None
+
+
+class Soil(Protocol):
+    """A seabed under a beam."""
+
+    def react(self, w: FloatArray, v: FloatArray, step: float) -> Reaction:
+        """Return the reaction at heights and velocities (n,) of the nodes, `step` after what was kept; 0 at rest."""
+
+    def keep(self) -> None:
+        """Take the state of the last reaction as that of the step that has converged."""
+
+
+def cut_out(given: ContactInput, elements: IndexArray, nodes: IndexArray, parts: int = 1) -> ContactInput:
+    """Return the laws across the mudline of a stretch of a line on a flat seabed, each element cut into equal parts.
+
+    `elements` (m,) and `nodes` (m + 1,) are indices, from left to right.
+    """
+    count = len(elements)
+    place, here = np.full(len(given.element_ids), -1), np.full(len(given.node_ids), -1)
+    place[elements], here[nodes] = np.arange(count), np.arange(count + 1) * parts
+    lengths = np.repeat(given.length[elements] / parts, parts)
+    laws = []
+    for law in given.assigned.values():
+        name = law.law.name
+        if not (name in _ACROSS or law in given.normal_laws):
+            continue
+        if law.law.acts_on == "nodes":
+            kept = here[law.rows] >= 0
+            rows = here[law.rows[kept]]
+            columns = {key: value[kept] for key, value in law.parameters.items()}
+            if parts > 1:
+                rows, columns = _between(rows, columns, parts)
+        else:
+            kept = place[law.rows] >= 0
+            rows = (place[law.rows[kept]][:, None] * parts + np.arange(parts)).ravel()
+            columns = {key: np.repeat(value[kept], parts) for key, value in law.parameters.items()}
+        if len(rows):
+            laws.append(LawAssignment(name, rows, columns))
+    x = np.append(0.0, np.cumsum(lengths))
+    size = len(lengths)
+    return ContactInput(
+        node_ids=np.arange(size + 1),
+        coordinates=np.column_stack([np.zeros(size + 1), x, np.zeros(size + 1)]),
+        element_ids=np.arange(size),
+        element_nodes=np.column_stack([np.arange(size), np.arange(1, size + 1)]),
+        length=lengths,
+        diameter=np.repeat(given.diameter[elements], parts),
+        laws=tuple(laws),
+        curves=given.curves,
+        tension=given.tension,
+        weight=np.repeat(given.weight[elements], parts) if given.weight is not None else None,
+    )
+
+
+def _between(rows: IndexArray, columns: dict[str, FloatArray], parts: int) -> tuple[IndexArray, dict[str, FloatArray]]:
+    """Springs of nodes spread over the new nodes between them, each with its share."""
+    order = np.argsort(rows)
+    rows, columns = rows[order], {name: value[order] for name, value in columns.items()}
+    wanted = np.arange(rows[0], rows[-1] + 1) if len(rows) else rows
+    nearest = np.clip(np.searchsorted(rows, wanted, side="right") - 1, 0, max(len(rows) - 1, 0))
+    shared = ("stiffness", "damping")
+    return wanted, {name: value[nearest] / (parts if name in shared else 1) for name, value in columns.items()}
+
+
+class ElasticSoil:
+    """Laws without a history: force and tangent follow from the depth alone."""
+
+    def __init__(self, given: ContactInput, matrix: ElementMatrix = "mean") -> None:
+        self._tables, self._length = Tables(given), given.length
+        self._onset, self._cut = given.onset(), given.tension == "cut"
+        self._curves, self._diameter = given.curves, given.diameter
+        points, weights = (np.array([0.0]), np.array([2.0])) if matrix == "mean" else _GAUSS
+        self._left, self._right, self._shares = 0.5 * (1.0 - points), 0.5 * (1.0 + points), 0.5 * weights
+        self._reaction = Reaction(*np.zeros((4, 1)))
+
+    def react(self, w: FloatArray, v: FloatArray, step: float) -> Reaction:  # noqa: ARG002 - as `Soil` has it
+        """Return the reaction at heights (n,) of the nodes."""
+        left, right, count = w[:-1], w[1:], len(w)
+        nodal, diagonal, beside = np.zeros(count), np.zeros(count), np.zeros(count - 1)
+        per_length = np.zeros(count - 1)
+        for at_left, at_right, share in zip(self._left, self._right, self._shares, strict=True):
+            force, slope = self._forces(-at_left * left - at_right * right)
+            per_length += share * force
+            force *= share * self._length
+            slope *= share * self._length
+            nodal[:-1] += at_left * force
+            nodal[1:] += at_right * force
+            diagonal[:-1] -= at_left * at_left * slope
+            diagonal[1:] -= at_right * at_right * slope
+            beside -= at_left * at_right * slope
+        for rows in self._tables.nodal:
+            z = -w[rows.rows]
+            touches = z > rows.law.onset(*rows.columns)
+            force, slope = rows.reaction(z, 0.0, *rows.columns)
+            own = np.zeros(count)
+            own[rows.rows] = np.where(touches, force, 0.0)
+            nodal += own
+            diagonal[rows.rows] -= np.where(touches, slope, 0.0)
+            carried = np.append(self._length, 0.0) + np.append(0.0, self._length)
+            per_length += 0.5 * ((2.0 * own / carried)[:-1] + (2.0 * own / carried)[1:])
+        return Reaction(nodal, diagonal, beside, per_length)
+
+    def keep(self) -> None:
+        """Do nothing: there is no state."""
+
+    def _forces(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Force per length and its derivative to the depth, of elements (m,)."""
+        found = [self._of_rows(rows, z[rows.rows]) for rows in self._tables.normal]
+        if len(found) == 1 and len(found[0][0]) == len(z):
+            return found[0]
+        force, slope = np.zeros(len(z)), np.zeros(len(z))
+        for rows, (part, tangent) in zip(self._tables.normal, found, strict=True):
+            force[rows.rows], slope[rows.rows] = part, tangent
+        return force, slope
+
+    def _of_rows(self, rows: NormalRows, z: FloatArray) -> tuple[FloatArray, FloatArray]:
+        diameter = self._diameter[rows.rows]
+        touches: BoolArray = z > self._onset[rows.rows]
+        if rows.curve >= 0:
+            force, slope = self._curves[rows.curve].evaluate(z / diameter)
+            slope /= diameter
+            if self._cut:
+                touches = touches & (force > 0.0)
+        else:
+            force, slope = rows.reaction(z, diameter, *rows.columns)
+        return np.where(touches, force, 0.0), np.where(touches, slope, 0.0)
+
+
+class SteppedSoil:
+    """Laws with a history, or with velocities, through `ContactModel.step`."""
+
+    def __init__(self, given: ContactInput) -> None:
+        self._model = ContactModel(given, backend="numpy")
+        self._state = self._next = self._model.initial_state()
+        self._points, self._rates = given.coordinates.copy(), np.zeros_like(given.coordinates)
+
+    def react(self, w: FloatArray, v: FloatArray, step: float) -> Reaction:
+        """Return the reaction of a step behind the state that was kept."""
+        self._points[:, 0], self._rates[:, 0] = w, v
+        arguments = self._points, self._rates, self._state, step or None
+        result, self._next = self._model.step(*arguments)
+        tangent = self._model.tangent(*arguments)
+        position, damping = (_tridiagonal(each, len(w)) for each in tangent)
+        return Reaction(result.normal_force, position[0], position[1], result.force, -damping[0])
+
+    def keep(self) -> None:
+        """Take the state behind the last reaction."""
+        self._state = self._next
+
+
+def _tridiagonal(triples: Triples, nodes: int) -> tuple[FloatArray, FloatArray]:
+    """Diagonal (n,) and neighbours (n - 1,) of the vertical part of a tangent."""
+    rows, columns, values, _ = triples
+    upright = (rows % 3 == 0) & (columns % 3 == 0)
+    rows, columns, values = rows[upright] // 3, columns[upright] // 3, values[upright]
+    same, beside = rows == columns, columns == rows + 1
+    diagonal = np.bincount(rows[same], values[same], nodes).astype(np.float64)
+    return diagonal, np.bincount(rows[beside], values[beside], nodes - 1).astype(np.float64)
+
+
+def soil_of(given: ContactInput, matrix: ElementMatrix = "mean") -> Soil:
+    """Return the soil of an input that `cut_out` made."""
+    stepped = has_history(given)
+    return SteppedSoil(given) if stepped else ElasticSoil(given, matrix)
+
+
+def has_history(given: ContactInput) -> bool:
+    """Return True if a law remembers the steps before, or asks for velocities."""
+    return any(isinstance(law.law, PathLaw) for law in given.normal_laws) or given.has(*_STEPPED)
+
+
+class ScaledSoil:
+    """A soil whose forces are multiplied by a factor."""
+
+    def __init__(self, soil: Soil, factor: float) -> None:
+        self._soil, self._factor = soil, factor
+
+    def react(self, w: FloatArray, v: FloatArray, step: float) -> Reaction:
+        """Return the reaction of the soil times the factor."""
+        nodal, diagonal, beside, per_length, damping = self._soil.react(w, v, step)
+        factor = self._factor
+        damped = None if damping is None else factor * damping
+        return Reaction(factor * nodal, factor * diagonal, factor * beside, factor * per_length, damped)
+
+    def keep(self) -> None:
+        """Take the state behind the last reaction."""
+        self._soil.keep()
+
+
+# ------------------------------------------------------------------------------------------------------------ embedment
+
+
+def static_depth(given: ContactInput, elements: IndexArray, weight: FloatArray) -> FloatArray:
+    """Return the least depths (k,) at which the laws of elements carry weights per length (k,), each element alone.
+
+    0 without a law or on a rigid seabed, NaN where no depth carries the weight.
+    """
+    single = _apart(given, elements)
+    model, count = ContactModel(single, backend="numpy"), len(elements)
+    held = np.isin(np.arange(count), single.assigned["rigid"].rows) if "rigid" in single.assigned else np.zeros(count)
+    size = np.where(np.isfinite(single.diameter), single.diameter, 1.0)
+
+    def force(depth: FloatArray) -> FloatArray:
+        points = single.coordinates.copy()
+        points[:, 0] = -np.repeat(depth, 2)
+        with np.errstate(all="ignore"):
+            pushed = model.evaluate(points).normal_force
+        found: FloatArray = pushed.reshape(-1, 2).sum(axis=1) / np.where(single.length > 0.0, single.length, 1.0)
+        return found
+
+    low, high = np.zeros(count), np.full(count, np.nan)
+    for share in _DEPTHS:
+        reached = force(share * size) >= weight
+        new = reached & np.isnan(high)
+        high[new] = share * size[new]
+        low[np.isnan(high)] = share * size[np.isnan(high)]
+    bounds = low, np.where(np.isnan(high), low, high)
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (bounds[0] + bounds[1])
+        over = force(middle) >= weight
+        bounds = np.where(over, bounds[0], middle), np.where(over, middle, bounds[1])
+    bare = (single.law == 0) | (held > 0)
+    return np.where(bare, 0.0, np.where(np.isnan(high), np.nan, bounds[1]))
+
+
+def _apart(given: ContactInput, elements: IndexArray) -> ContactInput:
+    """The normal laws of elements, each with nodes of its own, which share the springs of the nodes of the deck."""
+    count = len(elements)
+    ends, length = given.element_nodes[elements], given.length[elements]
+    carried = np.zeros(len(given.node_ids))
+    for end in given.element_nodes.T:
+        np.add.at(carried, end, given.length)
+    place = np.full(len(given.element_ids), -1)
+    place[elements] = np.arange(count)
+    laws = []
+    for law in given.assigned.values():
+        if law.law.name == "rigid" or law in given.normal_laws:
+            kept = place[law.rows] >= 0
+            columns = {name: value[kept] for name, value in law.parameters.items()}
+            laws.append(LawAssignment(law.law.name, place[law.rows[kept]], columns))
+        elif law in given.nodal_laws:
+            at = np.full(len(given.node_ids), -1)
+            at[law.rows] = np.arange(len(law.rows))
+            source = at[ends.ravel()]
+            rows = np.flatnonzero(source >= 0)
+            columns = {name: value[source[rows]] for name, value in law.parameters.items()}
+            columns["stiffness"] = columns["stiffness"] * (np.repeat(length, 2) / carried[ends.ravel()])[rows]
+            laws.append(LawAssignment(law.law.name, rows, columns))
+    return ContactInput(
+        node_ids=np.arange(2 * count),
+        coordinates=np.zeros((2 * count, 3)),
+        element_ids=np.arange(count),
+        element_nodes=np.arange(2 * count).reshape(count, 2),
+        length=length,
+        diameter=given.diameter[elements],
+        laws=tuple(each for each in laws if len(each.rows)),
+        curves=given.curves,
+        tension=given.tension,
+    )
