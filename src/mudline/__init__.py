@@ -22,11 +22,13 @@ if TYPE_CHECKING:
         lint,
         read,
         read_positions,
+        study,
     )
     from mudline.contact import ContactModel, ContactResult, ContactState, Plan, PositionError
     from mudline.curves import CurveError, ForceCurve
     from mudline.diagnostics import DeckError, Diagnostic, Severity
     from mudline.results.warnings import ContactWarning
+    from mudline.touchdown_study.study import Study
 
 __version__ = "0.1.0"
 
@@ -44,6 +46,7 @@ __all__ = [
     "PositionError",
     "Scene",
     "Severity",
+    "Study",
     "__version__",
     "contact_warnings",
     "from_json",
@@ -52,6 +55,7 @@ __all__ = [
     "lint",
     "read",
     "read_positions",
+    "study",
 ]
 
 _HOMES = {
@@ -67,11 +71,13 @@ _HOMES = {
             "lint",
             "read",
             "read_positions",
+            "study",
         ],
         "contact": ["ContactModel", "ContactResult", "ContactState", "Plan", "PositionError"],
         "curves": ["CurveError", "ForceCurve"],
         "diagnostics": ["DeckError", "Diagnostic", "Severity"],
         "results.warnings": ["ContactWarning"],
+        "touchdown_study.study": ["Study"],
     }.items()
     for name in names
 }

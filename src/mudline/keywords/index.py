@@ -103,6 +103,7 @@ ENTRIES: tuple[Entry, ...] = (
     Entry("NON LINEAR STATIC", "non_linear_static", ("LOAD CASE",), "analysis"),
     Entry("RESTART", "restart", ("LOAD CASE",), "analysis", names=("DECK",)),
     Entry("TIME", "time", ("LOAD CASE",), "analysis"),
+    Entry("TIME STEPPING", "time_stepping", ("LOAD CASE",), "analysis"),
     Entry(
         "ELEMENT SET",
         "element_set",

@@ -38,8 +38,8 @@ from mudline.results.totals import line_steps, reaction, states, totals
 from mudline.results.warnings import ContactWatch, caption
 from mudline.scene.model import Scene, resolve
 from mudline.scene.numbering import Mask
-from mudline.study import Study, study
 from mudline.syntax.source import Source
+from mudline.touchdown_study.study import Study, study
 
 FORMAT = "mudline-report/1"
 SECTIONS = ("verdict", "findings", "model", "curves", "contact", "study", "plan")
@@ -130,7 +130,7 @@ def _section(name: str, scene: Scene, made: Report) -> dict[str, Any]:
     if name == "contact":
         return _contact(scene, made)
     if name == "study":
-        made.study = study(scene, draw=True)
+        made.study = study(scene)
         return made.study.json() | {"notes": made.study.notes}
     return {"model": _model, "curves": _curves, "plan": _plan}[name](scene)
 

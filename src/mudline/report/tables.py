@@ -12,8 +12,8 @@ from mudline.results.summary_tables import OPEN, diameter_table, elements_of, la
 from mudline.results.totals import NOT_KNOWN, touchdown_words
 from mudline.scene.deck_curves import OF_SEABED
 from mudline.short_repr import counted, cut
-from mudline.study import Study
-from mudline.study.screen import precision_table, stability_table, stages_table
+from mudline.touchdown_study.screen import TABLES as STUDY_TABLES
+from mudline.touchdown_study.study import Study
 
 MOST_CURVES = 50
 """Curves and sets that a page shows."""
@@ -155,7 +155,7 @@ def _touchdown(line: dict[str, Any]) -> str:
 
 def study_tables(found: Study) -> list[Table]:
     """The tables of the screen of a study."""
-    screens = [screen for make in (precision_table, stability_table, stages_table) if (screen := make(found))]
+    screens = [screen for part in found.parts if (screen := STUDY_TABLES[part](found))]
     return [
         Table(
             screen.title,

@@ -19,6 +19,10 @@ from mudline.touchdown_study.soil import Reaction, Soil
 
 _ITERATIONS, _SEARCHES, _CUTS = 25, 10, 6
 _STATIC_ITERATIONS = 200
+_REFINED, _REFINEMENTS = 1e-7, 6
+"""Share of a force that may be left when a linear system counts as solved; more steps than that are eliminations."""
+_REACH = 3
+"""Neighbours of w and theta to which a node is tied by its elements."""
 _TOLERANCE = 1e-6
 """Residual of a node over the weight of the shortest element."""
 
@@ -99,18 +103,18 @@ class Beam:
         return float(max(np.abs(residual[2:-2:2]).max(), np.abs(residual[3::2]).max() / self.shortest))
 
     @cached_property
-    def stiffness(self) -> FloatArray:
-        """Matrices (m, 4, 4) of bending and tension."""
+    def stiffness(self) -> Banded:
+        """Matrix of bending and tension."""
         size = self.lengths[:, None, None]
         bend = np.array([[12.0, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]]) * self.bending / size**3
         pull = np.array([[36.0, 3, -36, 3], [3, 4, -3, -1], [-36, -3, 36, -3], [3, -1, -3, 4]])
-        return self._turned(bend + pull * self.tension / (30.0 * size))
+        return Banded(self._turned(bend + pull * self.tension / (30.0 * size)))
 
     @cached_property
-    def inertia(self) -> FloatArray:
-        """Consistent mass matrices (m, 4, 4)."""
+    def inertia(self) -> Banded:
+        """Consistent mass matrix."""
         rows = [[156.0, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]]
-        return self._turned(np.array(rows) * self.mass * self.lengths[:, None, None] / 420.0)
+        return Banded(self._turned(np.array(rows) * self.mass * self.lengths[:, None, None] / 420.0))
 
     def _turned(self, matrices: FloatArray) -> FloatArray:
         """Matrices for w and theta from those for w and l theta."""
@@ -125,14 +129,15 @@ class Beam:
         each = np.column_stack(
             [0.5 * self.lengths, self.lengths**2 / 12.0, 0.5 * self.lengths, -(self.lengths**2) / 12.0]
         )
-        found = scattered(-self.weight * each)
+        found = _scattered(-self.weight * each)
         found[-1] += self.end_moment
         return found
 
     @cached_property
     def drag_at_nodes(self) -> FloatArray:
         """Drag (n,) of half of the elements of each node, at a velocity of 1."""
-        return 0.5 * self.drag * (np.append(self.lengths, 0.0) + np.append(0.0, self.lengths))
+        found: FloatArray = 0.5 * self.drag * (np.append(self.lengths, 0.0) + np.append(0.0, self.lengths))
+        return found
 
     def end(self, time: float) -> tuple[float, float, float]:
         """Height, velocity and acceleration of the right end: the motion grows over the first period."""
@@ -150,7 +155,8 @@ class Beam:
 
     def moments(self, turned: FloatArray) -> FloatArray:
         """Bending moments (..., m) of the elements from the rotations (..., n) of the nodes."""
-        return self.bending * np.diff(turned, axis=-1) / self.lengths
+        found: FloatArray = self.bending * np.diff(turned, axis=-1) / self.lengths
+        return found
 
     def touchdown(self, heights: FloatArray) -> FloatArray:
         """Touchdown points (...), from the left end: the first change of sign of w (..., n) from the right."""
@@ -163,7 +169,7 @@ class Beam:
         return np.where(above.all(axis=-1), np.nan, found)
 
 
-def scattered(parts: FloatArray) -> FloatArray:
+def _scattered(parts: FloatArray) -> FloatArray:
     """Values (2 n,) at the nodes from those (m, 4) of the elements."""
     found = np.zeros((len(parts) + 1, 2))
     found[:-1] += parts[:, :2]
@@ -171,50 +177,76 @@ def scattered(parts: FloatArray) -> FloatArray:
     return found.ravel()
 
 
-def applied(matrices: FloatArray, values: FloatArray) -> FloatArray:
-    """Product (2 n,) of a matrix that element matrices (m, 4, 4) make with values (2 n,)."""
-    stride = values.strides[0]
-    windows = np.lib.stride_tricks.as_strided(values, (len(matrices), 4), (2 * stride, stride), writeable=False)
-    return scattered(np.einsum("eij,ej->ei", matrices, windows))
+class Banded:
+    """Matrix (2 n, 2 n) that element matrices (m, 4, 4) make, for products."""
 
+    def __init__(self, matrices: FloatArray) -> None:
+        size = 2 * len(matrices) + 2
+        self.dense = np.zeros((size, size))
+        for at, each in enumerate(matrices):
+            self.dense[2 * at : 2 * at + 4, 2 * at : 2 * at + 4] += each
+        self._padded = np.zeros(size + 2 * _REACH)
+        self._windows = np.lib.stride_tricks.sliding_window_view(self._padded, 2 * _REACH + 1)
+        wide = np.pad(self.dense, ((0, 0), (_REACH, _REACH)))
+        self._band = np.array([row[at : at + 2 * _REACH + 1] for at, row in enumerate(wide)])
 
-def assembled(matrices: FloatArray) -> FloatArray:
-    """The matrix (2 n, 2 n) that element matrices make."""
-    size = 2 * len(matrices) + 2
-    found = np.zeros((size, size))
-    for at, each in enumerate(matrices):
-        found[2 * at : 2 * at + 4, 2 * at : 2 * at + 4] += each
-    return found
+    def times(self, values: FloatArray) -> FloatArray:
+        """Return the product (2 n,) with values (2 n,)."""
+        self._padded[_REACH:-_REACH] = values
+        found: FloatArray = np.einsum("ij,ij->i", self._band, self._windows)
+        return found
 
 
 class _Condensed:
     """A linear system for the changes of w and theta, with theta eliminated once."""
 
     def __init__(self, matrix: FloatArray) -> None:
-        """`matrix` (2 n, 2 n); w is held at both ends, theta at the left end."""
-        w, turned = np.arange(2, len(matrix) - 2, 2), np.arange(3, len(matrix), 2)
-        inverse = np.linalg.inv(matrix[np.ix_(turned, turned)])
-        across = matrix[np.ix_(w, turned)]
-        self._inverse, self._down = inverse, across @ inverse
-        self._up = inverse @ across.T
-        self._whole = matrix[np.ix_(w, w)] - across @ self._up
-        self._work = np.empty_like(self._whole)
-        flat = self._work.ravel()
-        size = len(w)
-        self._diagonal, self._upper, self._lower = flat[:: size + 1], flat[1 :: size + 1], flat[size :: size + 1]
+        """Take a matrix (2 n, 2 n); w is held at both ends, theta at the left end."""
+        w, turned = slice(2, -2, 2), slice(3, None, 2)
+        self._inverse = np.linalg.inv(matrix[turned, turned])
+        self._down = matrix[w, turned] @ self._inverse
+        self._up = np.ascontiguousarray(self._down.T)
+        self._whole = matrix[w, w] - matrix[w, turned] @ self._up
+        self._work: FloatArray = np.empty_like(self._whole)
+        self._held: tuple[FloatArray, FloatArray] | None = None
+        self._solution = self._work
+        flat, width = self._work.ravel(), len(self._whole)
+        self._diagonal, self._upper, self._lower = flat[:: width + 1], flat[1 :: width + 1], flat[width :: width + 1]
 
     def solve(self, residual: FloatArray, diagonal: FloatArray, beside: FloatArray) -> FloatArray:
         """Return the change (2 n,) that takes a residual (2 n,) away, with a diagonal (n,) and its neighbours added."""
         force, moment = residual[2:-2:2], residual[3::2]
-        self._work[...] = self._whole
-        self._diagonal += diagonal[1:-1]
-        self._upper += beside[1:-1]
-        self._lower += beside[1:-1]
         change = np.zeros(len(residual))
-        w = np.linalg.solve(self._work, self._down @ moment - force)
+        w = self._refined(self._down @ moment - force, diagonal[1:-1], beside[1:-1])
         change[2:-2:2] = w
         change[3::2] = -(self._inverse @ moment) - self._up @ w
         return change
+
+    def _refined(self, force: FloatArray, diagonal: FloatArray, beside: FloatArray) -> FloatArray:
+        """The w (n - 2,) of a force, by the inverse of the first system and refinement, else by elimination."""
+        if self._held is None:
+            self._held = diagonal.copy(), beside.copy()
+            self._solution = np.linalg.inv(self._added(diagonal, beside)).astype(np.float64, copy=False)
+        more, more_beside = diagonal - self._held[0], beside - self._held[1]
+        left: FloatArray = force
+        found, least = np.zeros(len(force)), _REFINED * np.abs(force).max()
+        for _ in range(_REFINEMENTS):
+            part = self._solution @ left
+            found += part
+            left = np.multiply(-more, part)
+            left[:-1] -= more_beside * part[1:]
+            left[1:] -= more_beside * part[:-1]
+            if np.abs(left).max() <= least:
+                return found
+        solved: FloatArray = np.linalg.solve(self._added(diagonal, beside), force)
+        return solved
+
+    def _added(self, diagonal: FloatArray, beside: FloatArray) -> FloatArray:
+        np.copyto(self._work, self._whole)
+        self._diagonal += diagonal
+        self._upper += beside
+        self._lower += beside
+        return self._work
 
 
 class _Equations(NamedTuple):
@@ -236,7 +268,11 @@ class _Solved(NamedTuple):
 
 
 def _solved(
-    beam: Beam, system: _Condensed, state: FloatArray, equations: Callable[[FloatArray], _Equations], most: int
+    beam: Beam,
+    system: _Condensed,
+    state: FloatArray,
+    equations: Callable[[FloatArray], _Equations],
+    most: int,
 ) -> _Solved:
     """Newton's method with halving of a correction while the residual does not fall. Raises NotConvergedError."""
     tolerance = _TOLERANCE * beam.weight * beam.shortest
@@ -281,11 +317,11 @@ def at_rest(beam: Beam, soil: Soil) -> Rest:
 
     def equations(trial: FloatArray) -> _Equations:
         reaction = soil.react(trial[::2], still, 0.0)
-        residual = applied(beam.stiffness, trial) - beam.load
+        residual = beam.stiffness.times(trial) - beam.load
         residual[::2] -= reaction.nodal
         return _Equations(residual, -reaction.diagonal, -reaction.beside, reaction)
 
-    found = _solved(beam, _Condensed(assembled(beam.stiffness)), state, equations, _STATIC_ITERATIONS)
+    found = _solved(beam, _Condensed(beam.stiffness.dense), state, equations, _STATIC_ITERATIONS)
     soil.keep()
     return Rest(found.state, found.reaction)
 
@@ -318,15 +354,22 @@ class _Marching:
         self.state, self.velocity = begin.state, np.zeros_like(begin.state)
         self.acceleration = np.zeros_like(begin.state)
         self.reaction, self.time = begin.reaction, 0.0
-        self._stiffness, self._inertia = assembled(beam.stiffness), assembled(beam.inertia)
         self._systems: dict[float, _Condensed] = {}
         self._resisted = self._resistance(self.state, self.velocity, self.reaction)
         self.iterations: list[int] = []
         self.searches = self.cuts = 0
 
+    def _system(self, step: float) -> _Condensed:
+        """The linear part of the equations of a step."""
+        if step not in self._systems:
+            scheme, beam = self.scheme, self.beam
+            matrix = (1.0 - scheme.alpha_m) / (scheme.beta * step * step) * beam.inertia.dense
+            self._systems[step] = _Condensed(matrix + (1.0 - scheme.alpha_f) * beam.stiffness.dense)
+        return self._systems[step]
+
     def _resistance(self, state: FloatArray, velocity: FloatArray, reaction: Reaction) -> FloatArray:
         """R (2 n,): stiffness and drag less load and reaction."""
-        found = applied(self.beam.stiffness, state) - self.beam.load
+        found = self.beam.stiffness.times(state) - self.beam.load
         v = velocity[::2]
         found[::2] += self.beam.drag_at_nodes * np.abs(v) * v - reaction.nodal
         return found
@@ -345,9 +388,7 @@ class _Marching:
     def _try(self, step: float, time: float) -> None:
         beam, (_, alpha_m, alpha_f, *_), beta, gamma = self.beam, self.scheme, self.scheme.beta, self.scheme.gamma
         by_state, by_velocity = 1.0 / (beta * step * step), gamma / (beta * step)
-        of_mass, of_force = (1.0 - alpha_m) * by_state, 1.0 - alpha_f
-        if step not in self._systems:
-            self._systems[step] = _Condensed(of_mass * self._inertia + of_force * self._stiffness)
+        of_force = 1.0 - alpha_f
         before, speed, pushed = self.state, self.velocity, self.acceleration
         state = before + step * speed + 0.5 * step * step * pushed
         velocity, acceleration = speed + step * pushed, pushed.copy()
@@ -364,13 +405,13 @@ class _Marching:
             v, a = rates(trial)
             reaction = self.soil.react(trial[::2], v[::2], step)
             self._behind = self._resistance(trial, v, reaction)
-            residual = applied(beam.inertia, (1.0 - alpha_m) * a + alpha_m * pushed) + of_force * self._behind + held
+            residual = beam.inertia.times((1.0 - alpha_m) * a + alpha_m * pushed) + of_force * self._behind + held
             diagonal = 2.0 * drag * np.abs(v[::2]) * by_velocity - reaction.diagonal
             if reaction.damping is not None:
                 diagonal += reaction.damping * by_velocity
             return _Equations(residual, of_force * diagonal, -of_force * reaction.beside, reaction)
 
-        found = _solved(beam, self._systems[step], state, equations, _ITERATIONS)
+        found = _solved(beam, self._system(step), state, equations, _ITERATIONS)
         self.state, self.reaction, self._resisted, self.time = found.state, found.reaction, self._behind, time
         self.velocity, self.acceleration = rates(found.state)
         self.iterations.append(found.iterations)

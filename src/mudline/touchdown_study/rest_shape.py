@@ -28,7 +28,7 @@ from mudline.scene.seabed import SeabedKind
 from mudline.scene.shore import made_seabed
 from mudline.short_repr import short_repr
 from mudline.syntax.rows import read_number
-from mudline.touchdown_study.beam import Beam, NotConvergedError, applied, at_rest
+from mudline.touchdown_study.beam import Beam, NotConvergedError, at_rest
 from mudline.touchdown_study.catenary import Catenary, Line, NoRestShapeError, rest
 from mudline.touchdown_study.load_case import Pipe, pipe_of
 from mudline.touchdown_study.soil import cut_out, soil_of, static_depth
@@ -115,23 +115,27 @@ def rest_shape(scene: Scene) -> RestShape:
     """
     require_elements(scene)
     given, pipe = scene.contact_input("cut" if scene.blocking("keep") else "keep"), pipe_of(scene)
-    found: list[LineAtRest] = []
-    refused: list[tuple[int, str]] = []
-    values, present = scene.coordinates.copy(), np.zeros(len(scene.node_ids), np.bool_)
-    for each in _between_ends(scene):
-        try:
-            line = _line(scene, given, pipe, each)
-            places = _places(given, pipe, line)
-        except NoRestShapeError as error:
-            refused.append((each.number, str(error)))
-            continue
-        found.append(line)
-        values[line.nodes], present[line.nodes] = places, True
+    found, refused = lines_at_rest(scene, given, pipe)
     if not found:
         why = refused[0][1] if refused else "the deck has no line"
         raise scene.refusal(f"no resting shape: {why}; give a solved shape with --positions")
-    values[~present] = np.nan
+    values = np.full((len(scene.node_ids), 3), np.nan)
+    for line in found:
+        values[line.nodes] = _places(given, pipe, line)
+    present = np.isfinite(values).all(axis=1)
     return RestShape(Positions(values[np.newaxis], present, None), found, refused)
+
+
+def lines_at_rest(scene: Scene, given: ContactInput, pipe: Pipe) -> tuple[list[LineAtRest], list[tuple[int, str]]]:
+    """Return the lines that have a resting shape, and number of each other line with the reason why it has none."""
+    found: list[LineAtRest] = []
+    refused: list[tuple[int, str]] = []
+    for each in _between_ends(scene):
+        try:
+            found.append(_line(scene, given, pipe, each))
+        except NoRestShapeError as error:
+            refused.append((each.number, str(error)))
+    return found, refused
 
 
 # ----------------------------------------------------------------------------------------------------------------- ends
@@ -421,7 +425,7 @@ def _balanced(beam: Beam, stretch: ContactInput, vertical: float) -> Floats | No
             state = at_rest(moved, soil_of(stretch)).state
         except NotConvergedError:
             return None
-        missing = vertical - float((applied(moved.stiffness, state) - moved.load)[-2])
+        missing = vertical - float((moved.stiffness.times(state) - moved.load)[-2])
         trials.append((height, missing, state))
         if abs(missing) <= _ROUNDED * abs(vertical):
             break

@@ -12,6 +12,7 @@ from mudline.contact.input import LawAssignment
 from mudline.contact.laws import PathLaw
 from mudline.contact.tables import NormalRows, Tables
 from mudline.contact.tangent import Triples
+from mudline.curves import ForceCurve
 
 ElementMatrix = Literal["mean", "consistent"]
 """Law at the mean depth of an element, half of the force to each node; or law integrated along the element."""
@@ -101,33 +102,61 @@ def _between(rows: IndexArray, columns: dict[str, FloatArray], parts: int) -> tu
     return wanted, {name: value[nearest] / (parts if name in shared else 1) for name, value in columns.items()}
 
 
+class _Curves:
+    """Force-embedment curves of some elements, evaluated at once: as `ForceCurve` does, a row of a table for each."""
+
+    def __init__(self, groups: list[NormalRows], curves: tuple[ForceCurve, ...], diameter: FloatArray) -> None:
+        of_row = {row: each.curve for each in groups for row in each.rows.tolist()}
+        self.rows: IndexArray = np.array(sorted(of_row), np.intp)
+        used = [curves[of_row[row]] for row in self.rows.tolist()]
+        width = max((len(curve.slopes) for curve in used), default=1) + 1
+        size = diameter[self.rows]
+        self._starts, self._forces, self._slopes = (np.full((len(used), width), fill) for fill in (np.inf, 0.0, 0.0))
+        for at, curve in enumerate(used):  # nothing above the mudline, then the segments below it
+            first = int(np.clip(np.searchsorted(curve.ratios, 0.0, side="right") - 1, 0, len(curve.slopes) - 1))
+            count = len(curve.slopes) - first + 1
+            self._starts[at, :count] = np.append(0.0, curve.ratios[first:-1] * size[at])
+            self._forces[at, 1:count] = curve.forces[first:-1]
+            self._slopes[at, 1:count] = curve.slopes[first:] / size[at]
+        self._each, self._borders = np.arange(len(used)), self._starts[:, 1:].copy()
+        self._borders[:, 0] = 0.0
+
+    def evaluate(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return forces per length and their derivatives to the depths (k,)."""
+        at = self._each, (z[:, None] > self._borders).sum(axis=1)
+        slope = self._slopes[at]
+        return self._forces[at] + slope * (z - self._starts[at]), slope
+
+
 class ElasticSoil:
     """Laws without a history: force and tangent follow from the depth alone."""
 
     def __init__(self, given: ContactInput, matrix: ElementMatrix = "mean") -> None:
-        self._tables, self._length = Tables(given), given.length
-        self._onset, self._cut = given.onset(), given.tension == "cut"
-        self._curves, self._diameter = given.curves, given.diameter
+        tables, self._length = Tables(given), given.length
+        self._onset, self._cut, self._diameter = given.onset(), given.tension == "cut", given.diameter
+        self._curves = _Curves([each for each in tables.normal if each.curve >= 0], given.curves, given.diameter)
+        self._others, self._nodal = [each for each in tables.normal if each.curve < 0], tables.nodal
+        self._carried = np.append(self._length, 0.0) + np.append(0.0, self._length)
         points, weights = (np.array([0.0]), np.array([2.0])) if matrix == "mean" else _GAUSS
-        self._left, self._right, self._shares = 0.5 * (1.0 - points), 0.5 * (1.0 + points), 0.5 * weights
-        self._reaction = Reaction(*np.zeros((4, 1)))
+        self._points = [
+            (0.5 * (1.0 - at), 0.5 * (1.0 + at), 0.5 * share) for at, share in zip(points, weights, strict=True)
+        ]
 
     def react(self, w: FloatArray, v: FloatArray, step: float) -> Reaction:  # noqa: ARG002 - as `Soil` has it
         """Return the reaction at heights (n,) of the nodes."""
-        left, right, count = w[:-1], w[1:], len(w)
+        count = len(w)
         nodal, diagonal, beside = np.zeros(count), np.zeros(count), np.zeros(count - 1)
         per_length = np.zeros(count - 1)
-        for at_left, at_right, share in zip(self._left, self._right, self._shares, strict=True):
-            force, slope = self._forces(-at_left * left - at_right * right)
+        for left, right, share in self._points:
+            force, slope = self._forces(-left * w[:-1] - right * w[1:])
             per_length += share * force
-            force *= share * self._length
-            slope *= share * self._length
-            nodal[:-1] += at_left * force
-            nodal[1:] += at_right * force
-            diagonal[:-1] -= at_left * at_left * slope
-            diagonal[1:] -= at_right * at_right * slope
-            beside -= at_left * at_right * slope
-        for rows in self._tables.nodal:
+            force, slope = share * self._length * force, share * self._length * slope
+            nodal[:-1] += left * force
+            nodal[1:] += right * force
+            diagonal[:-1] -= left * left * slope
+            diagonal[1:] -= right * right * slope
+            beside -= left * right * slope
+        for rows in self._nodal:
             z = -w[rows.rows]
             touches = z > rows.law.onset(*rows.columns)
             force, slope = rows.reaction(z, 0.0, *rows.columns)
@@ -135,8 +164,8 @@ class ElasticSoil:
             own[rows.rows] = np.where(touches, force, 0.0)
             nodal += own
             diagonal[rows.rows] -= np.where(touches, slope, 0.0)
-            carried = np.append(self._length, 0.0) + np.append(0.0, self._length)
-            per_length += 0.5 * ((2.0 * own / carried)[:-1] + (2.0 * own / carried)[1:])
+            own /= self._carried
+            per_length += own[:-1] + own[1:]
         return Reaction(nodal, diagonal, beside, per_length)
 
     def keep(self) -> None:
@@ -144,25 +173,20 @@ class ElasticSoil:
 
     def _forces(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Force per length and its derivative to the depth, of elements (m,)."""
-        found = [self._of_rows(rows, z[rows.rows]) for rows in self._tables.normal]
-        if len(found) == 1 and len(found[0][0]) == len(z):
-            return found[0]
-        force, slope = np.zeros(len(z)), np.zeros(len(z))
-        for rows, (part, tangent) in zip(self._tables.normal, found, strict=True):
-            force[rows.rows], slope[rows.rows] = part, tangent
-        return force, slope
-
-    def _of_rows(self, rows: NormalRows, z: FloatArray) -> tuple[FloatArray, FloatArray]:
-        diameter = self._diameter[rows.rows]
-        touches: BoolArray = z > self._onset[rows.rows]
-        if rows.curve >= 0:
-            force, slope = self._curves[rows.curve].evaluate(z / diameter)
-            slope /= diameter
-            if self._cut:
-                touches = touches & (force > 0.0)
+        rows = self._curves.rows
+        if len(rows) == len(z):
+            force, slope = self._curves.evaluate(z)
         else:
-            force, slope = rows.reaction(z, diameter, *rows.columns)
-        return np.where(touches, force, 0.0), np.where(touches, slope, 0.0)
+            force, slope = np.zeros(len(z)), np.zeros(len(z))
+            force[rows], slope[rows] = self._curves.evaluate(z[rows])
+        if self._cut:
+            force, slope = np.where(force > 0.0, force, 0.0), np.where(force > 0.0, slope, 0.0)
+        for each in self._others:
+            depth = z[each.rows]
+            found = each.reaction(depth, self._diameter[each.rows], *each.columns)
+            touches: BoolArray = depth > self._onset[each.rows]
+            force[each.rows], slope[each.rows] = (np.where(touches, part, 0.0) for part in found)
+        return force, slope
 
 
 class SteppedSoil:
