@@ -40,6 +40,12 @@ class Scheme(NamedTuple):
     alpha: float | None = None
 
     @property
+    def radius(self) -> float:
+        """Spectral radius at infinite frequency."""
+        share = self.alpha_f if self.alpha is None else 0.5 * (1.0 + self.alpha)
+        return share / (1.0 - share)
+
+    @property
     def gamma(self) -> float:
         """Newmark's gamma of second order."""
         return 0.5 - self.alpha_m + self.alpha_f
@@ -226,14 +232,14 @@ class _Condensed:
         """The w (n - 2,) of a force, by the inverse of the first system and refinement, else by elimination."""
         if self._held is None:
             self._held = diagonal.copy(), beside.copy()
-            self._solution = np.linalg.inv(self._added(diagonal, beside)).astype(np.float64, copy=False)
+            self._solution = np.asarray(np.linalg.inv(self._added(diagonal, beside)), np.float64)
         more, more_beside = diagonal - self._held[0], beside - self._held[1]
         left: FloatArray = force
         found, least = np.zeros(len(force)), _REFINED * np.abs(force).max()
         for _ in range(_REFINEMENTS):
             part = self._solution @ left
             found += part
-            left = np.multiply(-more, part)
+            left = np.asarray(-more * part, np.float64)
             left[:-1] -= more_beside * part[1:]
             left[1:] -= more_beside * part[:-1]
             if np.abs(left).max() <= least:

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 
 from mudline.contact import ContactInput
+from mudline.contact.embedment import static_depth
 from mudline.contact.lines import lines_of
 from mudline.deck.parameters import evaluated, folded
 from mudline.export.held import TRANSLATIONS, conditions
@@ -23,6 +24,7 @@ from mudline.results.evaluation import require_elements
 from mudline.scene.deck_values import number
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices
+from mudline.scene.pipe import Pipe, pipe_of
 from mudline.scene.positions import Positions
 from mudline.scene.seabed import SeabedKind
 from mudline.scene.shore import made_seabed
@@ -30,8 +32,7 @@ from mudline.short_repr import short_repr
 from mudline.syntax.rows import read_number
 from mudline.touchdown_study.beam import Beam, NotConvergedError, at_rest
 from mudline.touchdown_study.catenary import Catenary, Line, NoRestShapeError, rest
-from mudline.touchdown_study.load_case import Pipe, pipe_of
-from mudline.touchdown_study.soil import cut_out, soil_of, static_depth
+from mudline.touchdown_study.soil import cut_out, soil_of
 
 if TYPE_CHECKING:
     from mudline.keywords.library.boundary import Boundary

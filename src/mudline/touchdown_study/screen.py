@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from mudline.quantities import headed, shown, unit_names
+from mudline.scene.load_case import in_words
 from mudline.short_repr import cut
-from mudline.touchdown_study.load_case import in_words
+from mudline.touchdown_study.beam import Run
 from mudline.touchdown_study.stability import ExtremeRow, axial_period
 from mudline.touchdown_study.study import StepRow, Study
 from mudline.touchdown_study.zone import Zone
@@ -59,9 +60,9 @@ def description(found: Study) -> str:
 def _motion(zone: Zone, unit: str) -> str:
     motion = zone.motion
     where = f"{motion.source}, line {motion.line}" if motion.line else motion.source
-    surge = f" and surging {in_words(motion.surge)}{unit}" if motion.surge else ""
+    surge = f" and surging {in_words(motion.surge, unit)}" if motion.surge else ""
     seconds = "" if zone.scene.units == "user" else " s"
-    return f"hang-off heaving {in_words(motion.heave)}{unit}{surge} ({where}) in {motion.period:.4g}{seconds}"
+    return f"hang-off heaving {in_words(motion.heave, unit)}{surge} ({where}) in {motion.period:.4g}{seconds}"
 
 
 def _short(value: float) -> str:
@@ -80,7 +81,7 @@ def steps_table(found: Study) -> ScreenTable | None:
     if found.mesh is not None:
         unit = unit_names(found.units).behind("length")
         whole, half = (f"{each:.3g}{unit}" for each in found.mesh.element_length)
-        shares = (found.mesh.touchdown_error, found.mesh.range_change, found.mesh.force_change)
+        shares = found.mesh.changes or (None, None, None)
         rows.append([f"{whole} -> {half}", "", *(_share(each) for each in shares), "", "", ""])
     title = "Errors of the time step, and of the elements"
     return ScreenTable(title, heads, rows, heads[:1], _mesh_note(found))
@@ -91,10 +92,13 @@ def _step_cells(found: Study, row: StepRow) -> list[str]:
     if row.errors is None:
         return [step, row.state, *[""] * 6]
     run_time = 0.0 if row.run_time is None else row.run_time * _KILO
-    errors = (row.touchdown_error, row.range_error, row.force_error)
+    counts = ["", ""] if row.measures is None else _iterations(row.measures.run)
     rms = "" if row.rms is None else f"{row.rms:.2g}"
-    mean = "" if row.mean_iterations is None else f"{row.mean_iterations:.1f}"
-    return [step, rms, *(_share(each) for each in errors), mean, str(row.most_iterations), f"{run_time:.2g}"]
+    return [step, rms, *(_share(each) for each in row.errors), *counts, f"{run_time:.2g}"]
+
+
+def _iterations(run: Run) -> list[str]:
+    return [f"{run.mean_iterations:.1f}", str(run.most_iterations)]
 
 
 def _share(value: float | None) -> str:

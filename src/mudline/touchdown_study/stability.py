@@ -10,20 +10,20 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact import ContactInput, ContactModel
+from mudline.contact.embedment import static_depth
 from mudline.contact.input import LawKind
 from mudline.curves import ForceCurve
 from mudline.quantities import unit_names
 from mudline.results.stage_times import Timer, seconds_per_step
 from mudline.scene.force_curves import SceneCurve
+from mudline.scene.load_case import OwnSteps
 from mudline.scene.model import Scene
 from mudline.scene.oscillation import line_of, oscillations
 from mudline.touchdown_study.beam import NotConvergedError
-from mudline.touchdown_study.load_case import OwnSteps
-from mudline.touchdown_study.soil import static_depth
 from mudline.touchdown_study.zone import RAMP, Variant, Zone, jump, ramp, stiffest_factor
 
 PERIODS, MOST_STEPS = 2, 12_000
-_STEPPED_SHARE = 8
+STEPPED_SHARE = 8
 """Laws with a history take so many times as long: fewer cases are tried with them."""
 _GROWN = 3.0
 """Of the moment at half of the step: a run with more is unstable."""
@@ -70,7 +70,7 @@ def extreme_rows(zone: Zone, own: OwnSteps | None) -> tuple[list[ExtremeRow], li
     """Return the stiff and extreme cases of a zone, and a sentence on those left out."""
     step = zone.motion.period / 100.0 if own is None else own.largest
     each = 3.0 * PERIODS * zone.motion.period / step
-    budget = MOST_STEPS // (_STEPPED_SHARE if zone.stepped else 1)
+    budget = MOST_STEPS // (STEPPED_SHARE if zone.stepped else 1)
     cases = list(_cases(zone))
     tried = cases[: max(int(budget / each), 0)]
     rows = [_extreme(zone, name, variant, step) for name, variant in tried]
@@ -128,13 +128,14 @@ def _extreme(zone: Zone, name: str, variant: Variant, step: float) -> ExtremeRow
         stable,
         whole.run.most_iterations,
         whole.run.searches,
-        _change(whole.moment_range, half.moment_range),
-        _change(whole.largest_force, half.largest_force),
+        change(whole.moment_range, half.moment_range),
+        change(whole.largest_force, half.largest_force),
         None if stable else "unstable: the moments of the two steps differ by over 3 times",
     )
 
 
-def _change(value: float, reference: float) -> float:
+def change(value: float, reference: float) -> float:
+    """Return the relative change of a value; 0 against nothing."""
     return value / reference - 1.0 if reference > 0.0 else 0.0
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -13,15 +13,17 @@ from mudline.contact import ContactInput
 from mudline.quantities import finite, shown, time_unit, unit_names
 from mudline.results.evaluation import require_elements
 from mudline.results.stage_times import CLOCK, Pruning, Timer, pruned
+from mudline.scene.load_case import OwnSteps, own_steps
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Mask
 from mudline.scene.oscillation import line_of
-from mudline.touchdown_study.beam import NotConvergedError
-from mudline.touchdown_study.load_case import OwnSteps, own_steps
+from mudline.touchdown_study.beam import NotConvergedError, generalised_alpha
 from mudline.touchdown_study.stability import (
+    STEPPED_SHARE,
     Evaluator,
     ExtremeRow,
     FrictionRow,
+    change,
     curve_notes,
     evaluator_row,
     extreme_rows,
@@ -49,13 +51,13 @@ ERRORS = ("touchdown point", "range of bending moment", "largest soil force")
 SHORT, COARSE, ADVISED = 0.02, 0.05, 0.01
 """Errors up to which a step is short enough, and coarse; those of a step that is advised."""
 PERIODS, MOST_STEPS, MOST_EXTREME = 3, 20_000, 12_000
-_STEPPED_SHARE = 8
-"""Laws with a history take so many times as long: a ladder has fewer steps for them."""
+_FEW = 96.0
+"""Steps of a run below which none is tried that is twice as long."""
 _RESONANT, _BOUNCING = 3.0, 5.0
 """Of the moment and the landings of the reference: a run with more is unstable."""
 _LEAST_LANDINGS = 20
-_DISSIPATIVE = 0.8
-"""Spectral radius from which on a scheme is no reference."""
+_UNDAMPED, _REFERENCE = 0.8, 0.4
+"""Spectral radius from which on a scheme is no reference, and that of the scheme that takes its place."""
 _NO_STEP = 100.0
 """Steps of a period that are tried where the deck has none."""
 
@@ -71,51 +73,53 @@ class Advice(NamedTuple):
     deck_line: int | None = None
 
 
+class Errors(NamedTuple):
+    """Errors against a reference: of the touchdown point over its travel, and with their signs of range and force."""
+
+    touchdown: float
+    range: float
+    force: float
+
+
 @dataclass(frozen=True)
 class StepRow:
-    """A time step; values in the deck's units, errors against the reference, None for that and for unstable runs.
+    """A time step.
 
-    own: whether it is the deck's. run_time: seconds of processor time for a second of motion. touchdown: least and
-    largest place in the last period. trace: (k, 2) times and touchdown points of that period. state: "", "unstable" or
-    why the run did not end.
+    own: whether it is the deck's. run_time: seconds of processor time for a second of motion. errors: None for the
+    reference and for unstable runs. rms: of the touchdown point, in the deck's unit of length. state: "", or what
+    became of the run.
     """
 
     step: float
     own: bool
-    largest_force: float | None = None
-    largest_moment: float | None = None
-    moment_range: float | None = None
-    touchdown: tuple[float, float] | None = None
-    touchdown_error: float | None = None
-    range_error: float | None = None
-    force_error: float | None = None
-    mean_iterations: float | None = None
-    most_iterations: int | None = None
-    searches: int | None = None
-    cuts: int | None = None
     run_time: float | None = None
+    measures: Measures | None = field(default=None, repr=False)
+    errors: Errors | None = None
     rms: float | None = None
     state: str = ""
-    measures: Measures | None = field(default=None, repr=False)
-
-    @property
-    def errors(self) -> tuple[float, float, float] | None:
-        """Amounts of the errors of touchdown, range and force; None without them."""
-        found = self.touchdown_error, self.range_error, self.force_error
-        return None if None in found else tuple(abs(each) for each in found if each is not None)  # type: ignore[return-value]
 
     @property
     def worst(self) -> float:
-        """The largest of the errors; infinite for a run that is unstable, or did not end."""
-        return math.inf if self.errors is None else max(self.errors)
+        """The largest amount of the errors; infinite for a run that is unstable, or did not end."""
+        return math.inf if self.errors is None else max(map(abs, self.errors))
 
     def json(self) -> dict[str, Any]:
         """Return the row as JSON has it."""
-        names = ("step", "own", "largest_force", "largest_moment", "moment_range", "touchdown")
-        more = ("touchdown_error", "range_error", "force_error")
-        iterations = {"mean": self.mean_iterations, "most": self.most_iterations}
-        tail = {name: getattr(self, name) for name in ("searches", "cuts", "run_time")}
-        return {name: _plain(getattr(self, name)) for name in (*names, *more)} | {"iterations": iterations} | tail
+        found, run = self.measures, self.measures and self.measures.run
+        errors = self.errors or (None, None, None)
+        return {
+            "step": self.step,
+            "own": self.own,
+            "largest_force": found and found.largest_force,
+            "largest_moment": found and found.largest_moment,
+            "moment_range": found and found.moment_range,
+            "touchdown": found and [float(found.touchdown.min()), float(found.touchdown.max())],
+            **dict(zip(("touchdown_error", "range_error", "force_error"), errors, strict=True)),
+            "iterations": {"mean": run and run.mean_iterations, "most": run and run.most_iterations},
+            "searches": run and run.searches,
+            "cuts": run and run.cuts,
+            "run_time": self.run_time,
+        }
 
 
 class Mesh(NamedTuple):
@@ -123,15 +127,18 @@ class Mesh(NamedTuple):
 
     step: float
     element_length: tuple[float, float]
-    touchdown_error: float | None
-    range_change: float | None
-    force_change: float | None
+    changes: Errors | None
     consistent_verdict: str | None
 
     def json(self) -> dict[str, Any]:
         """Return the row as JSON has it."""
-        found = {name: _plain(value) for name, value in self._asdict().items() if name != "consistent_verdict"}
-        return found | {"consistent_matrix": {"verdict": self.consistent_verdict}}
+        names = ("touchdown_error", "range_change", "force_change")
+        return {
+            "step": self.step,
+            "element_length": list(self.element_length),
+            **dict(zip(names, self.changes or (None, None, None), strict=True)),
+            "consistent_matrix": {"verdict": self.consistent_verdict},
+        }
 
 
 @dataclass
@@ -193,7 +200,7 @@ class Study:
     @property
     def errors(self) -> Floats:
         """Amounts (k, 3) of the errors of touchdown, range and force of the rows; NaN where there is none."""
-        return np.array([row.errors or (np.nan,) * 3 for row in self.steps]).reshape(-1, 3)
+        return np.abs(np.array([row.errors or (np.nan,) * 3 for row in self.steps], np.float64)).reshape(-1, 3)
 
     @property
     def is_own(self) -> Mask:
@@ -249,8 +256,7 @@ def _model(zone: Zone) -> dict[str, Any]:
         "tension": zone.beam.tension,
         "lying_length": float(lying) if catenary is None else catenary.lying[-1][1],
         "weight": zone.beam.weight,
-        "mass": float(zone.pipe.mass[own]),
-        "contents": float(zone.pipe.contents[own]),
+        "mass": float(zone.pipe.mass[own] + zone.pipe.contents[own]),
         "added_mass": float(zone.pipe.added_mass[own]),
         "bending_stiffness": zone.beam.bending,
         "travel": zone.travel,
@@ -337,65 +343,46 @@ def _find_zone(found: Study, scene: Scene, given: ContactInput, heave: float | N
 # ------------------------------------------------------------------------------------------------------------- accuracy
 
 
+_LADDERS = (
+    ((2.0, 1.0, 0.5, 0.25), 0.125),
+    ((2.0, 1.0, 0.5), 0.25),
+    ((2.0, 1.0), 0.5),
+    ((4.0, 2.0), 1.0),
+)
+"""Steps of the rows and of the reference over the deck's step, the best first."""
+
+
 def _steps_of(zone: Zone, own: OwnSteps | None) -> tuple[list[tuple[float, bool]], float]:
     """The steps of the rows, the largest first, each with whether it is the deck's, and that of the reference."""
     period = zone.motion.period
-    base = period / _NO_STEP if own is None else own.largest
-    budget = MOST_STEPS // (_STEPPED_SHARE if zone.stepped else 1)
-    factors, reference = _ladder(PERIODS * period / base, budget)
-    steps = {base * factor: own is not None and factor == 1.0 for factor in factors}
-    if own is not None and own.first < own.largest and PERIODS * period / own.first <= budget:
-        near = min(steps, key=lambda step: abs(math.log(step / own.first)))
-        if abs(near / own.first - 1.0) < ADVISED:
-            steps[near] = True
-        elif own.first > base * reference:
-            steps[own.first] = True
-    longest = period / 8.0
-    rows = sorted(((step, is_own) for step, is_own in steps.items() if step <= longest or is_own), reverse=True)
-    return rows, base * reference
+    base, given = (period / _NO_STEP, False) if own is None else (own.largest, True)
+    budget = MOST_STEPS // (STEPPED_SHARE if zone.stepped else 1)
+    fit: list[tuple[tuple[float, ...], float]] = []
+    while True:
+        whole = PERIODS * period / base
+        fit = [each for each in _LADDERS if whole * (sum(1.0 / part for part in each[0]) + 1.0 / each[1]) <= budget]
+        if fit:
+            break
+        base, given = 2.0 * base, False  # the deck's step is too short to be run: longer ones say whether it has to be
+    factors, reference = fit[0]
+    steps = {base * part: given and part == 1.0 for part in factors if part <= 1.0 or whole >= _FEW}
+    first = own.first if own is not None and given else base
+    near = next((step for step in steps if abs(step / first - 1.0) < ADVISED), first)
+    if first < base and near >= base * reference:
+        steps[near] = True
+    return sorted(steps.items(), reverse=True), base * reference
 
 
-def _ladder(steps: float, budget: float) -> tuple[tuple[float, ...], float]:
-    """Factors of the deck's step that rows have, and that of the reference, within so many steps."""
-    for factors, reference in (
-        ((2.0, 1.0, 0.5, 0.25), 0.125),
-        ((2.0, 1.0, 0.5), 0.25),
-        ((2.0, 1.0), 0.5),
-        ((4.0, 2.0), 1.0),
-    ):
-        if steps * (sum(1.0 / factor for factor in factors) + 1.0 / reference) <= budget:
-            return factors, reference
-    coarse = 2.0 ** math.ceil(math.log2(max(steps / (budget / 2.0), 1.0)))
-    return (4.0 * coarse, 2.0 * coarse), coarse
-
-
-def _measured(zone: Zone, step: float, own: bool, timer: Timer, variant: Variant = Variant()) -> StepRow:  # noqa: B008, FBT001
+def _measured(zone: Zone, step: float, timer: Timer, variant: Variant = Variant(), *, own: bool = False) -> StepRow:  # noqa: B008 - a constant
     """A row without errors."""
-    span = PERIODS * zone.motion.period
-    began = timer()
+    span, began = PERIODS * zone.motion.period, timer()
     try:
         found = zone.run(max(round(span / step), 4 * PERIODS), variant)
     except NotConvergedError:
         return StepRow(step, own, state="does not converge")
-    spent = timer() - began
-    run = found.run
-    ends = (float(found.touchdown.min()), float(found.touchdown.max()))
-    if not np.isfinite(ends).all():
+    if not np.isfinite(found.touchdown).all():
         return StepRow(step, own, state="has no touchdown in its zone")
-    return StepRow(
-        step,
-        own,
-        found.largest_force,
-        found.largest_moment,
-        found.moment_range,
-        ends,
-        mean_iterations=run.mean_iterations,
-        most_iterations=run.most_iterations,
-        searches=run.searches,
-        cuts=run.cuts,
-        run_time=spent / span,
-        measures=found,
-    )
+    return StepRow(step, own, (timer() - began) / span, found)
 
 
 def _against(row: StepRow, reference: StepRow) -> StepRow:
@@ -405,74 +392,47 @@ def _against(row: StepRow, reference: StepRow) -> StepRow:
         return row
     landed = max(other.landings, _LEAST_LANDINGS)
     if one.largest_moment > _RESONANT * other.largest_moment or one.landings > _BOUNCING * landed:
-        return StepRow(**{**vars(row), "state": "is unstable"})
-    travel = float(np.ptp(other.touchdown))
-    rms = _rms(one, other)
-    errors = {
-        "touchdown_error": rms / travel if travel > 0.0 else 0.0,
-        "range_error": _change(one.moment_range, other.moment_range),
-        "force_error": _change(one.largest_force, other.largest_force),
-        "rms": rms,
-    }
-    return StepRow(**{**vars(row), **errors})
-
-
-def _rms(one: Measures, other: Measures) -> float:
-    """Root of the mean square of the difference of two touchdown points, at the times of the coarser run."""
-    if len(one.times) > len(other.times):
-        one, other = other, one
-    return float(np.sqrt(np.mean((one.touchdown - np.interp(one.times, other.times, other.touchdown)) ** 2)))
-
-
-def _change(value: float, reference: float) -> float:
-    return value / reference - 1.0 if reference > 0.0 else 0.0
+        return replace(row, state="is unstable")
+    coarse, fine = (one, other) if len(one.times) <= len(other.times) else (other, one)
+    missed = coarse.touchdown - np.interp(coarse.times, fine.times, fine.touchdown)
+    rms, travel = float(np.sqrt(np.mean(missed * missed))), float(np.ptp(other.touchdown))
+    errors = Errors(
+        rms / travel if travel > 0.0 else 0.0,
+        change(one.moment_range, other.moment_range),
+        change(one.largest_force, other.largest_force),
+    )
+    return replace(row, errors=errors, rms=rms)
 
 
 def _accuracy(found: Study, zone: Zone, timer: Timer) -> None:
     """The rows, their errors, the mesh."""
-    rows, last = _steps_of(zone, found.own)
-    reference = _measured(zone, last, False, timer)  # noqa: FBT003 - as the row has it
-    if (zone.scheme.rho or 0.0) >= _DISSIPATIVE:
-        found.notes["accuracy"].append("The reference has this scheme too, which hardly damps: read it with care.")
+    steps, last = _steps_of(zone, found.own)
+    held = zone
+    if zone.scheme.radius >= _UNDAMPED:
+        held = replace(zone, scheme=generalised_alpha(_REFERENCE))
+        found.notes["accuracy"].append(f"The reference is run with generalised-alpha ({_REFERENCE}), which damps.")
+    reference = _measured(held, last, timer)
+    rows = [_measured(zone, step, timer, own=own) for step, own in steps]
+    found.steps = [_against(row, reference) for row in rows]
     if reference.measures is None:
-        found.advice = _not_measured(found, zone, reference)
-        found.steps = [_measured(zone, step, own, timer) for step, own in rows]
+        why = jump_line(zone)
+        text = f"Not studied: a run with {found.milliseconds(last)} {reference.state}{f': {why[0]}' if why else ''}."
+        found.advice = Advice(text, own_step=found.own and found.own.largest)
         return
     found.reference = reference
-    found.steps = [_against(_measured(zone, step, own, timer), reference) for step, own in rows]
-    finest = found.steps[-1]
-    own_row = next((row for row in found.steps if row.own), None)
-    if not zone.stepped and finest.measures is not None and own_row is not None:
-        found.mesh = _mesh(zone, finest, own_row, timer)
-
-
-def _not_measured(found: Study, zone: Zone, reference: StepRow) -> Advice:
-    """The answer where not even the shortest step gives a run."""
-    line = jump_line(zone)
-    step = f"{found.milliseconds(reference.step)}"
-    why = f": {line[0]}" if line else ""
-    return Advice(f"Not studied: a run with {step} {reference.state}{why}.", own_step=found.own and found.own.largest)
+    if not zone.stepped and rows[-1].measures is not None:
+        found.mesh = _mesh(zone, rows[-1], next((row for row in rows if row.own), rows[-1]), timer)
 
 
 def _mesh(zone: Zone, finest: StepRow, own: StepRow, timer: Timer) -> Mesh:
     """What halving the elements changes at the shortest step, and the verdict with a consistent matrix."""
     size = float(zone.beam.lengths[zone.node - 1])
-    halved = _measured(zone, finest.step, False, timer, Variant(parts=2))  # noqa: FBT003 - as the row has it
-    compared = _against(halved, finest)
-    consistent = [
-        _measured(zone, row.step, row.own, timer, Variant(matrix="consistent")) for row in (own, finest) if row.step
-    ]
+    halved = _against(_measured(zone, finest.step, timer, Variant(parts=2)), finest)
     verdict = None
-    if all(row.measures for row in consistent) and own.step > finest.step:
-        verdict = verdict_of(_against(*consistent).worst)
-    return Mesh(
-        finest.step,
-        (size, 0.5 * size),
-        compared.touchdown_error,
-        compared.range_error,
-        compared.force_error,
-        verdict,
-    )
+    if own.step > finest.step:
+        one, other = (_measured(zone, row.step, timer, Variant(matrix="consistent")) for row in (own, finest))
+        verdict = verdict_of(_against(one, other).worst)
+    return Mesh(finest.step, (size, 0.5 * size), halved.errors, verdict)
 
 
 def verdict_of(worst: float) -> str:
@@ -532,7 +492,7 @@ def _of_no_step(found: Study, fine: float | None, own: float | None, file: str |
     return Advice(text.rstrip(), "not studied", None, fine)
 
 
-def _of_errors(errors: tuple[float, float, float]) -> str:
+def _of_errors(errors: Errors) -> str:
     touchdown, moment, force = (about(each) for each in errors)
     return (
         f"about {moment} of the range of the bending moment, {force} of the largest soil force, {touchdown} of the "
@@ -557,8 +517,7 @@ def _of_mesh(found: Study, row: StepRow) -> str:
             f"Elements of {longest:.3g}{length} land whole: the line bends within {bound:.2g}{length}. The mesh is the "
             f"finding, and errors of steps look small on it: give elements of {0.5 * bound:.2g}{length} or less."
         )
-    changes = () if mesh is None else (mesh.touchdown_error, mesh.range_change, mesh.force_change)
-    worst = max((abs(each) for each in changes if each is not None), default=0.0)
+    worst = max(map(abs, mesh.changes)) if mesh is not None and mesh.changes is not None else 0.0
     if mesh is not None and worst > row.worst:
         return f"Half the element length ({mesh.element_length[0]:.3g}{length}) changes more: {about(worst)}."
     return ""

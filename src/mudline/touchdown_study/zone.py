@@ -5,20 +5,27 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
 from mudline.contact import ContactInput
+from mudline.contact.embedment import static_depth
 from mudline.contact.input import LawAssignment
 from mudline.curves import ForceCurve
+from mudline.scene.deck_values import number
+from mudline.scene.load_case import TopMotion, top_motion
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, Mask
-from mudline.touchdown_study.beam import Beam, Rest, Run, Scheme, at_rest, march
+from mudline.scene.oscillation import line_of
+from mudline.scene.pipe import Pipe, pipe_of
+from mudline.touchdown_study.beam import Beam, Rest, Run, Scheme, at_rest, generalised_alpha, hilber_hughes, march
 from mudline.touchdown_study.catenary import Catenary, NoRestShapeError
-from mudline.touchdown_study.load_case import Pipe, TopMotion, pipe_of, scheme_of, top_motion
 from mudline.touchdown_study.rest_shape import LineAtRest, lines_at_rest, touchdowns, window
-from mudline.touchdown_study.soil import ElementMatrix, ScaledSoil, Soil, cut_out, has_history, soil_of, static_depth
+from mudline.touchdown_study.soil import ElementMatrix, ScaledSoil, Soil, cut_out, has_history, soil_of
+
+if TYPE_CHECKING:
+    from mudline.keywords.library.time_stepping import TimeStepping
 
 RAMP = 0.01
 """Diameters over which a force that jumps at the mudline grows instead."""
@@ -314,3 +321,23 @@ def stiffest_factor(zone: Zone, factor: float) -> float:
     """Return a factor of the soil, less where it would be stiffer than any seabed."""
     most = _LARGE / 47.88 if zone.scene.units == "imperial" else _LARGE
     return min(factor, max(most / zone.stiffness, 1.0)) if factor > 1.0 else factor
+
+
+_DEFAULT_RHO, _DEFAULT_HUGHES = 0.4, -0.25
+
+
+def scheme_of(scene: Scene) -> tuple[Scheme, int]:
+    """Return the scheme of the last `*TIME STEPPING`, the program's default without one, and its line, 0 for none."""
+    found, line = generalised_alpha(_DEFAULT_RHO), 0
+    for where, block in scene.deck.blocks("TIME STEPPING", "LOAD CASE"):
+        given, line = cast("TimeStepping", block), line_of(scene, where)
+        if given.type_ == "HILBER-HUGHES":
+            found = hilber_hughes(max(number(given.hilber_hughes, "coefficient", _DEFAULT_HUGHES), -1.0 / 3.0))
+        elif given.alphas is not None:
+            default = generalised_alpha(_DEFAULT_RHO)
+            alpha_m = number(given.alphas, "alpha_m", default.alpha_m)
+            alpha_f = number(given.alphas, "alpha_f", default.alpha_f)
+            found = Scheme("generalised-alpha", alpha_m, alpha_f)
+        else:
+            found = generalised_alpha(number(given, "infinity", _DEFAULT_RHO))
+    return found, line

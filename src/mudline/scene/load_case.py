@@ -1,4 +1,4 @@
-"""Load case of a deck: pipe with contents and water, motion of its top in waves, time steps and their scheme."""
+"""Load case of a deck: the motion of a line's top in its waves, and its time steps."""
 
 from __future__ import annotations
 
@@ -14,116 +14,19 @@ import numpy as np
 
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Where
-from mudline.export.line_model import stiffnesses
-from mudline.keywords.unknown import known_name
 from mudline.scene.data_files import operators
 from mudline.scene.deck_values import FOOT, find_file, number
-from mudline.scene.model import Scene
-from mudline.scene.numbering import Floats, Mask, picked
+from mudline.scene.numbering import Floats
 from mudline.scene.oscillation import line_of
+from mudline.scene.resolved import ResolvedDeck
 from mudline.scene.sections import surroundings
-from mudline.touchdown_study.beam import Scheme, generalised_alpha, hilber_hughes
 
 if TYPE_CHECKING:
-    from mudline.keywords.library.hydrodynamic_sets import HydrodynamicSets
-    from mudline.keywords.library.internal_fluid import InternalFluid
     from mudline.keywords.library.rao import Raos, VesselRao
     from mudline.keywords.library.time import TimeSpan
-    from mudline.keywords.library.time_stepping import TimeStepping
     from mudline.keywords.library.wave_jonswap import JonswapSeas
     from mudline.keywords.library.wave_regular import RegularWaves
     from mudline.keywords.library.wave_stokes import StokesWave
-
-_DRAG, _INERTIA, _ADDED_MASS = 1.0, 2.0, 1.0
-"""Coefficients of an element without any in the deck, and those that a line may leave out."""
-
-
-class Pipe(NamedTuple):
-    """Elements (m,) of a deck, per unit length and in its units; NaN where a value is not known.
-
-    weight: submerged weight with contents.
-    mass: of the pipe alone. contents: mass of what flows in it. added_mass: Ca rho pi D^2 / 4.
-    drag: Cd rho D / 2, the force of water across at a velocity of 1.
-    drag_coefficient: Cd. has_coefficients: False where Cd and Ca are assumed.
-    bending, axial: EI and EA, of curves their slope at 0; 0 for sections that do not bend.
-    """
-
-    weight: Floats
-    mass: Floats
-    contents: Floats
-    added_mass: Floats
-    drag: Floats
-    drag_coefficient: Floats
-    has_coefficients: Mask
-    bending: Floats
-    axial: Floats
-
-
-def pipe_of(scene: Scene) -> Pipe:
-    """Return the elements of a scene with the contents of its load case and its hydrodynamic coefficients."""
-    table, around = scene.section_table, surroundings(scene.deck)
-    contents = _contents(scene)
-    added, drag, given, with_buoyancy = _coefficients(scene)
-    entries = [section.entry.section for section in table.sections]
-    outer = picked((number(each, "do", number(each, "dd")) for each in entries), table.of_element)
-    drag_diameter = picked((number(each, "dd", number(each, "do")) for each in entries), table.of_element)
-    buoyancy = picked((number(each, "db", number(each, "do")) for each in entries), table.of_element)
-    size = np.where(with_buoyancy, buoyancy, drag_diameter)
-    size = np.where(size > 0.0, size, outer)
-    with np.errstate(all="ignore"):
-        of_sections = [stiffnesses(scene, section) for section in table.sections]
-        return Pipe(
-            weight=scene.submerged_weight + contents * around.gravity,
-            mass=scene.mass_per_length,
-            contents=contents,
-            added_mass=added * around.density * math.pi / 4.0 * size * size,
-            drag=0.5 * drag * around.density * drag_diameter,
-            drag_coefficient=drag,
-            has_coefficients=given,
-            bending=np.nan_to_num(picked((each.bending for each in of_sections), table.of_element)),
-            axial=picked((each.axial for each in of_sections), table.of_element),
-        )
-
-
-def _contents(scene: Scene) -> Floats:
-    """Mass per length (m,) of what is in the elements whose middle is not above the level of the fluid."""
-    entries = [section.entry.section for section in scene.section_table.sections]
-    inner = picked((number(each, "di", 0.0) for each in entries), scene.section_table.of_element)
-    area = np.nan_to_num(math.pi / 4.0 * inner * inner)
-    ends = np.append(scene.coordinates[:, 0], np.nan)[scene.element_nodes]
-    density = np.zeros(len(area))
-    for _, block in scene.deck.blocks("INTERNAL FLUID", "LOAD CASE"):
-        for entry in cast("InternalFluid", block).sets:
-            name = known_name(entry.set_name) if entry.set_name else "ALL"
-            holder = None if name is None else scene.set_table.find(name)
-            given, level = number(entry, "density", 0.0), number(entry, "level", math.inf)
-            if holder is not None:
-                rows = holder.elements
-                density[rows] = np.where(ends[rows].mean(axis=1) > level, 0.0, given)
-    return density * area
-
-
-def _coefficients(scene: Scene) -> tuple[Floats, Floats, Mask, Mask]:
-    """Ca and Cd (m,), which elements have them from the deck, and which take the buoyancy diameter for inertia."""
-    count = len(scene.element_ids)
-    added, drag = np.full(count, _ADDED_MASS), np.full(count, _DRAG)
-    given, with_buoyancy = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
-    for _, block in scene.deck.blocks("HYDRODYNAMIC SETS"):
-        hydrodynamic = cast("HydrodynamicSets", block)
-        for entry in hydrodynamic.sets:
-            name, row = known_name(entry.set_name), entry.constant
-            holder = None if name is None else scene.set_table.find(name)
-            if holder is None or row is None:
-                continue
-            rows = holder.elements
-            inertia = number(row, "normal_inertia", _INERTIA)
-            added[rows] = number(row, "normal_added_mass", max(inertia - 1.0, 0.0))
-            drag[rows] = number(row, "normal_drag", _DRAG)
-            given[rows], with_buoyancy[rows] = True, hydrodynamic.diameter == "BUOYANCY"
-    return added, drag, given, with_buoyancy
-
-
-# ---------------------------------------------------------------------------------------------------------------- waves
 
 
 class TopMotion(NamedTuple):
@@ -157,7 +60,7 @@ _HALF_TURN, _WHOLE_TURN = 180.0, 360.0
 
 
 def top_motion(
-    scene: Scene, vessel: str, direction: Floats, heave: float | None = None, period: float | None = None
+    scene: ResolvedDeck, vessel: str, direction: Floats, heave: float | None = None, period: float | None = None
 ) -> TopMotion:
     """Return the motion of the top of a line that a vessel moves.
 
@@ -175,7 +78,7 @@ def top_motion(
     return found if period is None else found._replace(period=period)
 
 
-def _waves(scene: Scene) -> Iterator[_Wave]:
+def _waves(scene: ResolvedDeck) -> Iterator[_Wave]:
     """The waves of the deck that are read: a Stokes wave, the highest of regular waves, the sea."""
     for where, block in scene.deck.blocks("WAVE-STOKES", "LOAD CASE"):
         stokes = cast("StokesWave", block)
@@ -226,7 +129,7 @@ def _significant_height(phillips: float, peakedness: float, period: float, gravi
     return 4.0 * math.sqrt(phillips * gravity**2 / omega**4 * float(shape.sum()) * float(ratio[1] - ratio[0]))
 
 
-def _moved(scene: Scene, wave: _Wave, vessel: str, direction: Floats) -> TopMotion:
+def _moved(scene: ResolvedDeck, wave: _Wave, vessel: str, direction: Floats) -> TopMotion:
     """The motion by the operators of a vessel; without them a heave of half of the amplitude."""
     line, height = line_of(scene, wave.where), 2.0 * wave.amplitude
     for rows, heading, source in _operators_of(scene, vessel):
@@ -240,7 +143,7 @@ def _moved(scene: Scene, wave: _Wave, vessel: str, direction: Floats) -> TopMoti
     return TopMotion(0.5 * wave.amplitude, 0.0, wave.period, f"{wave.height}/4, assumed", line)
 
 
-def _operators_of(scene: Scene, vessel: str) -> Iterator[tuple[list[list[float]], float, str]]:
+def _operators_of(scene: ResolvedDeck, vessel: str) -> Iterator[tuple[list[list[float]], float, str]]:
     """Operators of a vessel, its heading, and where they stand; files that cannot be read are passed over."""
     heading, files = 0.0, list[_OperatorFile]()
     placed = chain(scene.deck.blocks("VESSEL"), scene.deck.blocks("VESSEL,INTEGRATED"))
@@ -269,7 +172,7 @@ class _OperatorFile(NamedTuple):
     form: str | None
     layout: str | None
 
-    def path(self, scene: Scene) -> Path | None:
+    def path(self, scene: ResolvedDeck) -> Path | None:
         """The file, if it is there and in the program's own form."""
         if not self.name or (self.form or "MCS").upper() != "MCS":
             return None
@@ -324,10 +227,10 @@ def _responses(rows: list[list[float]], heading: float, period: float) -> list[c
     return [found[0], found[1], side * found[2]]
 
 
-def in_words(value: complex) -> str:
-    """An amplitude with its phase in degrees where it has one."""
-    phase = math.degrees(cmath.phase(value)) if value else 0.0
-    return f"{abs(value):.3g}" + (f" at {phase:.0f} deg" if abs(phase) > 0.5 else "")
+def in_words(value: complex, unit: str) -> str:
+    """Return an amplitude with its unit, and the degrees by which it lags where it does."""
+    lag = -math.degrees(cmath.phase(value)) if value else 0.0
+    return f"{abs(value):.3g}{unit}" + (f" at {lag:.0f} deg" if abs(lag) >= 1.0 else "")
 
 
 # ----------------------------------------------------------------------------------------------------------------- time
@@ -341,7 +244,7 @@ class OwnSteps(NamedTuple):
     where: Where
 
 
-def own_steps(scene: Scene) -> OwnSteps | None:
+def own_steps(scene: ResolvedDeck) -> OwnSteps | None:
     """Return the steps of the last `*TIME`; None without one."""
     found = None
     for where, block in scene.deck.blocks("TIME", "LOAD CASE"):
@@ -354,23 +257,3 @@ def own_steps(scene: Scene) -> OwnSteps | None:
             if largest > 0.0 and first > 0.0 and math.isfinite(largest + first):
                 found = OwnSteps(largest, first, where.inside("limits", index, "largest"))
     return found
-
-
-_DEFAULT_RHO, _DEFAULT_HUGHES = 0.4, -0.25
-
-
-def scheme_of(scene: Scene) -> tuple[Scheme, int]:
-    """Return the scheme of the last `*TIME STEPPING`, the program's default without one, and its line, 0 for none."""
-    found, line = generalised_alpha(_DEFAULT_RHO), 0
-    for where, block in scene.deck.blocks("TIME STEPPING", "LOAD CASE"):
-        given, line = cast("TimeStepping", block), line_of(scene, where)
-        if given.type_ == "HILBER-HUGHES":
-            found = hilber_hughes(max(number(given.hilber_hughes, "coefficient", _DEFAULT_HUGHES), -1.0 / 3.0))
-        elif given.alphas is not None:
-            default = generalised_alpha(_DEFAULT_RHO)
-            alpha_m = number(given.alphas, "alpha_m", default.alpha_m)
-            alpha_f = number(given.alphas, "alpha_f", default.alpha_f)
-            found = Scheme("generalised-alpha", alpha_m, alpha_f)
-        else:
-            found = generalised_alpha(number(given, "infinity", _DEFAULT_RHO))
-    return found, line
