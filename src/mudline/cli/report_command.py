@@ -45,6 +45,7 @@ _LEGAL = "legal"
     show_default=True,
     help="Write these sections only; study measures run times, which differ from run to run.",
 )
+@click.option("--rest-shape", is_flag=True, help="Evaluate contact at the resting shape, not at the deck's own places.")
 @options.option("--date", metavar="TEXT", help="Write this date on the page.")
 @options.option("--template", metavar="FILE", help='Use this jinja2 template, which may extend "page.html".')
 @options.option("--logo", metavar="FILE.svg|png", help="Put this logo at the head of the page.")
@@ -61,6 +62,7 @@ def command(
     output: str | None,
     output_format: str,
     sections: str,
+    rest_shape: bool,
     date: str | None,
     template: str | None,
     logo: str | None,
@@ -87,7 +89,7 @@ def command(
         return WRONG_USAGE
     settings = checked_settings(config, GivenRules((), (), (), None, units), "none", isolated=isolated, fail_on=None)
     inputs = collect(decks, stdin_name, is_in_any_form, gitignore=not every_file)
-    wanted = Wanted(names, date, _look(template, logo) if html else None)
+    wanted = Wanted(names, date, _look(template, logo) if html else None, rest_shape)
     several = len(inputs.files) > 1 or any(os.path.isdir(each) for each in decks)  # noqa: PTH112 - Path raises for a long name
     target = None if output is None or not html else Target(Path(output), several)
     rows, contents = [], []
@@ -127,11 +129,12 @@ def _sections(text: str) -> tuple[str, ...]:
 
 
 class Wanted(NamedTuple):
-    """The sections of a page, its date, and how it looks; `look` None for JSON."""
+    """The sections of a page, its date, how it looks (None for JSON), and whether contact is that at rest."""
 
     sections: tuple[str, ...]
     date: str | None
     look: Look | None
+    rest_shape: bool = False
 
 
 class Made(NamedTuple):
@@ -144,7 +147,8 @@ class Made(NamedTuple):
 
 def make_report(given: Given, settings: LintSettings, wanted: Wanted) -> Made:
     """Make the page about a deck, in any process."""
-    report = report_on(given, settings, wanted.sections, Stamp(__version__, wanted.date))
+    stamp = Stamp(__version__, wanted.date)
+    report = report_on(given, settings, wanted.sections, stamp, rest_shape=wanted.rest_shape)
     if wanted.look is None:
         return Made(report.json, None)
     from mudline.report.page import LookError, page  # noqa: PLC0415 - needs jinja2

@@ -6,17 +6,21 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, cast
 
+import numpy as np
+
+from mudline.deck.parameters import evaluated, folded
 from mudline.export.report import Report, Status
 from mudline.keywords.table import LARGEST_WHOLE
 from mudline.quantities import shown
 from mudline.scene.deck_values import number
 from mudline.scene.model import Scene
-from mudline.scene.numbering import Indices
+from mudline.scene.numbering import Floats, Indices
 from mudline.scene.references import freedom_and_step
 from mudline.syntax.rows import read_number
 
 if TYPE_CHECKING:
     from mudline.keywords.library.boundary import Boundary, BoundaryType
+    from mudline.keywords.library.offset import Offsets
 
 TRANSLATIONS = frozenset({1, 2, 3})
 _NO_FREEDOMS: frozenset[int] = frozenset()
@@ -90,6 +94,56 @@ def _ranges(given: BoundaryType) -> Iterator[tuple[int, int, int, int | None, fl
         whole = [int(word) for word in words if word is not None and abs(word) <= LARGEST_WHOLE]
         if words[0] is not None and whole:
             yield whole[0], whole[0], 1, next(iter(whole[1:]), None), 0.0
+
+
+def held_nodes(scene: Scene) -> tuple[dict[int, frozenset[int]], dict[int, str]]:
+    """Return the degrees of freedom in which `*BOUNDARY` holds nodes, by index, and the vessels that move nodes.
+
+    Those of the decks that are continued count too: a restart keeps what it does not change.
+    """
+    freedoms: dict[int, frozenset[int]] = {}
+    vessels: dict[int, str] = {}
+    decks = [*(evaluated(base.deck)[0] for base in reversed(scene.deck.bases)), scene.deck]
+    known = [str(each.vessel) for deck in decks for keyword in ("VESSEL", "VESSEL,INTEGRATED")
+             for _, block in deck.blocks(keyword) for each in block.vessels]  # fmt: skip
+    only = known[0] if len({folded(name) for name in known}) == 1 else ""
+    for deck in decks:
+        for _, block in deck.blocks("BOUNDARY", "LOAD CASE"):
+            for each in cast("Boundary", block).types:
+                for nodes, axes, _ in conditions(scene, each):
+                    for node in nodes.tolist():
+                        freedoms[node] = freedoms.get(node, frozenset()) | axes
+                        if each.type_ == "VESSEL":
+                            vessels.setdefault(node, only)
+                current = ""
+                for line in each.unread if each.type_ == "VESSEL" else ():
+                    current = _vessel_of_line(scene, line.text, current, vessels)
+    return freedoms, vessels
+
+
+def _vessel_of_line(scene: Scene, text: str, current: str, vessels: dict[int, str]) -> str:
+    """Note the vessel of a node that a line names, `node, vessel` or below VESSEL=; returns the vessel that goes on."""
+    key, equals, name = text.partition("=")
+    if equals and key.strip().upper() == "VESSEL":
+        return name.strip()
+    words = [word.strip() for word in text.split(",")]
+    node = read_number(words[0])
+    own = next((word for word in words[1:] if word and read_number(word) is None), current)
+    if node is not None and own and node == int(node):
+        at = int(scene.nodes.indices(np.array([int(node)]))[0])
+        if at >= 0:
+            vessels[at] = own
+    return current
+
+
+def vessel_offset(scene: Scene, vessel: str) -> Floats:
+    """Return the offset (3,) of a vessel in the deck's own load case; 0 without one."""
+    found = np.zeros(3)
+    for _, block in scene.deck.blocks("OFFSET", "LOAD CASE"):
+        for each in cast("Offsets", block).offsets:
+            if vessel and folded(str(each.vessel)) == folded(vessel):
+                found = np.array([number(each.offset, axis, 0.0) for axis in "xyz"])
+    return found
 
 
 def report_inside(scene: Scene, report: Report, held: Held, ends: set[int]) -> None:

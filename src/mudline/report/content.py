@@ -39,6 +39,7 @@ from mudline.results.warnings import ContactWatch, caption
 from mudline.scene.model import Scene, resolve
 from mudline.scene.numbering import Mask
 from mudline.syntax.source import Source
+from mudline.touchdown_study.rest_shape import rest_shape
 from mudline.touchdown_study.study import Study, study
 
 FORMAT = "mudline-report/1"
@@ -81,6 +82,7 @@ class Report:
         json: as it is printed; a section that is not wanted is not among its keys.
         source: the text of the deck, of which lines are shown beside findings.
         scene, drawn, doubt, study: what the pictures show, None where there is none; `doubt` goes below a title.
+        at_rest: whether contact is that of the resting shape.
     """
 
     json: dict[str, Any]
@@ -89,16 +91,22 @@ class Report:
     drawn: PlotData | None = None
     doubt: str = ""
     study: Study | None = None
+    at_rest: bool = False
     named: dict[str, str] = field(default_factory=dict)
     """The titles of the rules behind the findings, by code."""
 
 
-def report_on(given: Given, settings: LintSettings, wanted: Collection[str], stamp: Stamp) -> Report:
-    """Read, judge and evaluate a deck as far as the wanted sections need it. Never raises for content."""
+def report_on(
+    given: Given, settings: LintSettings, wanted: Collection[str], stamp: Stamp, *, rest_shape: bool = False
+) -> Report:
+    """Read, judge and evaluate a deck as far as the wanted sections need it. Never raises for content.
+
+    With `rest_shape` contact is that of the resting shape, else of the deck's own coordinates.
+    """
     verdict, deck, context = _judged(given, settings)
     head = _head(given, deck, verdict, stamp)
     head["shown"] = [name for name in SECTIONS if name in wanted]
-    made = Report(head, Source.from_bytes(given.data, given.name))
+    made = Report(head, Source.from_bytes(given.data, given.name), at_rest=rest_shape)
     found = head["sections"]
     if "findings" in wanted:
         found["findings"] = _findings(given, settings, context)
@@ -278,8 +286,12 @@ def _given(value: Any) -> Any:  # noqa: ANN401 - a number, or one for each direc
 
 
 def _contact(scene: Scene, made: Report) -> dict[str, Any]:
-    """The contact of the deck's own coordinates."""
-    evaluation = evaluate_scene(scene, tension=_tension(scene))
+    """The contact of the deck's own coordinates, or of its resting shape."""
+    if made.at_rest:
+        shape = rest_shape(scene)
+        evaluation = evaluate_scene(scene, shape.positions, _tension(scene), at_rest=shape.sentences(scene.units))
+    else:
+        evaluation = evaluate_scene(scene, tension=_tension(scene))
     made.drawn = PlotData.of_evaluation(evaluation)
     watch = ContactWatch.of(evaluation)
     (part,) = evaluation.parts()
@@ -299,6 +311,8 @@ def _contact(scene: Scene, made: Report) -> dict[str, Any]:
         "weight": None if watch.balance is None else finite(watch.balance.weight),
         "ratio": None if watch.balance is None else finite(watch.balance.ratio),
         "deepest": {"depth": float(depth[deepest]), "element": int(scene.element_ids[deepest])} if touches else None,
+        "positions": evaluation.source,
+        "notes": list(evaluation.notes),
         "lines": [row.row() for row in line_steps(evaluation, part)],
         "states": [{"law": law, "state": state, "count": count} for law, state, count in states(evaluation, result)],
         "warnings": [one.row() for one in warnings],

@@ -125,7 +125,8 @@ def _contact(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
     if deepest := found["deepest"]:
         words = labelled(f"largest penetration, element {deepest['element']}", names.length)
         figures.append((words, deepest["depth"]))
-    yield _on_page(DisplayTable("Equilibrium of the deck's own coordinates", _FIGURES, figures))
+    shape = "the resting shape" if found["positions"] == "rest shape" else "the deck's own coordinates"
+    yield _on_page(DisplayTable(f"Equilibrium of {shape}", _FIGURES, figures, " ".join(found["notes"])))
     yield _on_page(law_table("By law and set", found["laws"], names, "reaction"), MOST_CURVES)
     columns = [
         number("line", "line"),

@@ -1,8 +1,7 @@
 """Tensioned beam on the seabed of a deck: the touchdown zone in its plane, at rest and in motion.
 
-Small slopes, constant tension T, vertical displacement w and rotation theta of the nodes. Hermite elements with EI and
-T, consistent mass with added mass, load -q, drag at the nodes. The left end lies; the right end is moved up and down,
-turns freely, and carries the moment EI q / T of the catenary behind it.
+Small slopes, constant tension T, heights w and rotations theta of the nodes. Hermite elements, consistent mass, load -q,
+drag at the nodes. The left end lies; the right one is moved, turns freely, and carries the catenary's moment EI q / T.
 """
 
 from __future__ import annotations
@@ -234,12 +233,12 @@ class _Condensed:
             self._held = diagonal.copy(), beside.copy()
             self._solution = np.asarray(np.linalg.inv(self._added(diagonal, beside)), np.float64)
         more, more_beside = diagonal - self._held[0], beside - self._held[1]
-        left: FloatArray = force
-        found, least = np.zeros(len(force)), _REFINED * np.abs(force).max()
+        found, left = np.zeros(len(force)), force.copy()
+        least = _REFINED * np.abs(force).max()
         for _ in range(_REFINEMENTS):
             part = self._solution @ left
             found += part
-            left = np.asarray(-more * part, np.float64)
+            np.multiply(-more, part, out=left)
             left[:-1] -= more_beside * part[1:]
             left[1:] -= more_beside * part[:-1]
             if np.abs(left).max() <= least:

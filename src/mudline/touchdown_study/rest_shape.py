@@ -11,17 +11,17 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import NamedTuple
 
 import numpy as np
 
 from mudline.contact import ContactInput
 from mudline.contact.embedment import static_depth
 from mudline.contact.lines import lines_of
-from mudline.deck.parameters import evaluated, folded
-from mudline.export.held import TRANSLATIONS, conditions
+from mudline.contact.stretch import cut_out
+from mudline.export.held import TRANSLATIONS, held_nodes, vessel_offset
+from mudline.quantities import unit_names
 from mudline.results.evaluation import require_elements
-from mudline.scene.deck_values import number
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices
 from mudline.scene.pipe import Pipe, pipe_of
@@ -29,14 +29,9 @@ from mudline.scene.positions import Positions
 from mudline.scene.seabed import SeabedKind
 from mudline.scene.shore import made_seabed
 from mudline.short_repr import short_repr
-from mudline.syntax.rows import read_number
 from mudline.touchdown_study.beam import Beam, NotConvergedError, at_rest
 from mudline.touchdown_study.catenary import Catenary, Line, NoRestShapeError, rest
-from mudline.touchdown_study.soil import cut_out, soil_of
-
-if TYPE_CHECKING:
-    from mudline.keywords.library.boundary import Boundary
-    from mudline.keywords.library.offset import Offsets
+from mudline.touchdown_study.soil import soil_of
 
 LEFT, RIGHT = 10.0, 6.0
 """Lengths sqrt(EI/T) of the beam on either side of a touchdown."""
@@ -108,6 +103,20 @@ class RestShape:
 
     __repr__ = short_repr
 
+    def sentences(self, units: str) -> list[str]:
+        """Return what holds of each line: tension and length on the seabed, or why it has no shape."""
+        names = unit_names(units)
+        found = []
+        for line in self.lines:
+            if line.catenary is None:
+                words = "lies on the seabed from end to end"
+            else:
+                lying = sum(last - first for first, last in line.catenary.lying)
+                tension = f"{line.catenary.tension:.6g}{names.behind('force')}"
+                words = f"horizontal tension {tension}, {lying:.6g}{names.behind('length')} lie on the seabed"
+            found.append(f"resting shape of line {line.number}: {words}; no load case is solved")
+        return [*found, *(f"line {number} has no resting shape: {why}" for number, why in self.refused)]
+
 
 def rest_shape(scene: Scene) -> RestShape:
     """Return the resting shape of a scene that can be evaluated.
@@ -154,7 +163,7 @@ class _Between(NamedTuple):
 
 def _between_ends(scene: Scene) -> Iterator[_Between]:
     """The lines of a scene, cut at inner nodes that are held in all directions."""
-    held, vessels = _held(scene)
+    held, vessels = held_nodes(scene)
     lines = lines_of(scene.element_nodes, np.nan_to_num(scene.length), len(scene.node_ids))
     nothing: frozenset[int] = frozenset()
     number = 0
@@ -168,62 +177,14 @@ def _between_ends(scene: Scene) -> Iterator[_Between]:
             yield _Between(number, elements[first:last], nodes[first : last + 1], freedoms, names)
 
 
-def _held(scene: Scene) -> tuple[dict[int, frozenset[int]], dict[int, str]]:
-    """Degrees of freedom in which `*BOUNDARY` holds nodes, by their indices, and the vessels that move nodes.
-
-    Those of the decks that are continued count too: a restart keeps what it does not change.
-    """
-    freedoms: dict[int, frozenset[int]] = {}
-    vessels: dict[int, str] = {}
-    decks = [*(evaluated(base.deck)[0] for base in reversed(scene.deck.bases)), scene.deck]
-    known = [str(each.vessel) for deck in decks for keyword in ("VESSEL", "VESSEL,INTEGRATED")
-             for _, block in deck.blocks(keyword) for each in block.vessels]  # fmt: skip
-    only = known[0] if len({folded(name) for name in known}) == 1 else ""
-    for deck in decks:
-        for _, block in deck.blocks("BOUNDARY", "LOAD CASE"):
-            for each in cast("Boundary", block).types:
-                for nodes, axes, _ in conditions(scene, each):
-                    for node in nodes.tolist():
-                        freedoms[node] = freedoms.get(node, frozenset()) | axes
-                        if each.type_ == "VESSEL":
-                            vessels.setdefault(node, only)
-                current = ""
-                for line in each.unread if each.type_ == "VESSEL" else ():
-                    current = _vessel_of_line(scene, line.text, current, vessels)
-    return freedoms, vessels
-
-
-def _vessel_of_line(scene: Scene, text: str, current: str, vessels: dict[int, str]) -> str:
-    """Note the vessel of a node that a line names, `node, vessel` or below VESSEL=; returns the vessel that goes on."""
-    key, equals, name = text.partition("=")
-    if equals and key.strip().upper() == "VESSEL":
-        return name.strip()
-    words = [word.strip() for word in text.split(",")]
-    node = read_number(words[0])
-    own = next((word for word in words[1:] if word and read_number(word) is None), current)
-    if node is not None and own and node == int(node):
-        at = int(scene.nodes.indices(np.array([int(node)]))[0])
-        if at >= 0:
-            vessels[at] = own
-    return current
-
-
-def _offset(scene: Scene, vessel: str) -> Floats:
-    """The offset (3,) of a vessel in the deck's own load case; 0 without one."""
-    found = np.zeros(3)
-    for _, block in scene.deck.blocks("OFFSET", "LOAD CASE"):
-        for each in cast("Offsets", block).offsets:
-            if vessel and folded(str(each.vessel)) == folded(vessel):
-                found = np.array([number(each.offset, axis, 0.0) for axis in "xyz"])
-    return found
-
-
 # ----------------------------------------------------------------------------------------------------------------- line
 
 
 def _line(scene: Scene, given: ContactInput, pipe: Pipe, each: _Between) -> LineAtRest:
     """The line with its catenary. Raises NoRestShapeError."""
-    places = scene.coordinates[each.nodes[[0, -1]]] + [_offset(scene, vessel) for vessel in each.vessels]
+    places = scene.coordinates[each.nodes[[0, -1]]] + [vessel_offset(scene, vessel) for vessel in each.vessels]
+    if not np.isfinite(places).all() or not np.isfinite(scene.length[each.elements]).all():
+        raise NoRestShapeError("its ends have no coordinates, or an element no length")
     size = float(np.nanmax(scene.diameter[each.elements], initial=0.0))
     levels = _elevation(scene, places[:, 1:])
     heights = places[:, 0] - levels

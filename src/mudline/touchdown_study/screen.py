@@ -8,9 +8,10 @@ from typing import NamedTuple
 from mudline.quantities import headed, shown, unit_names
 from mudline.scene.load_case import in_words
 from mudline.short_repr import cut
+from mudline.touchdown_study.accuracy import StepRow
 from mudline.touchdown_study.beam import Run
 from mudline.touchdown_study.stability import ExtremeRow, axial_period
-from mudline.touchdown_study.study import StepRow, Study
+from mudline.touchdown_study.study import Study
 from mudline.touchdown_study.zone import Zone
 
 LIMITS = "One plane, small slopes, constant tension; loads are those of this model, only their errors are of use."

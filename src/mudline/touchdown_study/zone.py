@@ -12,6 +12,7 @@ import numpy as np
 from mudline.contact import ContactInput
 from mudline.contact.embedment import static_depth
 from mudline.contact.input import LawAssignment
+from mudline.contact.stretch import cut_out
 from mudline.curves import ForceCurve
 from mudline.scene.deck_values import number
 from mudline.scene.load_case import TopMotion, top_motion
@@ -22,7 +23,7 @@ from mudline.scene.pipe import Pipe, pipe_of
 from mudline.touchdown_study.beam import Beam, Rest, Run, Scheme, at_rest, generalised_alpha, hilber_hughes, march
 from mudline.touchdown_study.catenary import Catenary, NoRestShapeError
 from mudline.touchdown_study.rest_shape import LineAtRest, lines_at_rest, touchdowns, window
-from mudline.touchdown_study.soil import ElementMatrix, ScaledSoil, Soil, cut_out, has_history, soil_of
+from mudline.touchdown_study.soil import ElementMatrix, ScaledSoil, Soil, has_history, soil_of
 
 if TYPE_CHECKING:
     from mudline.keywords.library.time_stepping import TimeStepping
