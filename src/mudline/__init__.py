@@ -22,11 +22,13 @@ if TYPE_CHECKING:
         lint,
         read,
         read_positions,
+        study,
     )
     from mudline.language.diagnostics import DeckError, Diagnostic, Severity
     from mudline.model.contact import ContactModel, ContactResult, ContactState, Plan, PositionError
     from mudline.model.curves import CurveError, ForceCurve
     from mudline.model.results.warnings import ContactWarning
+    from mudline.tools.touchdown_study.study import Study
 
 __version__ = "0.1.0"
 
@@ -44,6 +46,7 @@ __all__ = [
     "PositionError",
     "Scene",
     "Severity",
+    "Study",
     "__version__",
     "contact_warnings",
     "from_json",
@@ -52,6 +55,7 @@ __all__ = [
     "lint",
     "read",
     "read_positions",
+    "study",
 ]
 
 _HOMES = {
@@ -67,11 +71,13 @@ _HOMES = {
             "lint",
             "read",
             "read_positions",
+            "study",
         ],
         "model.contact": ["ContactModel", "ContactResult", "ContactState", "Plan", "PositionError"],
         "model.curves": ["CurveError", "ForceCurve"],
         "language.diagnostics": ["DeckError", "Diagnostic", "Severity"],
         "model.results.warnings": ["ContactWarning"],
+        "tools.touchdown_study.study": ["Study"],
     }.items()
     for name in names
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 from collections import Counter
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from mudline.model.scene.numbering import Floats, Ids, Indices
     from mudline.model.scene.positions import Positions
     from mudline.model.scene.resolved import ByName
+    from mudline.tools.touchdown_study.study import Study
 
 _KEYWORD = re.compile(r"\s*[$*][A-Z][A-Z &/-]*\s*", re.IGNORECASE)
 _SECTION = re.compile(r"^\s*\$[A-Z]", re.IGNORECASE | re.MULTILINE)
@@ -206,6 +208,19 @@ class Scene:
             require_elements(self._resolved.require_evaluable(tension))
         return self._resolved.contact(tension, backend=backend)
 
+    def rest_shape(self) -> Positions:
+        """Return the resting shape: positions of all nodes under weight and contents alone, no load case solved.
+
+        A line hangs as a catenary between its held ends, the upper one moved by the `*OFFSET` of its vessel, lies at
+        static embedment, and bends about its touchdown. Nodes of lines without such a shape are NaN, and False in
+        `.present`.
+
+        Raises DeckError: no line has one (the reason of the first is in the message), or the deck cannot be evaluated.
+        """
+        from mudline.tools.touchdown_study.rest_shape import rest_shape  # noqa: PLC0415 - decks alone do without it
+
+        return rest_shape(self._resolved).positions
+
 
 def _members(number: int, *, is_open: bool) -> int | str:
     """How many elements a set has; a text where it may have more, which are not read."""
@@ -243,6 +258,34 @@ def read_positions(path: str | os.PathLike[str], scene: Scene) -> Positions:
 
     expect(scene, "scene", Scene, "a Scene")
     return positions.read_positions(_path(path), scene._resolved.nodes)  # noqa: SLF001 - a class of this module
+
+
+def study(deck: Deck, *, only: Iterable[str] = (), heave: float | None = None, period: float | None = None) -> Study:
+    """Return the study of a deck's touchdown zone: errors over run time, stiff and extreme cases, what it needs.
+
+    Args:
+        deck: what is studied.
+        only: some of "accuracy", "stability" and "pruning"; all if empty.
+        heave: amplitude of the hang-off in the deck's units, instead of what its waves give.
+        period: that of its motion, likewise.
+
+    Raises:
+        DeckError: the deck has errors, or cannot be evaluated. Where it has no touchdown zone, `.advice.text` says why.
+        ValueError: `only` names no part, or an amplitude or a period is not above 0.
+    """
+    from mudline.tools.touchdown_study import study as studies  # noqa: PLC0415 - decks alone do without it
+
+    expect(deck, "deck", Deck, "a Deck")
+    parts = several(only, "only", str, "several str")
+    for part in parts:
+        expect_word(part, "only", studies.PARTS, "of accuracy, stability and pruning")
+    for name, value in (("heave", heave), ("period", period)):
+        if value is not None:
+            expect(value, name, (int, float), "a number")
+            if not 0.0 < value < math.inf:
+                raise ValueError(f"{name} must be a number above 0, not {value!r}")
+    resolved = scenes.resolve(deck.alone).require()
+    return studies.study(resolved, parts or studies.PARTS, heave=heave, period=period)
 
 
 def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | None = None) -> list[ContactWarning]:

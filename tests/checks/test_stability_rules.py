@@ -97,7 +97,7 @@ def test_steps_are_looked_at_only_when_asked() -> None:
     assert "STB002" not in {finding.code for finding in lint_bytes(data, "deck.keyxm", select())}
 
 
-@pytest.mark.parametrize(("product", "words"), [(0.9, "11 %"), (1.9, "far too fast"), (3.0, "central difference")])
+@pytest.mark.parametrize(("product", "words"), [(0.9, "11 %"), (1.9, "far too fast"), (3.0, "three times")])
 def test_what_a_coarse_step_does(product: float, words: str) -> None:
     assert words in messages(TIME.format(f", {product / (1e5 / MASS) ** 0.5}"), "STB002")[0]
 
@@ -107,7 +107,6 @@ def test_what_a_coarse_step_does(product: float, words: str) -> None:
     [
         ("*SEABED FRICTION\n SET=ALL\n COEFFICIENTS=0.3, 0.6\n STIFFNESS=1E9, 2E9\n", " STIFFNESS=1E9, 2E9"),
         ("*SEABED SUCTION\n SET=ALL\n COHESION=5E6\n", " COHESION=5E6"),
-        ("*SEABED SUCTION\n SET=ALL\n DEPTH=1E-4, 0\n COHESION=5\n FORCE=1E6, 0.2\n", " FORCE=1E6, 0.2"),
         ("*SEABED UNLOADING\n SET=ALL\n STIFFNESS=1E9\n", " STIFFNESS=1E9"),
     ],
 )

@@ -7,14 +7,11 @@ import re
 import numpy as np
 import pytest
 
-from mudline.model.contact.arrays import FloatArray
-from mudline.tools.study import schemes
 from tests.benchmarks.studies import critical, friction
 from tests.benchmarks.studies.__main__ import PAGES, TABLES
 from tests.benchmarks.studies.curves import METHODS, largest_error
 from tests.benchmarks.studies.landings import LANDINGS, LIMITS, LINEAR, PHASES, rebounds
 from tests.benchmarks.studies.laws import CLAY
-from tests.benchmarks.studies.motion import Motion
 from tests.benchmarks.studies.motions import PUBLISHED, drag, pull
 from tests.benchmarks.studies.newton import Newton
 from tests.benchmarks.studies.schemes import SCHEMES
@@ -68,28 +65,6 @@ def test_what_generalised_alpha_adds_to_the_speed_of_a_landing() -> None:
     }
     assert list(most.values()) == pytest.approx([1.00012, 1.0099, 1.049], abs=2e-4)
     assert max(column([row for row in load(LIMITS) if row["scheme"] == "backward Euler"], "largest [-]")) < 1.0
-
-
-class Damped:
-    """An oscillator for the schemes of the package."""
-
-    mass = 1.0
-
-    def forces(self, position: FloatArray, velocity: FloatArray, history: object) -> schemes.Forces:
-        return schemes.Forces(*critical.Oscillator(1.5, 0.2, np.ones(1)).forces(position, velocity, history))
-
-
-@pytest.mark.parametrize("title", schemes.SCHEMES)
-def test_the_schemes_of_the_command_are_rows_of_the_table(title: str) -> None:
-    scheme = next(one for one in SCHEMES.values() if one.title == title)
-    system, dt = critical.Oscillator(1.5, 0.2, np.ones(1)), np.array([0.3])
-    mine = Motion.start(system, np.array([1.0]), np.array([0.5]))
-    other = schemes.started(Damped(), np.array([1.0]), np.array([0.5]))
-    for _ in range(20):
-        mine = scheme.step(system, mine, dt).motion
-        other = schemes.SCHEMES[title](Damped(), other, dt).motion
-    assert mine.position == pytest.approx(other.position, rel=1e-7)
-    assert mine.velocity == pytest.approx(other.velocity, rel=1e-7)
 
 
 def test_newtons_method_cycles_above_the_closed_form_and_a_bracket_cures_it() -> None:

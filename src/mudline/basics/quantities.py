@@ -215,7 +215,7 @@ CASES = _by_name(
     Quantity("verdict", "`evaluated` or `failed`"),
     Quantity("reason", "why it failed"),
     Quantity("units", "`metric`, `imperial` or `user`"),
-    Quantity("positions", "`deck` or `file`"),
+    Quantity("positions", "`deck`, `file` or `rest shape`"),
     Quantity("steps", "number of time steps; 1 for one state"),
     Quantity("elements", "number of elements that were evaluated"),
     Quantity("in_contact", "largest number of elements in contact", label="in\ncontact"),

@@ -219,6 +219,8 @@ def _notify_before(evaluation: Evaluation, comparison: Comparison | None) -> Non
         notify(f"no positions for {counted(missing, 'node')}: {counted(skipped, 'element')} left out")
     if evaluation.lengths_from_positions:
         notify(f"the length of {counted(evaluation.lengths_from_positions, 'element')} comes from the first positions")
+    for note in evaluation.notes:
+        notify(note)
     for stage, why in evaluation.model.input.left_out.items():
         notify(f"{stage}: {why}")
     if comparison is None:

@@ -37,6 +37,7 @@ class EvaluateInputs:
     elements: str | None = None
     time_step: float | None = None
     headings: Mapping[str, str] = field(default_factory=dict)
+    rest_shape: bool = False
 
     def scene(self, deck: Deck) -> Scene:
         """The scene of a deck; raises DeckError with the causes of what keeps it from being evaluated."""
@@ -47,6 +48,11 @@ class EvaluateInputs:
     def evaluation(self, deck: Deck) -> Evaluation:
         """A deck ready to be evaluated, at positions of a file or its own. Raises DeckError, click.ClickException."""
         scene = self.scene(deck)
+        if self.rest_shape:
+            from mudline.tools.touchdown_study.rest_shape import rest_shape  # noqa: PLC0415 - few runs ask for it
+
+            found = rest_shape(scene)
+            return evaluate_scene(scene, found.positions, self.tension, at_rest=found.sentences(scene.units))
         return evaluate_scene(scene, self._placed(scene), self.tension)
 
     def prepared(self, deck: Deck) -> Prepared:
@@ -91,6 +97,7 @@ def takes_inputs(positions_help: str) -> Callable[[Command], Command]:
             time_step: float | None,
             elements: str | None,
             tension: str,
+            at_rest: bool,
             **others: object,
         ) -> int:
             headings = read_headings(columns)
@@ -98,7 +105,9 @@ def takes_inputs(positions_help: str) -> Callable[[Command], Command]:
                 raise click.UsageError("--columns is for positions from a CSV: give --positions too")
             if time_step is not None and not (isfinite(time_step) and time_step > 0.0):
                 raise click.UsageError(f"--time-step is {time_step!r}: it must be greater than 0")
-            inputs = EvaluateInputs(cast("Tension", tension), positions, elements, time_step, headings)
+            if at_rest and positions is not None:
+                raise click.UsageError("--rest-shape is a shape of its own: leave --positions out")
+            inputs = EvaluateInputs(cast("Tension", tension), positions, elements, time_step, headings, at_rest)
             return command(inputs=inputs, **others)
 
         for add in reversed(_INPUTS):
@@ -120,6 +129,12 @@ _INPUTS = (
     ),
     input_option(
         "--elements", metavar="FILE", help="Read the elements from a CSV, for decks whose elements come from *LINES."
+    ),
+    input_option(
+        "--rest-shape",
+        "at_rest",
+        is_flag=True,
+        help="Evaluate the resting shape: lines hang and lie under weight and contents alone, no load case solved.",
     ),
     option(
         "--tension",

@@ -43,6 +43,7 @@ _LEGAL = "legal"
     show_default=True,
     help="Write these sections only; study measures run times, which differ from run to run.",
 )
+@click.option("--rest-shape", is_flag=True, help="Evaluate contact at the resting shape, not at the deck's own places.")
 @options.option("--date", metavar="TEXT", help="Write this date on the page.")
 @options.option("--template", metavar="FILE", help='Use this jinja2 template, which may extend "page.html".')
 @options.option("--logo", metavar="FILE.svg|png", help="Put this logo at the head of the page.")
@@ -56,6 +57,7 @@ def command(
     output: str | None,
     output_format: str,
     sections: str,
+    rest_shape: bool,
     date: str | None,
     template: str | None,
     logo: str | None,
@@ -82,7 +84,7 @@ def command(
     for path in filter(None, (template, logo)) if html else ():
         reading(path)
     look = Look(*(None if one is None else Path(one) for one in (template, logo))) if html else None
-    wanted = Wanted(names, date, look)
+    wanted = Wanted(names, date, look, rest_shape)
     several = len(inputs.files) > 1 or any(os.path.isdir(each) for each in decks.paths)  # noqa: PTH112 - Path raises for a long name
     target = None if output is None or not html else Target(Path(output), several)
     rows, contents = [], []
@@ -116,11 +118,12 @@ def _sections(text: str) -> tuple[str, ...]:
 
 
 class Wanted(NamedTuple):
-    """The sections of a page, its date, and how it looks; `look` None for JSON."""
+    """The sections of a page, its date, how it looks (None for JSON), and whether contact is that at rest."""
 
     sections: tuple[str, ...]
     date: str | None
     look: Look | None
+    rest_shape: bool = False
 
 
 class Made(NamedTuple):
@@ -133,7 +136,7 @@ class Made(NamedTuple):
 
 def make_report(given: Given, settings: LintSettings, wanted: Wanted) -> Made:
     """Make the page about a deck, in any process."""
-    report = report_on(given, settings, wanted.sections, wanted.date)
+    report = report_on(given, settings, wanted.sections, wanted.date, rest_shape=wanted.rest_shape)
     if wanted.look is None:
         return Made(report.json, None)
     from mudline.tools.reporting.page import LookError, page  # noqa: PLC0415 - needs jinja2

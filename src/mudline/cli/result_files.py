@@ -108,7 +108,7 @@ def behind(
     """What JSON has behind the results."""
     found: dict[str, object] = {
         "summary": [row.row() for row in lines],
-        "positions": "deck" if evaluation.own_positions else "file",
+        "positions": evaluation.source,
         "warnings": [one.row() for one in warnings],
     }
     return found if comparison is None else {**found, "against": comparison.summary()}

@@ -120,8 +120,8 @@ def step_too_long_for_waves(context: LintContext) -> Iterator[Problem]:
     """The time step is more than a twentieth of the shortest wave period.
 
     Between such steps the wave is no smooth curve any more: forces and motions at its crest are missed. Of a variable
-    step the largest one counts, of random seas no period is looked at. Shorten the step; what the seabed needs may be
-    less: `mudline study` says so.
+    step the largest one counts, of random seas no period is looked at. Shorten the step; whether it is short enough for
+    the seabed too is what `mudline study` measures.
 
     Example on storm:
         - 0.0, 120.0, 1.0, 24.0

@@ -74,7 +74,7 @@ def case_summary(
         deck=deck,
         verdict="evaluated",
         units=evaluation.scene.units,
-        positions="deck" if evaluation.own_positions else "file",
+        positions=evaluation.source,
         steps=evaluation.steps,
         elements=len(evaluation.elements),
         in_contact=int(_value(series.of("case", "in_contact").largest.peak()) or 0),

@@ -24,6 +24,7 @@ from mudline.model.scene.numbering import Floats, Indices, Mask
 from mudline.model.scene.positions import Positions, StepFile
 
 Tension = Literal["keep", "cut"]
+PositionSource = Literal["deck", "file", "rest shape"]
 
 _HISTORY = "this deck has laws whose result depends on the steps before, which need times that rise"
 
@@ -60,13 +61,21 @@ class Evaluation:
     time: Floats | None = None
     velocities: NDArray[np.floating] | None = None
     lengths_from_positions: int = 0
-    own_positions: bool = False
-    """Whether the positions are the deck's own coordinates, which are not a solved shape."""
+    source: PositionSource = "file"
+    """Where the positions come from; the deck's own coordinates are mostly not a solved shape."""
 
     def __repr__(self) -> str:
         elements, nodes = counted(len(self.elements), "element"), counted(len(self.nodes), "node")
         size = f"{self.scene.units}, {counted(self.steps, 'step')}, {elements}, {nodes}"
         return outline(f"Evaluation of {cut(self.scene.deck.file, 80)!r}", size)
+
+    notes: tuple[str, ...] = ()
+    """Sentences about a resting shape."""
+
+    @property
+    def own_positions(self) -> bool:
+        """Whether the positions are the deck's own coordinates."""
+        return self.source == "deck"
 
     @property
     def steps(self) -> int:
@@ -140,8 +149,16 @@ class Evaluation:
                 yield part if times is None else Part(part.start, replace(part.result, times=times))
 
 
-def evaluate_scene(scene: Scene, positions: Positions | None = None, tension: Tension = "keep") -> Evaluation:
-    """A scene ready to be evaluated at its own coordinates or at positions from a file.
+def evaluate_scene(
+    scene: Scene,
+    positions: Positions | None = None,
+    tension: Tension = "keep",
+    *,
+    at_rest: Sequence[str] | None = None,
+) -> Evaluation:
+    """A scene ready to be evaluated at its own coordinates, or at positions from a file or of a resting shape.
+
+    `at_rest` has the sentences about a resting shape, in which contents weigh too; None for other positions.
 
     Raises DeckError: errors in the deck, elements without known nodes or coordinates, times that a law cannot use.
     """
@@ -152,6 +169,11 @@ def evaluate_scene(scene: Scene, positions: Positions | None = None, tension: Te
             message = f"{int(missing.sum())} nodes have no coordinates, node {example} is one"
             raise scene.refusal(f"{message}: give them with --positions")
     ready = prepare(scene, positions, tension)
+    if at_rest is not None:
+        from mudline.model.scene.pipe import pipe_of  # noqa: PLC0415 - other positions do without it
+
+        weighed = replace(ready.model.input, weight=pipe_of(scene).weight)
+        ready = replace(ready, model=ContactModel(weighed))
     given = positions or Positions(scene.coordinates[np.newaxis], np.ones(len(scene.nodes), dtype=bool), None)
     if ready.model.plan.history:
         _require_clock(ready, given)
@@ -163,7 +185,8 @@ def evaluate_scene(scene: Scene, positions: Positions | None = None, tension: Te
         given.time,
         given.velocities,
         ready.lengths_from_positions,
-        own_positions=positions is None,
+        source="deck" if positions is None else "file" if at_rest is None else "rest shape",
+        notes=tuple(at_rest or ()),
     )
 
 

@@ -32,6 +32,9 @@ from mudline.model.scene.vertical_axis import height_along_z
 BALANCED = (1.0 / 3.0, 3.0)
 """Total reaction over submerged weight of the deck's own positions, beyond which they are far from equilibrium."""
 
+NEAR = (0.9, 1.1)
+"""The same, beyond which there is something to be said for a resting shape."""
+
 _MORE_WEIGHT = ("COATINGS", "INTERNAL FLUID", "DRILLING MUD", "MASS", "POINT BUOY")
 """Keywords that are not read, and make the weight another one than that of the sections."""
 _TOUCHING = 1e-3
@@ -215,7 +218,11 @@ class ContactWatch:
         if not self._own or (balance and self._is_unbalanced(balance)):
             return ""
         note = "the positions are the deck's own coordinates, not a solved shape"
-        return f"{note}: {self._balanced(balance)}" if balance and balance.elements.size else note
+        if not balance or not balance.elements.size:
+            return note
+        near = NEAR[0] <= balance.ratio <= NEAR[1] or math.isnan(balance.ratio)
+        advice = "" if near else "; --rest-shape gives a shape of the line's own weight"
+        return f"{note}: {self._balanced(balance)}{advice}"
 
     def _warning(self, code: Code, message: str, where: Where | None, elements: Indices, brief: str) -> ContactWarning:
         problem = Problem(code, message, None, Severity.WARNING, where)
@@ -284,7 +291,7 @@ class ContactWatch:
         if balance is None or not self._is_unbalanced(balance):
             return
         message = f"the positions are the deck's own, far from equilibrium: {self._balanced(balance)}"
-        advice = self._turned() or "; give a solved shape with --positions"
+        advice = self._turned() or "; give a solved shape with --positions, or try --rest-shape"
         brief = f"reaction / submerged weight {shown(balance.ratio, 3)}"
         yield self._warning(RUN003, message + advice, None, balance.elements, brief)
 

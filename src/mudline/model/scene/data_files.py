@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from itertools import pairwise
+from itertools import chain, pairwise
 from pathlib import Path
 from typing import NamedTuple
 
@@ -120,7 +120,15 @@ def _rising(times: Sequence[float], lines: Sequence[DataLine]) -> None:
             raise ValueError(f"line {line.number}: the time {after:g} does not come after {before:g}")
 
 
-def _operators(lines: Sequence[DataLine], layout: str) -> None:
+def operators(path: Path, layout: str = "") -> list[list[float]]:
+    """Return heading, frequency, then amplitude and phase of heave, surge, sway, yaw, roll and pitch, row by row.
+
+    `layout` is MCS or LINE where the deck says so. Raises OSError, or ValueError for the first fault of the file.
+    """
+    return _operators(list(_lines(path)), layout)
+
+
+def _operators(lines: Sequence[DataLine], layout: str) -> list[list[float]]:
     """Operators in the layout that the deck names, or that their first line has."""
     if not lines:
         raise ValueError("the file has no operators")
@@ -131,27 +139,32 @@ def _operators(lines: Sequence[DataLine], layout: str) -> None:
             _heading(row[0], line.number)
         if fault := unequal_frequencies(rows):
             raise ValueError(fault)
-    elif not by_heading:
+        return rows
+    if not by_heading:
         raise ValueError(f"line {lines[0].number}: expected HEADING=angle before the first frequency")
-    else:
-        _groups(lines)
+    return _groups(lines)
 
 
-def _groups(lines: Sequence[DataLine]) -> None:
+def _groups(lines: Sequence[DataLine]) -> list[list[float]]:
     """Three lines a frequency below each heading: the frequency, six amplitudes, six phases."""
     widths = (1, _SIX, _SIX)
-    place = 0
+    angle, group, rows = 0.0, list[list[float]](), list[list[float]]()
     for line in lines:
         heading = _HEADING.fullmatch(line.text)
-        if heading and place % len(widths):
+        if heading and group:
             raise ValueError(f"line {line.number}: a frequency above it lacks its amplitudes or phases")
         if heading:
-            _heading(_number(heading[1].strip(" ,"), line.number), line.number)
-        else:
-            _row(line, widths[place % len(widths)])
-            place += 1
-    if place % len(widths):
+            angle = _number(heading[1].strip(" ,"), line.number)
+            _heading(angle, line.number)
+            continue
+        group.append(_row(line, widths[len(group)]))
+        if len(group) == len(widths):
+            (frequency,), amplitudes, phases = group
+            rows.append([angle, frequency, *chain.from_iterable(zip(amplitudes, phases, strict=True))])
+            group = []
+    if group:
         raise ValueError(f"line {lines[-1].number}: the last frequency lacks its amplitudes or phases")
+    return rows
 
 
 def _heading(value: float, line: int) -> None:

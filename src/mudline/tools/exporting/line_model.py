@@ -10,26 +10,24 @@ import math
 from collections.abc import Callable
 from dataclasses import astuple, dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mudline.basics.quantities import shown
 from mudline.language.codes import RUN001
-from mudline.language.deck.parameters import folded
 from mudline.language.diagnostics import Problem, Where
 from mudline.model.contact.lines import lines_of
 from mudline.model.scene.deck_values import FOOT, POUND, number, unread_makers
 from mudline.model.scene.model import Scene
 from mudline.model.scene.numbering import Floats, Indices
 from mudline.model.scene.seabed import SeabedKind, made_seabed
-from mudline.model.scene.sections import Section, format_of, surroundings
+from mudline.model.scene.sections import BENDING_CURVES, STIFFNESS_CURVES, Section, stiffnesses, surroundings
 from mudline.tools.exporting.held import TRANSLATIONS, End, read_held, report_inside
 from mudline.tools.exporting.report import Report, Status
 from mudline.tools.exporting.soil import Soil, Units, soils_of
 
 if TYPE_CHECKING:
-    from mudline.language.keywords.table import Table
     from mudline.model.contact.seabed import Seabed
 
 _ALIKE = 1e-3
@@ -204,18 +202,10 @@ def _sections(scene: Scene, units: Units) -> tuple[list[PipeSection], Indices]:
 
 
 def _pipe(scene: Scene, units: Units, section: Section, element: int) -> PipeSection:
-    row, kind, length, force = section.entry.section, format_of(section.entry), units.length, units.force
+    row, length, force = section.entry.section, units.length, units.force
     outer = float(scene.diameter[element])
     inner = number(row, "di", 0.0)
-    if kind == "rigid":
-        area = number(row, "area", math.pi / 4 * (outer**2 - inner**2))
-        second = number(row, "second_moment", math.pi / 64 * (outer**4 - inner**4))
-        young = _modulus(scene, section, number(row, "e"), "e_curve")
-        stiffness = young * area, young * second, number(row, "g") * number(row, "polar_moment", 2.0 * second)
-    else:
-        bending = _modulus(scene, section, number(row, "eiyy"), "eiyy_curve", "ei_curve")
-        axial = _modulus(scene, section, number(row, "ea"), "ea_curve")
-        stiffness = axial, bending, _modulus(scene, section, number(row, "gj"), "gj_curve")
+    stiffness = stiffnesses(scene.deck, section)
     mass = float(scene.mass_per_length[element])
     if not stiffness[0] > 0.0 or not mass > 0.0 or not outer > 0.0:
         what = "axial stiffness" if not stiffness[0] > 0.0 else "mass" if not mass > 0.0 else "diameter"
@@ -235,32 +225,11 @@ def _pipe(scene: Scene, units: Units, section: Section, element: int) -> PipeSec
     )
 
 
-_CURVES = {"ea_curve": "FORCE-STRAIN", "e_curve": "STRESS/STRAIN DIRECT", "gj_curve": "TORQUE-TWIST"}
-_BENDING = "MOMENT-CURVATURE"
-
-
-def _modulus(scene: Scene, section: Section, given: float, *curves: str) -> float:
-    """A stiffness: the number, else the slope at 0 of the curve that stands for it; NaN without both."""
-    if not math.isnan(given):
-        return given
-    names = [name for setting in curves if (name := getattr(section.entry, setting, None))]
-    for _, block in scene.deck.blocks(_CURVES.get(curves[0], _BENDING)):
-        for entry in block.curves:
-            if names and folded(str(entry.curve)) == folded(str(names[0])):
-                points = cast("Table", entry.points)
-                order = np.argsort(points.column(1), kind="stable")
-                loads, strains = points.column(0)[order], points.column(1)[order]
-                at = int(np.clip(np.searchsorted(strains, 0.0, side="right"), 1, len(strains) - 1))
-                rise, run = float(loads[at] - loads[at - 1]), float(strains[at] - strains[at - 1])
-                return rise / run if run > 0.0 else math.nan
-    return math.nan
-
-
 def report_sections(model: LineModel, target: str, *, names: list[str], torsion: bool) -> None:
     """Add what became of each cross-section: its name in the target, curves by their slope at 0, torsion."""
     for section, name in zip(model.sections, names, strict=True):
         given = next(each.entry for each in model.scene.section_table.sections if each.where == section.where)
-        curved = [each for each in ("eiyy_curve", "ei_curve", *_CURVES) if getattr(given, each)]
+        curved = [each for each in ("eiyy_curve", "ei_curve", *STIFFNESS_CURVES) if getattr(given, each)]
         status = Status.APPROXIMATED if curved else Status.CARRIED
         numbers = f"EA {shown(section.axial, 4)} N, EI {shown(section.bending, 4)} Nm2"
         effect = f"{numbers}: of a curve its slope at 0" if curved else numbers
@@ -268,7 +237,7 @@ def report_sections(model: LineModel, target: str, *, names: list[str], torsion:
     twisted = [section for section in model.sections if section.torsion]
     if twisted and not torsion:
         model.report.add(twisted[0].where, Status.LEFT_OUT, "none", "lines do not twist: no effect in plane", "GJ, G")
-    for keyword in (_BENDING, *_CURVES.values()):
+    for keyword in (BENDING_CURVES, *STIFFNESS_CURVES.values()):
         for where, _ in model.scene.deck.blocks(keyword):
             model.report.add(where, Status.APPROXIMATED, "a constant stiffness", "the slope of its curves at 0")
 

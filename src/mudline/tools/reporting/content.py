@@ -40,7 +40,8 @@ from mudline.model.results.warnings import ContactWatch, caption
 from mudline.model.scene.model import Scene, resolve
 from mudline.model.scene.numbering import Mask
 from mudline.tools.reporting.inferred import inferences
-from mudline.tools.study import Study, study
+from mudline.tools.touchdown_study.rest_shape import rest_shape
+from mudline.tools.touchdown_study.study import Study, study
 
 FORMAT = "mudline-report/1"
 SECTIONS = ("verdict", "findings", "model", "curves", "contact", "study", "plan")
@@ -75,6 +76,7 @@ class Report:
         json: as it is printed; a section that is not wanted is not among its keys.
         source: the text of the deck, of which lines are shown beside findings.
         scene, drawn, doubt, study: what the pictures show, None where there is none; `doubt` goes below a title.
+        at_rest: whether contact is that of the resting shape.
     """
 
     json: dict[str, Any]
@@ -83,19 +85,23 @@ class Report:
     drawn: PlotData | None = None
     doubt: str = ""
     study: Study | None = None
+    at_rest: bool = False
     named: dict[str, str] = field(default_factory=dict)
     """The titles of the rules behind the findings, by code."""
 
 
-def report_on(given: Given, settings: LintSettings, wanted: Collection[str], date: str | None = None) -> Report:
+def report_on(
+    given: Given, settings: LintSettings, wanted: Collection[str], date: str | None = None, *, rest_shape: bool = False
+) -> Report:
     """Read, judge and evaluate a deck as far as the wanted sections need it; `date` is written on the page.
 
-    Never raises for content.
+    Never raises for content. With `rest_shape` contact is that of the resting shape, else of the deck's own
+    coordinates.
     """
     verdict, deck, context = _judged(given, settings)
     head = _head(given, deck, verdict, date)
     head["shown"] = [name for name in SECTIONS if name in wanted]
-    made = Report(head, Source.from_bytes(given.data, given.name))
+    made = Report(head, Source.from_bytes(given.data, given.name), at_rest=rest_shape)
     found = head["sections"]
     if "findings" in wanted:
         found["findings"] = _findings(given, settings, context)
@@ -130,7 +136,7 @@ def _section(name: str, scene: Scene, made: Report) -> dict[str, Any]:
     if name == "contact":
         return _contact(scene, made)
     if name == "study":
-        made.study = study(scene, draw=True)
+        made.study = study(scene)
         return made.study.json() | {"notes": made.study.notes}
     return {"model": _model, "curves": _curves, "plan": _plan}[name](scene)
 
@@ -278,8 +284,12 @@ def _given(value: Any) -> Any:  # noqa: ANN401 - a number, or one for each direc
 
 
 def _contact(scene: Scene, made: Report) -> dict[str, Any]:
-    """The contact of the deck's own coordinates."""
-    evaluation = evaluate_scene(scene, tension=_tension(scene))
+    """The contact of the deck's own coordinates, or of its resting shape."""
+    if made.at_rest:
+        shape = rest_shape(scene)
+        evaluation = evaluate_scene(scene, shape.positions, _tension(scene), at_rest=shape.sentences(scene.units))
+    else:
+        evaluation = evaluate_scene(scene, tension=_tension(scene))
     made.drawn = PlotData.of_evaluation(evaluation)
     watch = ContactWatch.of(evaluation)
     (part,) = evaluation.parts()
@@ -299,6 +309,8 @@ def _contact(scene: Scene, made: Report) -> dict[str, Any]:
         "weight": None if watch.balance is None else finite(watch.balance.weight),
         "ratio": None if watch.balance is None else finite(watch.balance.ratio),
         "deepest": {"depth": float(depth[deepest]), "element": int(scene.element_ids[deepest])} if touches else None,
+        "positions": evaluation.source,
+        "notes": list(evaluation.notes),
         "lines": [row.row() for row in line_steps(evaluation, part)],
         "states": [{"law": law, "state": state, "count": count} for law, state, count in states(evaluation, result)],
         "warnings": [one.row() for one in warnings],

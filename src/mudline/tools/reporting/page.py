@@ -18,7 +18,7 @@ from mudline.checks.output import visible
 from mudline.tools.reporting.content import Look, Report
 from mudline.tools.reporting.pictures import Picture
 from mudline.tools.reporting.tables import LONGEST, TABLES, study_tables
-from mudline.tools.study.screen import extremes_sentences
+from mudline.tools.touchdown_study.screen import description, sentences
 
 MOST_FINDINGS = 500
 _LONGEST_LINE = 160
@@ -44,7 +44,7 @@ def page(report: Report, pictures: Sequence[Picture], left_out: int, look: Look)
         "page.html",
         report=given,
         tables=tables,
-        extremes=extremes_sentences(report.study) if report.study is not None else [],
+        study_texts=_study_texts(report),
         findings=_groups(report, "reported"),
         hidden=_groups(report, "hidden"),
         rules=report.named,
@@ -52,6 +52,15 @@ def page(report: Report, pictures: Sequence[Picture], left_out: int, look: Look)
         pictures_left=left_out,
         most=MOST_FINDINGS,
     )
+
+
+def _study_texts(report: Report) -> list[str]:
+    """What a study says beside its tables."""
+    found = report.study
+    if found is None:
+        return []
+    said = [text for part in found.parts for text in sentences(found, part)]
+    return [text for text in (description(found), *said) if text]
 
 
 def index_page(rows: Sequence[dict[str, Any]], version: str, look: Look) -> str:

@@ -17,7 +17,6 @@ from mudline.checks.output import visible
 from mudline.model.results.curve_rows import curve_units
 from mudline.model.results.plots import can_draw, curves_figure, evaluation_figure, model_figure, save
 from mudline.tools.reporting.content import Report
-from mudline.tools.study.picture import study_figure
 
 MOST_PICTURES = 20
 MOST_BYTES = 600_000
@@ -60,9 +59,9 @@ def _drawings(report: Report) -> Iterator[tuple[str, str, Callable[[], Figure]]]
     if found.get("contact") and drawn is not None:
         words = "Contact along the line: its height, the seabed reaction, embedment and stiffness"
         yield "contact", words, partial(evaluation_figure, drawn, report.doubt)
-    if study is not None and study.drawn is not None and study.drawn.curves:
-        words = "Error against run time of three schemes on the stiffest contacts of the deck"
-        yield "study", words, partial(study_figure, study)
+    if study is not None and study.drawable:
+        words = "Error of the touchdown zone against run time, with the deck's own time step"
+        yield "study", words, study.figure
     units_of = curve_units(scene)
     for row in (found.get("curves") or {}).get("curves", ()):
         words = f"The {row['kind']} {visible(row['name'])}: {row['axes'][1]} over {row['axes'][0]}"

@@ -12,8 +12,8 @@ from mudline.basics.short_repr import counted, cut
 from mudline.model.results.summary_tables import OPEN, diameter_table, elements_of, law_table, set_table, static_table
 from mudline.model.results.totals import NOT_KNOWN, touchdown_words
 from mudline.model.scene.deck_curves import OF_SEABED
-from mudline.tools.study import Study
-from mudline.tools.study.screen import precision_table, stability_table, stages_table
+from mudline.tools.touchdown_study.screen import TABLES as STUDY_TABLES
+from mudline.tools.touchdown_study.study import Study
 
 MOST_CURVES = 50
 """Curves and sets that a page shows."""
@@ -125,7 +125,8 @@ def _contact(found: dict[str, Any], names: UnitNames) -> Iterator[Table]:
     if deepest := found["deepest"]:
         words = labelled(f"largest penetration, element {deepest['element']}", names.length)
         figures.append((words, deepest["depth"]))
-    yield _on_page(DisplayTable("Equilibrium of the deck's own coordinates", _FIGURES, figures))
+    shape = "the resting shape" if found["positions"] == "rest shape" else "the deck's own coordinates"
+    yield _on_page(DisplayTable(f"Equilibrium of {shape}", _FIGURES, figures, " ".join(found["notes"])))
     yield _on_page(law_table("By law and set", found["laws"], names, "reaction"), MOST_CURVES)
     columns = [
         number("line", "line"),
@@ -155,7 +156,7 @@ def _touchdown(line: dict[str, Any]) -> str:
 
 def study_tables(found: Study) -> list[Table]:
     """The tables of the screen of a study."""
-    screens = [screen for make in (precision_table, stability_table, stages_table) if (screen := make(found))]
+    screens = [screen for part in found.parts if (screen := STUDY_TABLES[part](found))]
     return [
         Table(
             screen.title,

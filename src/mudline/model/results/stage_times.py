@@ -10,6 +10,8 @@ from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
+from time import get_clock_info, perf_counter, thread_time
 from typing import NamedTuple
 
 import numpy as np
@@ -22,8 +24,10 @@ from mudline.model.contact.laws import law_named
 from mudline.model.contact.laws.suction import from_cohesion
 from mudline.model.scene.model import Scene
 from mudline.model.scene.oscillation import line_of
-from mudline.tools.study.precision import Timer
-from mudline.tools.study.stability import file_of
+
+Timer = Callable[[], float]
+CLOCK: Timer = thread_time if get_clock_info("thread_time").resolution < 1e-5 else perf_counter
+"""Processor time of this thread where that clock is fine enough: other programs do not count in it."""
 
 _ROUNDS = 9
 _LEAST = 1e-3
@@ -93,7 +97,7 @@ def pruned(scene: Scene, given: ContactInput, timer: Timer) -> Pruning:
             stage.stage,
             stage.active,
             stage.why,
-            None if where is None else file_of(scene, where),
+            None if where is None else _file_of(scene, where),
             None if where is None else line_of(scene, where),
             None,
             None,
@@ -232,3 +236,9 @@ def _place(scene: Scene, stage: str) -> Where | None:
     having = np.greater(values, 0.0) if values.ndim == 1 else np.greater(values, 0.0).any(axis=1)
     at = resistance.of_element[having & (resistance.of_element >= 0)]
     return resistance.places[int(at.min())].inside(name) if at.size else None
+
+
+def _file_of(scene: Scene, where: Where) -> str:
+    """Name of the file of a place: that of the deck, or of one that it continues."""
+    base = scene.deck.base_of(where)
+    return Path(base[0].file if base else scene.deck.file).name

@@ -1,0 +1,53 @@
+"""Errors over run time on logarithmic axes, with steps that are marked. Needs matplotlib."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from mudline.model.results.plots.style import drawing, printable, style_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from mudline.model.scene.numbering import Floats, Mask
+
+_LEAST = 1e-5
+"""Smaller errors are drawn as this one."""
+_GOALS = (0.01, 0.02, 0.05)
+_MILLI = 1e3
+_STAR: dict[str, Any] = {"markersize": 15, "markeredgecolor": "black", "zorder": 5}
+
+
+def draw_run_times(axes: Axes, run_times: Floats, errors: Floats, marked: Mask, names: Sequence[str]) -> None:
+    """Draw errors (k, n) of the quantities `names` over run times (k,), in seconds for a second of motion."""
+    times = _MILLI * run_times
+    for at, name in enumerate(names):
+        look, values = style_of(at), np.maximum(errors[:, at], _LEAST)
+        axes.plot(times, values, label=name, color=look.color, marker=look.marker, linewidth=1.5)
+        axes.plot(
+            times[marked], values[marked], "*", color=look.color, markersize=15, markeredgecolor="black", zorder=5
+        )
+    axes.plot([], [], "*", color="0.6", markersize=15, markeredgecolor="black", label="the deck's own step")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    for goal in _GOALS:
+        axes.axhline(goal, color="0.4", linewidth=1.0, linestyle=":")
+        text = f" {100.0 * goal:g} %"
+        axes.annotate(text, (0.0, goal), xycoords=("axes fraction", "data"), va="bottom", color="0.3")
+    axes.grid(visible=True, which="major", color="0.9")
+    axes.set_xlabel("run time [ms per s of motion]")
+    axes.set_ylabel("error of the last period [-]")
+    axes.legend(frameon=False)
+
+
+@drawing()
+def run_times_figure(deck: str, run_times: Floats, errors: Floats, marked: Mask, names: Sequence[str]) -> Figure:
+    """Return the diagram of a deck."""
+    figure = Figure(figsize=(6.5, 5.2), layout="constrained", dpi=120)
+    draw_run_times(figure.subplots(), run_times, errors, marked, names)
+    figure.suptitle(f"Error against run time: {printable(deck, 100)}", fontsize="medium").set_parse_math(False)
+    return figure

@@ -1,0 +1,257 @@
+"""Load case of a deck: the motion of a line's top in its waves, and its time steps."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator
+from contextlib import suppress
+from itertools import chain
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple, cast
+
+import numpy as np
+
+from mudline.language.deck.parameters import folded
+from mudline.language.diagnostics import Where
+from mudline.model.scene.data_files import operators
+from mudline.model.scene.deck_values import FOOT, find_file, number
+from mudline.model.scene.numbering import Floats
+from mudline.model.scene.oscillation import line_of
+from mudline.model.scene.resolved import ResolvedDeck
+from mudline.model.scene.sections import surroundings
+
+if TYPE_CHECKING:
+    from mudline.language.keywords.library.analysis import TimeSpan
+    from mudline.language.keywords.library.vessel_motions import Raos, VesselRao
+    from mudline.language.keywords.library.waves import JonswapSeas, RegularWaves, StokesWave
+
+
+class TopMotion(NamedTuple):
+    """Motion of the upper end of a line: amplitudes as complex numbers of one time, in the deck's units.
+
+    surge: away from the lower end. source: in words; line: of the deck, 0 for none.
+    """
+
+    heave: complex
+    surge: complex
+    period: float
+    source: str
+    line: int
+
+
+class _Wave(NamedTuple):
+    """Amplitude of the wave that moves a vessel, period and direction; `height` names the height for people."""
+
+    amplitude: float
+    period: float
+    direction: float
+    height: str
+    where: Where
+
+
+_DEFAULT_HEAVE, _DEFAULT_PERIOD = 1.0, 10.0
+"""Metres and seconds, where a deck has no waves."""
+_PEAK_OVER_MEAN = 1.29
+"""Peak period over mean zero up-crossing period of a Jonswap sea with a peakedness of 3.3."""
+_HALF_TURN, _WHOLE_TURN = 180.0, 360.0
+
+
+def top_motion(
+    scene: ResolvedDeck, vessel: str, direction: Floats, heave: float | None = None, period: float | None = None
+) -> TopMotion:
+    """Return the motion of the top of a line that a vessel moves.
+
+    `direction` (2,) is that of the line from its lower end; `heave` and `period` replace what the deck gives.
+    """
+    wave = next(_waves(scene), None)
+    found = _moved(scene, wave, vessel, direction) if wave is not None else None
+    if found is None:
+        size = _DEFAULT_HEAVE / FOOT if scene.units == "imperial" else _DEFAULT_HEAVE
+        unread = any(name.startswith("WAVE") for name in scene.deck.keywords("LOAD CASE"))
+        why = "its waves are not read" if unread else "no waves"
+        found = TopMotion(size, 0.0, _DEFAULT_PERIOD, f"assumed, {why}", 0)
+    if heave is not None:
+        found = found._replace(heave=heave, surge=0.0, source="as asked", line=0)
+    return found if period is None else found._replace(period=period)
+
+
+def _waves(scene: ResolvedDeck) -> Iterator[_Wave]:
+    """The waves of the deck that are read: a Stokes wave, the highest of regular waves, the sea."""
+    for where, block in scene.deck.blocks("WAVE-STOKES", "LOAD CASE"):
+        stokes = cast("StokesWave", block)
+        airy, period = number(stokes, "airy_amplitude", 0.0), number(stokes, "period")
+        amplitude = airy if airy > 0.0 else 0.5 * number(stokes, "height")
+        own = number(stokes, "airy_period", period) if airy > 0.0 else period
+        yield from _usable(_Wave(amplitude, own, number(stokes, "direction", 0.0), "H", where))
+    regular = [
+        _Wave(
+            number(entry.wave, "amplitude"),
+            number(entry.wave, "period"),
+            number(entry.wave, "direction", 0.0),
+            "H",
+            where,
+        )
+        for where, block in scene.deck.blocks("WAVE-REGULAR", "LOAD CASE")
+        for entry in cast("RegularWaves", block).waves
+    ]
+    yield from sorted((each for wave in regular for each in _usable(wave)), key=lambda wave: -wave.amplitude)
+    gravity = surroundings(scene.deck).gravity
+    for where, block in scene.deck.blocks("WAVE-JONSWAP", "LOAD CASE"):
+        for sea in cast("JonswapSeas", block).seas:
+            if (given := sea.area_height or sea.progression_height) is not None:
+                mean = sea.spec == "HSTZ"
+                period = number(given, "period") * (_PEAK_OVER_MEAN if mean else 1.0)
+                height = number(given, "height")
+            elif (shape := sea.area_shape or sea.progression_shape) is not None:
+                period = 1.0 / max(number(shape, "peak", 0.0), 1e-300)
+                height = _significant_height(number(shape, "phillips"), number(shape, "peakedness"), period, gravity)
+            else:
+                continue
+            along = number(given or shape, "direction", 0.0)
+            yield from _usable(_Wave(0.5 * height, period, along, "Hs", where))
+
+
+def _usable(wave: _Wave) -> Iterator[_Wave]:
+    known = math.isfinite(wave.amplitude) and math.isfinite(wave.period) and math.isfinite(wave.direction)
+    if known and wave.amplitude > 0.0 and wave.period > 0.0:
+        yield wave
+
+
+def _significant_height(phillips: float, peakedness: float, period: float, gravity: float) -> float:
+    """Hs of a Jonswap spectrum (Hasselmann and others 1973) with a Phillips constant."""
+    ratio = np.linspace(0.3, 8.0, 4000)
+    width = np.where(ratio <= 1.0, 0.07, 0.09)
+    shape = ratio**-5.0 * np.exp(-1.25 * ratio**-4.0) * peakedness ** np.exp(-0.5 * ((ratio - 1.0) / width) ** 2)
+    omega = 2.0 * math.pi / period
+    return 4.0 * math.sqrt(phillips * gravity**2 / omega**4 * float(shape.sum()) * float(ratio[1] - ratio[0]))
+
+
+def _moved(scene: ResolvedDeck, wave: _Wave, vessel: str, direction: Floats) -> TopMotion:
+    """The motion by the operators of a vessel; without them a heave of half of the amplitude."""
+    line, height = line_of(scene, wave.where), 2.0 * wave.amplitude
+    for rows, heading, source in _operators_of(scene, vessel):
+        six = _responses(rows, wave.direction - heading, wave.period)
+        if six is not None:
+            angle = math.radians(heading)
+            along = np.array([math.cos(angle), math.sin(angle)]), np.array([-math.sin(angle), math.cos(angle)])
+            surge = wave.amplitude * (six[1] * float(along[0] @ direction) + six[2] * float(along[1] @ direction))
+            words = f"by {source}, {wave.height} {height:.4g}"
+            return TopMotion(wave.amplitude * six[0], surge, wave.period, words, line)
+    return TopMotion(0.5 * wave.amplitude, 0.0, wave.period, f"{wave.height}/4, assumed", line)
+
+
+def _operators_of(scene: ResolvedDeck, vessel: str) -> Iterator[tuple[list[list[float]], float, str]]:
+    """Operators of a vessel, its heading, and where they stand; files that cannot be read are passed over."""
+    heading, files = 0.0, list[_OperatorFile]()
+    placed = chain(scene.deck.blocks("VESSEL"), scene.deck.blocks("VESSEL,INTEGRATED"))
+    for where, each in ((where, each) for where, block in placed for each in block.vessels):
+        if folded(str(each.vessel)) == folded(vessel):
+            heading = number(each.position, "yaw", 0.0)
+            files.append(_OperatorFile(where, getattr(each, "rao", None), getattr(each, "format", None), None))
+    for where, block in scene.deck.blocks("RAO", "LOAD CASE"):
+        for entry in cast("Raos", block).vessels:
+            if folded(str(entry.vessel)) == folded(vessel):
+                files.append(_OperatorFile(where, entry.file, entry.format, entry.layout))
+                if (given := _written(entry)) and np.isfinite(given).all():
+                    yield given, heading, "*RAO"
+    for file in files:
+        path = file.path(scene)
+        with suppress(OSError, ValueError):  # a fault of the file is a finding of its own
+            if path is not None:
+                yield operators(path, file.layout or ""), heading, path.name
+
+
+class _OperatorFile(NamedTuple):
+    """A file of operators as the deck names it."""
+
+    where: Where
+    name: str | None
+    form: str | None
+    layout: str | None
+
+    def path(self, scene: ResolvedDeck) -> Path | None:
+        """The file, if it is there and in the program's own form."""
+        if not self.name or (self.form or "MCS").upper() != "MCS":
+            return None
+        return find_file(scene.deck.folder_of(self.where), self.name)
+
+
+def _written(entry: VesselRao) -> list[list[float]]:
+    """The operators that stand in the deck itself, as `operators` returns those of a file."""
+    if entry.lines is not None:
+        found: list[list[float]] = np.column_stack([entry.lines.column(at) for at in range(14)]).tolist()
+        return found
+    return [
+        [number(each, "heading"), number(one, "frequency"), *_pairs(one.amplitudes, one.phases)]
+        for each in entry.headings
+        for one in each.frequencies
+    ]
+
+
+def _pairs(amplitudes: object, phases: object) -> Iterator[float]:
+    for name in ("heave", "surge", "sway", "yaw", "roll", "pitch"):
+        yield from (number(amplitudes, name, 0.0), number(phases, name, 0.0))
+
+
+def _responses(rows: list[list[float]], heading: float, period: float) -> list[complex] | None:
+    """Heave, surge and sway of a wave of amplitude 1 from a heading; None where the operators do not reach so far.
+
+    Between headings and frequencies they are linear. Where all headings lie on one side, the other side mirrors it.
+    Frequencies are radians per second; where only cycles per second reach the wave, they are those.
+    """
+    values = np.array(rows)
+    phasors = values[:, 2:8:2] * np.exp(-1j * np.radians(values[:, 3:9:2]))
+    angle = (heading + _HALF_TURN) % _WHOLE_TURN - _HALF_TURN
+    headings, frequencies = np.unique(values[:, 0]), np.unique(values[:, 1])
+    side = 1.0
+    if len(headings) > 1 and angle < 0.0 and headings[0] >= 0.0:
+        angle, side = -angle, -1.0
+    angle = float(np.clip(angle, headings[0], headings[-1]))
+    omega = 2.0 * math.pi / period
+    wanted = next((each for each in (omega, 1.0 / period) if frequencies[0] <= each <= frequencies[-1]), None)
+    if wanted is None:
+        return None
+    found = []
+    for motion in range(3):
+        of_headings = []
+        for each in headings:
+            own = values[:, 0] == each
+            order = np.argsort(values[own, 1])
+            x, y = values[own, 1][order], phasors[own, motion][order]
+            of_headings.append(np.interp(wanted, x, y.real) + 1j * np.interp(wanted, x, y.imag))
+        y = np.array(of_headings)
+        found.append(complex(np.interp(angle, headings, y.real), np.interp(angle, headings, y.imag)))
+    return [found[0], found[1], side * found[2]]
+
+
+def in_words(value: complex, unit: str) -> str:
+    """Return an amplitude with its unit, and the degrees by which it lags where it does."""
+    lag = -math.degrees(cmath.phase(value)) if value else 0.0
+    return f"{abs(value):.3g}{unit}" + (f" at {lag:.0f} deg" if abs(lag) >= 1.0 else "")
+
+
+# ----------------------------------------------------------------------------------------------------------------- time
+
+
+class OwnSteps(NamedTuple):
+    """Time steps of a deck: the largest, the first of a variable one, and the place."""
+
+    largest: float
+    first: float
+    where: Where
+
+
+def own_steps(scene: ResolvedDeck) -> OwnSteps | None:
+    """Return the steps of the last `*TIME`; None without one."""
+    found = None
+    for where, block in scene.deck.blocks("TIME", "LOAD CASE"):
+        span = cast("TimeSpan", block)
+        step = number(span.fixed, "increment")
+        if step > 0.0 and math.isfinite(step):
+            found = OwnSteps(step, step, where.inside("fixed", "increment"))
+        for index, limits in enumerate(span.limits or ()):
+            largest, first = number(limits, "largest"), number(limits, "suggested")
+            if largest > 0.0 and first > 0.0 and math.isfinite(largest + first):
+                found = OwnSteps(largest, first, where.inside("limits", index, "largest"))
+    return found

@@ -1,0 +1,1 @@
+"""Resting shape of a deck, and the study of its touchdown zone."""

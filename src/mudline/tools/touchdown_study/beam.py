@@ -1,0 +1,451 @@
+"""Tensioned beam on the seabed of a deck: the touchdown zone in its plane, at rest and in motion.
+
+Small slopes, constant tension T, heights w and rotations theta of the nodes. Hermite elements, consistent mass, load
+-q, drag at the nodes. The left end lies; the right one is moved, turns freely, and carries the catenary's moment
+EI q / T.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from mudline.model.contact.arrays import FloatArray
+from mudline.tools.touchdown_study.soil import Reaction, Soil
+
+_ITERATIONS, _SEARCHES, _CUTS = 25, 10, 6
+_STATIC_ITERATIONS = 200
+_REFINED, _REFINEMENTS = 1e-7, 6
+"""Share of a force that may be left when a linear system counts as solved; more steps than that are eliminations."""
+_REACH = 3
+"""Neighbours of w and theta to which a node is tied by its elements."""
+_TOLERANCE = 1e-6
+"""Residual of a node over the weight of the shortest element."""
+
+
+class Scheme(NamedTuple):
+    """A time integration scheme: M [(1 - am) a1 + am a0] + (1 - af) R1 + af R0 = 0 with Newmark's gamma and beta.
+
+    name: "generalised-alpha" or "hilber-hughes". rho, alpha: the parameter of each, None for the other.
+    """
+
+    name: str
+    alpha_m: float
+    alpha_f: float
+    rho: float | None = None
+    alpha: float | None = None
+
+    @property
+    def radius(self) -> float:
+        """Spectral radius at infinite frequency."""
+        share = self.alpha_f if self.alpha is None else 0.5 * (1.0 + self.alpha)
+        return share / (1.0 - share)
+
+    @property
+    def gamma(self) -> float:
+        """Newmark's gamma of second order."""
+        return 0.5 - self.alpha_m + self.alpha_f
+
+    @property
+    def beta(self) -> float:
+        """Newmark's beta of the least dissipation at low frequencies."""
+        return 0.25 * (1.0 - self.alpha_m + self.alpha_f) ** 2
+
+
+def generalised_alpha(rho: float) -> Scheme:
+    """Return generalised-alpha (Chung and Hulbert 1993) with the spectral radius `rho` at infinity."""
+    return Scheme("generalised-alpha", (2.0 * rho - 1.0) / (rho + 1.0), rho / (rho + 1.0), rho=rho)
+
+
+def hilber_hughes(alpha: float) -> Scheme:
+    """Return the scheme of Hilber, Hughes and Taylor (1977), `alpha` from -1/3 to 0."""
+    return Scheme("hilber-hughes", 0.0, -alpha, alpha=alpha)
+
+
+class NotConvergedError(Exception):
+    """A step, or the state at rest, was not found."""
+
+
+@dataclass(frozen=True)
+class Beam:
+    """The touchdown zone.
+
+    Attributes:
+        lengths: (m,) of the elements, from the lying end to the hanging one.
+        bending, tension: EI and T.
+        weight, mass, drag: per length; drag is the force at a velocity of 1.
+        left, right: heights of the ends above the mudline at rest; the right end moves by `amplitude` in `period`.
+        end_moment: at the right end.
+    """
+
+    lengths: FloatArray
+    bending: float
+    tension: float
+    weight: float
+    mass: float
+    drag: float
+    left: float
+    right: float
+    end_moment: float
+    amplitude: float = 0.0
+    period: float = 1.0
+
+    @cached_property
+    def places(self) -> FloatArray:
+        """Places (n,) of the nodes along the line, from the left end."""
+        return np.append(0.0, np.cumsum(self.lengths))
+
+    @cached_property
+    def shortest(self) -> float:
+        """Length of the shortest element."""
+        return float(self.lengths.min())
+
+    def largest(self, residual: FloatArray) -> float:
+        """The largest force of a residual (2 n,) where the line is free; moments count over the shortest length."""
+        return float(max(np.abs(residual[2:-2:2]).max(), np.abs(residual[3::2]).max() / self.shortest))
+
+    @cached_property
+    def stiffness(self) -> Banded:
+        """Matrix of bending and tension."""
+        size = self.lengths[:, None, None]
+        bend = np.array([[12.0, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]]) * self.bending / size**3
+        pull = np.array([[36.0, 3, -36, 3], [3, 4, -3, -1], [-36, -3, 36, -3], [3, -1, -3, 4]])
+        return Banded(self._turned(bend + pull * self.tension / (30.0 * size)))
+
+    @cached_property
+    def inertia(self) -> Banded:
+        """Consistent mass matrix."""
+        rows = [[156.0, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]]
+        return Banded(self._turned(np.array(rows) * self.mass * self.lengths[:, None, None] / 420.0))
+
+    def _turned(self, matrices: FloatArray) -> FloatArray:
+        """Matrices for w and theta from those for w and l theta."""
+        size = np.ones((len(self.lengths), 4))
+        size[:, 1::2] = self.lengths[:, None]
+        found: FloatArray = matrices * size[:, :, None] * size[:, None, :]
+        return found
+
+    @cached_property
+    def load(self) -> FloatArray:
+        """Load (2 n,) of the weight, with the moment at the right end."""
+        each = np.column_stack(
+            [0.5 * self.lengths, self.lengths**2 / 12.0, 0.5 * self.lengths, -(self.lengths**2) / 12.0]
+        )
+        found = _scattered(-self.weight * each)
+        found[-1] += self.end_moment
+        return found
+
+    @cached_property
+    def drag_at_nodes(self) -> FloatArray:
+        """Drag (n,) of half of the elements of each node, at a velocity of 1."""
+        found: FloatArray = 0.5 * self.drag * (np.append(self.lengths, 0.0) + np.append(0.0, self.lengths))
+        return found
+
+    def end(self, time: float) -> tuple[float, float, float]:
+        """Height, velocity and acceleration of the right end: the motion grows over the first period."""
+        share = min(time / self.period, 1.0)
+        ramp = share**3 * (10.0 + share * (6.0 * share - 15.0))
+        rising = 30.0 * share**2 * (1.0 - share) ** 2 / self.period if share < 1.0 else 0.0
+        bent = 60.0 * share * (1.0 - share) * (1.0 - 2.0 * share) / self.period**2 if share < 1.0 else 0.0
+        omega = 2.0 * np.pi / self.period
+        sine, cosine = np.sin(omega * time), np.cos(omega * time)
+        return (
+            self.right + self.amplitude * ramp * sine,
+            self.amplitude * (rising * sine + ramp * omega * cosine),
+            self.amplitude * (bent * sine + 2.0 * rising * omega * cosine - ramp * omega**2 * sine),
+        )
+
+    def moments(self, turned: FloatArray) -> FloatArray:
+        """Bending moments (..., m) of the elements from the rotations (..., n) of the nodes."""
+        found: FloatArray = self.bending * np.diff(turned, axis=-1) / self.lengths
+        return found
+
+    def touchdown(self, heights: FloatArray) -> FloatArray:
+        """Touchdown points (...), from the left end: the first change of sign of w (..., n) from the right."""
+        above = heights >= 0.0
+        last = above.shape[-1] - 1 - np.argmax(~above[..., ::-1], axis=-1)  # the last node below the mudline
+        last = np.minimum(last, above.shape[-1] - 2)
+        low = np.take_along_axis(heights, last[..., None], -1)[..., 0]
+        high = np.take_along_axis(heights, last[..., None] + 1, -1)[..., 0]
+        found = self.places[last] + self.lengths[last] * low / np.where(low < high, low - high, -1.0)
+        return np.where(above.all(axis=-1), np.nan, found)
+
+
+def _scattered(parts: FloatArray) -> FloatArray:
+    """Values (2 n,) at the nodes from those (m, 4) of the elements."""
+    found = np.zeros((len(parts) + 1, 2))
+    found[:-1] += parts[:, :2]
+    found[1:] += parts[:, 2:]
+    return found.ravel()
+
+
+class Banded:
+    """Matrix (2 n, 2 n) that element matrices (m, 4, 4) make, for products."""
+
+    def __init__(self, matrices: FloatArray) -> None:
+        size = 2 * len(matrices) + 2
+        self.dense = np.zeros((size, size))
+        for at, each in enumerate(matrices):
+            self.dense[2 * at : 2 * at + 4, 2 * at : 2 * at + 4] += each
+        self._padded = np.zeros(size + 2 * _REACH)
+        self._windows = np.lib.stride_tricks.sliding_window_view(self._padded, 2 * _REACH + 1)
+        wide = np.pad(self.dense, ((0, 0), (_REACH, _REACH)))
+        self._band = np.array([row[at : at + 2 * _REACH + 1] for at, row in enumerate(wide)])
+
+    def times(self, values: FloatArray) -> FloatArray:
+        """Return the product (2 n,) with values (2 n,)."""
+        self._padded[_REACH:-_REACH] = values
+        found: FloatArray = np.einsum("ij,ij->i", self._band, self._windows)
+        return found
+
+
+class _Condensed:
+    """A linear system for the changes of w and theta, with theta eliminated once."""
+
+    def __init__(self, matrix: FloatArray) -> None:
+        """Take a matrix (2 n, 2 n); w is held at both ends, theta at the left end."""
+        w, turned = slice(2, -2, 2), slice(3, None, 2)
+        self._inverse = np.linalg.inv(matrix[turned, turned])
+        self._down = matrix[w, turned] @ self._inverse
+        self._up = np.ascontiguousarray(self._down.T)
+        self._whole = matrix[w, w] - matrix[w, turned] @ self._up
+        self._work: FloatArray = np.empty_like(self._whole)
+        self._held: tuple[FloatArray, FloatArray] | None = None
+        self._solution = self._work
+        flat, width = self._work.ravel(), len(self._whole)
+        self._diagonal, self._upper, self._lower = flat[:: width + 1], flat[1 :: width + 1], flat[width :: width + 1]
+
+    def solve(self, residual: FloatArray, diagonal: FloatArray, beside: FloatArray) -> FloatArray:
+        """Return the change (2 n,) that takes a residual (2 n,) away, with a diagonal (n,) and its neighbours added."""
+        force, moment = residual[2:-2:2], residual[3::2]
+        change = np.zeros(len(residual))
+        w = self._refined(self._down @ moment - force, diagonal[1:-1], beside[1:-1])
+        change[2:-2:2] = w
+        change[3::2] = -(self._inverse @ moment) - self._up @ w
+        return change
+
+    def _refined(self, force: FloatArray, diagonal: FloatArray, beside: FloatArray) -> FloatArray:
+        """The w (n - 2,) of a force, by the inverse of the first system and refinement, else by elimination."""
+        if self._held is None:
+            self._held = diagonal.copy(), beside.copy()
+            self._solution = np.asarray(np.linalg.inv(self._added(diagonal, beside)), np.float64)
+        more, more_beside = diagonal - self._held[0], beside - self._held[1]
+        found, left = np.zeros(len(force)), force.copy()
+        least = _REFINED * np.abs(force).max()
+        for _ in range(_REFINEMENTS):
+            part = self._solution @ left
+            found += part
+            np.multiply(-more, part, out=left)
+            left[:-1] -= more_beside * part[1:]
+            left[1:] -= more_beside * part[:-1]
+            if np.abs(left).max() <= least:
+                return found
+        return np.asarray(np.linalg.solve(self._added(diagonal, beside), force), np.float64)
+
+    def _added(self, diagonal: FloatArray, beside: FloatArray) -> FloatArray:
+        np.copyto(self._work, self._whole)
+        self._diagonal += diagonal
+        self._upper += beside
+        self._lower += beside
+        return self._work
+
+
+class _Equations(NamedTuple):
+    """Residual (2 n,) of a trial, what the soil and the drag add to the three diagonals, and the reaction."""
+
+    residual: FloatArray
+    diagonal: FloatArray
+    beside: FloatArray
+    reaction: Reaction
+
+
+class _Solved(NamedTuple):
+    """A solution (2 n,) with its reaction, how many systems were solved, and how often a correction was halved."""
+
+    state: FloatArray
+    reaction: Reaction
+    iterations: int
+    searches: int
+
+
+def _solved(
+    beam: Beam,
+    system: _Condensed,
+    state: FloatArray,
+    equations: Callable[[FloatArray], _Equations],
+    most: int,
+) -> _Solved:
+    """Newton's method with halving of a correction while the residual does not fall. Raises NotConvergedError."""
+    tolerance = _TOLERANCE * beam.weight * beam.shortest
+    now = equations(state)
+    size, searches = beam.largest(now.residual), 0
+    for iteration in range(most + 1):
+        if size <= tolerance:
+            return _Solved(state, now.reaction, iteration, searches)
+        if iteration == most or not np.isfinite(size):
+            break
+        change = system.solve(now.residual, now.diagonal, now.beside)
+        for _ in range(_SEARCHES + 1):
+            trial = equations(state + change)
+            reached = beam.largest(trial.residual)
+            if reached < size or reached <= tolerance:
+                break
+            change *= 0.5
+            searches += 1
+        state, now, size = state + change, trial, reached
+    raise NotConvergedError("no equilibrium was found")
+
+
+class Rest(NamedTuple):
+    """A beam at rest: w and theta (2 n,) of its nodes, and the reaction."""
+
+    state: FloatArray
+    reaction: Reaction
+
+
+def at_rest(beam: Beam, soil: Soil) -> Rest:
+    """Return the beam at rest, by Newton's method from the parabola that hangs behind its touchdown.
+
+    Raises NotConvergedError.
+    """
+    slope = beam.weight / beam.tension
+    reach = np.sqrt(2.0 * max(beam.right, 0.0) / slope)
+    hanging = np.maximum(beam.places - beam.places[-1] + reach, 0.0)
+    w = np.where(hanging > 0.0, 0.5 * slope * hanging**2, beam.left)
+    state = np.column_stack([w, slope * hanging]).ravel()
+    state[0], state[1], state[-2] = beam.left, 0.0, beam.right
+    still = np.zeros(len(w))
+
+    def equations(trial: FloatArray) -> _Equations:
+        reaction = soil.react(trial[::2], still, 0.0)
+        residual = beam.stiffness.times(trial) - beam.load
+        residual[::2] -= reaction.nodal
+        return _Equations(residual, -reaction.diagonal, -reaction.beside, reaction)
+
+    found = _solved(beam, _Condensed(beam.stiffness.dense), state, equations, _STATIC_ITERATIONS)
+    soil.keep()
+    return Rest(found.state, found.reaction)
+
+
+class Run(NamedTuple):
+    """A run of equal steps; its last period in arrays.
+
+    Attributes:
+        times: (k,) of the last period. heights, turned: (k, n) w and theta. forces: (k, m) reaction per length.
+        mean_iterations, most_iterations: systems solved in a step. searches: halvings of corrections. cuts: of steps.
+        landings: how often elements came down on the seabed in all periods.
+    """
+
+    times: FloatArray
+    heights: FloatArray
+    turned: FloatArray
+    forces: FloatArray
+    mean_iterations: float
+    most_iterations: int
+    searches: int
+    cuts: int
+    landings: int
+
+
+class _Marching:
+    """The state of a run, and one step of it."""
+
+    def __init__(self, beam: Beam, soil: Soil, scheme: Scheme, begin: Rest) -> None:
+        self.beam, self.soil, self.scheme = beam, soil, scheme
+        self.state, self.velocity = begin.state, np.zeros_like(begin.state)
+        self.acceleration = np.zeros_like(begin.state)
+        self.reaction, self.time = begin.reaction, 0.0
+        self._systems: dict[float, _Condensed] = {}
+        self._resisted = self._resistance(self.state, self.velocity, self.reaction)
+        self.iterations: list[int] = []
+        self.searches = self.cuts = 0
+
+    def _system(self, step: float) -> _Condensed:
+        """The linear part of the equations of a step."""
+        if step not in self._systems:
+            scheme, beam = self.scheme, self.beam
+            matrix = (1.0 - scheme.alpha_m) / (scheme.beta * step * step) * beam.inertia.dense
+            self._systems[step] = _Condensed(matrix + (1.0 - scheme.alpha_f) * beam.stiffness.dense)
+        return self._systems[step]
+
+    def _resistance(self, state: FloatArray, velocity: FloatArray, reaction: Reaction) -> FloatArray:
+        """R (2 n,): stiffness and drag less load and reaction."""
+        found = self.beam.stiffness.times(state) - self.beam.load
+        v = velocity[::2]
+        found[::2] += self.beam.drag_at_nodes * np.abs(v) * v - reaction.nodal
+        return found
+
+    def advance(self, step: float, time: float, cuts: int = 0) -> None:
+        """Go on by a step that ends at a time, in halves where it does not converge. Raises NotConvergedError."""
+        try:
+            self._try(step, time)
+        except NotConvergedError:
+            if cuts == _CUTS:
+                raise
+            self.cuts += 1
+            self.advance(0.5 * step, time - 0.5 * step, cuts + 1)
+            self.advance(0.5 * step, time, cuts + 1)
+
+    def _try(self, step: float, time: float) -> None:
+        beam, (_, alpha_m, alpha_f, *_), beta, gamma = self.beam, self.scheme, self.scheme.beta, self.scheme.gamma
+        by_state, by_velocity = 1.0 / (beta * step * step), gamma / (beta * step)
+        of_force = 1.0 - alpha_f
+        before, speed, pushed = self.state, self.velocity, self.acceleration
+        state = before + step * speed + 0.5 * step * step * pushed
+        velocity, acceleration = speed + step * pushed, pushed.copy()
+        state[-2], velocity[-2], acceleration[-2] = beam.end(time)
+        predicted, fast, pushing = state.copy(), velocity, acceleration
+        held = alpha_f * self._resisted
+        drag = beam.drag_at_nodes
+
+        def rates(trial: FloatArray) -> tuple[FloatArray, FloatArray]:
+            moved = trial - predicted
+            return fast + by_velocity * moved, pushing + by_state * moved
+
+        def equations(trial: FloatArray) -> _Equations:
+            v, a = rates(trial)
+            reaction = self.soil.react(trial[::2], v[::2], step)
+            self._behind = self._resistance(trial, v, reaction)
+            residual = beam.inertia.times((1.0 - alpha_m) * a + alpha_m * pushed) + of_force * self._behind + held
+            diagonal = 2.0 * drag * np.abs(v[::2]) * by_velocity - reaction.diagonal
+            if reaction.damping is not None:
+                diagonal += reaction.damping * by_velocity
+            return _Equations(residual, of_force * diagonal, -of_force * reaction.beside, reaction)
+
+        found = _solved(beam, self._system(step), state, equations, _ITERATIONS)
+        self.state, self.reaction, self._resisted, self.time = found.state, found.reaction, self._behind, time
+        self.velocity, self.acceleration = rates(found.state)
+        self.iterations.append(found.iterations)
+        self.searches += found.searches
+        self.soil.keep()
+
+
+def march(beam: Beam, soil: Soil, scheme: Scheme, begin: Rest, steps: int, periods: int = 3) -> Run:
+    """Return a run of so many equal steps over some periods, from rest. Raises NotConvergedError."""
+    moving, step = _Marching(beam, soil, scheme, begin), periods * beam.period / steps
+    first = steps - round(steps / periods)
+    kept: list[tuple[FloatArray, Reaction]] = []
+    touching, landings = begin.reaction.per_length > 0.0, 0
+    for number in range(1, steps + 1):
+        moving.advance(step, number * step)
+        touches = moving.reaction.per_length > 0.0
+        landings += int(np.count_nonzero(touches & ~touching))
+        touching = touches
+        if number > first:
+            kept.append((moving.state, moving.reaction))
+    states = np.array([state for state, _ in kept])
+    return Run(
+        step * np.arange(first + 1.0, steps + 1.0),
+        states[:, ::2],
+        states[:, 1::2],
+        np.array([reaction.per_length for _, reaction in kept]),
+        sum(moving.iterations) / len(moving.iterations),
+        max(moving.iterations),
+        moving.searches,
+        moving.cuts,
+        landings,
+    )

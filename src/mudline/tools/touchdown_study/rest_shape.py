@@ -1,0 +1,400 @@
+"""Resting shape of the lines of a deck: catenaries of their own weight, and a beam on the seabed where they touch down.
+
+No load case is solved: the elements have their lengths and submerged weights with contents, nothing else. A line
+stands in the vertical plane of its two held ends, the upper one moved by the `*OFFSET` of its vessel. What lies is
+straight, at static embedment.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from mudline.basics.quantities import unit_names
+from mudline.basics.short_repr import short_repr
+from mudline.model.contact import ContactInput
+from mudline.model.contact.embedment import static_depth
+from mudline.model.contact.lines import lines_of
+from mudline.model.contact.stretch import cut_out
+from mudline.model.results.evaluation import require_elements
+from mudline.model.scene.model import Scene
+from mudline.model.scene.numbering import Floats, Indices
+from mudline.model.scene.pipe import Pipe, pipe_of
+from mudline.model.scene.positions import Positions
+from mudline.model.scene.seabed import SeabedKind, made_seabed
+from mudline.tools.exporting.held import TRANSLATIONS, held_nodes, vessel_offset
+from mudline.tools.touchdown_study.beam import Beam, NotConvergedError, at_rest
+from mudline.tools.touchdown_study.catenary import Catenary, Line, NoRestShapeError, rest
+from mudline.tools.touchdown_study.soil import soil_of
+
+LEFT, RIGHT = 10.0, 6.0
+"""Lengths sqrt(EI/T) of the beam on either side of a touchdown."""
+MOST_LEFT, MOST_RIGHT = 60, 40
+"""Elements of it."""
+_SAMPLES = 65
+_ROUNDED = 1e-6
+_CORRECTIONS, _BALANCES = 3, 8
+_LIFTED = 5.0
+"""EI q / T^2 and diameters by which a beam may lift what hangs: half of the first is what it does on a rigid seabed."""
+_SUNK = 3.0
+"""Diameters below the seabed at which an end is still one that lies on it."""
+
+
+class SeabedLine(NamedTuple):
+    """The seabed below a line: its height at the first end, its slope along the line, and the normal's upward part."""
+
+    height: float
+    slope: float
+    upright: float
+
+
+@dataclass(frozen=True)
+class LineAtRest:
+    """A line between two held ends, from the lower one to the upper one.
+
+    Attributes:
+        number: of the line in the deck, from 1.
+        elements, nodes: (m,) and (m + 1,) indices.
+        model: lengths and weights. start: Y and Z of the first end. direction: unit vector (2,) to the other one.
+        distance, heights: of the ends; heights above the seabed.
+        seabed: what is below. catenary: the shape; None for a line that lies. vessel: which moves the upper end, or "".
+        depth: (m,) static embedment of each element.
+    """
+
+    number: int
+    elements: Indices
+    nodes: Indices
+    model: Line
+    start: Floats
+    direction: Floats
+    distance: float
+    heights: tuple[float, float]
+    seabed: SeabedLine
+    catenary: Catenary | None
+    vessel: str
+    depth: Floats = field(repr=False)
+
+    __repr__ = short_repr
+
+    def moved(self, surge: float, heave: float) -> Catenary:
+        """Return the shape with the upper end moved away from the lower one, and up. Raises NoRestShapeError."""
+        height = self.heights[1] + heave - self.seabed.slope * surge
+        return rest(self.model, self.distance + surge, (self.heights[0], height))
+
+
+@dataclass(frozen=True)
+class RestShape:
+    """The resting shape of a deck.
+
+    Attributes:
+        positions: of all nodes; those of lines without a shape are not present.
+        lines: with a shape. refused: number of a line, and why it has none, in a sentence.
+    """
+
+    positions: Positions
+    lines: list[LineAtRest]
+    refused: list[tuple[int, str]]
+
+    __repr__ = short_repr
+
+    def sentences(self, units: str) -> list[str]:
+        """Return what holds of each line: tension and length on the seabed, or why it has no shape."""
+        names = unit_names(units)
+        found = []
+        for line in self.lines:
+            if line.catenary is None:
+                words = "lies on the seabed from end to end"
+            else:
+                lying = sum(last - first for first, last in line.catenary.lying)
+                tension = f"{line.catenary.tension:.6g}{names.behind('force')}"
+                words = f"horizontal tension {tension}, {lying:.6g}{names.behind('length')} lie on the seabed"
+            found.append(f"resting shape of line {line.number}: {words}; no load case is solved")
+        return [*found, *(f"line {number} has no resting shape: {why}" for number, why in self.refused)]
+
+
+def rest_shape(scene: Scene) -> RestShape:
+    """Return the resting shape of a scene that can be evaluated.
+
+    Raises DeckError: no line has one, with the reason of the first; the seabed or the weight of the pipe is not known.
+    """
+    require_elements(scene)
+    given, pipe = scene.contact_input("cut" if scene.blocking("keep") else "keep"), pipe_of(scene)
+    found, refused = lines_at_rest(scene, given, pipe)
+    if not found:
+        why = refused[0][1] if refused else "the deck has no line"
+        raise scene.refusal(f"no resting shape: {why}; give a solved shape with --positions")
+    values = np.full((len(scene.node_ids), 3), np.nan)
+    for line in found:
+        values[line.nodes] = _places(given, pipe, line)
+    present = np.isfinite(values).all(axis=1)
+    return RestShape(Positions(values[np.newaxis], present, None), found, refused)
+
+
+def lines_at_rest(scene: Scene, given: ContactInput, pipe: Pipe) -> tuple[list[LineAtRest], list[tuple[int, str]]]:
+    """Return the lines that have a resting shape, and number of each other line with the reason why it has none."""
+    found: list[LineAtRest] = []
+    refused: list[tuple[int, str]] = []
+    for each in _between_ends(scene):
+        try:
+            found.append(_line(scene, given, pipe, each))
+        except NoRestShapeError as error:
+            refused.append((each.number, str(error)))
+    return found, refused
+
+
+# ----------------------------------------------------------------------------------------------------------------- ends
+
+
+class _Between(NamedTuple):
+    """Elements and nodes of a line between two ends, with what holds them: freedoms and vessel of each end."""
+
+    number: int
+    elements: Indices
+    nodes: Indices
+    held: tuple[frozenset[int], frozenset[int]]
+    vessels: tuple[str, str]
+
+
+def _between_ends(scene: Scene) -> Iterator[_Between]:
+    """The lines of a scene, cut at inner nodes that are held in all directions."""
+    held, vessels = held_nodes(scene)
+    lines = lines_of(scene.element_nodes, np.nan_to_num(scene.length), len(scene.node_ids))
+    nothing: frozenset[int] = frozenset()
+    number = 0
+    for elements, nodes in zip(lines.elements, lines.nodes, strict=True):
+        inner = [at for at in range(1, len(nodes) - 1) if held.get(int(nodes[at]), nothing) >= TRANSLATIONS]
+        for first, last in pairwise([0, *inner, len(nodes) - 1]):
+            number += 1
+            ends = int(nodes[first]), int(nodes[last])
+            freedoms = (held.get(ends[0], nothing), held.get(ends[1], nothing))
+            names = (vessels.get(ends[0], ""), vessels.get(ends[1], ""))
+            yield _Between(number, elements[first:last], nodes[first : last + 1], freedoms, names)
+
+
+# ----------------------------------------------------------------------------------------------------------------- line
+
+
+def _line(scene: Scene, given: ContactInput, pipe: Pipe, each: _Between) -> LineAtRest:
+    """The line with its catenary. Raises NoRestShapeError."""
+    places = scene.coordinates[each.nodes[[0, -1]]] + [vessel_offset(scene, vessel) for vessel in each.vessels]
+    if not np.isfinite(places).all() or not np.isfinite(scene.length[each.elements]).all():
+        raise NoRestShapeError("its ends have no coordinates, or an element no length")
+    size = float(np.nanmax(scene.diameter[each.elements], initial=0.0))
+    levels = _elevation(scene, places[:, 1:])
+    heights = places[:, 0] - levels
+    elements, nodes, held, vessel = each.elements, each.nodes, each.held, each.vessels[1]
+    if heights[0] > heights[1]:
+        elements, nodes, held, vessel = elements[::-1], nodes[::-1], held[::-1], each.vessels[0]
+        places, heights = places[::-1], heights[::-1]
+    _require_held(scene, nodes, held, heights, size)
+    if heights[0] < -_SUNK * size:
+        raise NoRestShapeError(f"its lower end stands {-heights[0]:.4g} below the seabed")
+    weight, length = pipe.weight[elements], given.length[elements]
+    if np.isnan(weight).any():
+        at = int(elements[np.argmax(np.isnan(weight))])
+        raise NoRestShapeError(f"the submerged weight of element {scene.element_ids[at]} is not known")
+    across = places[1, 1:] - places[0, 1:]
+    distance = float(np.hypot(*across))
+    direction = across / distance if distance > 0.0 else np.array([1.0, 0.0])
+    seabed = _seabed_below(scene, places[0, 1:], direction, distance)
+    model = Line(length, weight, seabed.slope)
+    ends = (float(heights[0]) if heights[0] > size else 0.0, float(heights[1]))
+    lies = heights[1] <= size
+    if lies and (weight <= 0.0).any():
+        raise NoRestShapeError(f"the pipe floats: {weight.min():.4g} per unit length where the line would lie")
+    catenary = None if lies else rest(model, distance, ends)
+    depth = static_depth(given, elements, np.maximum(weight, 0.0) * seabed.upright)
+    return LineAtRest(
+        each.number, elements, nodes, model, places[0, 1:], direction, distance, ends, seabed, catenary, vessel, depth
+    )
+
+
+def _require_held(scene: Scene, nodes: Indices, held: tuple[frozenset[int], ...], heights: Floats, size: float) -> None:
+    """Raise NoRestShapeError for an end that `*BOUNDARY` does not hold in any degree of freedom."""
+    for at, name in ((0, "lower"), (1, "upper")):
+        if not held[at]:
+            node = int(scene.node_ids[nodes[-at]])
+            place = "at the top" if heights[at] > size else "at the seabed"
+            raise NoRestShapeError(f"no held end {place}: nothing in *BOUNDARY holds node {node}, the {name} end")
+    if nodes[0] == nodes[-1]:
+        raise NoRestShapeError("the line is closed")
+
+
+def _elevation(scene: Scene, places: Floats) -> Floats:
+    """Elevations (n,) of the seabed at Y and Z (n, 2). Raises NoRestShapeError where there is none."""
+    if scene.seabed.kind is SeabedKind.FLAT:
+        return np.zeros(len(places))
+    found = made_seabed(scene.seabed).elevation(places[:, 0], places[:, 1])
+    if not np.isfinite(found).all():
+        raise NoRestShapeError("there is no seabed below an end of the line")
+    return found
+
+
+def _seabed_below(scene: Scene, start: Floats, direction: Floats, distance: float) -> SeabedLine:
+    """The plane seabed below a line. Raises NoRestShapeError for one that is not plane."""
+    if scene.seabed.kind is SeabedKind.FLAT:
+        return SeabedLine(0.0, 0.0, 1.0)
+    along = np.linspace(0.0, max(distance, 1e-300), _SAMPLES)
+    places = start + along[:, None] * direction
+    levels = _elevation(scene, places)
+    slope = float(levels[-1] - levels[0]) / along[-1]
+    if np.abs(levels - levels[0] - slope * along).max() > _ROUNDED * max(distance, 1.0):
+        raise NoRestShapeError("the seabed below the line is not one plane")
+    normal = np.empty((1, 3))
+    middle = np.append(0.0, places[_SAMPLES // 2])[np.newaxis]
+    made_seabed(scene.seabed).locate(middle, np.empty(1), normal)
+    return SeabedLine(float(levels[0]), slope, float(normal[0, 0]))
+
+
+# ---------------------------------------------------------------------------------------------------------------- shape
+
+
+def _places(given: ContactInput, pipe: Pipe, line: LineAtRest) -> Floats:
+    """Positions (m + 1, 3) of the nodes of a line, from its lower end."""
+    lying = _lying_heights(line)
+    if line.catenary is None:
+        along, height = _spread(line), lying
+    else:
+        along, height = _hung(given, pipe, line, lying)
+    at = line.start + along[:, None] * line.direction
+    level = line.seabed.height + line.seabed.slope * along
+    return np.column_stack([level + height, at])
+
+
+def _lying_heights(line: LineAtRest) -> Floats:
+    """Heights (m + 1,) of the nodes above the seabed, if all of the line lay at static embedment."""
+    depth = np.nan_to_num(line.depth) / line.seabed.upright
+    return -0.5 * (np.append(depth[:1], depth) + np.append(depth, depth[-1:]))
+
+
+def _spread(line: LineAtRest) -> Floats:
+    """Distances (m + 1,) of the nodes of a line that lies, between its ends as they stand."""
+    arcs = line.model.arcs
+    return arcs * (line.distance / arcs[-1]) if arcs[-1] > 0.0 else arcs
+
+
+class _Touchdown(NamedTuple):
+    """A point where a line leaves the seabed: its arc length, and whether it hangs beyond it or before it."""
+
+    arc: float
+    beyond: bool
+
+
+class _Bend(NamedTuple):
+    """A beam at a touchdown: indices along the line and heights of its nodes, and how far it lifts what hangs."""
+
+    at: Indices
+    heights: Floats
+    lift: float
+
+
+_NO_BEND = _Bend(np.zeros(0, np.intp), np.zeros(0), 0.0)
+
+
+def _hung(given: ContactInput, pipe: Pipe, line: LineAtRest, lying: Floats) -> tuple[Floats, Floats]:
+    """Distances and heights (m + 1,) with a beam at each touchdown, which lifts what hangs a little.
+
+    The catenary hangs between ends that are lower by that lift.
+    """
+    arcs, (low, high) = line.model.arcs, line.heights
+    lifts = [0.0, 0.0]
+    for _ in range(_CORRECTIONS):
+        trial = rest(line.model, line.distance, (low - lifts[0] if low > 0.0 else low, high - lifts[1]))
+        points = touchdowns(trial, line.model.length)
+        bends = [_bend(given, pipe, line, trial, point) for point in points]
+        lifts = [bends[0].lift if low > 0.0 else 0.0, bends[-1].lift]
+    hangs = np.ones(len(arcs), np.bool_)
+    for first, last in trial.lying:
+        hangs &= (arcs < first) | (arcs > last)
+    lifted = np.interp(arcs, [point.arc for point in points], [bend.lift for bend in bends])
+    height = np.where(hangs, trial.height + lifted, lying)
+    for bend in bends:
+        height[bend.at] = bend.heights
+    height[-1] = high
+    if low > 0.0:
+        height[0] = low
+    return trial.distance, height
+
+
+def touchdowns(catenary: Catenary, length: float) -> list[_Touchdown]:
+    """Return the points where a line of some length leaves the seabed, along it."""
+    points = [
+        _Touchdown(arc, beyond) for part in catenary.lying for arc, beyond in zip(part, (False, True), strict=True)
+    ]
+    return [point for point in points if 0.0 < point.arc < length]
+
+
+def window(arcs: Floats, node: int, left: float, right: float) -> tuple[int, int]:
+    """Return the first element about a node that ends behind `-left`, and the first that ends at or beyond `right`.
+
+    At most `MOST_LEFT` and `MOST_RIGHT` elements on either side; the node is where two of them meet.
+    """
+    x = arcs[1:] - arcs[node]
+    first = max(int(np.searchsorted(x, -left, side="right")), node - MOST_LEFT, 0)
+    last = min(int(np.searchsorted(x, right * (1.0 - _ROUNDED))), node + MOST_RIGHT - 1, len(x) - 1)
+    return min(first, node - 1), max(last, node)
+
+
+def _bend(given: ContactInput, pipe: Pipe, line: LineAtRest, trial: Catenary, point: _Touchdown) -> _Bend:
+    """The static beam at a touchdown, whose right end has the vertical force of the catenary there."""
+    step = 1 if point.beyond else -1
+    elements, nodes, depth = line.elements[::step], line.nodes[::step], line.depth[::step]
+    arcs = line.model.arcs if point.beyond else line.model.length - line.model.arcs[::-1]
+    arc = point.arc if point.beyond else line.model.length - point.arc
+    upright, slope = line.seabed.upright, line.seabed.slope
+    height, vertical = trial.height[::step] * upright, step * (trial.vertical[::step] - trial.tension * slope) * upright
+    tension = trial.tension * math.hypot(1.0, slope)
+    node = int(np.clip(np.argmin(np.abs(arcs - arc)), 1, len(elements) - 1))
+    own = int(elements[node - 1])
+    weight, bending = float(pipe.weight[own]) * upright, float(pipe.bending[own])
+    size = max(math.sqrt(bending / tension), float(given.length[own]))
+    first, last = window(arcs, node, LEFT * size, RIGHT * size)
+    others = [
+        each.arc if point.beyond else line.model.length - each.arc for each in touchdowns(trial, line.model.length)
+    ]
+    before = max((each for each in others if each < arc), default=0.0)
+    behind = min((each for each in others if each > arc), default=float(arcs[-1]))
+    while first < node - 1 and arcs[first] < before:
+        first += 1
+    while last > node and arcs[last + 1] > 0.5 * (arc + behind):
+        last -= 1
+    if not (depth[first : last + 1] > 0.0).all() or not weight > 0.0:  # a rigid seabed, or one that does not carry
+        return _NO_BEND
+    stretch = cut_out(given, elements[first : last + 1], nodes[first : last + 2])
+    moment = bending * weight / tension
+    end = float(height[last + 1])
+    beam = Beam(stretch.length, bending, tension, weight, 0.0, 0.0, -float(depth[first]), end, moment)
+    found = _balanced(beam, stretch, float(vertical[last + 1]))
+    if found is None or abs(found[-2] - end) > _LIFTED * (bending * weight / tension**2 + given.diameter[own]):
+        return _NO_BEND
+    at = np.arange(first, last + 2) if point.beyond else len(nodes) - 1 - np.arange(first, last + 2)
+    return _Bend(at, found[::2] / upright, (float(found[-2]) - end) / upright)
+
+
+def _balanced(beam: Beam, stretch: ContactInput, vertical: float) -> Floats | None:
+    """The beam at rest (2 n,) with its right end at the height where it carries a vertical force; None if not found."""
+    trials: list[tuple[float, float, Floats]] = []
+    height = beam.right
+    for _ in range(_BALANCES):
+        moved = replace(beam, right=height)
+        try:
+            state = at_rest(moved, soil_of(stretch)).state
+        except NotConvergedError:
+            return None
+        missing = vertical - float((moved.stiffness.times(state) - moved.load)[-2])
+        trials.append((height, missing, state))
+        if abs(missing) <= _ROUNDED * abs(vertical):
+            break
+        if len(trials) == 1:
+            height += 0.5 * beam.bending * beam.weight / beam.tension**2
+        else:
+            (one, at_one, _), (two, at_two, _) = trials[-2:]
+            if at_one == at_two:
+                break
+            height = two - at_two * (two - one) / (at_two - at_one)
+    return min(trials, key=lambda trial: abs(trial[1]))[2]

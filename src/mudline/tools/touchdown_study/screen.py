@@ -1,0 +1,198 @@
+"""The study of a deck as people read it: sentences and tables for a terminal and a page, and its diagram."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from mudline.basics.quantities import headed, shown, unit_names
+from mudline.basics.short_repr import cut
+from mudline.model.scene.load_case import in_words
+from mudline.tools.touchdown_study.accuracy import StepRow
+from mudline.tools.touchdown_study.beam import Run
+from mudline.tools.touchdown_study.stability import ExtremeRow, axial_period
+from mudline.tools.touchdown_study.study import Study
+from mudline.tools.touchdown_study.zone import Zone
+
+LIMITS = "One plane, small slopes, constant tension; loads are those of this model, only their errors are of use."
+_NAME, _WHY = 44, 90
+"""Columns of a case, and of the reason of a stage, which is folded."""
+_DIGITS = 3
+_MASS = {"metric": "kg/m", "imperial": "slug/ft"}
+_KILO = 1e3
+
+
+class ScreenTable(NamedTuple):
+    """A table: its title, heads, rows, which of its columns are texts, and a note below it."""
+
+    title: str
+    heads: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    left: Sequence[str]
+    note: str = ""
+
+
+def description(found: Study) -> str:
+    """Return what was laid down and lifted, and how; "" without a touchdown zone."""
+    zone = found.zone
+    if zone is None or "accuracy" not in found.parts:
+        return ""
+    units, length = unit_names(found.units), float(zone.beam.places[-1])
+    law = zone.scene.law_names[zone.own].removeprefix("curve:")
+    force = {"metric": f"{zone.beam.tension / _KILO:.3g} kN"}.get(found.units)
+    force = force or f"{zone.beam.tension:,.0f}{units.behind('force')}"
+    scheme, given = zone.scheme, f"line {zone.scheme_line}" if zone.scheme_line else "the program's default"
+    own = scheme.alpha if scheme.rho is None else scheme.rho
+    values = f"{scheme.alpha_f:.3g}, {scheme.alpha_m:.3g}" if own is None else f"{own:.3g}"
+    masses = float(zone.pipe.mass[zone.own]), float(zone.pipe.contents[zone.own]), float(zone.pipe.added_mass[zone.own])
+    parts = ", ".join(
+        f"{name} {_short(mass)}" for name, mass in zip(("pipe", "contents", "water"), masses, strict=True)
+    )
+    mass_unit = f" {_MASS[found.units]}" if found.units in _MASS else ""
+    reference = "" if found.reference is None else f" Errors against {found.milliseconds(found.reference.step)}."
+    assumed = "" if zone.pipe.has_coefficients[zone.own] else " (Cd and Ca 1, assumed)"
+    return (
+        f"Touchdown zone laid down and lifted: {length:.3g}{units.behind('length')} on {law} at {force}, "
+        f"{_motion(zone, units.behind('length'))}, {scheme.name} ({values}, {given}). "
+        f"Mass {_short(sum(masses))}{mass_unit}: {parts}{assumed}.{reference}"
+    )
+
+
+def _motion(zone: Zone, unit: str) -> str:
+    motion = zone.motion
+    where = f"{motion.source}, line {motion.line}" if motion.line else motion.source
+    surge = f" and surging {in_words(motion.surge, unit)}" if motion.surge else ""
+    seconds = "" if zone.scene.units == "user" else " s"
+    return f"hang-off heaving {in_words(motion.heave, unit)}{surge} ({where}) in {motion.period:.4g}{seconds}"
+
+
+def _short(value: float) -> str:
+    return f"{value:.0f}" if value >= 100.0 or value == 0.0 else f"{value:.3g}"
+
+
+def steps_table(found: Study) -> ScreenTable | None:
+    """Return a row for each step, and one for the mesh; None without any."""
+    if not found.steps:
+        return None
+    seconds = "ms" if found.milliseconds(1.0).endswith("ms") else ""
+    length = unit_names(found.units).length
+    heads = [headed("step", seconds), headed("touch-\ndown rms", length), "of\ntravel", "range of\nmoment"]
+    heads += ["largest\nsoil force", "iterations\nmean", "\nmost", headed("run time", f"{seconds} per s".strip())]
+    rows = [_step_cells(found, row) for row in found.steps]
+    if found.mesh is not None:
+        unit = unit_names(found.units).behind("length")
+        whole, half = (f"{each:.3g}{unit}" for each in found.mesh.element_length)
+        shares = found.mesh.changes or (None, None, None)
+        rows.append([f"{whole} -> {half}", "", *(_share(each) for each in shares), "", "", ""])
+    title = "Errors of the time step, and of the elements"
+    return ScreenTable(title, heads, rows, heads[:1], _mesh_note(found))
+
+
+def _step_cells(found: Study, row: StepRow) -> list[str]:
+    step = found.milliseconds(row.step).removesuffix(" ms") + (" (the deck)" if row.own else "")
+    if row.errors is None:
+        return [step, row.state, *[""] * 6]
+    run_time = 0.0 if row.run_time is None else row.run_time * _KILO
+    counts = ["", ""] if row.measures is None else _iterations(row.measures.run)
+    rms = "" if row.rms is None else f"{row.rms:.2g}"
+    return [step, rms, *(_share(each) for each in row.errors), *counts, f"{run_time:.2g}"]
+
+
+def _iterations(run: Run) -> list[str]:
+    return [f"{run.mean_iterations:.1f}", str(run.most_iterations)]
+
+
+def _share(value: float | None) -> str:
+    """A share in percent with its sign, to two digits above one percent and one below."""
+    if value is None:
+        return ""
+    percent = 100.0 * value
+    return f"{shown(float(f'{percent:.1g}' if abs(percent) < 1.0 else f'{percent:.2g}'))} %"
+
+
+def _mesh_note(found: Study) -> str:
+    """That the verdict is another one with a consistent matrix."""
+    verdict = None if found.mesh is None else found.mesh.consistent_verdict
+    if verdict is None or verdict == found.advice.verdict:
+        return ""
+    return f"With the resistance integrated along each element the verdict is: {verdict}."
+
+
+def extremes_table(found: Study) -> ScreenTable | None:
+    """Return a row for each stiff or extreme case; None without any."""
+    if not found.extremes:
+        return None
+    heads = ["case", "result", "iterations,\nmost", "line\nsearches", "range of\nmoment", "largest\nsoil force"]
+    rows = [_extreme_cells(row) for row in found.extremes]
+    step = found.milliseconds(found.own.largest) if found.own else "a hundredth of the period"
+    return ScreenTable(f"Stiff and extreme: {step}, and what half of it changes", heads, rows, heads[:2])
+
+
+def _extreme_cells(row: ExtremeRow) -> list[str]:
+    result = "converges" if row.converged else row.message or "does not converge"
+    counts = ["" if each is None else str(each) for each in (row.iterations, row.searches)]
+    return [cut(row.case, _NAME), result, *counts, _share(row.range_change), _share(row.force_change)]
+
+
+def stability_sentences(found: Study) -> list[str]:
+    """Return what the curves, the friction and the evaluator itself have to say."""
+    said = []
+    own = None if found.own is None else found.own.largest
+    stiff = min(found.friction, key=lambda row: row.stick_period, default=None)
+    if stiff is not None:
+        period = found.milliseconds(stiff.stick_period)
+        text = f"Axial friction, not in this model: a node that sticks swings in {period} (line {stiff.deck_line})"
+        if own is not None:
+            tenth = "within" if own <= 0.1 * stiff.stick_period else "more than"
+            text += f"; the deck's step is {tenth} a tenth of that"
+        axial = None if found.zone is None else axial_period(found.zone)
+        if axial:
+            text += f". Axial waves pass an element in {found.milliseconds(axial)}: no practical step resolves them, "
+            text += "friction is quasi-static"
+        said.append(f"{text}.")
+    if found.evaluator is not None:
+        said.append(
+            f"The evaluator itself: error {found.evaluator.error:.1g} of a force, "
+            f"{_time(found.evaluator.time)} for a step of the deck."
+        )
+    return said
+
+
+def stages_table(found: Study) -> ScreenTable | None:
+    """Return a row for each stage of the evaluation; None where they were not measured."""
+    pruning = found.stages
+    if pruning is None:
+        return None
+    cells = []
+    for row in pruning.rows:
+        share = "" if row.share is None else f"{100.0 * row.share:.0f} %"
+        optional = row.stage not in {"floor", "normal law"} and row.time is not None
+        without = _time(pruning.step - row.time) if optional and row.time is not None else ""
+        if row.cost_if_added is not None:
+            without = f"+ {_time(row.cost_if_added)} a node"
+        why = cut(row.why.partition(";")[0].partition(" (inferred)")[0], _WHY)
+        line = "" if row.deck_line is None else str(row.deck_line)
+        cells.append((row.stage, "yes" if row.active else "no", line, share, without, why))
+    heads = ("stage", "in", "deck line", "share", "without it", "why")
+    title = f"What the deck needs: a step of {pruning.elements} elements takes {_time(pruning.step)}"
+    return ScreenTable(title, heads, cells, ("stage", "in", "why"))
+
+
+def _time(seconds: float) -> str:
+    """A time with its unit, to three digits."""
+    for scale, unit in ((1.0, "s"), (1e3, "ms"), (1e6, "us")):
+        if seconds * scale >= 1.0:
+            return f"{shown(seconds * scale, _DIGITS)} {unit}"
+    return f"{shown(seconds * 1e9, _DIGITS)} ns"
+
+
+def sentences(found: Study, part: str) -> list[str]:
+    """Return what stands below the tables of a part."""
+    said = list(found.notes.get(part, ()))
+    if part == "accuracy" and found.zone is not None:
+        said = [*said, *found.zone.notes, LIMITS]
+    return [*said, *stability_sentences(found)] if part == "stability" else said
+
+
+TABLES = {"accuracy": steps_table, "stability": extremes_table, "pruning": stages_table}
+"""What makes the table of a part."""

@@ -1,0 +1,351 @@
+"""Study of a deck: error against run time of its touchdown zone, stiff and extreme cases, and what it does not need."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from mudline.basics.quantities import finite, shown, time_unit, unit_names
+from mudline.model.contact import ContactInput
+from mudline.model.results.evaluation import require_elements
+from mudline.model.results.stage_times import CLOCK, Pruning, Timer, pruned
+from mudline.model.scene.load_case import OwnSteps, own_steps
+from mudline.model.scene.model import Scene
+from mudline.model.scene.numbering import Floats, Mask
+from mudline.model.scene.oscillation import line_of
+from mudline.tools.touchdown_study.accuracy import ADVISED, SHORT, Errors, Mesh, StepRow, measured_accuracy, verdict_of
+from mudline.tools.touchdown_study.beam import NotConvergedError
+from mudline.tools.touchdown_study.stability import (
+    Evaluator,
+    ExtremeRow,
+    FrictionRow,
+    curve_notes,
+    evaluator_row,
+    extreme_rows,
+    friction_rows,
+    snapping,
+)
+from mudline.tools.touchdown_study.zone import (
+    NotStudiedError,
+    Zone,
+    touchdown_zone,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+FORMAT = "mudline-study/2"
+PARTS = ("accuracy", "stability", "pruning")
+ERRORS = ("touchdown point", "range of bending moment", "largest soil force")
+"""Of which rows have errors, in the order of `Study.errors`."""
+
+
+class Advice(NamedTuple):
+    """The answer: in words, as a verdict, and which line of the deck asks for it; None where there is none."""
+
+    text: str
+    verdict: str = "not studied"
+    own_step: float | None = None
+    step: float | None = None
+    file: str | None = None
+    deck_line: int | None = None
+
+
+@dataclass
+class Study:
+    """What the study of a deck found; None and empty for what was not asked for, or does not exist.
+
+    Attributes:
+        deck: name of its file. units: its unit system. own: its steps. own_line: where they stand.
+        zone: the touchdown zone; None where there is none. reference: the row that errors are against.
+        notes: by part, sentences.
+    """
+
+    deck: str
+    units: str
+    own: OwnSteps | None
+    own_line: int
+    advice: Advice = field(default_factory=lambda: Advice(""))
+    zone: Zone | None = None
+    static: dict[str, float | None] | None = None
+    steps: list[StepRow] = field(default_factory=list)
+    reference: StepRow | None = None
+    mesh: Mesh | None = None
+    extremes: list[ExtremeRow] = field(default_factory=list)
+    friction: list[FrictionRow] = field(default_factory=list)
+    evaluator: Evaluator | None = None
+    stages: Pruning | None = None
+    parts: tuple[str, ...] = PARTS
+    notes: dict[str, list[str]] = field(default_factory=dict)
+
+    def json(self) -> dict[str, Any]:
+        """Return the study as JSON has it: in the deck's units, unrounded."""
+        rows = [*self.steps, *([] if self.reference is None else [self.reference])]
+        return {
+            "format": FORMAT,
+            "deck": self.deck,
+            "units": self.units,
+            "advice": self.advice._asdict(),
+            "model": None if self.zone is None else _model(self.zone),
+            "static": self.static,
+            "steps": [row.json() for row in rows],
+            "mesh": None if self.mesh is None else self.mesh.json(),
+            "extremes": [_plain(row._asdict()) for row in self.extremes],
+            "friction": [_plain(row._asdict()) for row in self.friction],
+            "evaluator": None if self.evaluator is None else _plain(self.evaluator._asdict()),
+            "stages": None if self.stages is None else [_plain(row._asdict()) for row in self.stages.rows],
+        }
+
+    def milliseconds(self, seconds: float | None) -> str:
+        """Return a step as people read it; in user units, whose times have no name, as it is."""
+        if seconds is None:
+            return "-"
+        return f"{shown(1e3 * seconds, 4)} ms" if time_unit(self.units) else shown(seconds, 4)
+
+    @property
+    def time_steps(self) -> Floats:
+        """Time steps (k,) of the rows, the largest first."""
+        return np.array([row.step for row in self.steps])
+
+    @property
+    def errors(self) -> Floats:
+        """Amounts (k, 3) of the errors of touchdown, range and force of the rows; NaN where there is none."""
+        return np.abs(np.array([row.errors or (np.nan,) * 3 for row in self.steps], np.float64)).reshape(-1, 3)
+
+    @property
+    def is_own(self) -> Mask:
+        """Whether each row (k,) is a step of the deck."""
+        return np.array([row.own for row in self.steps], np.bool_)
+
+    @property
+    def run_times(self) -> Floats:
+        """Processor time (k,) of the rows for a second of motion."""
+        return np.array([np.nan if row.run_time is None else row.run_time for row in self.steps])
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the errors over the run time, and return the axes; needs matplotlib."""
+        from matplotlib import pyplot as plt  # noqa: PLC0415 - needs the extra `plot`
+
+        from mudline.model.results.plots.run_times import draw_run_times  # noqa: PLC0415 - as above
+
+        axes = plt.subplots()[1] if ax is None else ax
+        draw_run_times(axes, self.run_times, self.errors, self.is_own, ERRORS)
+        return axes
+
+    def figure(self) -> Figure:
+        """Return the same as a figure of its own; needs matplotlib."""
+        from mudline.model.results.plots.run_times import run_times_figure  # noqa: PLC0415 - needs the extra `plot`
+
+        return run_times_figure(self.deck, self.run_times, self.errors, self.is_own, ERRORS)
+
+    @property
+    def drawable(self) -> bool:
+        """Whether some step has errors to draw."""
+        return bool(np.isfinite(self.errors).any())
+
+
+def _plain(value: Any) -> Any:  # noqa: ANN401 - values of several kinds
+    """A value as JSON can hold it."""
+    if isinstance(value, dict):
+        return {name: _plain(each) for name, each in value.items()}
+    if isinstance(value, tuple):
+        return [_plain(each) for each in value]
+    return finite(value) if isinstance(value, float) else value
+
+
+def _model(zone: Zone) -> dict[str, Any]:
+    """The model as JSON has it."""
+    ids, own, scheme = zone.scene.element_ids, zone.own, zone.scheme
+    numbers = [int(ids[at]) for at in (zone.elements[0], zone.elements[-1], own)]
+    catenary = zone.line.catenary
+    lying = zone.line.model.arcs[np.flatnonzero(zone.line.nodes == zone.nodes[zone.node])[0]]
+    found = {
+        "first_element": numbers[0],
+        "last_element": numbers[1],
+        "touchdown_element": numbers[2],
+        "tension": zone.beam.tension,
+        "lying_length": float(lying) if catenary is None else catenary.lying[-1][1],
+        "weight": zone.beam.weight,
+        "mass": float(zone.pipe.mass[own] + zone.pipe.contents[own]),
+        "added_mass": float(zone.pipe.added_mass[own]),
+        "bending_stiffness": zone.beam.bending,
+        "travel": zone.travel,
+        "end_amplitude": zone.beam.amplitude,
+        "heave": abs(zone.motion.heave),
+        "surge": abs(zone.motion.surge),
+        "period": zone.motion.period,
+        "left": zone.start,
+        "right": zone.right,
+        "drag": float(zone.pipe.drag_coefficient[own]),
+    }
+    names = ("name", "rho", "alpha", "alpha_f", "alpha_m")
+    return {name: _plain(value) for name, value in found.items()} | {
+        "scheme": {name: getattr(scheme, name) for name in names}
+    }
+
+
+def study(
+    scene: Scene,
+    parts: Sequence[str] = PARTS,
+    *,
+    heave: float | None = None,
+    period: float | None = None,
+    timer: Timer = CLOCK,
+    tracked: Callable[[Sequence[str]], Iterable[str]] = iter,
+) -> Study:
+    """Study a scene: these parts.
+
+    `heave` and `period` replace the motion of the hang-off that the deck gives. `timer` measures run times; `tracked`
+    may show which part comes next. Raises DeckError for a deck that cannot be evaluated.
+    """
+    require_elements(scene)
+    given = scene.contact_input("cut" if scene.blocking("keep") else "keep")
+    own = own_steps(scene)
+    own_line = 0 if own is None else line_of(scene, own.where)
+    found = Study(scene.deck.file, scene.units, own, own_line, parts=tuple(part for part in PARTS if part in parts))
+    for part in tracked(found.parts):
+        notes = found.notes.setdefault(part, [])
+        if part != "pruning" and found.zone is None and not found.advice.text:
+            _find_zone(found, scene, given, heave, period)
+        if part == "accuracy" and found.zone is not None:
+            found.steps, found.reference, found.mesh, more = measured_accuracy(found.zone, own, timer)
+            notes += more
+        elif part == "stability":
+            notes += curve_notes(scene, given)
+            if found.zone is not None:
+                found.extremes, left_out = extreme_rows(found.zone, own)
+                notes += left_out
+            found.friction = friction_rows(scene, given, own)
+            found.evaluator = evaluator_row(given, timer)
+        elif part == "pruning":
+            found.stages = pruned(scene, given, timer)
+    if not found.advice.text:
+        found.advice = _advice(found)
+    return found
+
+
+def _find_zone(found: Study, scene: Scene, given: ContactInput, heave: float | None, period: float | None) -> None:
+    """Set the zone, or the sentence that says why there is none."""
+    if refusal := snapping(scene, given):
+        found.advice = Advice(f"Not studied: {refusal}.")
+        return
+    try:
+        zone = touchdown_zone(scene, given, heave, period)
+        beam, _, rest = zone.rest()
+    except NotStudiedError as error:
+        text = str(error)
+        found.advice = Advice(f"Not studied: {text}." if not text.startswith("The pipe") else f"{text}.")
+        return
+    except NotConvergedError:
+        found.advice = Advice("Not studied: the touchdown zone has no state of rest on its soil.")
+        return
+    found.zone = zone
+    moments = beam.moments(rest.state[1::2])[zone.landing]
+    touchdown = float(beam.touchdown(rest.state[::2])) - zone.start
+    forces = rest.reaction.per_length[zone.landing]
+    static = {
+        "largest_force": float(forces.max()),
+        "largest_moment": float(np.abs(moments).max()),
+        "touchdown": touchdown,
+    }
+    found.static = {name: finite(value) for name, value in static.items()}
+
+
+# --------------------------------------------------------------------------------------------------------------- advice
+
+
+def _advice(found: Study) -> Advice:
+    """The answer, from the rows."""
+    own = None if found.own is None else found.own.largest
+    file = None if found.own is None else found.deck
+    line = found.own_line or None
+    if "accuracy" not in found.parts or not found.steps:
+        return Advice(_without_rows(found), own_step=own, file=file, deck_line=line)
+    if found.reference is None:
+        return Advice(f"Not studied: {found.notes['accuracy'][-1]}", own_step=own, file=file, deck_line=line)
+    row = next((each for each in found.steps if each.own), None)
+    fine = _advised(found.steps)
+    if found.own is None or row is None:
+        return _of_no_step(found, fine, own, file, line)
+    place = f"The deck's own step, {found.milliseconds(row.step)} (line {found.own_line}),"
+    if row.errors is None:
+        verdict, text = "too long", f"{place} is too long for its touchdown zone: the run {row.state}"
+    else:
+        verdict = verdict_of(row.worst)
+        words = {"short enough": "is short enough", "coarse": "is coarse", "too long": "is too long"}[verdict]
+        text = f"{place} {words} for its touchdown zone: {_of_errors(row.errors)}"
+    step = None
+    if verdict == "too long":
+        step = fine
+        text += f"; use {found.milliseconds(fine)}" if fine else "; no step that was run keeps within 1 %"
+    return Advice(f"{text}. {_of_mesh(found, row)}".rstrip(), verdict, own, step, file, line)
+
+
+def _advised(rows: Sequence[StepRow]) -> float | None:
+    """The largest step whose errors, and those of all shorter ones, are within 1 %."""
+    found = None
+    for row in reversed(rows):
+        if row.worst > ADVISED:
+            break
+        found = row.step
+    return found
+
+
+def _of_no_step(found: Study, fine: float | None, own: float | None, file: str | None, line: int | None) -> Advice:
+    """The answer for a deck without a step, or with one that is too short to be run."""
+    if own is not None and found.steps:
+        longer = found.steps[-1]
+        place = f"The deck's own step, {found.milliseconds(own)} (line {found.own_line}),"
+        if longer.worst <= SHORT:
+            text = f"{place} is short enough for its touchdown zone: {found.milliseconds(longer.step)} is"
+            return Advice(f"{text}. {_of_mesh(found, longer)}".rstrip(), "short enough", own, None, file, line)
+        return Advice(f"{place} is too short to be run here in its time.", "not studied", own, None, file, line)
+    steps = f"{found.milliseconds(fine)} would be short enough" if fine else "no step that was run keeps within 1 %"
+    text = f"The deck has no time step in *TIME: {steps} for its touchdown zone. {_of_mesh(found, found.steps[-1])}"
+    return Advice(text.rstrip(), "not studied", None, fine)
+
+
+def _of_errors(errors: Errors) -> str:
+    touchdown, moment, force = (about(each) for each in errors)
+    return (
+        f"about {moment} of the range of the bending moment, {force} of the largest soil force, {touchdown} of the "
+        "touchdown point's travel"
+    )
+
+
+def about(share: float) -> str:
+    """Return a share in percent, to one digit."""
+    return f"{float(f'{100.0 * abs(share):.1g}'):g} %"
+
+
+def _of_mesh(found: Study, row: StepRow) -> str:
+    """The sentence on the mesh; "" where halving it changes less than the step."""
+    zone, mesh = found.zone, found.mesh
+    if zone is None:
+        return ""
+    longest = float(zone.beam.lengths[zone.landing].max())
+    bound, length = min(zone.length, zone.soil_length), unit_names(found.units).behind("length")
+    if longest > bound:
+        return (
+            f"Elements of {longest:.3g}{length} land whole: the line bends within {bound:.2g}{length}. The mesh is the "
+            f"finding, and errors of steps look small on it: give elements of {0.5 * bound:.2g}{length} or less."
+        )
+    worst = max(map(abs, mesh.changes)) if mesh is not None and mesh.changes is not None else 0.0
+    if mesh is not None and worst > row.worst:
+        return f"Half the element length ({mesh.element_length[0]:.3g}{length}) changes more: {about(worst)}."
+    return ""
+
+
+def _without_rows(found: Study) -> str:
+    """The answer where only the stages were asked for."""
+    rows = [row for row in found.stages.rows if row.share] if found.stages is not None else []
+    if not rows:
+        return ""
+    most = max(rows, key=lambda row: row.share or 0.0)
+    line = f" (line {most.deck_line})" if most.deck_line else ""
+    return f"Most of a step goes to the stage {most.stage}{line}: {100.0 * (most.share or 0.0):.0f} %."
