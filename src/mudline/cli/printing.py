@@ -6,7 +6,6 @@ import os
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import zip_longest
-from types import MappingProxyType
 from typing import ClassVar, NamedTuple
 
 from rich.cells import cell_len
@@ -45,9 +44,7 @@ class _Console(Console):
 class Printer:
     """Prints on standard output. Text of a deck stays plain text, and only tables are folded where no terminal is."""
 
-    severity_styles: ClassVar[Mapping[str, str]] = MappingProxyType(
-        {one.value: style for one, style in _STYLES.items()}
-    )
+    severity_styles: ClassVar[Mapping[Severity, str]] = _STYLES
 
     def __init__(self, color: str) -> None:
         """`color` is "auto", "always" or "never"."""

@@ -70,8 +70,8 @@ def _print_rules(rules: Sequence[Rule], view: View) -> None:
 
 def _severity(rule: Rule, printer: Printer) -> tuple[str, str]:
     """The severity of a rule, and its style."""
-    severity = rule.code.severity.value
-    return severity, printer.severity_styles[severity]
+    severity = rule.code.severity
+    return severity.value, printer.severity_styles[severity]
 
 
 def _package(rule: Rule, words: str) -> str:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterator, Sequence
+from contextlib import AbstractContextManager
 from time import monotonic
-from types import TracebackType
-from typing import TYPE_CHECKING, NamedTuple, Self, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Bar, Printer
@@ -43,7 +43,7 @@ class View(NamedTuple):
 # ------------------------------------------------------------------------------------------------ how far a long run is
 
 
-class Progress:
+class Progress(AbstractContextManager["Progress"]):
     """Steps done out of a total, as a bar on standard error. It is hidden while anything else is printed.
 
     None is drawn in CI, or where standard error is not a terminal that can erase.
@@ -58,12 +58,7 @@ class Progress:
         may_draw = sys.stderr.isatty() and not (view.quiet or dumb or os.environ.get("CI"))
         self._due = monotonic() + DELAY if shown and total > 1 and may_draw else float("inf")
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.hide()
 
     def advance(self, steps: int = 1) -> None:
