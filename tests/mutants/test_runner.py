@@ -37,5 +37,5 @@ def test_every_package_has_modules_and_tests() -> None:
         for part in parts:
             assert (SOURCE / part).is_dir() or (SOURCE / f"{part}.py").is_file()
         assert all((SOURCE.parents[1] / test).exists() for test in tests)
-    (path,), _ = modules_of("curves/search")
-    assert path.name == "search.py"
+    (path,), _ = modules_of("model/curves/points")
+    assert path.name == "points.py"

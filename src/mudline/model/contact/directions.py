@@ -35,7 +35,7 @@ def directions_of(tables: Tables, points: FloatArray, normals: FloatArray) -> Di
     with np.errstate(all="ignore"):
         spans = (points[line.second] - points[line.first]).T
         unit = units(spans)
-        total = np.stack([line.sums(_padded(axis), 0, nodes, directed=True)[0] for axis in unit], axis=1)
+        total = np.ascontiguousarray(line.sums(np.pad(unit, ((0, 0), (1, 1))), 0, nodes, directed=True).T)
         flat = total - (total * normals).sum(axis=1)[:, None] * normals
         along = projected(total, normals)
         follows = np.ones(nodes, np.bool_)
@@ -63,10 +63,6 @@ def level(tables: Tables, points: FloatArray, laid: FloatArray, normal: FloatArr
         raise TypeError("no trench lowers the seabed")
     lateral = directions_of(tables, points, normal).axes[1]
     return level_at(tables.level, tables.laid_line(laid), points, lateral)
-
-
-def _padded(values: FloatArray) -> FloatArray:
-    return np.concatenate([[0.0], values, [0.0]])[None]
 
 
 def projected(wanted: FloatArray, normal: FloatArray) -> FloatArray:

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from mudline.model.contact.arrays import FloatArray
-from mudline.model.contact.tables import Tables, steepest_anywhere
+from mudline.model.contact.tables import NormalRows, Tables, steepest_anywhere
 
 if TYPE_CHECKING:
     from mudline.model.curves import ForceCurve
@@ -107,20 +107,24 @@ def _steepens(tables: Tables) -> bool:
     return any(bool((steepest_anywhere(tables, rows) > stiffness[rows.rows]).any()) for rows in tables.normal)
 
 
+def formulas(tables: Tables) -> list[NormalRows]:
+    """Return the normal laws of elements with an equation in the order of their kinds, those with a path first."""
+    return sorted((rows for rows in tables.normal if rows.curve < 0), key=lambda rows: rows.path < 0)
+
+
 def element_tables(tables: Tables) -> tuple[Any, Any, Any]:
     """Indices (m, c) and numbers (m, c) of the elements, and all curves.
 
     Curves are (4, k): ratios, forces, slopes behind the points, and the steepest slopes up to there.
     """
     given, count = tables.given, len(tables.half)
-    formulas = [rows for rows in tables.normal if rows.curve < 0]
-    most = max((len(rows.columns) for rows in formulas), default=0)
+    most = max((len(rows.columns) for rows in formulas(tables)), default=0)
     index, numbers = np.full((count, INDICES), NOTHING, np.uint32), np.zeros((count, LAW + most))
     index[:, FIRST], index[:, SECOND] = tables.line.first, tables.line.second
     index[:, KIND] = NO_LAW
     numbers[:, DIAMETER] = given.diameter
     numbers[:, ONSET] = 0.0 if tables.onset is None else tables.onset
-    for kind, rows in enumerate(formulas, FIRST_LAW):
+    for kind, rows in enumerate(formulas(tables), FIRST_LAW):
         index[rows.rows, KIND] = kind
         index[rows.rows, PATH] = np.arange(len(rows.rows)) + rows.path if rows.path >= 0 else NOTHING
         for column, values in enumerate(rows.columns, LAW):
