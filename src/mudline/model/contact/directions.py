@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from mudline.model.contact import vectors
 from mudline.model.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.model.contact.tables import Tables
-from mudline.model.contact.vectors import dot_3, in_plane, turned_3, units
+from mudline.model.contact.vectors import in_plane, turned_3, units
 
 if TYPE_CHECKING:
     from mudline.model.contact.trenches import Lowered
@@ -75,6 +76,4 @@ def mean_normal(tables: Tables, elements: IndexArray, normal: FloatArray) -> tup
     if normal.strides[1] == 0:  # one for all nodes
         return tuple(normal[:1, :1, axis] for axis in range(3))
     one, other = (normal[:, side[elements]] for side in (tables.line.first, tables.line.second))
-    total = tuple(one[..., axis] + other[..., axis] for axis in range(3))
-    size = np.sqrt(dot_3(total, total))
-    return tuple(axis / size for axis in total)
+    return vectors.mean_normal(*(tuple(each[..., axis] for axis in range(3)) for each in (one, other)))

@@ -72,28 +72,21 @@ class Features(NamedTuple):
 
 def features_of(tables: Tables, *, flat: bool) -> Features:
     """Return what a scene has, as far as the loops differ by it."""
-    friction, trench, suction = tables.friction, tables.trench, tables.suction
+    friction, trench = tables.friction, tables.trench
+    own = "unloading", "springs", "damping", "nodal_damping", "suction", "lateral", "friction", "trench", "breakout"
     return Features(
+        **{name: getattr(tables, name) is not None for name in own},
         flat=flat,
         curves=any(rows.curve >= 0 for rows in tables.normal),
         paths=any(rows.path >= 0 for rows in tables.normal),
         cuts=tables.cuts,
-        unloading=tables.unloading is not None,
         steepens=_steepens(tables),
-        springs=tables.springs is not None,
-        damping=tables.damping is not None,
-        nodal_damping=tables.nodal_damping is not None,
-        suction=suction is not None,
         slides=friction is not None or tables.lateral is not None,
         turns=tables.line.turns,
-        lateral=tables.lateral is not None,
         nodal=bool(tables.nodal),
-        friction=friction is not None,
         elliptic=friction is not None and bool(friction.ellipse.any()),
         turned=friction is not None and bool(friction.turned.size),
-        trench=trench is not None,
         tables=trench is not None and bool((trench.table >= 0).any()),
-        breakout=tables.breakout is not None,
         embeds=tables.embeds,
     )
 

@@ -220,15 +220,6 @@ def next_suction(
     return (armed, now, (largest, factor, reach)), g, h, slow
 
 
-def mean_normal(normals: Array, step: int, one: int, other: int) -> tuple[float, float, float]:
-    """Return the mean of the unit normals at two nodes, as a unit vector."""
-    x = normals[step, one, 0] + normals[step, other, 0]
-    y = normals[step, one, 1] + normals[step, other, 1]
-    z = normals[step, one, 2] + normals[step, other, 2]
-    size = np.sqrt(vectors.dot_3((x, y, z), (x, y, z)))
-    return x / size, y / size, z / size
-
-
 def on_piece(laid: Array, ends: Array, element: Index, point: Point) -> tuple[float, float, float, float, float]:
     """Return the share of the nearest point of an element as laid, the vector from there, and its square."""
     a, b = ends[element, 0], ends[element, 1]

@@ -24,7 +24,6 @@ from mudline.model.contact.compiled.functions import (
     from_straight,
     in_limits,
     last_at_or_below,
-    mean_normal,
     next_suction,
     next_unloading,
     one_of,
@@ -167,7 +166,10 @@ def elements_loop(
                     x, y, z = x - place[0], y - place[1], z - place[2]
                     arm: Numbers = (y, z) if flat else (x, y, z)
                     if not flat and normals.shape[1] > 1:
-                        n = mean_normal(normals, step, a, b)
+                        n = vectors.mean_normal(
+                            (normals[step, a, 0], normals[step, a, 1], normals[step, a, 2]),
+                            (normals[step, b, 0], normals[step, b, 1], normals[step, b, 2]),
+                        )
                     along, able = project(wanted, n)
                     if not able:
                         along = default(n)
